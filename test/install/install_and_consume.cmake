@@ -1,0 +1,23 @@
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "failed (${result}): ${ARGV}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK_FOLDER})
+set(prefix ${WORK_FOLDER}/prefix)
+run(${CMAKE_COMMAND} --install ${BUILD_FOLDER} --prefix ${prefix})
+foreach(consumer device_consumer sculpt_consumer)
+  # Built from a copy, so that nothing of the source tree can be found by a relative path.
+  file(COPY ${CONSUMER_FOLDER}/${consumer} DESTINATION ${WORK_FOLDER})
+  set(arguments -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER})
+  if(consumer STREQUAL device_consumer)
+    list(APPEND arguments -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON) # the device must do without CGAL
+  else()
+    list(APPEND arguments -DCGAL_DIR=${CGAL_DIR})
+  endif()
+  run(${CMAKE_COMMAND} -S ${WORK_FOLDER}/${consumer} -B ${WORK_FOLDER}/${consumer}/build -G ${GENERATOR} ${arguments})
+  run(${CMAKE_COMMAND} --build ${WORK_FOLDER}/${consumer}/build)
+  run(${WORK_FOLDER}/${consumer}/build/consumer)
+endforeach()
