@@ -1,2 +1,3 @@
-// The entry point of every test executable; BOOST_TEST_MODULE comes from haptic_sculpt_add_test().
+// The entry point of every test executable; its name comes from haptic_sculpt_add_test().
+#define BOOST_TEST_MODULE HAPTIC_SCULPT_TEST_MODULE
 #include <boost/test/unit_test.hpp>

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_COLLISION_COMPARE_TIME_3_H
+#define HAPTIC_SCULPT_COLLISION_COMPARE_TIME_3_H
+
+#include <haptic_sculpt/collision/Impact_3.h>
+
+namespace haptic_sculpt {
+
+/// Which of two impacts comes first; exact, whatever their features and motions.
+///
+/// Overlapping enclosures are decided in integers: two products of 3x3 determinants.
+template <class K, class Counters = No_filter_counters>
+class Compare_time_3 {
+public:
+  using result_type = CGAL::Comparison_result;
+
+  explicit Compare_time_3(Counters* counters = nullptr) : counters_(counters) {}
+
+  result_type operator()(const Impact_3<K>& a, const Impact_3<K>& b) const {
+    Counters ignored;
+    return static_cast<result_type>(internal::compare_times(a.coordinates(), a.verdict(), b.coordinates(), b.verdict(),
+                                                            counters_ != nullptr ? *counters_ : ignored));
+  }
+
+private:
+  Counters* counters_;
+};
+
+} // namespace haptic_sculpt
+
+#endif

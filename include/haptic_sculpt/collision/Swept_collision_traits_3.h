@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_COLLISION_SWEPT_COLLISION_TRAITS_3_H
+#define HAPTIC_SCULPT_COLLISION_SWEPT_COLLISION_TRAITS_3_H
+
+#include <haptic_sculpt/collision/Compare_time_3.h>
+#include <haptic_sculpt/collision/Edge_edge_sweep_3.h>
+#include <haptic_sculpt/collision/Face_vertex_sweep_3.h>
+#include <haptic_sculpt/collision/Vertex_face_sweep_3.h>
+
+namespace haptic_sculpt {
+
+/// The exact questions about one vertex moving along a straight segment while all else stands still.
+///
+/// Every answer is a sign of a polynomial in the input doubles: no tolerance, no root finding, no time step. All sets
+/// are closed: touching is a hit. Guarantees and their derivation: doc/exact_sweeps.md.
+///
+/// \tparam K a CGAL kernel with `FT` = double.
+/// \tparam Counters `Filter_counters` to learn how many signs left each filter stage; by default nothing is counted.
+///
+/// Thread-safe, except that all objects made by one traits share its counters.
+template <class K, class Counters = No_filter_counters>
+struct Swept_collision_traits_3 {
+  static_assert(std::is_same<typename K::FT, double>::value,
+                "Swept_collision_traits_3: the kernel must have double coordinates, e.g. "
+                "Exact_predicates_inexact_constructions_kernel");
+
+  using Kernel = K;
+  using Point_3 = typename K::Point_3;
+  using Impact_3 = haptic_sculpt::Impact_3<K>;
+  using Vertex_face_sweep_3 = haptic_sculpt::Vertex_face_sweep_3<K, Counters>;
+  using Edge_edge_sweep_3 = haptic_sculpt::Edge_edge_sweep_3<K, Counters>;
+  using Face_vertex_sweep_3 = haptic_sculpt::Face_vertex_sweep_3<K, Counters>;
+  using Compare_time_3 = haptic_sculpt::Compare_time_3<K, Counters>;
+
+  /// \param counters where to count filter stages; must outlive this and the objects made by it.
+  explicit Swept_collision_traits_3(Counters* counters = nullptr) : counters_(counters) {}
+
+  Vertex_face_sweep_3 vertex_face_sweep_3_object() const { return Vertex_face_sweep_3(counters_); }
+  Edge_edge_sweep_3 edge_edge_sweep_3_object() const { return Edge_edge_sweep_3(counters_); }
+  Face_vertex_sweep_3 face_vertex_sweep_3_object() const { return Face_vertex_sweep_3(counters_); }
+  Compare_time_3 compare_time_3_object() const { return Compare_time_3(counters_); }
+
+private:
+  Counters* counters_;
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_COLLISION_FLOATING_POINT_CONTRACT_H
+#define HAPTIC_SCULPT_COLLISION_FLOATING_POINT_CONTRACT_H
+
+/// \file
+/// What the error bounds of the filters take for granted of the compiler; see doc/exact_sweeps.md.
+///
+/// Contraction to fused multiply-add and every rounding mode are allowed for. Re-association, finite-only and
+/// reciprocal arithmetic, and evaluation in a wider format are not: they are refused here.
+
+#include <cfloat>
+#include <limits>
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(__ASSOCIATIVE_MATH__)
+#error "haptic_sculpt: exact predicates do not survive -ffast-math, -Ofast, -ffinite-math-only or -fassociative-math; compile without them"
+#endif
+#if !defined(__SIZEOF_INT128__)
+#error "haptic_sculpt: the exact stage needs a 128-bit integer: g++ or clang for a 64-bit machine"
+#endif
+
+namespace haptic_sculpt {
+static_assert(std::numeric_limits<double>::is_iec559, "haptic_sculpt needs IEEE 754 doubles");
+static_assert(FLT_EVAL_METHOD == 0, "haptic_sculpt needs doubles evaluated as doubles: compile with -mfpmath=sse");
+} // namespace haptic_sculpt
+
+#endif
