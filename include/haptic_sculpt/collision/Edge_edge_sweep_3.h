@@ -17,6 +17,7 @@ namespace haptic_sculpt {
 /// Exact for all finite doubles (PAPER, test II: triangle stv meets segment ab). s, t, v may coincide or be collinear. The
 /// time is 0 where `v` itself lies on ab.
 /// \pre All coordinates are finite, and a != b.
+/// Where the checks are compiled out, degenerate static features are still answered exactly, as the hulls they are.
 /// Cost: constant; 5 orientation signs at most outside of flat cases. Counts filter failures in `*counters`, if given.
 template <class K, class Counters = No_filter_counters>
 class Edge_edge_sweep_3 {

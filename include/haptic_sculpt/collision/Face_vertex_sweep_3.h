@@ -17,6 +17,7 @@ namespace haptic_sculpt {
 /// Exact for all finite doubles (PAPER, test III: tetrahedron stgi contains a). The tetrahedron may be flat. The time is 0
 /// where `a` lies on gi.
 /// \pre All coordinates are finite, and g != i.
+/// Where the checks are compiled out, degenerate static features are still answered exactly, as the hulls they are.
 /// Cost: constant; 4 orientation signs at most outside of flat cases. Counts filter failures in `*counters`, if given.
 template <class K, class Counters = No_filter_counters>
 class Face_vertex_sweep_3 {

@@ -17,6 +17,7 @@ namespace haptic_sculpt {
 /// Exact for all finite doubles (PAPER, test I: segment st meets triangle abc). `s == t` is allowed: then the question is
 /// whether the point lies in the triangle, and the time is 0.
 /// \pre All coordinates are finite, and a, b, c are not collinear.
+/// Where the checks are compiled out, degenerate static features are still answered exactly, as the hulls they are.
 /// Cost: constant; 5 orientation signs at most outside of flat cases. Counts filter failures in `*counters`, if given.
 template <class K, class Counters = No_filter_counters>
 class Vertex_face_sweep_3 {

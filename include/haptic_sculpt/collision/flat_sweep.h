@@ -21,26 +21,30 @@ template <class Counters>
 class Flat_sweep {
 public:
   /// Finds a projection that is one-to-one on the five points' plane or line.
-  /// \pre All five points are coplanar and points i and j differ.
-  Flat_sweep(const Sweep_points& points, int i, int j, Counters& counters) : p(points), counters(counters) {
-    for (int k = 0; k < 5; ++k)
-      if (k != i && k != j)
-        for (int candidate = 0; candidate < 3; ++candidate)
-          if (orientation_2(p[i], p[j], p[k], candidate, counters) != 0) {
-            axis = candidate;
-            return;
-          }
+  /// \pre All five points are coplanar.
+  Flat_sweep(const Sweep_points& points, Counters& counters) : p(points), counters(counters) {
+    for (int i = 4; i >= 2; --i) // static points first: they seldom coincide
+      for (int j = i - 1; j >= 1; --j)
+        for (int k = j - 1; k >= 0; --k)
+          for (int candidate = 0; candidate < 3; ++candidate)
+            if (orientation_2(p[i], p[j], p[k], candidate, counters) != 0) {
+              axis = candidate;
+              return;
+            }
     // All on one line: any projection keeps it that does not drop the one coordinate that varies.
-    axis = p[i][0] != p[j][0] ? 1 : p[i][1] != p[j][1] ? 2 : 0;
+    for (int coordinate = 0; coordinate < 3; ++coordinate)
+      for (int i = 1; i < 5; ++i)
+        if (p[i][coordinate] != p[0][coordinate]) {
+          axis = (coordinate + 1) % 3;
+          return;
+        }
   }
 
   /// The moving vertex against the static triangle a, b, c.
   Sweep_verdict vertex_face(int a, int b, int c) const {
-    const int ab = orientation(a, b, 0), bc = orientation(b, c, 0), ca = orientation(c, a, 0);
-    const int side = orientation(a, b, c);
-    if (ab * side >= 0 && bc * side >= 0 && ca * side >= 0) {
+    if (triangle_contains(a, b, c, 0)) {
       Sweep_verdict verdict = at_start();
-      verdict.location = location_from_signs(ab, bc, ca);
+      verdict.location = location_from_signs(orientation(a, b, 0), orientation(b, c, 0), orientation(c, a, 0));
       return verdict;
     }
     using L = Triangle_location;
@@ -156,7 +160,7 @@ private:
     } else if (start == 0 && target == 0) { // along the line of the segment, from outside it: its nearer end comes first
       const bool a_is_nearer = compare(0, a) == compare(a, b);
       const int nearer = a_is_nearer ? a : b;
-      if (compare(0, 1) != 0 && is_between(0, 1, nearer)) {
+      if (compare(0, 1) != 0 && is_on_segment(0, 1, nearer)) {
         verdict = at_point(nearer);
         verdict.location = a_is_nearer ? locations.first : locations.second;
       }

@@ -57,8 +57,6 @@ HAPTIC_SCULPT_NOINLINE Sweep_verdict careful_vertex_face_verdict(const Sweep_poi
   const int target = orientation_3(a, b, c, t, counters);
   if (same_side(start, target))
     return {};
-  if (start == 0 && target == 0)
-    return Flat_sweep<Counters>(p, 2, 3, counters).vertex_face(2, 3, 4);
   const int ab = orientation_3(s, t, a, b, counters);
   const int bc = orientation_3(s, t, b, c, counters);
   if (ab * bc < 0)
@@ -66,6 +64,12 @@ HAPTIC_SCULPT_NOINLINE Sweep_verdict careful_vertex_face_verdict(const Sweep_poi
   const int ca = orientation_3(s, t, c, a, counters);
   if (!passes_through(ab, bc, ca))
     return {};
+  if (start == 0 && target == 0) {
+    // Either all five points are coplanar, or A, B, C are collinear and ST passes their line.
+    if (ab != 0 || bc != 0 || ca != 0)
+      return {};
+    return Flat_sweep<Counters>(p, counters).vertex_face(2, 3, 4);
+  }
   Sweep_verdict verdict = plane_hit();
   verdict.location = Flat_sweep<Counters>::location_from_signs(ab, bc, ca);
   return verdict;
@@ -105,7 +109,7 @@ HAPTIC_SCULPT_NOINLINE Sweep_verdict careful_edge_edge_verdict(const Sweep_point
     // Either all five points are coplanar, or S, T, V are collinear and AB passes their line.
     if (st != 0 || tv != 0 || vs != 0)
       return {};
-    return Flat_sweep<Counters>(p, 3, 4, counters).edge_edge(2, 3, 4);
+    return Flat_sweep<Counters>(p, counters).edge_edge(2, 3, 4);
   }
   Sweep_verdict verdict = plane_hit();
   if (tv == 0 && vs == 0) // AB passes through V, which both ends of the motion share
@@ -144,7 +148,7 @@ HAPTIC_SCULPT_NOINLINE Sweep_verdict careful_face_vertex_verdict(const Sweep_poi
   if (for_s * for_i < 0 || for_t * for_i < 0 || for_g * for_i < 0)
     return {};
   if (for_s == 0 && for_t == 0 && for_g == 0 && for_i == 0)
-    return Flat_sweep<Counters>(p, 2, 3, counters).face_vertex(2, 3, 4);
+    return Flat_sweep<Counters>(p, counters).face_vertex(2, 3, 4);
   Sweep_verdict verdict = plane_hit();
   if (for_s == 0 && for_t == 0) // A lies on the static edge GI
     verdict.form = Time_form::at_start;
