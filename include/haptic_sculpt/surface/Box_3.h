@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_BOX_3_H
+#define HAPTIC_SCULPT_SURFACE_BOX_3_H
+
+#include <array>
+#include <limits>
+
+namespace haptic_sculpt {
+
+/// A closed axis-parallel box of doubles. Its comparisons round nothing, so they are exact.
+struct Box_3 {
+  using Coordinates = std::array<double, 3>;
+
+  Coordinates lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                    std::numeric_limits<double>::infinity()};
+  Coordinates upper{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                    -std::numeric_limits<double>::infinity()};
+
+  /// The box that holds nothing; it meets no box.
+  Box_3() = default;
+  explicit Box_3(const Coordinates& p) : lower(p), upper(p) {}
+
+  Box_3& include(const Coordinates& p) {
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = p[i] < lower[i] ? p[i] : lower[i];
+      upper[i] = p[i] > upper[i] ? p[i] : upper[i];
+    }
+    return *this;
+  }
+
+  Box_3& include(const Box_3& other) {
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = other.lower[i] < lower[i] ? other.lower[i] : lower[i];
+      upper[i] = other.upper[i] > upper[i] ? other.upper[i] : upper[i];
+    }
+    return *this;
+  }
+
+  bool contains(const Box_3& other) const {
+    bool inside = true;
+    for (int i = 0; i < 3; ++i)
+      inside &= (lower[i] <= other.lower[i]) & (other.upper[i] <= upper[i]);
+    return inside;
+  }
+};
+
+/// Whether the closed boxes have a point in common.
+inline bool do_meet(const Box_3& a, const Box_3& b) {
+  bool meet = true;
+  for (int i = 0; i < 3; ++i)
+    meet &= (a.lower[i] <= b.upper[i]) & (b.lower[i] <= a.upper[i]);
+  return meet;
+}
+
+} // namespace haptic_sculpt
+
+#endif
