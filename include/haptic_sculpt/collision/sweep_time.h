@@ -29,8 +29,9 @@ inline Enclosed_determinant enclosed_time_function(const Sweep_points& p, const 
     return enclosed_orientation_3(p[through[0]], p[through[1]], p[through[2]], p[end]);
   if (verdict.form == Time_form::line)
     return enclosed_orientation_2(p[through[0]], p[through[1]], p[end], verdict.axis);
-  const double value = p[end][verdict.axis] - p[through[0]][verdict.axis];
-  return {value, unit_roundoff_any_rounding * std::abs(value), std::isfinite(value)};
+  const double value = p[end][verdict.axis] - p[through[0]][verdict.axis], magnitude = std::abs(value);
+  const double error = unit_roundoff_any_rounding * magnitude; // itself 0 by underflow where the value is not safe
+  return {value, error, value == 0 || (magnitude >= least_safe_difference && magnitude <= largest_safe_difference)};
 }
 
 /// The time as a fraction of non-negative integers. Wide has room for a sum of two 3x3 determinants.

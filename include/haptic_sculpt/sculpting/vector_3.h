@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_VECTOR_3_H
+#define HAPTIC_SCULPT_SCULPTING_VECTOR_3_H
+
+/// \file
+/// The little vector arithmetic behind stops and slides. Nothing here decides about geometry: it only proposes points.
+///
+/// Every product-sum is an explicit fused multiply-add, so that compilers cannot choose: the same edits give the same
+/// bits in every build.
+
+#include <array>
+#include <cmath>
+
+namespace haptic_sculpt {
+namespace internal {
+
+using Vector = std::array<double, 3>;
+
+inline Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Vector plus(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vector scaled(const Vector& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
+
+/// a + factor * b, each coordinate rounded once.
+inline Vector advanced(const Vector& a, double factor, const Vector& b) {
+  return {std::fma(factor, b[0], a[0]), std::fma(factor, b[1], a[1]), std::fma(factor, b[2], a[2])};
+}
+
+inline double dot(const Vector& a, const Vector& b) {
+  return std::fma(a[0], b[0], std::fma(a[1], b[1], a[2] * b[2]));
+}
+
+inline Vector cross(const Vector& a, const Vector& b) {
+  return {std::fma(a[1], b[2], -(a[2] * b[1])), std::fma(a[2], b[0], -(a[0] * b[2])),
+          std::fma(a[0], b[1], -(a[1] * b[0]))};
+}
+
+inline double largest_magnitude(const Vector& a) {
+  return std::fmax(std::abs(a[0]), std::fmax(std::abs(a[1]), std::abs(a[2])));
+}
+
+/// Euclidean length without overflow or underflow on the way: scaled by a power of two.
+inline double length(const Vector& a) {
+  const double largest = largest_magnitude(a);
+  if (largest == 0 || !std::isfinite(largest))
+    return largest;
+  const int exponent = std::ilogb(largest);
+  const Vector b = {std::ldexp(a[0], -exponent), std::ldexp(a[1], -exponent), std::ldexp(a[2], -exponent)};
+  return std::ldexp(std::sqrt(dot(b, b)), exponent);
+}
+
+/// The vector of length 1 in the direction of a; zero for zero.
+inline Vector normalized(const Vector& a) {
+  const double largest = largest_magnitude(a);
+  if (largest == 0 || !std::isfinite(largest))
+    return {0, 0, 0};
+  const int exponent = std::ilogb(largest);
+  const Vector b = {std::ldexp(a[0], -exponent), std::ldexp(a[1], -exponent), std::ldexp(a[2], -exponent)};
+  const double l = std::sqrt(dot(b, b));
+  return {b[0] / l, b[1] / l, b[2] / l};
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_STAR_H
+#define HAPTIC_SCULPT_SURFACE_STAR_H
+
+#include <haptic_sculpt/surface/Swept_star_3.h>
+#include <haptic_sculpt/surface/face_box.h>
+
+namespace haptic_sculpt {
+
+/// The closed star of a vertex: its link in order around it, and its faces.
+///
+/// Face i has corners `centre`, `link[i + 1]`, `link[i]` in the orientation of the mesh (indices modulo the valence).
+/// Made to be filled again and again: `collect()` allocates only when a valence is larger than any before.
+template <class Mesh>
+struct Star {
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
+  using Coordinates = std::array<double, 3>;
+
+  Vertex_index centre;
+  std::vector<Vertex_index> link;
+  std::vector<Coordinates> link_points;
+  std::vector<Face_index> faces;
+
+  std::size_t valence() const { return link.size(); }
+  std::size_t next(std::size_t i) const { return i + 1 < link.size() ? i + 1 : 0; }
+
+  /// A star without faces: a probe.
+  void clear() {
+    link.clear();
+    link_points.clear();
+    faces.clear();
+  }
+
+  /// \pre v is not on a boundary and no face corner is pinched at v. Cost: the valence.
+  void collect(const Mesh& mesh, Vertex_index v) {
+    clear();
+    centre = v;
+    if (mesh.is_isolated(v))
+      return;
+    const auto first = mesh.halfedge(v);
+    auto h = first;
+    do {
+      link.push_back(mesh.source(h));
+      link_points.push_back(vertex_coordinates(mesh, mesh.source(h)));
+      faces.push_back(mesh.face(h));
+      h = mesh.opposite(mesh.next(h));
+    } while (h != first);
+  }
+
+  Swept_star_3 swept(const Coordinates& source, const Coordinates& target) const {
+    return {source, target, link_points.data(), link_points.size()};
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif
