@@ -33,28 +33,14 @@ inline bool boxes_are_disjoint(Sweep_kind kind, const Sweep_coordinates& x) {
 
 enum class Early_out { none, boxes };
 
-/// The first u in [0, 1] at which the moving feature meets the other one, in lowest terms, or nothing if it never does.
-/// Shares neither a predicate nor a line with what it checks: it is linear feasibility over the integers.
+/// Visits the vertices of the polytope of weights with which the two closed hulls meet; none if they do not.
 ///
-/// The two closed hulls meet iff there are weights x >= 0, one for each of the five points, with
+/// The hulls meet iff there are weights x >= 0, one for each of the five points, with
 ///     sum over swept points of x_i P_i = sum over standing points of x_j P_j,   both groups of weights summing to one.
-/// A point of the swept hull with weights a of S and b of T, a + b > 0, lies on the moving feature when the vertex is at
-/// (aS + bT)/(a + b), that is, at u = b/(a + b). With a + b = 0 it lies on the part that stands still, where the
-/// feature is at every u, 0 included.
-///
-/// So u is to be minimised over a bounded polytope, and looking at its vertices is enough:
-/// - If a + b = 0 somewhere, those points are the face on which the linear form a + b attains its minimum, and a face of
-///   a bounded polytope has a vertex; that vertex says u = 0.
-/// - Else a + b > 0 throughout, and u is continuous. For any t, { u <= t } = { b - t (a + b) <= 0 } is a half-space. Let
-///   t be the minimum: b - t (a + b) is then >= 0 on the polytope and vanishes somewhere, so it vanishes at a vertex.
-/// S = T needs nothing of its own: the two columns are equal, and the basic solutions try each of them alone.
-///
 /// Each coordinate axis is scaled by its own power of two, which changes no weight.
+/// `visit` is called as in Feasible_polytope::visit_vertices().
 /// \pre the coordinates are finite
-inline std::optional<mpq_class> first_time(Sweep_kind kind, const Sweep_coordinates& x,
-                                           Early_out early_out = Early_out::boxes) {
-  if (early_out == Early_out::boxes && boxes_are_disjoint(kind, x))
-    return std::nullopt;
+template <class Visitor> void visit_meeting_weights(Sweep_kind kind, const Sweep_coordinates& x, Visitor&& visit) {
   const int swept = swept_points(kind);
   thread_local Feasible_polytope polytope; // keeps the memory of its numbers between queries
   for (int hull = 0; hull < 2; ++hull) { // the rows of ones first: their pivots keep the numbers small
@@ -71,8 +57,29 @@ inline std::optional<mpq_class> first_time(Sweep_kind kind, const Sweep_coordina
       mpz_neg(row[i].get_mpz_t(), row[i].get_mpz_t());
     row[Feasible_polytope::right_hand_side] = 0;
   }
+  polytope.visit_vertices(visit);
+}
+
+/// The first u in [0, 1] at which the moving feature meets the other one, in lowest terms, or nothing if it never does.
+/// Shares neither a predicate nor a line with what it checks: it is linear feasibility over the integers.
+///
+/// A point of the swept hull with weights a of S and b of T, a + b > 0, lies on the moving feature when the vertex is at
+/// (aS + bT)/(a + b), that is, at u = b/(a + b). With a + b = 0 it lies on the part that stands still, where the
+/// feature is at every u, 0 included.
+///
+/// So u is to be minimised over the bounded polytope of weights, and looking at its vertices is enough:
+/// - If a + b = 0 somewhere, those points are the face on which the linear form a + b attains its minimum, and a face of
+///   a bounded polytope has a vertex; that vertex says u = 0.
+/// - Else a + b > 0 throughout, and u is continuous. For any t, { u <= t } = { b - t (a + b) <= 0 } is a half-space. Let
+///   t be the minimum: b - t (a + b) is then >= 0 on the polytope and vanishes somewhere, so it vanishes at a vertex.
+/// S = T needs nothing of its own: the two columns are equal, and the basic solutions try each of them alone.
+/// \pre the coordinates are finite
+inline std::optional<mpq_class> first_time(Sweep_kind kind, const Sweep_coordinates& x,
+                                           Early_out early_out = Early_out::boxes) {
+  if (early_out == Early_out::boxes && boxes_are_disjoint(kind, x))
+    return std::nullopt;
   std::optional<mpq_class> first;
-  polytope.visit_vertices([&first](const std::array<mpz_class, 5>& weight, const mpz_class&) {
+  visit_meeting_weights(kind, x, [&first](const std::array<mpz_class, 5>& weight, const mpz_class&) {
     const mpz_class &start = weight[0], &end = weight[1];
     mpq_class u = 0;
     if (sgn(end) != 0) {

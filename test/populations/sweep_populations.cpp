@@ -52,10 +52,14 @@ Five_points integer_grid(Sweep_kind, Portable_random& random) {
 
 Five_points tenths(Sweep_kind kind, Portable_random& random) {
   Five_points points;
-  const int width = random.integer(2, 10);
+  const int width = random.integer(1, 5);
+  const bool divide = random.one_in(2); // 3 / 10. and 3 * 0.1 are two numbers
   for (Point& p : points.point)
-    p = lattice_point(random, width, 0.1);
-  if (random.one_in(4))
+    for (double& c : p) {
+      const int k = random.integer(-width, width);
+      c = divide ? k / 10. : k * 0.1;
+    }
+  if (random.one_in(3))
     bring_into_contact(random, kind, points);
   return points;
 }
