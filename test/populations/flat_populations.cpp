@@ -41,7 +41,8 @@ Five_points slivers(Sweep_kind kind, Portable_random& random) {
   const double thickness = 1e-12;
   Five_points points = random_points(random, random.one_in(2));
   const auto towards = [&](int i, const std::vector<int>& others) { // onto their hull, but for 1e-12
-    points[i] = combination(random, points, others) + random_point(random, thickness);
+    const Point target = combination(random, points, others);
+    points[i] = target + random_point(random, thickness);
   };
   switch (kind) {
   case Sweep_kind::vertex_face:
