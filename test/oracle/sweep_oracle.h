@@ -60,7 +60,13 @@ template <class Visitor> void visit_meeting_weights(Sweep_kind kind, const Sweep
   polytope.visit_vertices(visit);
 }
 
-/// The first u in [0, 1] at which the moving feature meets the other one, in lowest terms, or nothing if it never does.
+/// When the features first meet, and the weights of one of their common points then.
+struct First_meeting {
+  mpq_class time;                 ///< in [0, 1], in lowest terms
+  std::array<bool, 5> has_weight; ///< which of the five points have a positive weight
+};
+
+/// The first u in [0, 1] at which the moving feature meets the other one, or nothing if it never does.
 /// Shares neither a predicate nor a line with what it checks: it is linear feasibility over the integers.
 ///
 /// A point of the swept hull with weights a of S and b of T, a + b > 0, lies on the moving feature when the vertex is at
@@ -73,12 +79,15 @@ template <class Visitor> void visit_meeting_weights(Sweep_kind kind, const Sweep
 /// - Else a + b > 0 throughout, and u is continuous. For any t, { u <= t } = { b - t (a + b) <= 0 } is a half-space. Let
 ///   t be the minimum: b - t (a + b) is then >= 0 on the polytope and vanishes somewhere, so it vanishes at a vertex.
 /// S = T needs nothing of its own: the two columns are equal, and the basic solutions try each of them alone.
+///
+/// For a vertex and a face the first common point is unique, and so are its weights of A, B and C: `has_weight` then says
+/// on which face, edge or vertex of the triangle it lies.
 /// \pre the coordinates are finite
-inline std::optional<mpq_class> first_time(Sweep_kind kind, const Sweep_coordinates& x,
-                                           Early_out early_out = Early_out::boxes) {
+inline std::optional<First_meeting> first_meeting(Sweep_kind kind, const Sweep_coordinates& x,
+                                                  Early_out early_out = Early_out::boxes) {
   if (early_out == Early_out::boxes && boxes_are_disjoint(kind, x))
     return std::nullopt;
-  std::optional<mpq_class> first;
+  std::optional<First_meeting> first;
   visit_meeting_weights(kind, x, [&first](const std::array<mpz_class, 5>& weight, const mpz_class&) {
     const mpz_class &start = weight[0], &end = weight[1];
     mpq_class u = 0;
@@ -87,10 +96,21 @@ inline std::optional<mpq_class> first_time(Sweep_kind kind, const Sweep_coordina
       u.get_den() = start + end;
       u.canonicalize();
     }
-    if (!first || u < *first)
-      first = u;
+    if (first && u >= first->time)
+      return;
+    first.emplace();
+    first->time = u;
+    for (int i = 0; i < 5; ++i)
+      first->has_weight[i] = sgn(weight[i]) > 0;
   });
   return first;
+}
+
+/// The time of first_meeting() alone.
+inline std::optional<mpq_class> first_time(Sweep_kind kind, const Sweep_coordinates& x,
+                                           Early_out early_out = Early_out::boxes) {
+  const std::optional<First_meeting> first = first_meeting(kind, x, early_out);
+  return first ? std::optional<mpq_class>(first->time) : std::nullopt;
 }
 
 } // namespace haptic_sculpt::test

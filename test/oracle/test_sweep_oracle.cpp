@@ -2,13 +2,13 @@
 // The oracle against hand-worked cases, against Fourier-Motzkin elimination and against published answers.
 #include "oracle/analytic_cases.h"
 #include "oracle/fourier_motzkin.h"
+#include "oracle/hexadecimal.h"
 #include "oracle/sample_queries.h"
 #include "oracle/sweep_oracle.h"
 #include "populations/sweep_populations.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <random>
@@ -16,16 +16,6 @@
 using namespace haptic_sculpt::test;
 
 namespace {
-
-std::string hexadecimal(const Sweep_query& query) {
-  std::string text = sweep_name(query.kind);
-  for (double c : query.x) {
-    char word[32];
-    std::snprintf(word, sizeof word, " %a", c);
-    text += word;
-  }
-  return text;
-}
 
 /// Permutes the axes, scales all by 2^exponent and adds `shift`, exactly for the small cases it is used on.
 Sweep_coordinates moved(const Sweep_coordinates& x, const std::array<int, 3>& axes, int exponent, double shift) {
@@ -94,17 +84,17 @@ BOOST_AUTO_TEST_CASE(agrees_with_elimination_at_each_instant) {
       for (int i = 0; i < 60; ++i) {
         const Sweep_query query = population(kind, engine);
         const std::optional<mpq_class> u = first_time(kind, query.x, Early_out::none);
-        BOOST_TEST((first_time(kind, query.x) == u), hexadecimal(query));
-        BOOST_TEST(swept_hulls_meet(kind, query.x) == u.has_value(), population.name << ' ' << hexadecimal(query));
+        BOOST_TEST((first_time(kind, query.x) == u), hexadecimal(query.kind, query.x));
+        BOOST_TEST(swept_hulls_meet(kind, query.x) == u.has_value(), population.name << ' ' << hexadecimal(query.kind, query.x));
         if (!u) {
           ++misses;
           for (const mpq_class& t : {mpq_class(0), mpq_class(1), mpq_class(1, 3), mpq_class(7, 8)})
-            BOOST_TEST(!features_meet_at(kind, query.x, t), population.name << ' ' << hexadecimal(query));
+            BOOST_TEST(!features_meet_at(kind, query.x, t), population.name << ' ' << hexadecimal(query.kind, query.x));
           continue;
         }
         ++hits;
         BOOST_TEST((*u >= 0 && *u <= 1));
-        BOOST_TEST(features_meet_at(kind, query.x, *u), population.name << ' ' << hexadecimal(query));
+        BOOST_TEST(features_meet_at(kind, query.x, *u), population.name << ' ' << hexadecimal(query.kind, query.x));
         if (*u == 0)
           continue;
         std::size_t bits = 10 + mpz_sizeinbase(u->get_den_mpz_t(), 2);
@@ -114,7 +104,7 @@ BOOST_AUTO_TEST_CASE(agrees_with_elimination_at_each_instant) {
         mpq_class step = 1;
         mpq_div_2exp(step.get_mpq_t(), step.get_mpq_t(), bits);
         before -= step;
-        BOOST_TEST(!features_meet_at(kind, query.x, before), population.name << ' ' << hexadecimal(query));
+        BOOST_TEST(!features_meet_at(kind, query.x, before), population.name << ' ' << hexadecimal(query.kind, query.x));
       }
   BOOST_TEST_MESSAGE(hits << " hits and " << misses << " misses agree");
   BOOST_TEST(hits > 1000);
@@ -130,7 +120,7 @@ BOOST_AUTO_TEST_CASE(early_out_changes_nothing) {
       if (!boxes_are_disjoint(query.kind, query.x))
         continue;
       ++skipped;
-      BOOST_TEST(!first_time(query.kind, query.x, Early_out::none), population.name << ' ' << hexadecimal(query));
+      BOOST_TEST(!first_time(query.kind, query.x, Early_out::none), population.name << ' ' << hexadecimal(query.kind, query.x));
     }
   BOOST_TEST_MESSAGE(skipped << " queries end at their boxes, all misses");
   BOOST_TEST(skipped > 1000);
