@@ -5,9 +5,10 @@
 #include "oracle/sweep_oracle.h"
 #include "populations/sweep_populations.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
 #include <haptic_sculpt/collision.h>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <optional>
 
 namespace haptic_sculpt::test {

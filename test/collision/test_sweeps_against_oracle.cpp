@@ -79,7 +79,8 @@ std::optional<Timed_impact> check(const Traits& traits, const Sweep_query& query
   const std::pair<double, double> enclosure = impact->time();
   // an enclosure that is not much tighter than [0, 1] would be right and useless
   if (!(enclosure.first <= u && u <= enclosure.second && enclosure.second - enclosure.first <= 0x1p-40))
-    show("enclosure: " + hexadecimal(query.kind, query.x), ++tally.wrong_enclosures);
+    show("enclosure [" + std::to_string(enclosure.first) + ", " + std::to_string(enclosure.second) + "] of " +
+           u.get_str() + ": " + hexadecimal(query.kind, query.x), ++tally.wrong_enclosures);
   if (impact->feature() != feature(query.kind) ||
       (query.kind == Sweep_kind::vertex_face && impact->location() != location(*expected)))
     show("location: " + hexadecimal(query.kind, query.x), ++tally.wrong_locations);
