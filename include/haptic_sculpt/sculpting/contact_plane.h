@@ -16,6 +16,7 @@ struct Path_at_plane {
   double time;   ///< u in [0, 1], within an ulp or two
   double sine;   ///< of the angle between the path and the plane, in [0, 1]; 0 where the plane is not determined
   Vector normal; ///< of length 1, towards the side on which the path began; against the path where not determined
+  int side;      ///< the sign of orientation(a, b, c, J) before the impact; 0 where not determined
 };
 
 /// The normal of the plane of three points, exact in Integer.
@@ -46,7 +47,7 @@ Path_at_plane path_at_plane(const Impact_3<K>& impact) {
     const auto fraction = exact_time_fraction<Integer>(p, verdict, range.lowest);
     const double time = (Wide_double(fraction.numerator) / Wide_double(fraction.denominator)).to_double();
     if (impact.is_flat())
-      return {time, 0, scaled(normalized(minus(p[1], p[0])), -1)};
+      return {time, 0, scaled(normalized(minus(p[1], p[0])), -1), 0};
     const auto point = [&](int i) { return to_integers<Integer>(p[i], range.lowest); };
     const auto s = point(0), t = point(1), a = point(2), b = point(3), c = point(4);
     const Wide_vector normal = wide_normal<Integer>(a, b, c);
@@ -55,7 +56,8 @@ Path_at_plane path_at_plane(const Impact_3<K>& impact) {
     const double sine = (Wide_double(fraction.denominator) / (length(normal) * length(path))).to_double();
     const int side_of_start = sign_of(orientation_determinant_3<Integer>(a, b, c, s));
     const int side_of_target = sign_of(orientation_determinant_3<Integer>(a, b, c, t));
-    return {time, std::fmin(1.0, sine), unit(normal, side_of_start != 0 ? side_of_start : -side_of_target)};
+    const int side = side_of_start != 0 ? side_of_start : -side_of_target;
+    return {time, std::fmin(1.0, sine), unit(normal, side), side};
   });
 }
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_CONTACT_3_H
+#define HAPTIC_SCULPT_SCULPTING_CONTACT_3_H
+
+#include <haptic_sculpt/sculpting/Star_impact.h>
+#include <haptic_sculpt/sculpting/contact_plane.h>
+
+namespace haptic_sculpt {
+
+/// What holds a moving vertex: a pair of features that would meet, or the delta rule.
+enum class Contact_kind : std::uint8_t { vertex_face, edge_edge, face_vertex, delta };
+
+/// The name used in reports: "vertex-face", "edge-edge", "face-vertex" or "delta".
+inline const char* name_of(Contact_kind kind) {
+  constexpr const char* names[] = {"vertex-face", "edge-edge", "face-vertex", "delta"};
+  return names[static_cast<int>(kind)];
+}
+
+/// One contact of a moving vertex J.
+template <class Mesh>
+struct Contact_3 {
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Coordinates = internal::Coordinates;
+
+  Contact_kind kind = Contact_kind::vertex_face;
+
+  /// The vertices that stand still: A, B, C (J meets face ABC); V, A, B (edge JV meets edge AB); G, I, A (face JGI meets
+  /// vertex A); for `delta` G, I and the corner whose altitude would fall below delta (J itself or G or I), whose triangle is JGI.
+  std::array<Vertex_index, 3> vertices;
+
+  /// Of length 1, towards the side J came from: the direction in which the contact pushes. Floating point.
+  Coordinates normal{};
+
+  /// The three points of the contact plane, exact. Not meaningful where `is_flat`, or for `delta`.
+  std::array<Coordinates, 3> plane{};
+
+  /// Whether the plane is not determined by the features: the motion was coplanar with them.
+  bool is_flat = false;
+
+  /// Where on face ABC; vertex_face only.
+  Triangle_location location = Triangle_location::face;
+
+  /// Which side of `plane` J came from: the sign of orientation(plane[0], plane[1], plane[2], J) before the contact.
+  int side = 0;
+};
+
+/// The contact of an impact. `at` describes its path, see path_at_plane().
+template <class Mesh>
+Contact_3<Mesh> contact_of(const Star_impact<Mesh>& impact, const internal::Path_at_plane& at) {
+  Contact_3<Mesh> contact;
+  contact.kind = static_cast<Contact_kind>(impact.feature());
+  contact.vertices = impact.vertices();
+  contact.normal = at.normal;
+  const internal::Sweep_points& p = impact.impact().coordinates();
+  contact.plane = {p[2], p[3], p[4]};
+  contact.is_flat = impact.impact().is_flat();
+  contact.location = impact.impact().location();
+  contact.side = at.side;
+  return contact;
+}
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_DRAG_RESULT_H
+#define HAPTIC_SCULPT_SCULPTING_DRAG_RESULT_H
+
+#include <haptic_sculpt/sculpting/Contact_3.h>
+
+namespace haptic_sculpt {
+
+/// What a vertex does when its way is blocked.
+enum class Response : std::uint8_t {
+  stop ///< it stays where it was stopped
+};
+
+/// Why a drag ended.
+enum class Drag_end : std::uint8_t {
+  reached,     ///< it is at the target
+  held,        ///< contacts hold it where it is
+  no_progress  ///< no representable point on the way keeps the clearance: it did not move
+};
+
+/// The name used in reports: "reached", "held" or "no-progress".
+inline const char* name_of(Drag_end end) {
+  constexpr const char* names[] = {"reached", "held", "no-progress"};
+  return names[static_cast<int>(end)];
+}
+
+/// How far a stopped vertex is from the impact that stopped it. Lengths; 0 for a drag that arrived.
+struct Stop_error {
+  double normal = 0;     ///< from the contact plane; the largest among the contacts
+  double along_path = 0; ///< from the exact point of impact, along the path
+};
+
+/// The outcome of `Grab::drag_to`. A blocked drag is a result like any other.
+template <class Mesh>
+struct Drag_result {
+  typename Mesh::Point position;             ///< where the vertex is now
+  bool reached = false;                      ///< whether that is the target
+  Drag_end end = Drag_end::reached;          ///< why the drag ended
+  std::vector<Contact_3<Mesh>> contacts;     ///< what holds it, in an order that depends on the elements only
+  int legs = 0;                              ///< straight motions that were made or tried
+  Stop_error stop_error;                     ///< of the last leg
+  double kkt_residual = 0;                   ///< |d - nearest point of the cone of pushes| / |d|, d = target - position
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_FIRST_IMPACT_H
+#define HAPTIC_SCULPT_SCULPTING_FIRST_IMPACT_H
+
+#include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/sculpting/Narrow_phase.h>
+#include <haptic_sculpt/surface/Brute_force_broad_phase.h>
+
+namespace haptic_sculpt {
+
+/// A point with a coordinate that is not a finite number was given as a target.
+class Non_finite_point : public Error {
+public:
+  template <class Point_3>
+  explicit Non_finite_point(const Point_3& p)
+    : Error("the point (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
+            ") is not finite: give three finite coordinates") {}
+};
+
+/// A vertex descriptor that is not a vertex of the mesh was given.
+class Unknown_vertex : public Error {
+public:
+  explicit Unknown_vertex(std::size_t index)
+    : Error("vertex " + std::to_string(index) + " is not in the mesh, or was removed: give a vertex of mesh.vertices()") {}
+};
+
+namespace internal {
+
+template <class Mesh>
+void check_vertex(const Mesh& mesh, typename Mesh::Vertex_index v) {
+  // is_valid() of a default-made index is false; the second test keeps is_removed() inside its array.
+  if (!v.is_valid() || static_cast<std::size_t>(v) >= mesh.num_vertices() || mesh.is_removed(v))
+    throw Unknown_vertex(static_cast<std::size_t>(v));
+}
+
+template <class Point_3>
+void check_finite(const Point_3& p) {
+  if (!(std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z())))
+    throw Non_finite_point(p);
+}
+
+} // namespace internal
+
+/// What vertex `v` would touch first on its straight way to `target` while all else stands still: the impacts that come
+/// exactly first, or none when the way is free. Changes nothing.
+///
+/// A mesh that is closed and embedded stays so up to `target` if and only if the result is empty; otherwise it stays so
+/// up to, and not at, the time of the impacts (doc/exact_sweeps.md, "Completeness"). On other meshes the answer is about
+/// the three sweeps only.
+/// \throw Unknown_vertex, Non_finite_point
+/// Cost: reads every face once; the sweeps cost valence times the candidates whose boxes meet the swept star's.
+template <class Mesh>
+Star_impacts<Mesh> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v, const typename Mesh::Point& target) {
+  internal::check_vertex(mesh, v);
+  internal::check_finite(target);
+  const auto source = vertex_coordinates(mesh, v);
+  const internal::Coordinates end = internal::coordinates(target);
+  Star<Mesh> star;
+  star.collect(mesh, v);
+  std::vector<typename Mesh::Face_index> candidates;
+  const Swept_star_3 swept = star.swept(source, end);
+  Brute_force_broad_phase<Mesh>(mesh).query(swept, candidates);
+  Checklist<Mesh> list;
+  list.assign(mesh, star, candidates, swept.box());
+  No_filter_counters uncounted;
+  Star_impacts<Mesh> firsts;
+  Narrow_phase<Mesh, No_filter_counters>(uncounted).first_impacts(star, list, source, end, firsts);
+  return firsts;
+}
+
+/// The first of `first_impacts()`, if any: would this motion hit, what, and when. Changes nothing. Same cost and errors.
+template <class Mesh>
+std::optional<Star_impact<Mesh>> first_impact(const Mesh& mesh, typename Mesh::Vertex_index v,
+                                              const typename Mesh::Point& target) {
+  const Star_impacts<Mesh> firsts = first_impacts(mesh, v, target);
+  if (firsts.empty())
+    return std::nullopt;
+  return firsts.front();
+}
+
+} // namespace haptic_sculpt
+
+#endif
