@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_H
+#define HAPTIC_SCULPT_SURFACE_H
+
+#include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/Validity_report.h>
+#include <haptic_sculpt/surface/delta_rule.h>
+#include <haptic_sculpt/surface/read_surface.h>
+#include <haptic_sculpt/surface/validate.h>
+#include <haptic_sculpt/surface/write_surface.h>
+
+#endif

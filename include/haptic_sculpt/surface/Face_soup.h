@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_FACE_SOUP_H
+#define HAPTIC_SCULPT_SURFACE_FACE_SOUP_H
+
+#include <haptic_sculpt/surface/cgal_compatibility.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace haptic_sculpt {
+
+/// Points, and faces as lists of indices of points: what a mesh file holds, and what `validate()` looks at.
+///
+/// The corners of all faces stand one after another in `corners`; those of face `f` begin at `first_corner[f]`.
+/// 4 bytes a corner and a face, 24 a point.
+struct Face_soup {
+  using Point_3 = Decision_kernel::Point_3;
+  using Index = std::uint32_t;
+
+  std::vector<Point_3> points;
+  std::vector<Index> corners;
+  std::vector<Index> first_corner{0};
+
+  std::size_t number_of_faces() const { return first_corner.size() - 1; }
+  std::size_t number_of_corners(std::size_t face) const { return first_corner[face + 1] - first_corner[face]; }
+  const Index* begin(std::size_t face) const { return corners.data() + first_corner[face]; }
+  const Index* end(std::size_t face) const { return corners.data() + first_corner[face + 1]; }
+
+  /// Ends the face whose corners were appended to `corners`.
+  void close_face() { first_corner.push_back(static_cast<Index>(corners.size())); }
+
+  template <class Range>
+  void add_face(const Range& indices) {
+    for (const auto index : indices)
+      corners.push_back(static_cast<Index>(index));
+    close_face();
+  }
+
+  bool is_finite(std::size_t point) const {
+    const Point_3& p = points[point];
+    return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_INVALID_SURFACE_H
+#define HAPTIC_SCULPT_SURFACE_INVALID_SURFACE_H
+
+#include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/surface/Validity_report.h>
+
+#include <string>
+#include <utility>
+
+namespace haptic_sculpt {
+
+/// A mesh was refused because it is not a valid surface. Holds every offending element; `what()` names the first ones.
+class Invalid_surface : public Error {
+public:
+  /// \param subject what is refused, e.g. the name of a file
+  Invalid_surface(const std::string& subject, Validity_report report)
+      : Error(subject + " is not a valid surface:\n" + report.message()), report_(std::move(report)) {}
+
+  const Validity_report& report() const { return report_; }
+
+private:
+  Validity_report report_;
+};
+
+/// A file could not be read as a mesh: missing, empty, cut short, or not what its format asks for.
+class Read_error : public Error {
+public:
+  using Error::Error;
+};
+
+/// A mesh could not be written. The file that was there before, if any, is as it was.
+class Write_error : public Error {
+public:
+  using Error::Error;
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_MESH_FILE_FORMAT_H
+#define HAPTIC_SCULPT_SURFACE_MESH_FILE_FORMAT_H
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace haptic_sculpt {
+
+enum class Mesh_file_format { off, ply, obj, stl };
+
+/// The format that the extension of a path names, in upper or lower case.
+inline std::optional<Mesh_file_format> mesh_file_format(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z')
+      c = static_cast<char>(c - 'A' + 'a');
+  if (extension == ".off")
+    return Mesh_file_format::off;
+  if (extension == ".ply")
+    return Mesh_file_format::ply;
+  if (extension == ".obj")
+    return Mesh_file_format::obj;
+  if (extension == ".stl")
+    return Mesh_file_format::stl;
+  return std::nullopt;
+}
+
+} // namespace haptic_sculpt
+
+#endif

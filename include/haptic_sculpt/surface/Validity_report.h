@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_VALIDITY_REPORT_H
+#define HAPTIC_SCULPT_SURFACE_VALIDITY_REPORT_H
+
+#include <haptic_sculpt/surface/cgal_compatibility.h>
+
+#include <cstddef>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace haptic_sculpt {
+
+/// What `validate()` found: every offending element of every kind, named by its index.
+///
+/// An edge is named by its two vertices, because the faces of a file that cannot become a `Surface_mesh` have edges too.
+/// Lists are sorted and name an element once.
+struct Validity_report {
+  using Any_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>;
+  using Vertex_index = Any_mesh::Vertex_index;
+  using Halfedge_index = Any_mesh::Halfedge_index;
+  using Face_index = Any_mesh::Face_index;
+  using Vertex_pair = std::pair<Vertex_index, Vertex_index>;
+  using Face_pair = std::pair<Face_index, Face_index>;
+
+  /// The `delta` asked for: length of the smallest altitude allowed, in the unit of the coordinates.
+  double delta = 0;
+
+  /// Half-edges whose pointers contradict each other. Where there are any, nothing else was looked at.
+  std::vector<Halfedge_index> inconsistent_halfedges;
+  /// Vertices with a coordinate that is infinite or not a number.
+  std::vector<Vertex_index> non_finite_vertices;
+  /// Faces with more or fewer than three corners.
+  std::vector<Face_index> non_triangular_faces;
+  /// Triangles whose corners lie exactly on a line, a repeated corner included.
+  std::vector<Face_index> degenerate_faces;
+  /// Triangles that are not degenerate but have an altitude below `delta`. Empty for `delta == 0`.
+  std::vector<Face_index> low_faces;
+  /// Edges of one face only.
+  std::vector<Vertex_pair> boundary_edges;
+  /// Edges of three faces or more (in a `Surface_mesh`: several edges between the same two vertices).
+  std::vector<Vertex_pair> non_manifold_edges;
+  /// Edges whose two faces run through them in the same direction: one of the two is turned over.
+  std::vector<Vertex_pair> inconsistently_oriented_edges;
+  /// Vertices whose faces form more than one fan.
+  std::vector<Vertex_index> non_manifold_vertices;
+  /// Pairs of different vertices at one point; the first is the lowest index there. Isolated vertices do not count.
+  std::vector<Vertex_pair> coincident_vertices;
+  /// Pairs of faces that meet elsewhere than in their shared vertices and edge. A degenerate face counts as the segment
+  /// it is, and only against faces with which it shares no vertex.
+  std::vector<Face_pair> intersecting_faces;
+
+  /// \name For information: what does not make a surface invalid
+  ///@{
+  /// Vertices without a face. Such a vertex is a probe; it may lie anywhere.
+  std::vector<Vertex_index> isolated_vertices;
+  /// Number of connected components that have faces.
+  std::size_t number_of_components = 0;
+  /// The lowest face of each component whose normals point into the solid; looked at only where the surface is valid.
+  /// A component lying in an odd number of others bounds a cavity and has to have its normals pointing into itself.
+  std::vector<Face_index> inside_out_components;
+  ///@}
+
+  /// Whether the surface is closed, 2-manifold, triangular, not degenerate, embedded, and obeys the delta rule.
+  bool is_valid() const { return number_of_faults() == 0; }
+
+  /// Number of offending elements of all kinds.
+  std::size_t number_of_faults() const {
+    return inconsistent_halfedges.size() + non_finite_vertices.size() + non_triangular_faces.size() +
+           degenerate_faces.size() + low_faces.size() + boundary_edges.size() + non_manifold_edges.size() +
+           inconsistently_oriented_edges.size() + non_manifold_vertices.size() + coincident_vertices.size() +
+           intersecting_faces.size();
+  }
+
+  /// Says in plain words what is wrong, one kind a line: how many, the first `named` of them, and what repairs it.
+  std::string message(std::size_t named = 8) const {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(17);
+    const auto list = [&](const auto& elements, const char* kind, const char* cure) {
+      if (elements.empty())
+        return;
+      out << elements.size() << ' ' << kind << ':';
+      for (std::size_t i = 0; i < elements.size() && i < named; ++i)
+        out << (i == 0 ? " " : ", ") << name(elements[i]);
+      if (elements.size() > named)
+        out << ", ...";
+      out << ". " << cure << '\n';
+    };
+    const std::string low = "face(s) with an altitude below delta = " + number(delta);
+    list(inconsistent_halfedges, "half-edge(s) with contradictory connectivity",
+         "Rebuild the mesh from its points and faces (PMP::polygon_soup_to_polygon_mesh).");
+    list(non_finite_vertices, "vertex(es) with a coordinate that is infinite or not a number",
+         "Give them finite coordinates.");
+    list(non_triangular_faces, "face(s) that are not triangles", "Use PMP::triangulate_faces.");
+    list(degenerate_faces, "degenerate face(s) (corners on one line)", "Use PMP::remove_degenerate_faces.");
+    list(low_faces, low.c_str(), "Use a smaller delta, or remesh (PMP::isotropic_remeshing).");
+    list(boundary_edges, "boundary edge(s), between vertices",
+         "Use PMP::stitch_borders where edges coincide, else PMP::triangulate_hole.");
+    list(non_manifold_edges, "edge(s) of more than two faces, between vertices",
+         "Remove the surplus faces, or use PMP::orient_polygon_soup, which splits such edges.");
+    list(inconsistently_oriented_edges, "edge(s) between faces of opposite orientation, between vertices",
+         "Use PMP::orient_polygon_soup.");
+    list(non_manifold_vertices, "non-manifold vertex(es), where several fans of faces meet",
+         "Use PMP::duplicate_non_manifold_vertices, then move the copies apart.");
+    list(coincident_vertices, "pair(s) of vertices at one point",
+         "Use PMP::merge_duplicate_points_in_polygon_soup, or move them apart.");
+    list(intersecting_faces, "pair(s) of intersecting faces",
+         "Use PMP::experimental::remove_self_intersections, or PMP::autorefine and keep the outer surface.");
+    return out.str();
+  }
+
+private:
+  static std::string number(double value) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << value;
+    return out.str();
+  }
+  template <class Index>
+  static std::string name(Index index) {
+    return std::to_string(static_cast<std::size_t>(index));
+  }
+  template <class Index>
+  static std::string name(const std::pair<Index, Index>& pair) {
+    return name(pair.first) + "-" + name(pair.second);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_READ_SURFACE_H
+#define HAPTIC_SCULPT_SURFACE_READ_SURFACE_H
+
+#include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/Mesh_file_format.h>
+#include <haptic_sculpt/surface/parse_obj.h>
+#include <haptic_sculpt/surface/parse_off.h>
+#include <haptic_sculpt/surface/parse_ply.h>
+#include <haptic_sculpt/surface/parse_stl.h>
+#include <haptic_sculpt/surface/validate.h>
+
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// \throw Read_error
+inline std::string bytes_of_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    throw Read_error("there is no such file");
+  if (std::filesystem::is_directory(status))
+    throw Read_error("this is a directory; name a file in it");
+  if (!std::filesystem::is_regular_file(status))
+    throw Read_error("this is not a regular file" + (error ? " (" + error.message() + ")" : std::string()));
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw Read_error("the file cannot be opened; check its permissions");
+  std::string bytes(std::filesystem::file_size(path), '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file || static_cast<std::size_t>(file.gcount()) != bytes.size())
+    throw Read_error("the file cannot be read to its end");
+  if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw Read_error("the file is empty");
+  return bytes;
+}
+
+/// The surface as a mesh; vertices and faces keep their indices. \pre it is closed, 2-manifold and oriented
+template <class Mesh>
+Mesh mesh_of(const Face_soup& soup) {
+  using Vertex = typename Mesh::Vertex_index;
+  Mesh mesh;
+  mesh.reserve(soup.points.size(), soup.corners.size() / 2, soup.number_of_faces());
+  for (const auto& p : soup.points)
+    mesh.add_vertex(typename Mesh::Point(p.x(), p.y(), p.z()));
+  std::vector<std::array<Vertex, 3>> faces(soup.number_of_faces());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (int k = 0; k < 3; ++k)
+      faces[f][k] = Vertex(soup.begin(f)[k]);
+  CGAL::Euler::add_faces(faces, mesh);
+  return mesh;
+}
+
+} // namespace internal
+
+/// The points and faces of an OFF, PLY, OBJ or STL file, whatever they form. The format is told by the extension.
+///
+/// The files are not read through CGAL::IO, because its readers (5.5) allocate what a header asks for, follow the global
+/// locale (a comma for a point changes coordinates), do not see data after the last face, and let an OBJ index one beyond
+/// the last vertex pass. Here each number is read to the nearest double in the C locale, sizes are checked against the
+/// file's before anything is allocated, and errors name the line. The tests compare both on good files.
+/// \throw Read_error
+inline Face_soup read_face_soup(const std::filesystem::path& path) {
+  try {
+    const auto format = mesh_file_format(path);
+    if (!format)
+      throw Read_error("the extension has to be .off, .ply, .obj or .stl");
+    const std::string bytes = internal::bytes_of_file(path);
+    Face_soup soup;
+    switch (*format) {
+    case Mesh_file_format::off: soup = internal::parse_off(bytes); break;
+    case Mesh_file_format::ply: soup = internal::parse_ply(bytes); break;
+    case Mesh_file_format::obj: soup = internal::parse_obj(bytes); break;
+    case Mesh_file_format::stl: soup = internal::parse_stl(bytes); break;
+    }
+    if (soup.number_of_faces() == 0)
+      throw Read_error("the file holds no faces");
+    return soup;
+  } catch (const Read_error& error) {
+    throw Read_error("cannot read '" + path.string() + "': " + error.what());
+  }
+}
+
+/// Reads a valid surface from an OFF, PLY (ASCII or binary), OBJ or STL (ASCII or binary) file, or refuses it whole.
+///
+/// Vertices and faces are numbered from 0 in file order. STL has no vertices: exactly equal corners become one, numbered
+/// by first appearance. Decimals are read to the nearest double, so what `write_surface()` wrote comes back bit for bit.
+/// Vertices without faces are kept (see `validate()`).
+///
+/// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
+/// \param path to the file; its extension tells the format
+/// \param delta the delta rule's length, >= 0
+/// \throw Read_error if the file cannot be read as a mesh
+/// \throw Invalid_surface if `validate()` finds fault with it; names every offending vertex, edge and face by index
+/// \post `validate(mesh, delta).is_valid()`
+template <class Mesh>
+Mesh read_surface(const std::filesystem::path& path, double delta = 0) {
+  const Face_soup soup = read_face_soup(path);
+  Validity_report report = validate_soup(soup, delta);
+  if (!report.is_valid())
+    throw Invalid_surface("'" + path.string() + "'", std::move(report));
+  return internal::mesh_of<Mesh>(soup);
+}
+
+} // namespace haptic_sculpt
+
+#endif

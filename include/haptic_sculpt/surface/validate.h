@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_VALIDATE_H
+#define HAPTIC_SCULPT_SURFACE_VALIDATE_H
+
+#include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/surface/Face_soup.h>
+#include <haptic_sculpt/surface/Validity_report.h>
+#include <haptic_sculpt/surface/component_orientation.h>
+#include <haptic_sculpt/surface/delta_rule.h>
+#include <haptic_sculpt/surface/improper_intersection.h>
+#include <haptic_sculpt/surface/soup_connectivity.h>
+
+#include <CGAL/Kernel_traits.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <type_traits>
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// The half-edges of a mesh whose pointers lead nowhere, to something removed, or contradict each other.
+/// Needs no trust in any pointer: each index is checked before it is followed.
+template <class Mesh>
+std::vector<typename Mesh::Halfedge_index> inconsistent_halfedges(const Mesh& mesh) {
+  std::vector<typename Mesh::Halfedge_index> found;
+  const auto lives = [&](const auto index) { return mesh.has_valid_index(index) && !mesh.is_removed(index); };
+  for (const auto h : mesh.halfedges()) {
+    const auto n = mesh.next(h), p = mesh.prev(h);
+    const auto f = mesh.face(h);
+    const bool good = lives(n) && lives(p) && lives(mesh.target(h)) && mesh.prev(n) == h && mesh.next(p) == h &&
+                      mesh.face(n) == f && mesh.target(mesh.opposite(n)) == mesh.target(h) &&
+                      (f == Mesh::null_face() || lives(f));
+    if (!good)
+      found.push_back(h);
+  }
+  for (const auto f : mesh.faces())
+    if (const auto h = mesh.halfedge(f); !lives(h) || mesh.face(h) != f)
+      found.push_back(h);
+  for (const auto v : mesh.vertices())
+    if (const auto h = mesh.halfedge(v); h != Mesh::null_halfedge() && (!lives(h) || mesh.target(h) != v))
+      found.push_back(h);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+/// Pairs of vertices at one point, by sorting; -0 and 0 are one coordinate.
+inline void find_coincident_vertices(const Face_soup& soup, Validity_report& report) {
+  using Index = Face_soup::Index;
+  std::vector<bool> used(soup.points.size(), false);
+  for (const Index corner : soup.corners)
+    used[corner] = true;
+  std::vector<Index> order;
+  for (Index v = 0; v < soup.points.size(); ++v)
+    if (used[v] && soup.is_finite(v))
+      order.push_back(v);
+  std::sort(order.begin(), order.end(), [&](Index v, Index w) {
+    const auto c = CGAL::compare_lexicographically_xyz(soup.points[v], soup.points[w]);
+    return c == CGAL::SMALLER || (c == CGAL::EQUAL && v < w);
+  });
+  for (std::size_t i = 1, first = 0; i < order.size(); ++i)
+    if (soup.points[order[i]] == soup.points[order[first]])
+      report.coincident_vertices.emplace_back(Validity_report::Vertex_index(order[first]),
+                                              Validity_report::Vertex_index(order[i]));
+    else
+      first = i;
+  std::sort(report.coincident_vertices.begin(), report.coincident_vertices.end());
+}
+
+} // namespace internal
+
+/// Says everything that is wrong with a list of faces; see `validate(mesh)`.
+/// \param face_name the index under which each face is reported; empty: its place in the soup
+/// \param vertex_exists false for points that belong to nothing (removed vertices); empty: all exist
+/// \pre every corner is the index of a point
+inline Validity_report validate_soup(const Face_soup& soup, double delta = 0,
+                                     std::vector<Face_soup::Index> face_name = {},
+                                     std::vector<bool> vertex_exists = {}) {
+  using Index = Face_soup::Index;
+  if (!(delta >= 0) || !std::isfinite(delta))
+    throw Error("delta is a length: it must be finite and not negative, not " + std::to_string(delta));
+  if (face_name.empty()) {
+    face_name.resize(soup.number_of_faces());
+    std::iota(face_name.begin(), face_name.end(), Index(0));
+  }
+  vertex_exists.resize(std::max(vertex_exists.size(), soup.points.size()), vertex_exists.empty());
+
+  Validity_report report;
+  report.delta = delta;
+  internal::Soup_connectivity(soup).find_faults(face_name, vertex_exists, report);
+  for (Index v = 0; v < soup.points.size(); ++v)
+    if (vertex_exists[v] && !soup.is_finite(v))
+      report.non_finite_vertices.emplace_back(v);
+  internal::find_coincident_vertices(soup, report);
+
+  std::vector<Index> triangles;
+  std::vector<bool> flat(soup.number_of_faces(), false);
+  const internal::Meet_improperly meet_improperly(soup);
+  const Satisfies_delta_rule_3<Decision_kernel> satisfies_delta_rule(delta);
+  for (Index f = 0; f < soup.number_of_faces(); ++f) {
+    const Index* corner = soup.begin(f);
+    if (soup.number_of_corners(f) != 3 ||
+        !std::all_of(corner, corner + 3, [&](Index v) { return soup.is_finite(v); }))
+      continue; // no triangle in space: named above, and nothing more can be said of it
+    triangles.push_back(f);
+    flat[f] = meet_improperly.is_flat(f);
+    if (flat[f])
+      report.degenerate_faces.emplace_back(face_name[f]);
+    else if (delta > 0 &&
+             !satisfies_delta_rule(soup.points[corner[0]], soup.points[corner[1]], soup.points[corner[2]]))
+      report.low_faces.emplace_back(face_name[f]);
+  }
+  for (const auto& [f, g] : internal::improper_intersections(soup, triangles, flat))
+    report.intersecting_faces.emplace_back(Validity_report::Face_index(face_name[f]),
+                                           Validity_report::Face_index(face_name[g]));
+  if (report.is_valid())
+    for (const Index f : internal::Component_orientation(soup).inside_out())
+      report.inside_out_components.emplace_back(face_name[f]);
+  return report;
+}
+
+/// The points and faces of a mesh. Points keep the indices of their vertices, removed ones included; faces close up.
+/// \param face_name if given, receives the index of each face
+/// \pre the connectivity of the mesh is consistent
+template <class Mesh>
+Face_soup face_soup(const Mesh& mesh, std::vector<Face_soup::Index>* face_name = nullptr) {
+  using Index = Face_soup::Index;
+  Face_soup soup;
+  soup.points.resize(mesh.number_of_vertices() + mesh.number_of_removed_vertices());
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    soup.points[v] = Face_soup::Point_3(p.x(), p.y(), p.z());
+  }
+  soup.corners.reserve(3 * mesh.number_of_faces());
+  for (const auto f : mesh.faces()) {
+    const auto first = mesh.halfedge(f);
+    auto h = first;
+    do {
+      soup.corners.push_back(static_cast<Index>(mesh.source(h)));
+      h = mesh.next(h);
+    } while (h != first);
+    soup.close_face();
+    if (face_name)
+      face_name->push_back(static_cast<Index>(f));
+  }
+  return soup;
+}
+
+/// The one oracle of validity: is this a closed, 2-manifold surface of triangles, none degenerate, whose closed triangles
+/// meet only in shared vertices and edges, with no altitude below `delta`? Names every offending element of every kind.
+///
+/// Everything geometric is decided exactly on the stored doubles, by predicates that no fast path of this library uses:
+/// all pairs of faces with meeting boxes are tried. Decisions taken:
+/// - *Isolated vertices* are probes: allowed, reported apart, and wherever they lie, not part of the surface.
+/// - *Inside-out* and *nested* components do not make a surface invalid, as a surface is embedded whichever way its
+///   normals point; a component whose normals point into the solid is reported for information.
+/// - A mesh without faces is valid.
+/// - Faces that are no finite triangles are named, and left out of the search for intersections.
+///
+/// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
+/// \param delta the delta rule's length (paper, section 3.1), >= 0; 0: only exact degeneracy counts
+/// \throw Error if delta is negative or not finite
+/// Complexity: O(n log^3 n + pairs of faces with meeting boxes); 1 to 2 s for a million triangles. Memory: about 250 bytes
+/// a triangle. Thread-safe as far as reading the mesh is.
+template <class Mesh>
+Validity_report validate(const Mesh& mesh, double delta = 0) {
+  using Kernel = typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel;
+  static_assert(std::is_same_v<typename Kernel::FT, double>, "validate() decides on coordinates of type double");
+  if (auto wrong = internal::inconsistent_halfedges(mesh); !wrong.empty()) {
+    Validity_report report;
+    report.delta = delta;
+    for (const auto h : wrong)
+      report.inconsistent_halfedges.emplace_back(static_cast<std::size_t>(h));
+    return report;
+  }
+  std::vector<Face_soup::Index> face_name;
+  face_name.reserve(mesh.number_of_faces());
+  const Face_soup soup = face_soup(mesh, &face_name);
+  std::vector<bool> vertex_exists(soup.points.size(), false);
+  for (const auto v : mesh.vertices())
+    vertex_exists[v] = true;
+  return validate_soup(soup, delta, std::move(face_name), std::move(vertex_exists));
+}
+
+} // namespace haptic_sculpt
+
+#endif

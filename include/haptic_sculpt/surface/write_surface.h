@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_WRITE_SURFACE_H
+#define HAPTIC_SCULPT_SURFACE_WRITE_SURFACE_H
+
+#include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/Mesh_file_format.h>
+#include <haptic_sculpt/surface/replace_file.h>
+#include <haptic_sculpt/surface/validate.h>
+
+#include <boost/range/iterator_range.hpp>
+
+#include <filesystem>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt {
+
+/// How `write_surface()` writes.
+struct Write_options {
+  enum class Encoding {
+    automatic, ///< binary for PLY, ASCII for OFF, OBJ and STL: the smallest that is lossless
+    ascii,
+    binary ///< PLY and STL only
+  };
+  Encoding encoding = Encoding::automatic;
+
+  /// Allows binary STL to round coordinates to floats, if the rounded surface is still valid.
+  bool allow_rounding = false;
+
+  /// The order in which vertices are written. Empty: by index. Otherwise every vertex of the mesh stands in it once.
+  std::vector<Validity_report::Vertex_index> vertex_order;
+};
+
+namespace internal {
+
+/// The vertices in the order asked for, closed up. \throw Write_error
+template <class Mesh>
+std::vector<typename Mesh::Vertex_index> written_order(const Mesh& mesh, const Write_options& options) {
+  using Vertex = typename Mesh::Vertex_index;
+  if (options.vertex_order.empty())
+    return {mesh.vertices().begin(), mesh.vertices().end()};
+  std::vector<Vertex> order;
+  std::vector<bool> seen(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), false);
+  for (const auto index : options.vertex_order) {
+    const Vertex v(static_cast<std::size_t>(index));
+    if (!mesh.has_valid_index(v) || mesh.is_removed(v) || seen[v])
+      throw Write_error("the vertex order names vertex " + std::to_string(std::size_t(index)) +
+                        (mesh.has_valid_index(v) && seen[v] ? " twice" : ", which the mesh does not have"));
+    seen[v] = true;
+    order.push_back(v);
+  }
+  if (order.size() != mesh.number_of_vertices())
+    throw Write_error("the vertex order names " + std::to_string(order.size()) + " of " +
+                      std::to_string(mesh.number_of_vertices()) + " vertices");
+  return order;
+}
+
+/// The mesh as it will be written. \throw Write_error if no format can hold it
+template <class Mesh>
+Face_soup compacted(const Mesh& mesh, const Write_options& options) {
+  if (!inconsistent_halfedges(mesh).empty())
+    throw Write_error("the connectivity of the mesh contradicts itself; see validate()");
+  Face_soup soup = face_soup(mesh);
+  const auto order = written_order(mesh, options);
+  std::vector<Face_soup::Index> place(soup.points.size());
+  std::vector<Face_soup::Point_3> points;
+  points.reserve(order.size());
+  for (const auto v : order) {
+    if (!soup.is_finite(v))
+      throw Write_error("vertex " + std::to_string(std::size_t(v)) + " has a coordinate that is not finite");
+    place[v] = static_cast<Face_soup::Index>(points.size());
+    points.push_back(soup.points[v]);
+  }
+  for (Face_soup::Index& corner : soup.corners)
+    corner = place[corner];
+  soup.points = std::move(points);
+  return soup;
+}
+
+inline Face_soup rounded_to_float(Face_soup soup) {
+  for (auto& p : soup.points)
+    p = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+  return soup;
+}
+
+/// \throw Write_error if STL cannot hold the surface without loss, and loss is not allowed
+inline void prepare_stl(Face_soup& soup, bool binary, bool allow_rounding) {
+  std::vector<bool> used(soup.points.size(), false);
+  for (const auto corner : soup.corners)
+    used[corner] = true;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v])
+      throw Write_error("STL holds no vertices without faces, such as vertex " + std::to_string(v) +
+                        "; remove it, or write PLY, OFF or OBJ");
+  for (std::size_t f = 0; f < soup.number_of_faces(); ++f)
+    if (soup.number_of_corners(f) != 3)
+      throw Write_error("STL holds triangles only, but face " + std::to_string(f) + " has " +
+                        std::to_string(soup.number_of_corners(f)) + " corners");
+  if (!binary)
+    return;
+  Face_soup rounded = rounded_to_float(soup);
+  if (rounded.points == soup.points)
+    return;
+  if (!allow_rounding)
+    throw Write_error("binary STL holds floats, and the coordinates do not fit in them; write ASCII STL or PLY, or allow "
+                      "rounding");
+  if (const Validity_report report = validate_soup(rounded); !report.is_valid())
+    throw Write_error("rounded to the floats of binary STL the surface is no longer valid; write ASCII STL or PLY:\n" +
+                      report.message());
+  soup = std::move(rounded);
+}
+
+/// The text or bytes of the file, by CGAL's writers. They are given a stream of their own, in the C locale and with 17
+/// digits, which bring every double back.
+inline std::string file_contents(const Face_soup& soup, Mesh_file_format format, bool binary) {
+  std::vector<boost::iterator_range<const Face_soup::Index*>> faces;
+  faces.reserve(soup.number_of_faces());
+  for (std::size_t f = 0; f < soup.number_of_faces(); ++f)
+    faces.emplace_back(soup.begin(f), soup.end(f));
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(std::numeric_limits<double>::max_digits10);
+  CGAL::IO::set_mode(out, binary ? CGAL::IO::BINARY : CGAL::IO::ASCII);
+  const auto digits = CGAL::parameters::stream_precision(std::numeric_limits<double>::max_digits10);
+  bool written = false;
+  switch (format) {
+  case Mesh_file_format::off: written = CGAL::IO::write_OFF(out, soup.points, faces, digits); break;
+  case Mesh_file_format::ply: written = CGAL::IO::write_PLY(out, soup.points, faces, digits); break;
+  case Mesh_file_format::obj: written = CGAL::IO::write_OBJ(out, soup.points, faces, digits); break;
+  case Mesh_file_format::stl: written = CGAL::IO::write_STL(out, soup.points, faces, digits); break;
+  }
+  if (!written)
+    throw Write_error("CGAL's writer failed");
+  return std::move(out).str();
+}
+
+} // namespace internal
+
+/// Writes a mesh without loss and atomically: the file is there whole, or what was there before is as it was.
+///
+/// The format is told by the extension: .off, .ply, .obj or .stl. Coordinates come back bit for bit through
+/// `read_surface()` from every format but binary STL, which holds floats: there it is refused unless the coordinates are
+/// floats anyway, or `allow_rounding` is set and the rounded surface validates. ASCII STL holds 17 digits and is lossless,
+/// but numbers vertices anew, in order of first appearance.
+/// Removed elements are left out; vertices close up in index order or in `options.vertex_order`, faces in index order.
+/// An invalid surface is written as it is (and will not be read back), unless the format cannot hold it.
+///
+/// \param path of the file; its folder has to exist
+/// \throw Write_error
+template <class Mesh>
+void write_surface(const std::filesystem::path& path, const Mesh& mesh, const Write_options& options = {}) {
+  using Encoding = Write_options::Encoding;
+  const auto format = mesh_file_format(path);
+  std::string contents;
+  try {
+    if (!format)
+      throw Write_error("the extension has to be .off, .ply, .obj or .stl");
+    const bool may_be_binary = *format == Mesh_file_format::ply || *format == Mesh_file_format::stl;
+    if (options.encoding == Encoding::binary && !may_be_binary)
+      throw Write_error("only PLY and STL are written in binary");
+    const bool binary = options.encoding == Encoding::binary ||
+                        (options.encoding == Encoding::automatic && *format == Mesh_file_format::ply);
+    Face_soup soup = internal::compacted(mesh, options);
+    if (*format == Mesh_file_format::stl)
+      internal::prepare_stl(soup, binary, options.allow_rounding);
+    contents = internal::file_contents(soup, *format, binary);
+  } catch (const Write_error& error) {
+    throw Write_error("cannot write '" + path.string() + "': " + error.what());
+  }
+  replace_file(path, contents);
+}
+
+} // namespace haptic_sculpt
+
+#endif
