@@ -15,18 +15,19 @@ enum class Response : std::uint8_t {
 enum class Drag_end : std::uint8_t {
   reached,     ///< it is at the target
   held,        ///< contacts hold it where it is
-  no_progress  ///< no representable point on the way keeps the clearance: it did not move
+  no_progress, ///< no representable point on the way keeps the clearance: it did not move
+  refused      ///< a probe that starts on a face, or nearer to it than the clearance
 };
 
-/// The name used in reports: "reached", "held" or "no-progress".
+/// The name used in reports: "reached", "held", "no-progress" or "refused".
 inline const char* name_of(Drag_end end) {
-  constexpr const char* names[] = {"reached", "held", "no-progress"};
+  constexpr const char* names[] = {"reached", "held", "no-progress", "refused"};
   return names[static_cast<int>(end)];
 }
 
 /// How far a stopped vertex is from the impact that stopped it. Lengths; 0 for a drag that arrived.
 struct Stop_error {
-  double normal = 0;     ///< from the contact plane; the largest among the contacts
+  double normal = 0;     ///< from the nearest contact plane (where the contact is flat: as along_path)
   double along_path = 0; ///< from the exact point of impact, along the path
 };
 

@@ -23,7 +23,8 @@ public:
   bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
                const Coordinates& target) const {
     bool free = true;
-    for_each_hit(star, list, source, target, [&](Impact_feature, auto&&, auto&&, auto&&) { return free = false; });
+    for_each_hit(star, list, source, target, [&](Impact_feature, const std::array<Vertex_index, 3>&, const internal::Sweep_points&,
+                     const internal::Sweep_verdict&) { return free = false; });
     return free;
   }
 

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_GUARDED_STAR_H
+#define HAPTIC_SCULPT_SCULPTING_GUARDED_STAR_H
+
+#include <haptic_sculpt/sculpting/Drag_result.h>
+#include <haptic_sculpt/sculpting/Narrow_phase.h>
+#include <haptic_sculpt/sculpting/clearance.h>
+#include <haptic_sculpt/sculpting/delta_limit.h>
+#include <haptic_sculpt/sculpting/kkt_residual.h>
+#include <haptic_sculpt/sculpting/stop.h>
+
+namespace haptic_sculpt {
+
+/// A star, or a probe, with the checklist of what it may touch: decides motions and makes legs that are proven free.
+///
+/// Knows nothing of who holds it; the mesh is read for candidates only.
+template <class Mesh, class Broad_phase>
+class Guarded_star {
+public:
+  using Coordinates = internal::Coordinates;
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, Filter_counters& counters)
+    : mesh_(&mesh), broad_phase_(&broad_phase), counters_(&counters), narrow_phase_(counters) {}
+
+  Star<Mesh>& star() { return star_; }
+  const Star<Mesh>& star() const { return star_; }
+  const Checklist<Mesh>& checklist() const { return list_; }
+
+  /// Forget the candidates: an element outside the star has changed.
+  void invalidate() { list_.clear(); }
+
+  /// Finds what stops the motion: `firsts()` and the delta limits that come exactly first, or neither.
+  void decide(const Coordinates& source, const Coordinates& target, double delta) {
+    look_around(source, target);
+    narrow_phase_.first_impacts(star_, list_, source, target, firsts_);
+    find_delta_limits(source, target, delta);
+    if (limits_.empty() || firsts_.empty())
+      return;
+    const CGAL::Gmpq impact_time(firsts_[0].impact().exact_time().get_mpq_t());
+    const CGAL::Comparison_result order = CGAL::compare(limits_[0].time, impact_time);
+    if (order == CGAL::SMALLER)
+      firsts_.clear();
+    else if (order == CGAL::LARGER)
+      limits_.clear();
+  }
+
+  const Star_impacts<Mesh>& firsts() const { return firsts_; }
+  bool is_blocked() const { return !firsts_.empty() || !limits_.empty(); }
+
+  /// Whether the closed way touches nothing and keeps the delta rule; exact.
+  bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
+    look_around(source, target);
+    return narrow_phase_.is_free(star_, list_, source, target) && keeps_delta(source, target, delta);
+  }
+
+  /// One leg from source towards target: all the way if it is free, else proven up to a stop. Fills contacts and stop error.
+  Coordinates leg(const Coordinates& source, const Coordinates& target, double clearance, double delta,
+                  Drag_result<Mesh>& result) {
+    ++result.legs;
+    result.contacts.clear();
+    result.stop_error = {};
+    decide(source, target, delta);
+    if (!is_blocked())
+      return target;
+    double back = std::numeric_limits<double>::infinity(), time = 1;
+    for (const Star_impact<Mesh>& first : firsts_) {
+      const internal::Path_at_plane at = internal::path_at_plane(first.impact());
+      // Of several simultaneous contacts the steepest decides: they meet in a point, and a clearance from one plane
+      // through it is a clearance from it. The proof sees to the others.
+      back = std::fmin(back, internal::setback(clearance, at.sine));
+      time = at.time;
+      result.contacts.push_back(haptic_sculpt::contact_of(first, at));
+    }
+    for (const Limit& limit : limits_) {
+      const Contact_3<Mesh> contact = contact_of_limit(limit, source, target, time);
+      const double sine = -internal::dot(contact.normal, internal::normalized(internal::minus(target, source)));
+      back = std::fmin(back, internal::setback(clearance, sine));
+      result.contacts.push_back(contact);
+    }
+    const Coordinates end = internal::stop_before(source, target, time, back,
+                                                  [&](const Coordinates& q) { return is_free(source, q, delta); });
+    measure_stop(source, target, end, time, delta, result);
+    return end;
+  }
+
+private:
+  /// The delta rule reached by face i of the star.
+  struct Limit {
+    std::size_t face;
+    internal::Altitude_over side;
+    internal::Limit_time time;
+  };
+
+  const Mesh* mesh_;
+  Broad_phase* broad_phase_;
+  Filter_counters* counters_;
+  Narrow_phase<Mesh, Filter_counters> narrow_phase_;
+  Star<Mesh> star_;
+  Checklist<Mesh> list_;
+  std::vector<typename Mesh::Face_index> candidates_;
+  Star_impacts<Mesh> firsts_;
+  std::vector<Limit> limits_;
+
+  /// How much larger than the swept star, in units of the star's largest extent, the region of a checklist is.
+  static constexpr double region_margin = 0.5;
+
+  /// Makes the checklist complete for this motion. Short motions of one grab share a list.
+  void look_around(const Coordinates& source, const Coordinates& target) {
+    const Swept_star_3 swept = star_.swept(source, target);
+    const Box_3 box = swept.box();
+    if (list_.region().contains(box))
+      return;
+    candidates_.clear();
+    Box_3 here(source);
+    for (const Coordinates& p : star_.link_points)
+      here.include(p);
+    double extent = 0, way = 0;
+    for (int i = 0; i < 3; ++i) {
+      extent = std::fmax(extent, here.upper[i] - here.lower[i]);
+      way = std::fmax(way, std::abs(target[i] - source[i]));
+    }
+    if (way <= extent) {
+      Box_3 region = box;
+      for (int i = 0; i < 3; ++i) {
+        region.lower[i] -= region_margin * extent;
+        region.upper[i] += region_margin * extent;
+      }
+      broad_phase_->query(region, candidates_);
+      list_.assign(*mesh_, star_, candidates_, region);
+    } else { // for this motion alone: an empty region makes the next one ask again
+      broad_phase_->query(swept, candidates_);
+      list_.assign(*mesh_, star_, candidates_, Box_3());
+    }
+  }
+
+  template <class Found>
+  void for_each_delta_limit(const Coordinates& source, const Coordinates& target, double delta, const Found& found) const {
+    if (delta <= 0)
+      return;
+    using internal::Altitude_over;
+    for (std::size_t i = 0; i < star_.valence(); ++i)
+      for (const Altitude_over side : {Altitude_over::gi, Altitude_over::ji, Altitude_over::jg})
+        if (auto time = internal::delta_limit(source, target, star_.link_points[i], star_.link_points[star_.next(i)], delta,
+                                              side))
+          if (!found(Limit{i, side, *std::move(time)}))
+            return;
+  }
+
+  bool keeps_delta(const Coordinates& source, const Coordinates& target, double delta) const {
+    bool kept = true;
+    for_each_delta_limit(source, target, delta, [&](const Limit&) { return kept = false; });
+    return kept;
+  }
+
+  void find_delta_limits(const Coordinates& source, const Coordinates& target, double delta) {
+    limits_.clear();
+    for_each_delta_limit(source, target, delta, [&](Limit limit) {
+      const CGAL::Comparison_result order = limits_.empty() ? CGAL::SMALLER : CGAL::compare(limit.time, limits_[0].time);
+      if (order == CGAL::SMALLER)
+        limits_.clear();
+      if (order != CGAL::LARGER)
+        limits_.push_back(std::move(limit));
+      return true;
+    });
+  }
+
+  /// Also tells the time in double.
+  Contact_3<Mesh> contact_of_limit(const Limit& limit, const Coordinates& source, const Coordinates& target, double& time) const {
+    const std::size_t next = star_.next(limit.face);
+    time = CGAL::to_double(limit.time);
+    Contact_3<Mesh> contact;
+    contact.kind = Contact_kind::delta;
+    const Vertex_index g = star_.link[limit.face], i = star_.link[next];
+    contact.vertices = {g, i, limit.side == internal::Altitude_over::gi ? star_.centre
+                              : limit.side == internal::Altitude_over::ji ? g : i};
+    contact.normal = internal::altitude_gradient(internal::point_of_path(source, target, time),
+                                                 star_.link_points[limit.face], star_.link_points[next], limit.side);
+    contact.is_flat = true;
+    return contact;
+  }
+
+  void measure_stop(const Coordinates& source, const Coordinates& target, const Coordinates& end, double time, double delta,
+                    Drag_result<Mesh>& result) const {
+    const double made = internal::length(internal::minus(end, source));
+    result.stop_error.along_path = std::fmax(0.0, std::fma(time, internal::path_length(source, target), -made));
+    double normal = std::numeric_limits<double>::infinity();
+    for (const Contact_3<Mesh>& contact : result.contacts)
+      if (!contact.is_flat)
+        normal = std::fmin(normal, std::abs(internal::height_over_plane(contact.plane[0], contact.plane[1],
+                                                                        contact.plane[2], end)));
+    for (const Limit& limit : limits_)
+      normal = std::fmin(normal, internal::altitude(end, star_.link_points[limit.face],
+                                                    star_.link_points[star_.next(limit.face)], limit.side) - delta);
+    result.stop_error.normal = std::isfinite(normal) ? normal : result.stop_error.along_path;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

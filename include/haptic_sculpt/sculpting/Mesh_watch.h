@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_MESH_WATCH_H
+#define HAPTIC_SCULPT_SCULPTING_MESH_WATCH_H
+
+#include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/surface/star.h>
+
+#include <algorithm>
+
+namespace haptic_sculpt {
+
+/// The mesh was changed by somebody else than the Sculptor that guards it. What to do: undo the change, or make a new
+/// Sculptor, which validates the mesh anew.
+class Mesh_changed : public Error {
+public:
+  explicit Mesh_changed(const std::string& what)
+    : Error("the mesh was changed behind the Sculptor's back: " + what +
+            "; undo that change, or make a new Sculptor of the mesh") {}
+};
+
+/// A private copy of the points and counts of a mesh, against which changes by others are found.
+///
+/// Comparing all points before every drag would cost more than the drag. So counts are compared every time, the star and
+/// the candidates of a drag whenever they are looked up, and `points_per_look` more points in turn: a mesh of up to that many
+/// vertices is compared whole at every grab. `check_all()` compares everything.
+template <class Mesh>
+class Mesh_watch {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Coordinates = std::array<double, 3>;
+
+  /// 24 KiB a look: about a microsecond, a fifth of the budget of grabbing a new vertex.
+  static constexpr std::size_t points_per_look = 1024;
+
+  explicit Mesh_watch(const Mesh& mesh) : mesh_(&mesh) { remember_all(); }
+
+  void remember_all() {
+    points_.resize(mesh_->num_vertices());
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      points_[i] = vertex_coordinates(*mesh_, Vertex_index(static_cast<typename Vertex_index::size_type>(i)));
+    remember_counts();
+  }
+
+  /// The Sculptor itself has moved or made this vertex.
+  void remember(Vertex_index v) {
+    const auto i = static_cast<std::size_t>(v);
+    if (i >= points_.size())
+      points_.resize(i + 1);
+    points_[i] = vertex_coordinates(*mesh_, v);
+  }
+
+  void remember_counts() {
+    counts_ = counts();
+  }
+
+  /// \throw Mesh_changed if elements came or went, or garbage was collected. Cost: constant.
+  void check_counts() const {
+    if (counts() != counts_)
+      throw Mesh_changed("it has " + std::to_string(mesh_->number_of_vertices()) + " vertices and " +
+                         std::to_string(mesh_->number_of_faces()) +
+                         " faces in use, or elements were removed or collected, unlike after the last edit");
+  }
+
+  /// \throw Mesh_changed if v is not where it was left.
+  void check(Vertex_index v) const {
+    if (vertex_coordinates(*mesh_, v) != points_[static_cast<std::size_t>(v)])
+      throw Mesh_changed("vertex " + std::to_string(static_cast<std::size_t>(v)) + " was moved");
+  }
+
+  /// Compares the next points_per_look points in turn.
+  void check_some() {
+    const std::size_t n = points_.size();
+    for (std::size_t left = std::min(n, points_per_look); left != 0; --left) {
+      next_ = next_ + 1 < n ? next_ + 1 : 0;
+      check(Vertex_index(static_cast<typename Vertex_index::size_type>(next_)));
+    }
+  }
+
+  void check_all() const {
+    check_counts();
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      check(Vertex_index(static_cast<typename Vertex_index::size_type>(i)));
+  }
+
+private:
+  using Counts = std::array<std::size_t, 6>;
+
+  const Mesh* mesh_;
+  std::vector<Coordinates> points_;
+  Counts counts_{};
+  std::size_t next_ = 0;
+
+  Counts counts() const {
+    return {mesh_->num_vertices(),       mesh_->num_edges(),       mesh_->num_faces(),
+            mesh_->number_of_vertices(), mesh_->number_of_edges(), mesh_->number_of_faces()};
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
+#define HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
+
+#include <haptic_sculpt/sculpting/Grab.h>
+#include <haptic_sculpt/sculpting/Guarded_star.h>
+#include <haptic_sculpt/sculpting/Mesh_watch.h>
+#include <haptic_sculpt/sculpting/Sculptor_parameters.h>
+#include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/sculpting/is_within_distance.h>
+#include <haptic_sculpt/surface/Brute_force_broad_phase.h>
+#include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/validate.h>
+
+#include <CGAL/Surface_mesh.h>
+
+namespace haptic_sculpt {
+
+/// A parameter outside of its range, e.g. a negative clearance.
+class Invalid_parameter : public Error {
+public:
+  using Error::Error;
+};
+
+/// Guards a mesh: embedded in, embedded out, whatever is dragged where.
+///
+/// \tparam Mesh_ `CGAL::Surface_mesh<K::Point_3>` with K::FT = double
+/// \tparam Broad_phase_ a model of BroadPhase (doc/broad_phase.md); no result depends on the choice
+///
+/// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay. Changes
+/// made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()` looks at all.
+/// Several objects are several components of the one mesh. Orientation does not matter: an inside-out component is guarded
+/// like any other. An isolated vertex is a probe: it can be dragged and touches, but nothing touches it.
+///
+/// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
+/// independent. There is no global state.
+template <class Mesh_, class Broad_phase_ = Brute_force_broad_phase<Mesh_>>
+class Sculptor {
+public:
+  using Mesh_type = Mesh_;
+  using Broad_phase = Broad_phase_;
+  using Point = typename Mesh_type::Point;
+  using Vertex_index = typename Mesh_type::Vertex_index;
+  using Face_index = typename Mesh_type::Face_index;
+  using Grab_type = Grab<Sculptor>;
+  using Result = Drag_result<Mesh_type>;
+
+  static_assert(std::is_same<Mesh_type, CGAL::Surface_mesh<Point>>::value, "Sculptor: the mesh must be a CGAL::Surface_mesh");
+  static_assert(std::is_same<typename CGAL::Kernel_traits<Point>::Kernel::FT, double>::value,
+                "Sculptor: the mesh's points must have double coordinates, e.g. those of "
+                "CGAL::Exact_predicates_inexact_constructions_kernel");
+
+  /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
+  /// obey the delta rule; Invalid_parameter. The mesh is not changed. Cost: that of validate(), n log n in practice.
+  explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters())
+    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)),
+      guard_(mesh, broad_phase_, counters_), probe_guard_(mesh, broad_phase_, counters_) {
+    for (const Vertex_index v : mesh.vertices())
+      largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(vertex_coordinates(mesh, v)));
+  }
+
+  Sculptor(const Sculptor&) = delete;
+  Sculptor& operator=(const Sculptor&) = delete;
+
+  const Mesh_type& mesh() const { return *mesh_; }
+  const Sculptor_parameters& options() const { return options_; }
+
+  /// How many signs the floating-point filter could not decide so far.
+  const Filter_counters& filter_counters() const { return counters_; }
+
+  /// Takes a vertex in hand. \throw Unknown_vertex, Mesh_changed
+  Grab_type grab(Vertex_index v) {
+    internal::check_vertex(*mesh_, v);
+    release();
+    hold(v);
+    return Grab_type(*this, v);
+  }
+
+  /// Lets go of the vertex in hand, if any.
+  void release() {
+    if (held_.is_valid() && moved_)
+      broad_phase_.faces_moved(guard_.star().faces);
+    held_ = Vertex_index();
+    moved_ = false;
+  }
+
+  /// Sweeps a free point from `source` towards `target` with the response. Changes nothing. A start that is nearer than the
+  /// clearance to a face, or on it, is refused: `end` is Drag_end::refused and the contact names the face.
+  /// \throw Non_finite_point, Mesh_changed
+  Result probe(const Point& source, const Point& target) {
+    internal::check_finite(source);
+    internal::check_finite(target);
+    release();
+    watch_.check_counts();
+    watch_.check_some();
+    const internal::Coordinates s = internal::coordinates(source), t = internal::coordinates(target);
+    const double c = clearance_of(s, t);
+    Result result;
+    result.position = source;
+    if (refuse_start(s, c, result))
+      return result;
+    probe_guard_.star().clear();
+    probe_guard_.invalidate();
+    finish(s, t, probe_guard_.leg(s, t, c, 0, result), c, result);
+    return result;
+  }
+
+  /// The clearance of a drag to `target`: the one set, or the default for the scene and this motion.
+  double clearance(const Point& target) const { return clearance_of(internal::coordinates(target), {0, 0, 0}); }
+
+  /// \throw Invalid_parameter
+  void set_clearance(double length) {
+    check_options(Sculptor_parameters(options_).clearance(length));
+    options_.clearance(length);
+  }
+
+  /// \throw Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
+  /// of validate().
+  void set_delta(double length) {
+    const Sculptor_parameters changed = Sculptor_parameters(options_).delta(length);
+    release();
+    validated(*mesh_, changed);
+    options_ = changed;
+  }
+
+  void set_response(Response rule) { options_.response(rule); }
+
+  /// \throw Mesh_changed if anything was changed by others. Cost: reads every point.
+  void check_unchanged() const { watch_.check_all(); }
+
+private:
+  friend class Grab<Sculptor>;
+
+  Mesh_type* mesh_;
+  Mesh_watch<Mesh_type> watch_;
+  Sculptor_parameters options_;
+  Filter_counters counters_;
+  Broad_phase broad_phase_;
+  Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
+  Vertex_index held_; ///< whose star guard_ has; invalid when none
+  bool moved_ = false; ///< the broad phase has not been told yet where the held star is
+  double largest_coordinate_ = 0;
+
+  static void check_options(const Sculptor_parameters& options) {
+    if (options.clearance_length && !(*options.clearance_length > 0 && std::isfinite(*options.clearance_length)))
+      throw Invalid_parameter("the clearance must be a finite length > 0, not " + std::to_string(*options.clearance_length));
+    if (!(options.delta_length >= 0 && std::isfinite(options.delta_length)))
+      throw Invalid_parameter("delta must be a finite length >= 0, not " + std::to_string(options.delta_length));
+  }
+
+  static const Mesh_type& validated(const Mesh_type& mesh, const Sculptor_parameters& options) {
+    check_options(options);
+    Validity_report report = validate(mesh, options.delta_length);
+    if (!report.is_valid())
+      throw Invalid_surface("the mesh", std::move(report));
+    return mesh;
+  }
+
+  double clearance_of(const internal::Coordinates& p, const internal::Coordinates& q) const {
+    if (options_.clearance_length)
+      return *options_.clearance_length;
+    return default_clearance(
+        std::fmax(largest_coordinate_, std::fmax(internal::largest_magnitude(p), internal::largest_magnitude(q))));
+  }
+
+  /// Makes guard_ the guard of v. \throw Mesh_changed
+  void hold(Vertex_index v) {
+    watch_.check_counts();
+    if (held_ == v) {
+      watch_.check(v);
+      return;
+    }
+    release();
+    watch_.check_some();
+    guard_.star().collect(*mesh_, v);
+    guard_.invalidate();
+    watch_.check(v);
+    for (const Vertex_index neighbour : guard_.star().link)
+      watch_.check(neighbour);
+    held_ = v;
+  }
+
+  Result drag(Vertex_index v, const Point& target) {
+    internal::check_vertex(*mesh_, v);
+    internal::check_finite(target);
+    hold(v);
+    const internal::Coordinates s = vertex_coordinates(*mesh_, v), t = internal::coordinates(target);
+    const double c = clearance_of(s, t);
+    Result result;
+    const internal::Coordinates end = s == t ? t : guard_.leg(s, t, c, options_.delta_length, result);
+    for (const auto& candidate : guard_.checklist().vertices())
+      watch_.check(candidate.index);
+    if (end != s) {
+      mesh_->point(v) = Point(end[0], end[1], end[2]);
+      watch_.remember(v);
+      largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(end));
+      moved_ = true;
+    }
+    finish(s, t, end, c, result);
+    return result;
+  }
+
+  /// A pull no longer than this many clearances says nothing about its direction.
+  static constexpr double shortest_pull = 16;
+
+  static void finish(const internal::Coordinates& source, const internal::Coordinates& target,
+                     const internal::Coordinates& end, double clearance, Result& result) {
+    result.position = Point(end[0], end[1], end[2]);
+    result.reached = end == target;
+    result.end = result.reached ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
+    const internal::Vector pull = internal::minus(target, end);
+    if (internal::length(pull) <= shortest_pull * clearance)
+      return;
+    std::vector<internal::Vector> normals;
+    for (const auto& contact : result.contacts)
+      normals.push_back(contact.normal);
+    result.kkt_residual = internal::kkt_residual(pull, normals);
+  }
+
+  bool refuse_start(const internal::Coordinates& start, double clearance, Result& result) {
+    Box_3 near(start);
+    for (int i = 0; i < 3; ++i) {
+      // One ulp more than the clearance, for the sums are rounded.
+      near.lower[i] = std::nextafter(near.lower[i] - clearance, -std::numeric_limits<double>::infinity());
+      near.upper[i] = std::nextafter(near.upper[i] + clearance, std::numeric_limits<double>::infinity());
+    }
+    std::vector<Face_index> faces;
+    broad_phase_.query(near, faces);
+    std::sort(faces.begin(), faces.end());
+    for (const Face_index f : faces) {
+      const auto h = mesh_->halfedge(f);
+      const std::array<Vertex_index, 3> corners = {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))};
+      if (!internal::is_within_distance(start, vertex_coordinates(*mesh_, corners[0]), vertex_coordinates(*mesh_, corners[1]),
+                                        vertex_coordinates(*mesh_, corners[2]), clearance))
+        continue;
+      Contact_3<Mesh_type> contact;
+      contact.vertices = corners;
+      contact.is_flat = true;
+      result.contacts.push_back(contact);
+      result.end = Drag_end::refused;
+      return true;
+    }
+    return false;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_SCULPTOR_PARAMETERS_H
+#define HAPTIC_SCULPT_SCULPTING_SCULPTOR_PARAMETERS_H
+
+#include <haptic_sculpt/sculpting/Drag_result.h>
+
+#include <optional>
+
+namespace haptic_sculpt {
+
+/// The options of a Sculptor, named and chained: `parameters::clearance(1e-9).delta(1e-3)`.
+struct Sculptor_parameters {
+  std::optional<double> clearance_length; ///< unset: default_clearance() of the scene and the motion
+  double delta_length = 0;                ///< 0: only exactly degenerate triangles are refused
+  Response response_rule = Response::stop;
+
+  /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates; > 0 and finite.
+  Sculptor_parameters& clearance(double length) {
+    clearance_length = length;
+    return *this;
+  }
+  /// No triangle may have an altitude below this length; >= 0 and finite.
+  Sculptor_parameters& delta(double length) {
+    delta_length = length;
+    return *this;
+  }
+  Sculptor_parameters& response(Response rule) {
+    response_rule = rule;
+    return *this;
+  }
+};
+
+/// Starts a chain of named parameters.
+namespace parameters {
+inline Sculptor_parameters clearance(double length) { return Sculptor_parameters().clearance(length); }
+inline Sculptor_parameters delta(double length) { return Sculptor_parameters().delta(length); }
+inline Sculptor_parameters response(Response rule) { return Sculptor_parameters().response(rule); }
+} // namespace parameters
+
+} // namespace haptic_sculpt
+
+#endif
