@@ -66,13 +66,14 @@ template <class S> inline bool place_elbows(const Device_parameters<S>& paramete
   using std::sin;
   pose.form = parameters.form();
   pose.theta = theta;
+  const S base = parameters.base_radius(), length = parameters.primary_length();
   for (int leg = 0; leg < 3; ++leg) {
-    pose.sin_theta[leg] = sin(theta[leg]);
-    pose.cos_theta[leg] = cos(theta[leg]);
-    pose.elbows.col(leg) = Leg_frame<S>::in_leg_plane(leg, parameters.base_radius() + parameters.primary_length() * pose.cos_theta[leg],
-                                                      parameters.primary_length() * pose.sin_theta[leg]);
+    const S angle = theta[leg], sine = sin(angle), cosine = cos(angle); // side by side: compilers make one call of them
+    pose.sin_theta[leg] = sine;
+    pose.cos_theta[leg] = cosine;
+    pose.elbows.col(leg) = Leg_frame<S>::in_leg_plane(leg, base + length * cosine, length * sine);
   }
-  return all_finite(theta);
+  return all_finite(pose.sin_theta); // the sine of what is not finite is not a number
 }
 
 /// Elbows this close to a line (twice the triangle's area over the product of two sides) have no usable normal: the angles'

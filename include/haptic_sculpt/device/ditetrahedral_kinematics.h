@@ -18,40 +18,44 @@ template <> struct Wider<double> { using type = long double; };
 /// Below this part of l2^2 the squared height of the apex over the elbow plane has lost two digits to cancellation.
 template <class S> S cancelled_height() { return S(1) / S(100); }
 
-/// The centre of the sphere's two intersection points, and their distance from it.
+/// The two points at a length l from three elbows. With n = a x b the normal of the elbow triangle (sides a, b, c), the circumcentre is at
+/// ((|a|^2 b - |b|^2 a) x n) / (2 |n|^2) and the apex sqrt(l^2 |n|^2 - |a|^2 |b|^2 |c|^2 / 4) / |n|^2 n from it: one root, one division.
 template <class S> struct Apex_pair {
-  Device_vector<S> centre, normal; ///< circumcentre of the elbows; unit normal of their plane
-  S relative_height_squared;       ///< (l2^2 - circumradius^2) / l2^2; negative where no apex exists
+  Device_vector<S> to_centre, normal; ///< to_centre times |n|^2; n
+  S normal_squared;                   ///< |n|^2
+  S height_squared, full_height;      ///< (l^2 - circumradius^2) |n|^2, negative where no apex exists, and l^2 |n|^2 to compare it with
   bool collinear;
+
+  /// From the first elbow to the apex. \pre height_squared >= 0
+  Device_vector<S> apex(int mode) const {
+    using std::sqrt;
+    return (to_centre + (S(mode) * sqrt(height_squared)) * normal) * (S(1) / normal_squared);
+  }
 };
 
-template <class S> inline void apex_pair(const Device_matrix<S>& elbows, const S& inverse_length_squared, Apex_pair<S>& pair) {
-  using std::sqrt;
+template <class S> inline void apex_pair(const Device_matrix<S>& elbows, const S& length, Apex_pair<S>& pair) {
   const Device_vector<S> a = elbows.col(1) - elbows.col(0), b = elbows.col(2) - elbows.col(0);
-  const Device_vector<S> normal = a.cross(b);
-  const S aa = a.squaredNorm(), bb = b.squaredNorm(), nn = normal.squaredNorm();
+  pair.normal = a.cross(b);
+  const S aa = a.squaredNorm(), bb = b.squaredNorm(), cc = (b - a).squaredNorm();
+  pair.normal_squared = pair.normal.squaredNorm();
   const S limit = collinearity_limit<S>();
-  pair.collinear = !(nn > limit * limit * aa * bb);
-  if (pair.collinear)
-    return;
-  const S inverse_norm = S(1) / sqrt(nn);
-  pair.normal = normal * inverse_norm;
-  const Device_vector<S> to_centre = (aa * b - bb * a).cross(normal) * (inverse_norm * inverse_norm / S(2));
-  pair.centre = elbows.col(0) + to_centre;
-  pair.relative_height_squared = S(1) - to_centre.squaredNorm() * inverse_length_squared;
+  pair.collinear = !(pair.normal_squared > limit * limit * aa * bb);
+  pair.to_centre = (S(0.5) * (aa * b - bb * a)).cross(pair.normal);
+  pair.full_height = length * length * pair.normal_squared;
+  pair.height_squared = pair.full_height - S(0.25) * aa * bb * cc;
 }
 
-/// The same from the angles, in wider arithmetic.
+/// The same from the angles, in wider arithmetic; returns the first elbow.
 template <class W, class S>
-inline void apex_pair_widened(const Device_parameters<S>& parameters, const Device_vector<S>& theta, Apex_pair<W>& pair) {
+inline Device_vector<W> apex_pair_widened(const Device_parameters<S>& parameters, const Device_vector<S>& theta, Apex_pair<W>& pair) {
   using std::cos;
   using std::sin;
   Device_matrix<W> elbows;
   for (int leg = 0; leg < 3; ++leg)
     elbows.col(leg) = Leg_frame<W>::in_leg_plane(leg, W(parameters.base_radius()) + W(parameters.primary_length()) * cos(W(theta[leg])),
                                                  W(parameters.primary_length()) * sin(W(theta[leg])));
-  const W length(parameters.secondary_length());
-  apex_pair(elbows, W(W(1) / (length * length)), pair);
+  apex_pair(elbows, W(parameters.secondary_length()), pair);
+  return elbows.col(0);
 }
 
 } // namespace device_detail
@@ -65,7 +69,6 @@ inline void apex_pair_widened(const Device_parameters<S>& parameters, const Devi
 /// \pre `parameters.form() == Device_form::ditetrahedral`, mode is 1 or -1
 template <class S>
 inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta, int mode) {
-  using std::sqrt;
   Outcome<Device_pose<S>> outcome;
   Device_pose<S>& pose = outcome.value_to_fill();
   if (!device_detail::place_elbows(parameters, theta, pose)) {
@@ -73,25 +76,25 @@ inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>&
     return outcome;
   }
   pose.mode = mode;
-  const S& length = parameters.secondary_length();
   device_detail::Apex_pair<S> pair;
-  device_detail::apex_pair(pose.elbows, parameters.inverse_secondary_length_squared(), pair);
-  if (!pair.collinear && pair.relative_height_squared > device_detail::cancelled_height<S>()) {
-    pose.position = pair.centre + (S(mode) * length * sqrt(pair.relative_height_squared)) * pair.normal;
+  device_detail::apex_pair(pose.elbows, parameters.secondary_length(), pair);
+  if (!pair.collinear && pair.height_squared > device_detail::cancelled_height<S>() * pair.full_height) {
+    pose.position = pose.elbows.col(0) + pair.apex(mode);
   } else {
+    using std::sqrt;
     using W = typename device_detail::Wider<S>::type;
     device_detail::Apex_pair<W> wide;
-    device_detail::apex_pair_widened<W, S>(parameters, theta, wide);
+    const Device_vector<W> first = device_detail::apex_pair_widened<W, S>(parameters, theta, wide);
     if (pair.collinear || wide.collinear) {
       outcome.fail(Device_status::singular, S(0));
       return outcome;
     }
-    if (wide.relative_height_squared < W(0)) {
-      const W excess = sqrt(W(1) - wide.relative_height_squared) - W(1);
+    if (wide.height_squared < W(0)) {
+      const W excess = sqrt(W(1) - wide.height_squared / wide.full_height) - W(1);
       outcome.fail(Device_status::unreachable, S(excess));
       return outcome;
     }
-    const Device_vector<W> apex = wide.centre + (W(mode) * W(length) * sqrt(wide.relative_height_squared)) * wide.normal;
+    const Device_vector<W> apex = first + wide.apex(mode);
     for (int axis = 0; axis < 3; ++axis)
       pose.position[axis] = S(apex[axis]);
   }
