@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_DEVICE_H
+#define HAPTIC_SCULPT_DEVICE_H
+
+/// \file
+/// The three-leg mechanism of the paper: kinematics, statics and dynamics, templated on the scalar. Needs Eigen only.
+
+#include <haptic_sculpt/device/Device_parameters.h>
+#include <haptic_sculpt/device/Device_pose.h>
+#include <haptic_sculpt/device/assembly_modes.h>
+#include <haptic_sculpt/device/conditioning.h>
+#include <haptic_sculpt/device/ditetrahedral_kinematics.h>
+#include <haptic_sculpt/device/forward_kinematics.h>
+#include <haptic_sculpt/device/general_inverse.h>
+#include <haptic_sculpt/device/general_kinematics.h>
+#include <haptic_sculpt/device/jacobian.h>
+#include <haptic_sculpt/device/nine_equations.h>
+#include <haptic_sculpt/device/planar_dynamics.h>
+#include <haptic_sculpt/device/simulation.h>
+#include <haptic_sculpt/device/spatial_dynamics.h>
+#include <haptic_sculpt/device/workspace.h>
+
+#endif

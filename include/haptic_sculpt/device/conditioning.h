@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_DEVICE_CONDITIONING_H
+#define HAPTIC_SCULPT_DEVICE_CONDITIONING_H
+
+#include <haptic_sculpt/device/jacobian.h>
+#include <Eigen/SVD>
+
+namespace haptic_sculpt {
+
+/// How near a pose is to a singular one.
+template <class S> struct Conditioning {
+  using Scalar = S;
+  S constraint_condition;   ///< condition number of the velocity equations (rows u_i, and Q t_i; moments in units of l2)
+  S distance_to_singular;   ///< their least singular value: 0 where the platform can move with its legs held
+  S least_transmission;     ///< least |u_i.b_i'| / l1 = |cos gamma sin(beta - theta)|: 0 where a joint can turn without moving the platform
+};
+
+namespace device_detail {
+
+/// The matrix of the velocity equations; 3 by 3 in the di-tetrahedral form, where the lower rows and right columns are unused.
+template <class S> Eigen::Matrix<S, 6, 6> constraint_matrix(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
+  Eigen::Matrix<S, 6, 6> a;
+  for (int i = 0; i < 3; ++i) {
+    const Device_vector<S> arm = (pose.elbows.col(i) - pose.position) * parameters.inverse_secondary_length();
+    const Device_vector<S> u = pose.links.col(i), q = pose.orientation * Leg_frame<S>::tangential(i);
+    a.row(i) << u.transpose(), arm.cross(u).transpose();
+    a.row(3 + i) << q.transpose(), arm.cross(q).transpose();
+  }
+  return a;
+}
+
+} // namespace device_detail
+
+/// Condition number and distances of a pose. A few microseconds. Failure: `singular` where the condition number is infinite.
+template <class S> Outcome<Conditioning<S>> conditioning(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
+  using std::abs;
+  Outcome<Conditioning<S>> outcome;
+  Conditioning<S>& c = outcome.value_to_fill();
+  S greatest;
+  if (parameters.form() == Device_form::ditetrahedral) {
+    const Device_matrix<S> a = pose.links.transpose();
+    const Device_vector<S> values = Eigen::JacobiSVD<Device_matrix<S>>(a).singularValues();
+    greatest = values[0], c.distance_to_singular = values[2];
+  } else {
+    const Eigen::Matrix<S, 6, 1> values = Eigen::JacobiSVD<Eigen::Matrix<S, 6, 6>>(device_detail::constraint_matrix(parameters, pose)).singularValues();
+    greatest = values[0], c.distance_to_singular = values[5];
+  }
+  for (int leg = 0; leg < 3; ++leg) {
+    const S transmission = abs(pose.links.col(leg).dot(pose.elbow_rate(parameters, leg))) / parameters.primary_length();
+    c.least_transmission = leg == 0 || transmission < c.least_transmission ? transmission : c.least_transmission;
+  }
+  c.constraint_condition = greatest / c.distance_to_singular;
+  if (device_detail::is_finite(c.constraint_condition))
+    outcome.succeed();
+  else
+    outcome.fail(Device_status::singular, S(0));
+  return outcome;
+}
+
+} // namespace haptic_sculpt
+
+#endif

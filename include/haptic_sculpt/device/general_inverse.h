@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_DEVICE_GENERAL_INVERSE_H
+#define HAPTIC_SCULPT_DEVICE_GENERAL_INVERSE_H
+
+#include <haptic_sculpt/device/general_kinematics.h>
+#include <Eigen/LU>
+#include <vector>
+
+/// \file
+/// Inverse kinematics of the general form from the platform's position: joint angles and platform rotation together are six unknowns
+/// for the three link lengths and the three right angles between links and platform axes.
+
+namespace haptic_sculpt {
+namespace device_detail {
+
+/// Newton's method at a fixed platform position from the angles and rotation in `pose`; steps are cut to 0.3 rad. On success the pose
+/// is complete. False if it does not settle within `most_iterations`.
+template <class S>
+bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<S>& position, Device_pose<S>& pose, int most_iterations) {
+  using std::abs;
+  const S epsilon = std::numeric_limits<S>::epsilon(), scale = parameters.inverse_secondary_length(), r = parameters.platform_radius();
+  S previous(0);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    if (!place_elbows(parameters, Device_vector<S>(pose.theta), pose))
+      return false;
+    Eigen::Matrix<S, 6, 6> a = Eigen::Matrix<S, 6, 6>::Zero();
+    Eigen::Matrix<S, 6, 1> f;
+    for (int i = 0; i < 3; ++i) {
+      const Device_vector<S> radial = pose.orientation * Leg_frame<S>::radial(i), axis = pose.orientation * Leg_frame<S>::tangential(i);
+      const Device_vector<S> rate = pose.elbow_rate(parameters, i) * scale, arm = (pose.elbows.col(i) - position) * scale;
+      const Device_vector<S> lever = (r * scale) * radial, link = lever - arm;
+      f[i] = (link.squaredNorm() - S(1)) / S(2);
+      f[3 + i] = arm.dot(axis);
+      a(i, i) = -link.dot(rate);
+      a(3 + i, i) = rate.dot(axis);
+      a.template block<1, 3>(i, 3) = lever.cross(link).transpose();
+      a.template block<1, 3>(3 + i, 3) = axis.cross(arm).transpose();
+    }
+    Eigen::Matrix<S, 6, 1> step = a.partialPivLu().solve(-f);
+    S length = step.cwiseAbs().maxCoeff();
+    if (!is_finite(length) || !all_finite(step))
+      return false;
+    if (length > S(0.3))
+      step *= S(0.3) / length, length = S(0.3);
+    pose.theta += step.template head<3>();
+    // Cayley's rotation keeps Q orthogonal.
+    const Device_vector<S> half = step.template tail<3>() / S(2);
+    for (int column = 0; column < 3; ++column) {
+      const Device_vector<S> before = pose.orientation.col(column), turned = half.cross(before);
+      pose.orientation.col(column) = before + (S(2) / (S(1) + half.squaredNorm())) * (turned + half.cross(turned));
+    }
+    if (length <= S(8) * epsilon || (length * length <= epsilon && iteration > 0 && !(length < previous / S(2)))) {
+      pose.orientation.col(0).normalize();
+      pose.orientation.col(1) = (pose.orientation.col(1) - pose.orientation.col(0).dot(pose.orientation.col(1)) * pose.orientation.col(0)).normalized();
+      pose.orientation.col(2) = pose.orientation.col(0).cross(pose.orientation.col(1));
+      place_elbows(parameters, Device_vector<S>(pose.theta), pose);
+      pose.mode = 0;
+      pose.position = position;
+      S residual(0);
+      for (int i = 0; i < 3; ++i) {
+        const Device_vector<S> radial = pose.orientation * Leg_frame<S>::radial(i);
+        pose.joints.col(i) = position + r * radial;
+        const Device_vector<S> link = (pose.joints.col(i) - pose.elbows.col(i)) * scale;
+        const S square_error = abs(S(link.squaredNorm() - S(1)));
+        residual = square_error > residual ? square_error : residual;
+        pose.cos_phi[i] = -link.dot(radial);
+        pose.sin_phi[i] = -link.dot(pose.orientation.col(2));
+        const S across = abs(S(link.dot(pose.orientation * Leg_frame<S>::tangential(i))));
+        residual = across > residual ? across : residual;
+        pose.links.col(i) = link;
+      }
+      return residual <= S(256) * epsilon * (S(1) + position.norm() * scale);
+    }
+    previous = length;
+  }
+  return false;
+}
+
+/// Reduces angles to (-pi, pi].
+template <class S> void reduce_angles(Device_vector<S>& theta) {
+  using std::atan2;
+  using std::cos;
+  using std::sin;
+  for (int leg = 0; leg < 3; ++leg)
+    if (theta[leg] > S(3.1415926) || theta[leg] < S(-3.1415926))
+      theta[leg] = atan2(S(sin(theta[leg])), S(cos(theta[leg])));
+}
+
+} // namespace device_detail
+
+/// Whether the platform's centre is on the side of the elbow plane its normal (B_1 - B_0) x (B_2 - B_0) points to.
+template <class S> bool platform_above_elbows(const Device_pose<S>& pose) {
+  const Device_vector<S> a = pose.elbows.col(1) - pose.elbows.col(0), b = pose.elbows.col(2) - pose.elbows.col(0);
+  return a.cross(b).dot(pose.position - pose.elbows.col(0)) > S(0);
+}
+
+/// Within the joint limits, which count angles as given (not modulo a turn).
+template <class S> bool within_joint_limits(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
+  return (theta.array() >= parameters.least_angle().array()).all() && (theta.array() <= parameters.greatest_angle().array()).all();
+}
+
+template <class S> std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& parameters, const Device_vector<S>& position);
+
+/// The pose with the platform's centre at `position`, reached from `previous` by moving the centre straight there.
+///
+/// Failures: `not_finite`; `unreachable`: the way ends at the edge of the workspace, shortfall the distance left, m.
+/// Cost: some microseconds; more at the workspace's edge. No allocation.
+template <class S>
+Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, const Device_vector<S>& position, const Device_pose<S>& previous) {
+  using namespace device_detail;
+  Outcome<Device_pose<S>> outcome;
+  if (!all_finite(position)) {
+    outcome.fail(Device_status::not_finite, S(0));
+    return outcome;
+  }
+  const Device_vector<S> start = previous.position, way = position - start;
+  Device_pose<S> reached = previous;
+  S done(0), step(1);
+  for (int k = 0; k < 200 && done < S(1); ++k) {
+    const bool last = done + step >= S(1);
+    Device_pose<S> next = reached;
+    const Device_vector<S> target = last ? position : Device_vector<S>(start + (done + step) * way);
+    // A step that turns a part by more than a third of a radian may have changed the branch: halve it.
+    if (inverse_newton(parameters, target, next, 12) && largest_magnitude(Device_vector<S>(next.theta - reached.theta)) < S(0.35) &&
+        (next.orientation - reached.orientation).cwiseAbs().maxCoeff() < S(0.35)) {
+      reached = next;
+      done = last ? S(1) : done + step;
+      step *= S(2);
+    } else {
+      step /= S(2);
+      if (step < S(1e-5))
+        break;
+    }
+  }
+  if (done < S(1)) {
+    outcome.fail(Device_status::unreachable, (S(1) - done) * way.norm());
+    return outcome;
+  }
+  outcome.value_to_fill() = reached;
+  reduce_angles(outcome.value_to_fill().theta);
+  outcome.succeed();
+  return outcome;
+}
+
+/// All poses with the platform's centre at `position`, within the joint limits and with the platform above its elbows.
+///
+/// By Newton's method from a grid of platform rotations and all eight knee choices; checked against independent multi-starts in the
+/// tests. Milliseconds, allocates: not for a tick. Empty if there is none.
+template <class S> std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& parameters, const Device_vector<S>& position) {
+  using namespace device_detail;
+  using std::cos;
+  using std::sin;
+  std::vector<Device_pose<S>> found;
+  if (!all_finite(position))
+    return found;
+  for (int ring = 0; ring < 5; ++ring)
+    for (int sector = 0; sector < (ring == 0 ? 1 : 8); ++sector)
+      for (int twist = -2; twist <= 2; ++twist)
+        for (int knees = 0; knees < 8; ++knees) {
+          const S tilt = S(0.35) * S(ring), direction = S(0.7853981633974483) * S(sector), spin = S(0.5) * S(twist);
+          Device_pose<S> pose;
+          pose.orientation = (Eigen::AngleAxis<S>(tilt, Device_vector<S>(cos(direction), sin(direction), S(0))) *
+                              Eigen::AngleAxis<S>(spin, Device_vector<S>::UnitZ()))
+                                 .toRotationMatrix();
+          bool usable = true;
+          for (int leg = 0; leg < 3; ++leg) {
+            using std::atan2;
+            using std::sqrt;
+            const Device_vector<S> joint = position + parameters.platform_radius() * (pose.orientation * Leg_frame<S>::radial(leg));
+            const auto t = leg_triangle(parameters, joint, leg);
+            usable = usable && is_finite(t.one_minus) && is_finite(t.one_plus);
+            const S low = t.one_minus > S(0) ? t.one_minus : S(0), high = t.one_plus > S(0) ? t.one_plus : S(0);
+            const S half_opening = S(2) * atan2(S(sqrt(low)), S(sqrt(high)));
+            pose.theta[leg] = S(atan2(t.z, t.x)) + (knees >> leg & 1 ? half_opening : S(-half_opening));
+          }
+          if (!usable || !inverse_newton(parameters, position, pose, 40))
+            continue;
+          reduce_angles(pose.theta);
+          if (!within_joint_limits(parameters, pose.theta) || !platform_above_elbows(pose))
+            continue;
+          bool known = false;
+          for (const Device_pose<S>& other : found)
+            known = known || ((other.theta - pose.theta).cwiseAbs().maxCoeff() < mode_separation<S>() &&
+                              (other.orientation - pose.orientation).cwiseAbs().maxCoeff() < mode_separation<S>());
+          if (!known)
+            found.push_back(pose);
+        }
+  return found;
+}
+
+/// The mirror case's inverse in closed form: every elbow lies in the plane that halves the way from the base's centre to p,
+/// `p.B_i = |p|^2 / 2`, an equation in theta_i alone with two solutions. Same fields as the di-tetrahedral inverse.
+///
+/// Failures: `not_finite`; `singular`: p at the base's centre, or over it so that an angle is free; `unreachable`, shortfall the
+/// largest |cosine| - 1 of a leg.
+/// \pre `parameters.is_mirror()`
+template <class S> Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device_parameters<S>& parameters, const Device_vector<S>& position) {
+  using std::atan2;
+  using std::sqrt;
+  Outcome<Ditetrahedral_inverse<S>> outcome;
+  Ditetrahedral_inverse<S> inverse;
+  S shortfall(-1);
+  for (int leg = 0; leg < 3; ++leg) {
+    const S x = Leg_frame<S>::along_radial(leg, position), z = position[2], length = sqrt(x * x + z * z);
+    const S cosine = (position.squaredNorm() / S(2) - parameters.base_radius() * x) / (parameters.primary_length() * length);
+    if (!device_detail::is_finite(cosine)) {
+      outcome.fail(device_detail::all_finite(position) ? Device_status::singular : Device_status::not_finite, S(0));
+      return outcome;
+    }
+    const S least = cosine > S(0) ? S(1 - cosine) : S(1 + cosine);
+    inverse.one_minus_cosine[leg] = least;
+    inverse.leg_reaches[leg] = least >= S(0);
+    inverse.minus[leg] = inverse.plus[leg] = S(0);
+    if (!inverse.leg_reaches[leg]) {
+      shortfall = -least > shortfall ? S(-least) : shortfall;
+      continue;
+    }
+    const S centre = atan2(z, x), half_opening = atan2(S(sqrt((S(1) - cosine) * (S(1) + cosine))), cosine);
+    inverse.minus[leg] = centre - half_opening;
+    inverse.plus[leg] = centre + half_opening;
+  }
+  if (shortfall >= S(0))
+    outcome.fail(Device_status::unreachable, shortfall);
+  else
+    outcome.succeed();
+  outcome.value_to_fill() = inverse;
+  return outcome;
+}
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Asks device_calculator for every configuration of a reference file and compares within the file's tolerances.
+
+usage: check_calculator.py DEVICE_CALCULATOR REFERENCE.json     exit 77 (skipped) if the reference is absent
+"""
+import json
+import math
+import os
+import subprocess
+import sys
+
+program, path = sys.argv[1], sys.argv[2]
+if not os.path.exists(path):
+    print("no reference at", path)
+    sys.exit(77)
+reference = json.load(open(path))
+requests, checks = [], []
+
+
+def flat(value):
+    return [value] if not isinstance(value, list) else [x for part in value for x in flat(part)]
+
+
+def relative(got, want):
+    got, want = flat(got), flat(want)
+    assert len(got) == len(want), (len(got), len(want))
+    scale = math.sqrt(sum(w * w for w in want)) or 1.0
+    return math.sqrt(sum((g - w) ** 2 for g, w in zip(got, want))) / scale
+
+
+worst = {}
+failures = []
+
+
+def note(name, ratio, tag):
+    if ratio > worst.get(name, (-1,))[0]:
+        worst[name] = (ratio, tag)
+    if not ratio <= 1:
+        failures.append((name, ratio, tag))
+
+
+def ask(request, check):
+    requests.append(json.dumps(request))
+    checks.append(check)
+
+
+def forward(group, entry, seed_key="phi_seed", position_tolerance=None, op="dynamics"):
+    params = entry["params"]
+    request = {"form": params["form"], "params": params, "op": op, "theta": entry["theta"]}
+    if op == "dynamics":
+        request.update(thetad=entry["thetad"], thetadd=entry["thetadd"], wrench=entry["wrench"])
+    if params["form"] == "ditetra":
+        request["mode"] = entry["mode"]
+    elif seed_key:
+        request["phi_seed"] = entry[seed_key]
+    tag = (group, entry.get("tag"), seed_key)
+    keys = {"ok", "p", "Q", "joints", "J", "condA"} | ({"v", "a", "spatial", "paper", "tau_wrench"} if op == "dynamics" else set())
+
+    def check(answer):
+        if not answer.get("ok"):
+            failures.append((group, answer, tag))
+            return
+        assert set(answer) == keys, (set(answer) ^ keys, tag)
+        condition = entry.get("condA", answer["condA"])
+        l2 = params["l2"]
+        note(group + " p", math.dist(answer["p"], entry["p"]) / l2 / (position_tolerance or 1e-14 * condition), tag)
+        note(group + " condA", abs(answer["condA"] / condition - 1) / (1e-14 * condition), tag)
+        for key, tolerance in (("Q", 1e-14), ("J", 2e-14), ("tau_wrench", 5e-14), ("v", 5e-14), ("a", 5e-14)):
+            if key in entry and key in answer:
+                note(f"{group} {key}", relative(answer[key], entry[key]) / (tolerance * condition), tag)
+        if op == "dynamics":
+            for model in ("spatial", "paper"):
+                for key, tolerance in (("M", 2e-14), ("C", 5e-14), ("gravity", 5e-14), ("tau", 5e-14)):
+                    note(f"{group} {model} {key}", relative(answer[model][key], entry[model][key]) / (tolerance * condition), tag)
+
+    ask(request, check)
+
+
+def expect_failure(request, tag):
+    def check(answer):
+        if answer.get("ok") is not False or set(answer) != {"ok", "error", "message"}:
+            failures.append(("expected a failure", answer, tag))
+    ask(request, check)
+
+
+def modes(group, entry):
+    def check(answer):
+        if answer.get("n_modes") != entry["n_modes"]:
+            failures.append((group + " n_modes", answer, entry["tag"]))
+        elif "all_phi" in entry:
+            note(group + " all_phi", max(map(lambda a, b: abs(a - b), flat(answer["all_phi"]), flat(entry["all_phi"]))) / 1e-12, entry["tag"])
+    ask({"form": entry["params"]["form"], "params": entry["params"], "op": "modes", "theta": entry["theta"]}, check)
+
+
+def inverse(group, entry, point):
+    def check(answer):
+        if not answer.get("ok"):
+            failures.append((group, answer, entry.get("tag")))
+            return
+        for pair, want in zip(answer["ik_theta_minus_plus"], entry["ik_theta_minus_plus"]):
+            opening = (want[1] - want[0]) / 2
+            closeness = 1 - abs(math.cos(opening))
+            for g, w in zip(pair, want):
+                note(group + " angles", abs(g - w) / (2e-14 / math.sqrt(max(closeness, 1e-16))), entry.get("tag"))
+    ask({"form": "ditetra", "params": entry["params"], "op": "inverse", "p": point}, check)
+
+
+for entry in reference["ditetra"]:
+    forward("ditetra", entry)
+    inverse("ditetra inverse", entry, entry["p"])
+for entry in reference["general"]:
+    forward("general", entry)
+    forward("general, home", entry, seed_key=None)
+    modes("general", entry)
+    def seeded(answer, entry=entry):
+        if not answer.get("ok"):
+            failures.append(("general inverse", answer, entry["tag"]))
+        else:
+            note("general inverse", max(abs(a - b) for a, b in zip(answer["theta"], entry["theta"])) / (1e-14 * entry["condA"] * entry["condJp"] * 10), entry["tag"])
+    ask({"form": "general", "params": entry["params"], "op": "inverse", "p": entry["p"], "theta": [t + 0.005 * s for t, s in zip(entry["theta"], (1, -1, 1))]}, seeded)
+hard = reference["hard"]
+for entry in hard["ditetra_fk"]:
+    forward("near the elbow plane", entry, position_tolerance=4 * 2.2e-16 / entry["h_over_l2"], op="forward")
+for group in ("ditetra_singular_ik", "general_phi_degenerate"):
+    for entry in hard[group]:
+        forward(group, entry)
+for entry in hard["general_near_singular"]:
+    for seed_key in ("phi_seed", "phi_exact_seed", None):
+        forward("general_near_singular", entry, seed_key=seed_key)
+for entry in hard["mirror_near_collinear"]:
+    forward("mirror_near_collinear", entry, seed_key=None, op="forward")
+for group in ("ditetra_fk_fail", "general_fk_fail", "elbows_collinear"):
+    for entry in hard[group]:
+        request = {"form": entry["params"]["form"], "params": entry["params"], "op": "forward", "theta": entry["theta"]}
+        if entry["expect"].startswith("fail"):
+            expect_failure(request, (group, entry.get("tag")))
+        else:
+            ask(request, lambda answer, entry=entry: answer.get("ok") or failures.append((group, answer, entry["tag"])))
+            modes(group, entry)
+for group in ("ditetra_ik_fail", "general_ik_fail"):
+    for entry in hard[group]:
+        expect_failure({"form": entry["params"]["form"], "params": entry["params"], "op": "inverse", "p": entry["p"],
+                        **({"theta": [1, 1, 1]} if "general" in group else {})}, (group, entry.get("tag")))
+for entry in hard["ditetra_ik_boundary"]:
+    inverse("ditetra_ik_boundary", entry, entry["p"])
+for entry in hard["general_ik_pos"]:
+    def home(answer, entry=entry):
+        if not answer.get("ok"):
+            failures.append(("general_ik_pos", answer, entry["tag"]))
+        else:
+            note("general_ik_pos", max(abs(a - b) for a, b in zip(answer["theta"], entry["home_theta"])) / 1e-12, entry["tag"])
+    ask({"form": "general", "params": entry["params"], "op": "inverse", "p": entry["p"], "theta": [round(t, 1) for t in entry["home_theta"]]}, home)
+    ask({"form": "general", "params": entry["params"], "op": "inverse", "p": entry["p"]}, home)
+
+# What no caller should send, each answered and gone past.
+good = reference["ditetra"][0]
+base = {"form": "ditetra", "params": good["params"], "op": "forward", "theta": good["theta"]}
+for line in ("", "{", "[]", "null", "7", '{"op":', '{"form":"ditetra"}', "\xff\xfe", "[" * 5000, '{"theta":NaN}', '{"theta":[1e999,0,0]}',
+             json.dumps({**base, "theta": [1, 2]}), json.dumps({**base, "theta": ["a", 1, 2]}), json.dumps({**base, "theta": [float("nan"), 0, 0]}),
+             json.dumps({**base, "theta": [float("inf"), 0, 0]}), json.dumps({**base, "op": "fly"}), json.dumps({**base, "form": "hexapod"}),
+             json.dumps({**base, "mode": 0}), json.dumps({**base, "params": None}), json.dumps({**base, "op": "dynamics"})):
+    requests.append(line)
+    checks.append(lambda answer, line=line: answer.get("ok") is False and set(answer) == {"ok", "error", "message"} or failures.append(("hostile", answer, line[:60])))
+for form in ("ditetra", "general"):
+    for op in ("forward", "dynamics", "modes", "inverse"):
+        for key in ("R", "l1", "l2", "r", "m1", "M"):
+            for value in (0, -1, 1e300, -1e300, 5e-324, 1e-300, True, "x", None):
+                if value == 0 and key in ("m1", "M"):
+                    continue
+                request = {"form": form, "op": op, "params": {**good["params"], key: value}, "theta": [1, 1, 1], "thetad": [0, 0, 0], "thetadd": [0, 0, 0], "p": [0, 0, .1]}
+                if value in (5e-324, 1e-300) and (key in ("m1", "M") or form == "ditetra" and key == "r"):
+                    continue
+                expect_failure(request, (form, op, key, value))
+for theta in ([1e300, 1, 1], [5e-324, 0, 0], [1e17, -1e17, 3]):  # any verdict will do, but no number may be missing
+    ask({**base, "theta": theta}, lambda answer: "ok" in answer or failures.append(("angles", answer, theta)))
+ask({**base, "op": "dynamics", "thetad": [1e300, 1, 1], "thetadd": [0, 0, 0]}, lambda answer: answer["ok"] is False or failures.append(("overflow", answer, "")))
+ask({**base, "op": "inverse", "p": [1e300, 0, 0]}, lambda answer: answer["ok"] is False or failures.append(("overflow", answer, "")))
+ask(base, lambda answer: answer["ok"] or failures.append(("after all that", answer, "")))
+
+text = "\n".join(requests).encode("latin-1") + b"\n"
+run = subprocess.run([program], input=text, stdout=subprocess.PIPE, timeout=300)
+lines = run.stdout.decode().splitlines()
+assert run.returncode == 0, run.returncode
+assert len(lines) == len(requests), (len(lines), len(requests))
+for line, check in zip(lines, checks):
+    check(json.loads(line, parse_constant=lambda word: failures.append(("not a number", word, line[:80]))))
+for name in sorted(worst):
+    print(f"{name:40s} {worst[name][0]:9.3g} of the tolerance  at {worst[name][1]}")
+for failure in failures[:40]:
+    print("FAILED", failure)
+print(len(requests), "requests,", len(failures), "failures")
+sys.exit(1 if failures else 0)
