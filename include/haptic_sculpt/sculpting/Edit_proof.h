@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_PROOF_H
+#define HAPTIC_SCULPT_SCULPTING_EDIT_PROOF_H
+
+#include <haptic_sculpt/sculpting/Checklist.h>
+#include <haptic_sculpt/collision.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// A corner of a triangle: who it is, and where.
+template <class Mesh>
+struct Corner {
+  typename Mesh::Vertex_index index; ///< the null index for a vertex that is to be created
+  Coordinates point;
+};
+
+template <class Mesh>
+using Corners = std::array<Corner<Mesh>, 3>;
+
+/// Exact decisions about creations and removals. See doc/edits.md.
+template <class Mesh, class Counters>
+class Edit_proof {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  explicit Edit_proof(Counters& counters) : counters_(&counters) {}
+
+  /// Whether two triangles with different corners share a point that is not in a common vertex or edge.
+  bool meet_improperly(Corners<Mesh> f, Corners<Mesh> g) const {
+    std::size_t shared = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = shared; j < 3; ++j)
+        if (f[i].index == g[j].index) {
+          std::swap(f[i], f[shared]);
+          std::swap(g[j], g[shared]);
+          ++shared;
+          break;
+        }
+    if (shared == 2) // about one edge they meet elsewhere only when folded onto each other
+      return orientation_3(f[0].point, f[1].point, f[2].point, g[2].point, *counters_) == 0 && are_folded(f, g);
+    if (shared == 1)
+      return meets(f[1], f[2], g) || meets(g[1], g[2], f);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (meets(f[i], f[(i + 1) % 3], g) || meets(g[i], g[(i + 1) % 3], f))
+        return true;
+    return false;
+  }
+
+  /// Whether a vertex lies in the closed tetrahedron of a triangle and a point.
+  bool contains(const Corners<Mesh>& base, const Coordinates& apex, const Coordinates& vertex) const {
+    return face_vertex_verdict(Sweep_points{base[0].point, apex, base[1].point, base[2].point, vertex}, *counters_).hits;
+  }
+
+  /// The sweeps of a star's centre into its neighbour `link[pivot]`, for the collapse that follows (RULES 3): true when
+  /// nothing but the faces that vanish is touched. `list` holds the faces not incident to the centre.
+  bool can_collapse(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& centre, std::size_t pivot,
+                    std::vector<Vertex_index>& in_the_way) const {
+    const std::size_t n = star.valence();
+    const std::size_t left = pivot + 1 < n ? pivot + 1 : 0, right = pivot > 0 ? pivot - 1 : n - 1;
+    const Vertex_index apex = star.link[pivot];
+    const Coordinates& target = star.link_points[pivot];
+    const Box_3 path = Box_3(centre).include(target);
+    const auto& vertices = list.vertices();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == pivot || i == left || i == right)
+        continue;
+      const Box_3 swept = Box_3(path).include(star.link_points[i]);
+      for (const auto& edge : list.edges()) {
+        const auto &a = vertices[edge.vertices[0]], &b = vertices[edge.vertices[1]];
+        if (!do_meet(edge.box, swept) || a.index == apex || b.index == apex || a.index == star.link[i] ||
+            b.index == star.link[i])
+          continue;
+        if (edge_edge_verdict(Sweep_points{centre, target, star.link_points[i], a.point, b.point}, *counters_).hits) {
+          in_the_way = {a.index, b.index};
+          return false;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t j = star.next(i);
+      if (i == pivot || j == pivot)
+        continue;
+      const Box_3 swept = Box_3(path).include(star.link_points[i]).include(star.link_points[j]);
+      for (const auto& vertex : vertices) {
+        if (!do_meet(Box_3(vertex.point), swept) || vertex.index == apex || vertex.index == star.link[i] ||
+            vertex.index == star.link[j])
+          continue;
+        if (face_vertex_verdict(Sweep_points{centre, target, star.link_points[i], star.link_points[j], vertex.point},
+                                *counters_)
+                .hits) {
+          in_the_way = {vertex.index};
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+private:
+  Counters* counters_;
+
+  bool meets(const Corner<Mesh>& a, const Corner<Mesh>& b, const Corners<Mesh>& f) const {
+    return vertex_face_verdict(Sweep_points{a.point, b.point, f[0].point, f[1].point, f[2].point}, *counters_).hits;
+  }
+
+  /// Whether the third corners lie on one side of the shared edge. \pre coplanar, neither triangle degenerate
+  bool are_folded(const Corners<Mesh>& f, const Corners<Mesh>& g) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int side = orientation_2(f[0].point, f[1].point, f[2].point, axis, *counters_);
+      if (side != 0)
+        return side == orientation_2(f[0].point, f[1].point, g[2].point, axis, *counters_);
+    }
+    return true;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

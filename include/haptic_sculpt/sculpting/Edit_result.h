@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_RESULT_H
+#define HAPTIC_SCULPT_SCULPTING_EDIT_RESULT_H
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt {
+
+/// Which rule an edit would break.
+enum class Refusal_reason : std::uint8_t {
+  unknown_element,   ///< a face, edge or vertex that is not in the mesh, or was removed
+  coincident_vertex, ///< a vertex may not be created where one stands already
+  tetrahedron,       ///< nothing can be removed from a tetrahedron
+  doubled_edge,      ///< the link condition: an edge or face of the result would be there twice
+  delta,             ///< a triangle of the result would be degenerate, or have an altitude below delta
+  blocked,           ///< the new surface would touch or cross another part, or jump over it
+  isolated_vertex,   ///< a vertex without faces is no part of the surface
+  nothing_to_undo,
+  nothing_to_redo
+};
+
+/// The name used in reports, e.g. "coincident-vertex".
+inline const char* name_of(Refusal_reason reason) {
+  constexpr const char* names[] = {"unknown-element", "coincident-vertex", "tetrahedron",     "doubled-edge",   "delta",
+                                   "blocked",         "isolated-vertex",   "nothing-to-undo", "nothing-to-redo"};
+  return names[static_cast<int>(reason)];
+}
+
+/// Why an edit was refused. The mesh is exactly as it was.
+template <class Mesh>
+struct Refusal {
+  Refusal_reason reason;
+  std::vector<typename Mesh::Vertex_index> elements; ///< the vertices that stand in the way
+};
+
+/// The outcome of an edit that creates, removes, undoes or redoes.
+template <class Mesh>
+struct Edit_result {
+  std::optional<typename Mesh::Vertex_index> vertex; ///< created: the new one; removed: the neighbour it was drawn into
+  std::optional<Refusal<Mesh>> refusal;
+
+  explicit operator bool() const { return !refusal; }
+
+  static Edit_result done(typename Mesh::Vertex_index v) { return {v, std::nullopt}; }
+  static Edit_result refused(Refusal_reason reason, std::vector<typename Mesh::Vertex_index> elements = {}) {
+    return {std::nullopt, Refusal<Mesh>{reason, std::move(elements)}};
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

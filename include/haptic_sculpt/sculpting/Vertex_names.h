@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_VERTEX_NAMES_H
+#define HAPTIC_SCULPT_SCULPTING_VERTEX_NAMES_H
+
+#include <cstddef>
+#include <vector>
+
+namespace haptic_sculpt {
+
+/// Numbers of vertices that last: a new vertex takes the next number never used, and a removed one's number stays dead until
+/// undo revives it. Surface_mesh's own indices are recycled and do neither.
+///
+/// At the beginning the number of a vertex is its index.
+template <class Mesh>
+class Vertex_names {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  explicit Vertex_names(const Mesh& mesh) {
+    for (std::size_t i = 0; i < mesh.num_vertices(); ++i) {
+      const Vertex_index v(static_cast<typename Vertex_index::size_type>(i));
+      vertices_.push_back(mesh.is_removed(v) ? Vertex_index() : v);
+      names_.push_back(i);
+    }
+  }
+
+  /// One more than the largest number ever given.
+  std::size_t size() const { return vertices_.size(); }
+
+  /// The vertex of that number, or the null index where it is dead or was never given.
+  Vertex_index vertex(std::size_t name) const { return name < vertices_.size() ? vertices_[name] : Vertex_index(); }
+
+  /// \pre v is in the mesh
+  std::size_t name(Vertex_index v) const { return names_[static_cast<std::size_t>(v)]; }
+
+  std::size_t give_new_name(Vertex_index v) {
+    vertices_.push_back(Vertex_index());
+    give(vertices_.size() - 1, v);
+    return vertices_.size() - 1;
+  }
+
+  /// Gives a dead number back. \pre it was given before
+  void give(std::size_t name, Vertex_index v) {
+    const auto index = static_cast<std::size_t>(v);
+    if (index >= names_.size())
+      names_.resize(index + 1);
+    vertices_[name] = v;
+    names_[index] = name;
+  }
+
+  void take(std::size_t name) { vertices_[name] = Vertex_index(); }
+
+private:
+  std::vector<Vertex_index> vertices_;
+  std::vector<std::size_t> names_;
+};
+
+} // namespace haptic_sculpt
+
+#endif

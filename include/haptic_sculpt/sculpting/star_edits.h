@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_STAR_EDITS_H
+#define HAPTIC_SCULPT_SCULPTING_STAR_EDITS_H
+
+/// \file
+/// Euler operations that make and unmake a star. Connectivity only: nothing is proven here.
+
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// The halfedge of h's face that ends in v. \pre there is one
+template <class Mesh>
+typename Mesh::Halfedge_index halfedge_of_face_to(const Mesh& mesh, typename Mesh::Halfedge_index h,
+                                                  typename Mesh::Vertex_index v) {
+  while (mesh.target(h) != v)
+    h = mesh.next(h);
+  return h;
+}
+
+/// Replaces the triangle (or polygon) f by the star of a new vertex. Face f dies or becomes one of the new ones.
+template <class Mesh>
+typename Mesh::Vertex_index insert_star_in_face(Mesh& mesh, typename Mesh::Halfedge_index h_of_face,
+                                                const typename Mesh::Point& p) {
+  const auto v = mesh.target(CGAL::Euler::add_center_vertex(h_of_face, mesh));
+  mesh.point(v) = p;
+  return v;
+}
+
+/// Replaces the two triangles at h by the four of a new vertex between the ends of h.
+template <class Mesh>
+typename Mesh::Vertex_index insert_star_in_edge(Mesh& mesh, typename Mesh::Halfedge_index h,
+                                                const typename Mesh::Point& p) {
+  const auto into = CGAL::Euler::split_edge(h, mesh);
+  const auto v = mesh.target(into);
+  mesh.point(v) = p;
+  const auto across = mesh.opposite(mesh.next(into));
+  CGAL::Euler::split_face(into, mesh.next(mesh.next(into)), mesh);
+  CGAL::Euler::split_face(across, mesh.next(mesh.next(across)), mesh);
+  return v;
+}
+
+/// Removes v and its star. Returns a halfedge of the polygon that is left.
+template <class Mesh>
+typename Mesh::Halfedge_index remove_star(Mesh& mesh, typename Mesh::Vertex_index v) {
+  return CGAL::Euler::remove_center_vertex(mesh.halfedge(v), mesh);
+}
+
+/// Fills the polygon with the fan of `apex`. Appends its faces to `faces`.
+template <class Mesh>
+void fill_with_fan(Mesh& mesh, typename Mesh::Halfedge_index h, typename Mesh::Vertex_index apex,
+                   std::vector<typename Mesh::Face_index>& faces) {
+  const auto into_apex = halfedge_of_face_to(mesh, h, apex);
+  while (mesh.next(mesh.next(mesh.next(into_apex))) != into_apex) {
+    const auto second = mesh.next(mesh.next(into_apex));
+    CGAL::Euler::split_face(into_apex, second, mesh);
+    faces.push_back(mesh.face(second));
+  }
+  faces.push_back(mesh.face(into_apex));
+}
+
+/// The polygon of the fan of triangles apex, link[i], link[i + 1], i = 1 ...; `link[0]` is the apex. Undoes fill_with_fan().
+template <class Mesh>
+typename Mesh::Halfedge_index merge_fan(Mesh& mesh, const std::vector<typename Mesh::Vertex_index>& link) {
+  for (std::size_t i = 2; i + 1 < link.size(); ++i)
+    CGAL::Euler::join_face(mesh.halfedge(link[0], link[i]), mesh);
+  // Any halfedge inside the polygon; its orientation is told by the mesh: one of the two has both ends in order.
+  auto h = mesh.halfedge(link[0], link[1]);
+  return mesh.target(mesh.next(h)) == link[2] ? h : mesh.opposite(h);
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
