@@ -31,6 +31,11 @@ public:
     }
     std::nth_element(empty.begin(), empty.begin() + empty.size() / 2, empty.end());
     m_overhead = empty[empty.size() / 2];
+    std::uint64_t step = ~std::uint64_t(0);
+    for (const std::uint64_t e : empty)
+      if (e != m_overhead)
+        step = std::min(step, e > m_overhead ? e - m_overhead : m_overhead - e);
+    m_resolution = static_cast<double>(step) * m_nanoseconds_per_tick;
   }
 
   static std::uint64_t now() {
@@ -44,13 +49,16 @@ public:
 #endif
   }
 
+  /// The smallest difference between two timings of nothing, in nanoseconds: single times are no finer than this.
+  double resolution() const { return m_resolution; }
+
   /// The duration of what ran between two calls of now(), less what timing nothing takes.
   double nanoseconds(std::uint64_t start, std::uint64_t end) const {
     return end - start <= m_overhead ? 0 : static_cast<double>(end - start - m_overhead) * m_nanoseconds_per_tick;
   }
 
 private:
-  double m_nanoseconds_per_tick = 1;
+  double m_nanoseconds_per_tick = 1, m_resolution = 0;
   std::uint64_t m_overhead = 0;
 };
 
