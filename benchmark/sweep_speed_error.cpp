@@ -151,7 +151,7 @@ nlohmann::json filter_shares(const std::vector<Judged_query>& queries) {
     Filter_counters counters;
     const Swept_collision_traits_3<Kernel, Filter_counters> traits(&counters);
     with_functor(traits, q, [](const auto& f, const auto&... p) { return f.do_collide(p...); });
-    reached[0] += counters.rescaled != 0;
+    reached[0] += counters.permanent != 0;
     reached[1] += counters.integer_64 != 0;
     reached[2] += counters.integer_128 != 0;
     reached[3] += counters.big_integer != 0;
@@ -159,7 +159,7 @@ nlohmann::json filter_shares(const std::vector<Judged_query>& queries) {
   const auto share = [&](std::size_t stage) {
     return static_cast<double>(reached[stage]) / static_cast<double>(queries.size());
   };
-  return {{"rescaled", share(0)}, {"integer_64", share(1)}, {"integer_128", share(2)}, {"big_integer", share(3)}};
+  return {{"permanent", share(0)}, {"integer_64", share(1)}, {"integer_128", share(2)}, {"big_integer", share(3)}};
 }
 
 std::vector<Judged_query> judged_queries(const test::Sweep_population& population, std::size_t count,

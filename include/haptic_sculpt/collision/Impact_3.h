@@ -16,7 +16,7 @@ enum class Impact_feature : std::uint8_t { vertex_face, edge_edge, face_vertex }
 /// The first meeting of a moving feature with a static one.
 ///
 /// Holds the five points of the sweep, so it stays valid whatever becomes of the mesh. Does not allocate, except in
-/// `exact_time()`, and in `time()` where the filtered enclosure is too wide.
+/// `exact_time()`, and in `time()` where coordinates are far apart and the filtered enclosure is too wide.
 ///
 /// \tparam K a CGAL kernel with `FT` = double.
 template <class K>

@@ -52,7 +52,7 @@ private:
   static internal::Sweep_points checked_points(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b, const Point_3& c) {
     const internal::Sweep_points points = internal::sweep_points(s, t, a, b, c);
     CGAL_precondition(internal::are_finite(points));
-    CGAL_precondition(!CGAL::collinear(a, b, c));
+    CGAL_precondition(!typename K::Collinear_3()(a, b, c));
     return points;
   }
 };

@@ -9,6 +9,7 @@
 /// first contact in a plane is always a vertex reaching a segment, so two questions serve all three sweeps; see
 /// doc/exact_sweeps.md, "Flat sweeps".
 
+#include <haptic_sculpt/collision/Sweep_signs.h>
 #include <haptic_sculpt/collision/sweep_time.h>
 
 #include <initializer_list>
@@ -22,12 +23,12 @@ class Flat_sweep {
 public:
   /// Finds a projection that is one-to-one on the five points' plane or line.
   /// \pre All five points are coplanar.
-  Flat_sweep(const Sweep_points& points, Counters& counters) : p(points), counters(counters) {
+  Flat_sweep(const Sweep_points& points, Sweep_signs<Counters>& signs) : p(points), signs(signs) {
     for (int i = 4; i >= 2; --i) // static points first: they seldom coincide
       for (int j = i - 1; j >= 1; --j)
         for (int k = j - 1; k >= 0; --k)
           for (int candidate = 0; candidate < 3; ++candidate)
-            if (orientation_2(p[i], p[j], p[k], candidate, counters) != 0) {
+            if (signs.orientation_2(i, j, k, candidate) != 0) {
               axis = candidate;
               return;
             }
@@ -90,7 +91,7 @@ private:
   };
 
   const Sweep_points& p;
-  Counters& counters;
+  Sweep_signs<Counters>& signs;
   int axis = 0;
 
   static Sweep_verdict at_start() {
@@ -99,7 +100,7 @@ private:
     return verdict;
   }
 
-  int orientation(int a, int b, int c) const { return orientation_2(p[a], p[b], p[c], axis, counters); }
+  int orientation(int a, int b, int c) const { return signs.orientation_2(a, b, c, axis); }
 
   /// Lexicographic order in the projection.
   int compare(int a, int b) const {
@@ -188,7 +189,7 @@ private:
   }
 
   void keep_earlier(Sweep_verdict& first, const Sweep_verdict& other) const {
-    if (other.hits && (!first.hits || compare_times(p, other, p, first, counters) < 0))
+    if (other.hits && (!first.hits || compare_times(p, other, p, first, signs.counters()) < 0))
       first = other;
   }
 };

@@ -15,6 +15,12 @@
 #include <algorithm>
 #include <cmath>
 
+#if defined(__GNUC__)
+#define HAPTIC_SCULPT_NOINLINE __attribute__((noinline)) // keeps what stands before it small enough to inline
+#else
+#define HAPTIC_SCULPT_NOINLINE
+#endif
+
 namespace haptic_sculpt {
 namespace internal {
 
@@ -82,22 +88,40 @@ inline Enclosed_determinant enclosed_orientation_2(const Coordinates& a, const C
           least >= least_safe_difference && largest <= largest_safe_difference};
 }
 
-/// The second stage: differences scaled by a power of two per axis, which keeps the sign and the range.
-/// Not safe when a difference overflows.
-inline Enclosed_determinant rescaled_orientation_3(const Coordinates& a, const Coordinates& b, const Coordinates& c,
-                                                   const Coordinates& d) {
-  Coordinates rows[3] = {difference(b, a), difference(c, a), difference(d, a)};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double m = largest_magnitude(rows[0][axis], rows[1][axis], rows[2][axis]);
-    if (!std::isfinite(m))
-      return {0, 0, false};
-    if (m == 0)
-      return {0, 0, true};
-    const int exponent = std::ilogb(m);
-    for (Coordinates& row : rows)
-      row[axis] = std::ldexp(row[axis], -exponent);
+/// The second stage of the filter: |computed - exact| <= this times the sum of the magnitudes of all six products, which is
+/// far less than six times the largest possible one where coordinates differ in size. 9 units of 2^-52 each, doubled.
+constexpr double permanent_error = 0x1p-47;
+/// What underflow can add in the second stage: six products that err by 2^-1074, times a third factor of at most 2^300, with room.
+constexpr double permanent_underflow = 0x1p-760;
+
+/// Scales the row by a power of two so that its largest entry is in [1, 2), and says whether it could: not for overflow or 0.
+inline bool scale_to_one(double& a, double& b, double& c) {
+  const double m = largest_magnitude(a, b, c);
+  if (m == 0 || !std::isfinite(m))
+    return false;
+  const int exponent = std::ilogb(m);
+  a = std::ldexp(a, -exponent), b = std::ldexp(b, -exponent), c = std::ldexp(c, -exponent);
+  return true;
+}
+
+/// The sign of the determinant of three rows of differences, or 0 where this stage does not know.
+/// \param is_safe whether the differences are in the range in which nothing over- or underflows
+inline int sign_by_permanent(Coordinates b, Coordinates c, Coordinates d, bool is_safe) {
+  if (!is_safe) {
+    // Powers of two on rows and columns keep the sign.
+    for (Coordinates* row : {&b, &c, &d})
+      if (!scale_to_one((*row)[0], (*row)[1], (*row)[2]))
+        return 0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (!scale_to_one(b[axis], c[axis], d[axis]))
+        return 0;
   }
-  return enclosed_determinant_3(rows[0], rows[1], rows[2]);
+  const double bc = b[0] * c[1], cb = b[1] * c[0], cd = b[1] * c[2], dc = b[2] * c[1], db = b[2] * c[0], bd = b[0] * c[2];
+  const double value = (bc - cb) * d[2] + (cd - dc) * d[0] + (db - bd) * d[1];
+  const double permanent = (std::abs(bc) + std::abs(cb)) * std::abs(d[2]) + (std::abs(cd) + std::abs(dc)) * std::abs(d[0]) +
+                           (std::abs(db) + std::abs(bd)) * std::abs(d[1]);
+  const double error = permanent_error * permanent + permanent_underflow;
+  return (value > error) - (value < -error);
 }
 
 template <class Counters>
@@ -113,17 +137,13 @@ int exact_orientation_3(const Coordinates& a, const Coordinates& b, const Coordi
 }
 
 template <class Counters>
-#if defined(__GNUC__)
-__attribute__((noinline)) // keeps the filtered path small enough to inline
-#endif
-int orientation_3_past_the_filter(const Coordinates& a, const Coordinates& b, const Coordinates& c,
-                                  const Coordinates& d, bool first_stage_was_safe, Counters& counters) {
-  if (!first_stage_was_safe) {
-    const Enclosed_determinant rescaled = rescaled_orientation_3(a, b, c, d);
-    if (rescaled.is_certain()) {
-      counters.count_rescaled();
-      return rescaled.sign();
-    }
+HAPTIC_SCULPT_NOINLINE int orientation_3_past_the_filter(const Coordinates& a, const Coordinates& b, const Coordinates& c,
+                                                         const Coordinates& d, bool first_stage_was_safe,
+                                                         Counters& counters) {
+  const int sign = sign_by_permanent(difference(b, a), difference(c, a), difference(d, a), first_stage_was_safe);
+  if (sign != 0) {
+    counters.count_permanent();
+    return sign;
   }
   return exact_orientation_3(a, b, c, d, counters);
 }

@@ -10,12 +10,6 @@
 namespace haptic_sculpt {
 namespace internal {
 
-#if defined(__GNUC__)
-#define HAPTIC_SCULPT_NOINLINE __attribute__((noinline))
-#else
-#define HAPTIC_SCULPT_NOINLINE
-#endif
-
 /// Whether both signs are on one strict side.
 inline bool same_side(int a, int b) { return a * b > 0; }
 
@@ -27,13 +21,13 @@ inline bool passes_through(int ab, int bc, int ca) {
 
 template <class... Determinants>
 bool are_nonzero(const Determinants&... determinants) {
-  return (determinants.is_nonzero() & ...);
+  return (static_cast<int>(determinants.is_nonzero()) & ...) != 0;
 }
 
 /// Whether all determinants have one sign. \pre are_nonzero(first, others...)
 template <class... Determinants>
 bool have_one_sign(const Enclosed_determinant& first, const Determinants&... others) {
-  return (((first.value > 0) == (others.value > 0)) & ...);
+  return (static_cast<int>((first.value > 0) == (others.value > 0)) & ...) != 0;
 }
 
 /// A hit whose time is that of the moving vertex entering the plane of the three static points.
@@ -52,23 +46,24 @@ inline Sweep_verdict plane_hit() {
 /// Points S, T, A, B, C: segment ST against triangle ABC.
 template <class Counters>
 HAPTIC_SCULPT_NOINLINE Sweep_verdict careful_vertex_face_verdict(const Sweep_points& p, Counters& counters) {
-  const auto& [s, t, a, b, c] = p;
-  const int start = orientation_3(a, b, c, s, counters);
-  const int target = orientation_3(a, b, c, t, counters);
+  Sweep_signs<Counters> signs(p, counters);
+  constexpr int s = 0, t = 1, a = 2, b = 3, c = 4;
+  const int start = signs.orientation_3(a, b, c, s);
+  const int target = signs.orientation_3(a, b, c, t);
   if (same_side(start, target))
     return {};
-  const int ab = orientation_3(s, t, a, b, counters);
-  const int bc = orientation_3(s, t, b, c, counters);
+  const int ab = signs.orientation_3(s, t, a, b);
+  const int bc = signs.orientation_3(s, t, b, c);
   if (ab * bc < 0)
     return {};
-  const int ca = orientation_3(s, t, c, a, counters);
+  const int ca = signs.orientation_3(s, t, c, a);
   if (!passes_through(ab, bc, ca))
     return {};
   if (start == 0 && target == 0) {
     // Either all five points are coplanar, or A, B, C are collinear and ST passes their line.
     if (ab != 0 || bc != 0 || ca != 0)
       return {};
-    return Flat_sweep<Counters>(p, counters).vertex_face(2, 3, 4);
+    return Flat_sweep<Counters>(p, signs).vertex_face(a, b, c);
   }
   Sweep_verdict verdict = plane_hit();
   verdict.location = Flat_sweep<Counters>::location_from_signs(ab, bc, ca);
@@ -93,23 +88,24 @@ Sweep_verdict vertex_face_verdict(const Sweep_points& p, Counters& counters) {
 /// Points S, T, V, A, B: triangle STV against segment AB.
 template <class Counters>
 HAPTIC_SCULPT_NOINLINE Sweep_verdict careful_edge_edge_verdict(const Sweep_points& p, Counters& counters) {
-  const auto& [s, t, v, a, b] = p;
-  const int at_a = orientation_3(s, t, v, a, counters);
-  const int at_b = orientation_3(s, t, v, b, counters);
+  Sweep_signs<Counters> signs(p, counters);
+  constexpr int s = 0, t = 1, v = 2, a = 3, b = 4;
+  const int at_a = signs.orientation_3(s, t, v, a);
+  const int at_b = signs.orientation_3(s, t, v, b);
   if (same_side(at_a, at_b))
     return {};
-  const int tv = orientation_3(t, v, a, b, counters);
-  const int vs = orientation_3(v, s, a, b, counters);
+  const int tv = signs.orientation_3(t, v, a, b);
+  const int vs = signs.orientation_3(v, s, a, b);
   if (tv * vs < 0)
     return {};
-  const int st = orientation_3(s, t, a, b, counters);
+  const int st = signs.orientation_3(s, t, a, b);
   if (!passes_through(st, tv, vs))
     return {};
   if (at_a == 0 && at_b == 0) {
     // Either all five points are coplanar, or S, T, V are collinear and AB passes their line.
     if (st != 0 || tv != 0 || vs != 0)
       return {};
-    return Flat_sweep<Counters>(p, counters).edge_edge(2, 3, 4);
+    return Flat_sweep<Counters>(p, signs).edge_edge(v, a, b);
   }
   Sweep_verdict verdict = plane_hit();
   if (tv == 0 && vs == 0) // AB passes through V, which both ends of the motion share
@@ -135,20 +131,21 @@ Sweep_verdict edge_edge_verdict(const Sweep_points& p, Counters& counters) {
 /// Points S, T, G, I, A: tetrahedron STGI against point A.
 template <class Counters>
 HAPTIC_SCULPT_NOINLINE Sweep_verdict careful_face_vertex_verdict(const Sweep_points& p, Counters& counters) {
-  const auto& [s, t, g, i, a] = p;
+  Sweep_signs<Counters> signs(p, counters);
+  constexpr int s = 0, t = 1, g = 2, i = 3, a = 4;
   // A replaces each corner in turn; the four determinants add up to the tetrahedron's, so no two may differ in sign.
-  const int for_s = orientation_3(a, t, g, i, counters);
-  const int for_t = orientation_3(s, a, g, i, counters);
+  const int for_s = signs.orientation_3(a, t, g, i);
+  const int for_t = signs.orientation_3(s, a, g, i);
   if (for_s * for_t < 0)
     return {};
-  const int for_g = orientation_3(s, t, a, i, counters);
+  const int for_g = signs.orientation_3(s, t, a, i);
   if (for_s * for_g < 0 || for_t * for_g < 0)
     return {};
-  const int for_i = orientation_3(s, t, g, a, counters);
+  const int for_i = signs.orientation_3(s, t, g, a);
   if (for_s * for_i < 0 || for_t * for_i < 0 || for_g * for_i < 0)
     return {};
   if (for_s == 0 && for_t == 0 && for_g == 0 && for_i == 0)
-    return Flat_sweep<Counters>(p, counters).face_vertex(2, 3, 4);
+    return Flat_sweep<Counters>(p, signs).face_vertex(g, i, a);
   Sweep_verdict verdict = plane_hit();
   if (for_s == 0 && for_t == 0) // A lies on the static edge GI
     verdict.form = Time_form::at_start;

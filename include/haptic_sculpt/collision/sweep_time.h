@@ -9,6 +9,7 @@
 /// u = a / (a + b) with a = |f(S)|, b = |f(T)|. See doc/exact_sweeps.md, "The time of an impact".
 
 #include <haptic_sculpt/collision/Sweep_verdict.h>
+#include <haptic_sculpt/collision/Wide_double.h>
 #include <haptic_sculpt/collision/orientation_filter.h>
 
 #include <gmpxx.h>
@@ -122,9 +123,24 @@ inline std::pair<double, double> filtered_time(const Sweep_points& p, const Swee
   return {std::max(0.0, lower - slack), std::min(1.0, upper + slack)};
 }
 
+/// An interval from the exact fraction, rounded: at most 2^-45 wide relative to the time.
+inline std::pair<double, double> time_of_fraction(const Sweep_points& p, const Sweep_verdict& verdict) {
+  const Exponent_range range = time_range(p, verdict);
+  No_filter_counters uncounted;
+  return with_exact_integers(range, uncounted, [&](auto type) -> std::pair<double, double> {
+    const auto fraction = exact_time_fraction<decltype(type)>(p, verdict, range.lowest);
+    if (sign_of(fraction.numerator) == 0)
+      return {0, 0};
+    const double time = (Wide_double(fraction.numerator) / Wide_double(fraction.denominator)).to_double();
+    // Conversions round once a limb, of which there are six in each, and the quotient once; a subnormal quotient by 2^-1074.
+    const double slack = 16 * unit_roundoff_any_rounding * time + std::numeric_limits<double>::denorm_min();
+    return {std::max(0.0, time - slack), std::min(1.0, time + slack)};
+  });
+}
+
 inline std::pair<double, double> enclosed_time(const Sweep_points& p, const Sweep_verdict& verdict) {
   const std::pair<double, double> filtered = filtered_time(p, verdict);
-  return filtered.second - filtered.first <= widest_filtered_time ? filtered : tight_time(p, verdict);
+  return filtered.second - filtered.first <= widest_filtered_time ? filtered : time_of_fraction(p, verdict);
 }
 
 /// Sign of time(first) - time(second), exact.

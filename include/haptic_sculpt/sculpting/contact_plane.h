@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_CONTACT_PLANE_H
 
 #include <haptic_sculpt/collision/Impact_3.h>
-#include <haptic_sculpt/sculpting/Wide_double.h>
+#include <haptic_sculpt/collision/Wide_double.h>
 #include <haptic_sculpt/sculpting/vector_3.h>
 
 namespace haptic_sculpt {

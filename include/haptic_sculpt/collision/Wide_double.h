@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_WIDE_DOUBLE_H
-#define HAPTIC_SCULPT_SCULPTING_WIDE_DOUBLE_H
+#ifndef HAPTIC_SCULPT_COLLISION_WIDE_DOUBLE_H
+#define HAPTIC_SCULPT_COLLISION_WIDE_DOUBLE_H
 
 #include <haptic_sculpt/collision/exact_integers.h>
 
