@@ -170,8 +170,8 @@ BOOST_AUTO_TEST_CASE(all_assembly_modes_agree_with_a_multi_start_on_the_nine_equ
     Device_description<double> d = random_design(random, Device_form::general);
     Vector theta = random_angles(random, -0.5, 2.5);
     if (k == 0) { // a pose with all sixteen modes
-      d.base_radius = 0.0181, d.primary_length = 0.0612, d.secondary_length = 0.114, d.platform_radius = 0.0319;
-      theta = Vector(1.1, 1.0, 1.2);
+      d.base_radius = 0.0294, d.primary_length = 0.0501, d.secondary_length = 0.0999, d.platform_radius = 0.0117;
+      theta = Vector(0.27996571178272395, 1.0618810578283944, 0.8095540682859562);
     }
     if (k % 10 == 1) // two legs alike: solutions share a cosine
       theta[1] = theta[2];
