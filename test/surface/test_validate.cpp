@@ -318,11 +318,11 @@ BOOST_AUTO_TEST_CASE(intersections_agree_with_integers_on_degenerate_soups) {
         found.emplace_back(f, g);
     for (const auto& [f, g] : oracle::improper_pairs(list))
       expected.emplace_back(f, g);
-    // Degenerate faces against those with which they share no vertex.
     const auto points = oracle::scaled_to_integers(list.points);
+    const oracle::Still_signs<mpz_class> signs{points};
     for (std::size_t f = 0; f < list.faces.size(); ++f) {
       const auto& t = list.faces[f];
-      wrong += is_flat(f) != oracle::on_one_line(points[t[0]], points[t[1]], points[t[2]]);
+      wrong += is_flat(f) != oracle::on_one_line(signs, t[0], t[1], t[2]);
     }
     wrong += found != expected;
     hits += expected.size();

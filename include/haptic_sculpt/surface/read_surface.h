@@ -43,7 +43,8 @@ inline std::string bytes_of_file(const std::filesystem::path& path) {
   return bytes;
 }
 
-/// The surface as a mesh; vertices and faces keep their indices. \pre it is closed, 2-manifold and oriented
+/// The surface as a mesh; vertices and faces keep their indices, and faces their first corners (STL numbers vertices by
+/// first appearance, so writing has to begin faces where reading did). \pre it is closed, 2-manifold and oriented
 template <class Mesh>
 Mesh mesh_of(const Face_soup& soup) {
   using Vertex = typename Mesh::Vertex_index;
@@ -56,6 +57,12 @@ Mesh mesh_of(const Face_soup& soup) {
     for (int k = 0; k < 3; ++k)
       faces[f][k] = Vertex(soup.begin(f)[k]);
   CGAL::Euler::add_faces(faces, mesh);
+  for (const auto f : mesh.faces()) {
+    auto h = mesh.halfedge(f);
+    while (mesh.source(h) != faces[f][0])
+      h = mesh.next(h);
+    mesh.set_halfedge(f, h);
+  }
   return mesh;
 }
 

@@ -113,6 +113,13 @@ inline void prepare_stl(Face_soup& soup, bool binary, bool allow_rounding) {
   soup = std::move(rounded);
 }
 
+/// \throw Write_error if a face has more corners than the byte that PLY counts them with can say
+inline void prepare_ply(const Face_soup& soup, bool binary) {
+  for (std::size_t f = 0; binary && f < soup.number_of_faces(); ++f)
+    if (soup.number_of_corners(f) > 255)
+      throw Write_error("face " + std::to_string(f) + " has more than the 255 corners of binary PLY; write OFF or OBJ");
+}
+
 /// The text or bytes of the file, by CGAL's writers. They are given a stream of their own, in the C locale and with 17
 /// digits, which bring every double back.
 inline std::string file_contents(const Face_soup& soup, Mesh_file_format format, bool binary) {
@@ -166,6 +173,8 @@ void write_surface(const std::filesystem::path& path, const Mesh& mesh, const Wr
     Face_soup soup = internal::compacted(mesh, options);
     if (*format == Mesh_file_format::stl)
       internal::prepare_stl(soup, binary, options.allow_rounding);
+    if (*format == Mesh_file_format::ply)
+      internal::prepare_ply(soup, binary);
     contents = internal::file_contents(soup, *format, binary);
   } catch (const Write_error& error) {
     throw Write_error("cannot write '" + path.string() + "': " + error.what());
