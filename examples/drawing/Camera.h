@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_DRAWING_CAMERA_H
+#define HAPTIC_SCULPT_DRAWING_CAMERA_H
+
+#include "Scene.h"
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace haptic_sculpt::drawing {
+
+/// How a scene is looked at.
+struct View {
+  Eigen::Vector3d direction{-1, 2, -0.9}; ///< from the eye into the scene; its length does not count
+  Eigen::Vector3d up{0, 0, 1};            ///< upwards in the picture; another axis is taken if parallel to `direction`
+  int width = 1200, height = 900;         ///< in pixels
+  Color background = colors::white;
+};
+
+/// A perspective camera that sees the whole mesh in the middle of the picture.
+///
+/// The graphics card computes in single precision, so it gets *scaled* coordinates: the box's centre is at 0 and its
+/// longest half-edge is 1. Scaling is done in double precision after an exact shift of the exponent, so that boxes from
+/// the smallest to the largest doubles, or far from the origin, look alike.
+class Camera {
+public:
+  /// Fits the mesh, and those marks that lie within twice the mesh's size: the target of a long drag runs out of the
+  /// picture rather than shrinking the mesh to a dot. O(points + marks).
+  /// \pre `scene.check()` has passed. \throw Picture_error for a view without direction or with an impossible size.
+  Camera(const Scene& scene, const View& view) : width_(view.width), height_(view.height) {
+    if (!view.direction.allFinite() || view.direction.isZero(0) || !view.up.allFinite())
+      throw Picture_error("The view has no direction. Give a finite vector that is not zero.");
+    if (width_ < 1 || height_ < 1)
+      throw Picture_error("A picture of " + std::to_string(width_) + " x " + std::to_string(height_) +
+                          " pixels cannot be drawn. Give a positive width and height.");
+    frame_box(scene);
+    look_along(view.direction.stableNormalized(), view.up.stableNormalized());
+    fit(scene);
+  }
+
+  /// The scaled coordinates of a point; components beyond `farthest` are cut off there.
+  Eigen::Vector3d scaled(const Eigen::Vector3d& p) const {
+    const double farthest = 1e100; // beyond any picture, and its square is still finite
+    return ((shifted(p) - center_) / half_edge_).unaryExpr([=](double x) {
+      return std::clamp(x, -farthest, farthest);
+    });
+  }
+
+  /// Rows: rightwards, upwards, towards the eye.
+  const Eigen::Matrix3d& rotation() const { return rotation_; }
+
+  /// From scaled coordinates to OpenGL's clip coordinates.
+  Eigen::Matrix4d projection() const {
+    const double near = 0.05 * distance_, far = distance_ + 8; // marks reach 4 from the centre at most
+    Eigen::Matrix4d eye = Eigen::Matrix4d::Identity(), clip = Eigen::Matrix4d::Zero();
+    eye.topLeftCorner<3, 3>() = rotation_;
+    eye.topRightCorner<3, 1>() << -aim_.x(), -aim_.y(), -distance_;
+    clip(0, 0) = 1 / tangent_x();
+    clip(1, 1) = 1 / tangent_y();
+    clip(2, 2) = (far + near) / (near - far);
+    clip(2, 3) = 2 * far * near / (near - far);
+    clip(3, 2) = -1;
+    return clip * eye;
+  }
+
+  /// Where a point is seen, in pixels from the picture's upper left corner.
+  Eigen::Vector2d pixel(const Eigen::Vector3d& p) const {
+    const Eigen::Vector4d clip = projection() * scaled(p).homogeneous();
+    return {(clip.x() / clip.w() + 1) / 2 * width_, (1 - clip.y() / clip.w()) / 2 * height_};
+  }
+
+  /// The width of a pixel at the box's centre, in scaled coordinates.
+  double pixel_width() const { return 2 * distance_ * tangent_y() / height_; }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+private:
+  int width_, height_, exponent_ = 0;
+  Eigen::Vector3d center_;
+  double half_edge_ = 1, distance_ = 0;
+  Eigen::Matrix3d rotation_;
+  Eigen::Vector2d aim_; // where the camera's axis passes the box's centre: rightwards, upwards
+
+  // Half the opening angle is 12 degrees along the shorter side: little distortion, yet near parts look near.
+  double tangent_x() const { return 0.2126 * std::max(1., double(width_) / height_); }
+  double tangent_y() const { return 0.2126 * std::max(1., double(height_) / width_); }
+
+  Eigen::Vector3d shifted(const Eigen::Vector3d& p) const {
+    return p.unaryExpr([this](double x) { return std::ldexp(x, -exponent_); });
+  }
+
+  void frame_box(const Scene& scene) {
+    double largest = 0;
+    for (const auto& triangle : scene.triangles)
+      for (int v : triangle)
+        largest = std::max(largest, scene.points[v].lpNorm<Eigen::Infinity>());
+    std::frexp(largest, &exponent_);
+    Eigen::AlignedBox3d box;
+    for (const auto& triangle : scene.triangles)
+      for (int v : triangle)
+        box.extend(shifted(scene.points[v]));
+    center_ = box.center();
+    const double longest = box.sizes().maxCoeff();
+    half_edge_ = longest > 0 ? longest / 2 : 1;
+  }
+
+  void look_along(const Eigen::Vector3d& direction, Eigen::Vector3d up) {
+    if (direction.cross(up).norm() <
+        1e-3) // a picture's upward direction, not a geometric decision: any other axis will do
+      up = std::abs(direction.y()) < 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
+    rotation_.row(2) = -direction.transpose();
+    rotation_.row(0) = direction.cross(up).normalized().transpose();
+    rotation_.row(1) = rotation_.row(2).cross(rotation_.row(0));
+  }
+
+  void fit(const Scene& scene) {
+    std::vector<Eigen::Vector3d> shown; // as the camera sees them: rightwards, upwards, towards the eye
+    auto include = [&](const Eigen::Vector3d& p) { shown.push_back(rotation_ * p); };
+    auto include_if_near = [&](const Eigen::Vector3d& p) {
+      if (const Eigen::Vector3d q = scaled(p); q.lpNorm<Eigen::Infinity>() <= 2)
+        include(q);
+    };
+    for (const auto& triangle : scene.triangles)
+      for (int v : triangle)
+        include(scaled(scene.points[v]));
+    for (const auto& s : scene.segments)
+      include_if_near(s.source), include_if_near(s.target);
+    for (const auto& b : scene.balls)
+      include_if_near(b.center);
+    for (const auto& a : scene.arrows)
+      include_if_near(a.foot);
+
+    Eigen::AlignedBox3d box;
+    for (const auto& q : shown)
+      box.extend(q);
+    aim_ = box.center().head<2>();
+    const double margin = 1.12;
+    for (const auto& q : shown)
+      distance_ = std::max({distance_, q.z() + margin * std::abs(q.x() - aim_.x()) / tangent_x(),
+                            q.z() + margin * std::abs(q.y() - aim_.y()) / tangent_y(), q.z() + 1});
+  }
+};
+
+} // namespace haptic_sculpt::drawing
+
+#endif

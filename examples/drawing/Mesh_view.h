@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_DRAWING_MESH_VIEW_H
+#define HAPTIC_SCULPT_DRAWING_MESH_VIEW_H
+
+#include "Camera.h"
+
+namespace haptic_sculpt::drawing {
+
+struct Corner;
+
+/// Draws a scene into the current framebuffer of the current OpenGL 3.3 core context, whoever made it: a file's
+/// off-screen context or a window's.
+///
+/// Faces are lit flat by two lights that stay beside the eye, and edges are thin lines that fade where triangles are
+/// too small for them. A face seen from inside is pink: on a closed, outward oriented mesh there is none. Marks hidden
+/// by the surface show through it faintly.
+class Mesh_view {
+public:
+  /// \pre an OpenGL 3.3 context is current, the same one in all calls. \throw Picture_error if it cannot draw.
+  Mesh_view();
+  ~Mesh_view();
+  Mesh_view(const Mesh_view&) = delete;
+  Mesh_view& operator=(const Mesh_view&) = delete;
+
+  /// Hands mesh and marks to the graphics card. The marks get their size from `camera`; once the camera or the scene
+  /// has changed this must be called anew. O(triangles + marks). \pre `scene.check()` has passed.
+  void set_scene(const Scene& scene, const Camera& camera);
+
+  /// Clears the framebuffer to `background` and draws.
+  void draw(const Camera& camera, const Color& background) const;
+
+private:
+  // One buffer of triangles.
+  struct Triangles {
+    unsigned vertex_array = 0, buffer = 0;
+    int size = 0;
+    void create();
+    void set(const std::vector<Corner>& corners);
+    void draw() const;
+    void destroy();
+  };
+
+  unsigned program_ = 0;
+  Triangles mesh_, marks_;
+};
+
+} // namespace haptic_sculpt::drawing
+
+#endif

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_DRAWING_WRITE_PICTURE_H
+#define HAPTIC_SCULPT_DRAWING_WRITE_PICTURE_H
+
+#include "Camera.h"
+#include <filesystem>
+
+namespace haptic_sculpt::drawing {
+
+/// Draws `scene` and writes it as a PNG file, whole or not at all. Needs neither display nor graphics card.
+///
+/// The calling thread has no OpenGL context afterwards; its floating-point environment is as before.
+/// \throw Picture_error for a scene or view that cannot be drawn, a machine or build that cannot draw, and a file that
+/// cannot be written.
+void write_picture(const Scene& scene, const std::filesystem::path& path, const View& view = {});
+
+} // namespace haptic_sculpt::drawing
+
+#endif

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Compiled instead of the drawing code where the libraries it needs were not found.
+#include "write_picture.h"
+
+void haptic_sculpt::drawing::write_picture(const Scene&, const std::filesystem::path& path, const View&) {
+  throw Picture_error(
+      "Cannot write the picture " + path.string() +
+      ": this program was built without pictures. Install "
+      "libepoxy-dev, libegl-dev, libgl1-mesa-dri and libpng-dev and build it anew, or ask for no picture.");
+}
