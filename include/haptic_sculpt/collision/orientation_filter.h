@@ -93,11 +93,16 @@ inline Enclosed_determinant enclosed_orientation_2(const Coordinates& a, const C
 constexpr double permanent_error = 0x1p-47;
 /// What underflow can add in the second stage: six products that err by 2^-1074, times a third factor of at most 2^300, with room.
 constexpr double permanent_underflow = 0x1p-760;
+/// The same after scaling: entries err by 2^-1074, which scaling a column up multiplies by at most 2^500, with room.
+constexpr double scaled_permanent_underflow = 0x1p-540;
+/// A column that is smaller than this once the rows are of size 1 is not scaled up: it may have lost digits to underflow.
+constexpr double least_scaled_column = 0x1p-500;
 
-/// Scales the row by a power of two so that its largest entry is in [1, 2), and says whether it could: not for overflow or 0.
-inline bool scale_to_one(double& a, double& b, double& c) {
+/// Scales three entries by a power of two so that the largest is in [1, 2), and says whether it could: not where they have
+/// overflowed or none is as large as `least`.
+inline bool scale_to_one(double& a, double& b, double& c, double least) {
   const double m = largest_magnitude(a, b, c);
-  if (m == 0 || !std::isfinite(m))
+  if (!(m >= least) || !std::isfinite(m))
     return false;
   const int exponent = std::ilogb(m);
   a = std::ldexp(a, -exponent), b = std::ldexp(b, -exponent), c = std::ldexp(c, -exponent);
@@ -110,17 +115,17 @@ inline int sign_by_permanent(Coordinates b, Coordinates c, Coordinates d, bool i
   if (!is_safe) {
     // Powers of two on rows and columns keep the sign.
     for (Coordinates* row : {&b, &c, &d})
-      if (!scale_to_one((*row)[0], (*row)[1], (*row)[2]))
+      if (!scale_to_one((*row)[0], (*row)[1], (*row)[2], std::numeric_limits<double>::denorm_min()))
         return 0;
     for (int axis = 0; axis < 3; ++axis)
-      if (!scale_to_one(b[axis], c[axis], d[axis]))
+      if (!scale_to_one(b[axis], c[axis], d[axis], least_scaled_column))
         return 0;
   }
   const double bc = b[0] * c[1], cb = b[1] * c[0], cd = b[1] * c[2], dc = b[2] * c[1], db = b[2] * c[0], bd = b[0] * c[2];
   const double value = (bc - cb) * d[2] + (cd - dc) * d[0] + (db - bd) * d[1];
   const double permanent = (std::abs(bc) + std::abs(cb)) * std::abs(d[2]) + (std::abs(cd) + std::abs(dc)) * std::abs(d[0]) +
                            (std::abs(db) + std::abs(bd)) * std::abs(d[1]);
-  const double error = permanent_error * permanent + permanent_underflow;
+  const double error = permanent_error * permanent + (is_safe ? permanent_underflow : scaled_permanent_underflow);
   return (value > error) - (value < -error);
 }
 

@@ -123,7 +123,7 @@ inline std::pair<double, double> filtered_time(const Sweep_points& p, const Swee
   return {std::max(0.0, lower - slack), std::min(1.0, upper + slack)};
 }
 
-/// An interval from the exact fraction, rounded: at most 2^-45 wide relative to the time.
+/// An interval from the exact fraction, rounded: at most 2^-46 wide relative to the time.
 inline std::pair<double, double> time_of_fraction(const Sweep_points& p, const Sweep_verdict& verdict) {
   const Exponent_range range = time_range(p, verdict);
   No_filter_counters uncounted;
@@ -132,8 +132,8 @@ inline std::pair<double, double> time_of_fraction(const Sweep_points& p, const S
     if (sign_of(fraction.numerator) == 0)
       return {0, 0};
     const double time = (Wide_double(fraction.numerator) / Wide_double(fraction.denominator)).to_double();
-    // Conversions round once a limb, of which there are six in each, and the quotient once; a subnormal quotient by 2^-1074.
-    const double slack = 16 * unit_roundoff_any_rounding * time + std::numeric_limits<double>::denorm_min();
+    // Conversions round twice a limb, of which there are six in each, and the quotient once; a subnormal quotient by 2^-1074.
+    const double slack = 32 * unit_roundoff_any_rounding * time + std::numeric_limits<double>::denorm_min();
     return {std::max(0.0, time - slack), std::min(1.0, time + slack)};
   });
 }
