@@ -61,9 +61,8 @@ struct Triangle_list {
     return *this;
   }
   Triangle_list& scale_and_move(double factor, double x, double y, double z) {
-    return transform([=](const Point_3& p) {
-      return Point_3(p.x() * factor + x, p.y() * factor + y, p.z() * factor + z);
-    });
+    return transform(
+        [=](const Point_3& p) { return Point_3(p.x() * factor + x, p.y() * factor + y, p.z() * factor + z); });
   }
 };
 
@@ -118,17 +117,19 @@ inline Triangle_list box(std::size_t n = 1, double size = 1) {
   return list;
 }
 
-inline Triangle_list cube(double size = 1) { return box(1, size); }
+inline Triangle_list cube(double size = 1) {
+  return box(1, size);
+}
 
 /// An icosahedron split n times, 20 * 4^n triangles, every vertex put on the sphere of radius 1.
 inline Triangle_list icosphere(int n) {
   const double t = (1 + std::sqrt(5.0)) / 2;
   Triangle_list list;
-  list.points = {{-1, t, 0}, {1, t, 0}, {-1, -t, 0}, {1, -t, 0}, {0, -1, t}, {0, 1, t},
-                 {0, -1, -t}, {0, 1, -t}, {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}};
-  list.faces = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  list.points = {{-1, t, 0},  {1, t, 0},  {-1, -t, 0}, {1, -t, 0}, {0, -1, t},  {0, 1, t},
+                 {0, -1, -t}, {0, 1, -t}, {t, 0, -1},  {t, 0, 1},  {-t, 0, -1}, {-t, 0, 1}};
+  list.faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int level = 0; level < n; ++level) {
     Triangle_list finer;
     finer.points = list.points;

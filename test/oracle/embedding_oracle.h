@@ -28,10 +28,12 @@ inline __int128 greatest_divisor(__int128 a, __int128 b) {
     std::swap(a %= b, b);
   return a < 0 ? -a : a;
 }
-inline mpz_class greatest_divisor(const mpz_class& a, const mpz_class& b) { return gcd(a, b); }
+inline mpz_class greatest_divisor(const mpz_class& a, const mpz_class& b) {
+  return gcd(a, b);
+}
 
-/// Signs of points of which one, J, is at S + u (T - S). Every determinant in which J stands once is affine in u, so its
-/// value at u comes from those at S and T. Signs without J are asked of the points as they stand.
+/// Signs of points of which one, J, is at S + u (T - S). Every determinant in which J stands once is affine in u, so
+/// its value at u comes from those at S and T. Signs without J are asked of the points as they stand.
 template <class Integer>
 class Moving_signs {
 public:
@@ -48,21 +50,30 @@ public:
 
   int orient_3(int a, int b, int c, int d) const {
     // J to the front: an odd permutation where it stands second or fourth.
-    if (a == J_) return at_time(ends_3(b, c, d));
-    if (b == J_) return -at_time(ends_3(a, c, d));
-    if (c == J_) return at_time(ends_3(a, b, d));
-    if (d == J_) return -at_time(ends_3(a, b, c));
+    if (a == J_)
+      return at_time(ends_3(b, c, d));
+    if (b == J_)
+      return -at_time(ends_3(a, c, d));
+    if (c == J_)
+      return at_time(ends_3(a, b, d));
+    if (d == J_)
+      return -at_time(ends_3(a, b, c));
     return still_.orient_3(a, b, c, d);
   }
   int orient_2(int axis, int a, int b, int c) const {
-    if (a == J_) return at_time(ends_2(axis, b, c));
-    if (b == J_) return at_time(ends_2(axis, c, a));
-    if (c == J_) return at_time(ends_2(axis, a, b));
+    if (a == J_)
+      return at_time(ends_2(axis, b, c));
+    if (b == J_)
+      return at_time(ends_2(axis, c, a));
+    if (c == J_)
+      return at_time(ends_2(axis, a, b));
     return still_.orient_2(axis, a, b, c);
   }
   int compare(int axis, int a, int b) const {
-    if (a == J_) return at_time(ends_1(axis, b));
-    if (b == J_) return -at_time(ends_1(axis, a));
+    if (a == J_)
+      return at_time(ends_1(axis, b));
+    if (b == J_)
+      return -at_time(ends_1(axis, a));
     return still_.compare(axis, a, b);
   }
 
@@ -78,9 +89,7 @@ public:
   Ends ends_2(int axis, int a, int b) const {
     return {determinant_2(axis, points_[J_], points_[a], points_[b]), determinant_2(axis, T_, points_[a], points_[b])};
   }
-  Ends ends_1(int axis, int a) const {
-    return {points_[J_][axis] - points_[a][axis], T_[axis] - points_[a][axis]};
-  }
+  Ends ends_1(int axis, int a) const { return {points_[J_][axis] - points_[a][axis], T_[axis] - points_[a][axis]}; }
   const Still_signs<Integer>& still() const { return still_; }
 
 private:
@@ -257,7 +266,9 @@ private:
   std::optional<Time<Integer>> first_;
 };
 
-inline mpz_class to_mpz(const mpz_class& x) { return x; }
+inline mpz_class to_mpz(const mpz_class& x) {
+  return x;
+}
 inline mpz_class to_mpz(__int128 x) {
   const bool negative = x < 0;
   const auto magnitude = static_cast<unsigned __int128>(negative ? -x : x);
@@ -266,8 +277,8 @@ inline mpz_class to_mpz(__int128 x) {
   return negative ? mpz_class(-found) : found;
 }
 
-/// Moves vertex J of a mesh from where it stands to T, all else still, and decides whether the mesh is embedded (no face
-/// degenerate, closed faces meet only in shared vertices and edges) at every time u in [0, 1].
+/// Moves vertex J of a mesh from where it stands to T, all else still, and decides whether the mesh is embedded (no
+/// face degenerate, closed faces meet only in shared vertices and edges) at every time u in [0, 1].
 ///
 /// Every pair of faces of which one moves is tested at each critical time of the pair (each root of a determinant of J
 /// with others of its vertices) and between any two; every other pair once. A vertex without faces is a probe: it may
@@ -298,8 +309,8 @@ inline std::optional<mpq_class> first_time_not_embedded(const Mesh_list& mesh, i
   return answer(small);
 }
 
-/// Whether the mesh is an embedded closed 2-manifold: every edge has two faces of opposite direction, the faces around a
-/// vertex form one cycle, no face is degenerate, all pairs meet properly. Isolated vertices are no part of it.
+/// Whether the mesh is an embedded closed 2-manifold: every edge has two faces of opposite direction, the faces around
+/// a vertex form one cycle, no face is degenerate, all pairs meet properly. Isolated vertices are no part of it.
 inline bool is_embedded_closed_manifold(const Mesh_list& mesh) {
   std::map<std::pair<int, int>, int> directed;
   std::map<int, std::map<int, int>> next_around; // vertex -> (corner after -> corner before)
@@ -347,8 +358,8 @@ inline Mesh_list collapsed(const Mesh_list& mesh, int J, int P) {
   return result;
 }
 
-/// Whether J can be moved to its neighbour P and edge JP collapsed: the mesh is embedded for all u < 1, and collapsed it
-/// is an embedded closed 2-manifold.
+/// Whether J can be moved to its neighbour P and edge JP collapsed: the mesh is embedded for all u < 1, and collapsed
+/// it is an embedded closed 2-manifold.
 inline bool collapse_stays_embedded(const Mesh_list& mesh, int J, int P) {
   const auto failure = first_time_not_embedded(mesh, J, mesh.points[P]);
   return (!failure || *failure >= 1) && is_embedded_closed_manifold(collapsed(mesh, J, P));

@@ -29,11 +29,16 @@ struct Mesh_list {
 template <class Integer>
 using Point = std::array<Integer, 3>;
 
-inline int sign_of(const mpz_class& x) { return sgn(x); }
-inline int sign_of(__int128 x) { return (x > 0) - (x < 0); }
+inline int sign_of(const mpz_class& x) {
+  return sgn(x);
+}
+inline int sign_of(__int128 x) {
+  return (x > 0) - (x < 0);
+}
 
 template <class Integer>
-Integer determinant_3(const Point<Integer>& a, const Point<Integer>& b, const Point<Integer>& c, const Point<Integer>& d) {
+Integer determinant_3(const Point<Integer>& a, const Point<Integer>& b, const Point<Integer>& c,
+                      const Point<Integer>& d) {
   const Integer x1 = b[0] - a[0], y1 = b[1] - a[1], z1 = b[2] - a[2];
   const Integer x2 = c[0] - a[0], y2 = c[1] - a[1], z2 = c[2] - a[2];
   const Integer x3 = d[0] - a[0], y3 = d[1] - a[1], z3 = d[2] - a[2];

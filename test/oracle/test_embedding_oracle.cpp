@@ -10,8 +10,8 @@
 #include <string>
 
 using oracle::Corner_indices;
-using oracle::Mesh_list;
 using oracle::first_time_not_embedded;
+using oracle::Mesh_list;
 using Position = std::array<double, 3>;
 
 namespace {
@@ -45,8 +45,8 @@ Mesh_list pyramid() {
 /// A box [0,2] x [0,2] x [0,1] whose top is four cells about vertex 8 = (1,1,1), split along the diagonals from 8.
 Mesh_list tiled_box() {
   Mesh_list mesh;
-  mesh.points = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}, {1, 1, 1},
-                 {1, 0, 1}, {2, 1, 1}, {1, 2, 1}, {0, 1, 1}};
+  mesh.points = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 1}, {2, 0, 1}, {2, 2, 1},
+                 {0, 2, 1}, {1, 1, 1}, {1, 0, 1}, {2, 1, 1}, {1, 2, 1}, {0, 1, 1}};
   mesh.faces = {{0, 2, 1}, {0, 3, 2}};
   const int ring[8] = {4, 9, 5, 10, 6, 11, 7, 12};
   for (int i = 0; i < 8; ++i)
@@ -71,7 +71,7 @@ struct Case {
 std::vector<Case> cases() {
   const Mesh_list ceiling = corner_and({-20, -20, 10}, {20, -20, 10}, {0, 20, 10}, {0, 0, 20});
   const Mesh_list spike = corner_and({-2, -2, 20}, {2, -2, 20}, {0, 2, 20}, {0, 0, 8});
-  const Mesh_list beside = corner_and({6, 1, 1}, {9, 1, 1}, {9, 3, 1}, {9, 1, 3}); // its tip 4 points at the slope
+  const Mesh_list beside = corner_and({6, 1, 1}, {9, 1, 1}, {9, 3, 1}, {9, 1, 3});   // its tip 4 points at the slope
   const Mesh_list ridge = corner_and({1, -4, 6}, {1, 4, 6}, {0, 0, 30}, {2, 0, 30}); // its lower edge over 1-J
   Mesh_list probe = corner(), flat_probe = corner();
   flat_probe.points.push_back({6, 2, 0});
@@ -199,22 +199,22 @@ BOOST_AUTO_TEST_CASE(worked_by_hand) {
 
 BOOST_AUTO_TEST_CASE(pairs_of_triangles) {
   // Every vertex at the same place of the unit cell; the third column: do they meet improperly?
-  const std::vector<Position> p{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}, {1, 1, 0}, {1, 1, 3}, {2, 2, 0}, {9, 9, 0}, {1, 1, -3}, {0, 0, 3}};
+  const std::vector<Position> p{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0},  {1, 1, 0},
+                                {1, 1, 3}, {2, 2, 0}, {9, 9, 0}, {1, 1, -3}, {0, 0, 3}};
   const struct {
     Corner_indices f, g;
     bool improper;
   } table[] = {
-      {{0, 1, 2}, {1, 3, 2}, false}, // coplanar, opposite sides of an edge
-      {{0, 1, 2}, {1, 2, 4}, true},  // coplanar, same side
-      {{0, 1, 2}, {0, 1, 5}, false}, // an edge, not coplanar
-      {{0, 1, 2}, {0, 1, 2}, true},  // the same
-      {{0, 1, 2}, {0, 5, 9}, false}, // one vertex
-      {{0, 1, 2}, {0, 5, 8}, true},  // one vertex, and through
-      {{0, 1, 2}, {0, 4, 5}, true},  // one vertex, one edge in the other
-      {{0, 1, 2}, {3, 6, 5}, true},  // a vertex on the long edge
-      {{0, 1, 2}, {3, 7, 5}, false},
-      {{0, 1, 2}, {5, 8, 7}, true}, // through
-      {{0, 1, 2}, {4, 5, 7}, true}, // a vertex inside
+      {{0, 1, 2}, {1, 3, 2}, false},                               // coplanar, opposite sides of an edge
+      {{0, 1, 2}, {1, 2, 4}, true},                                // coplanar, same side
+      {{0, 1, 2}, {0, 1, 5}, false},                               // an edge, not coplanar
+      {{0, 1, 2}, {0, 1, 2}, true},                                // the same
+      {{0, 1, 2}, {0, 5, 9}, false},                               // one vertex
+      {{0, 1, 2}, {0, 5, 8}, true},                                // one vertex, and through
+      {{0, 1, 2}, {0, 4, 5}, true},                                // one vertex, one edge in the other
+      {{0, 1, 2}, {3, 6, 5}, true},                                // a vertex on the long edge
+      {{0, 1, 2}, {3, 7, 5}, false}, {{0, 1, 2}, {5, 8, 7}, true}, // through
+      {{0, 1, 2}, {4, 5, 7}, true},                                // a vertex inside
       {{0, 1, 2}, {5, 9, 7}, false},
   };
   const auto points = oracle::scaled_to_integers(p);
@@ -230,8 +230,7 @@ BOOST_AUTO_TEST_CASE(agrees_with_snapshots) {
   constexpr unsigned seed = 3;
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937 random(seed);
-  const Mesh_list bases[] = {corner(), pyramid(), tiled_box(),
-                             corner_and({1, 1, 5}, {5, 1, 5}, {1, 5, 5}, {1, 1, 9}),
+  const Mesh_list bases[] = {corner(), pyramid(), tiled_box(), corner_and({1, 1, 5}, {5, 1, 5}, {1, 5, 5}, {1, 1, 9}),
                              corner_and({5, 0, 0}, {5, 4, 0}, {9, 0, 0}, {5, 0, 4})};
   std::size_t failures = 0, wrong = 0, rounds = 0;
   for (int round = 0; round < 1500; ++round) {
@@ -293,7 +292,7 @@ BOOST_AUTO_TEST_CASE(collapses) {
   bipyramid.points = {{4, 0, 0}, {-2, 3, 0}, {-2, -3, 0}, {0, 0, 4}, {0, 0, -4}};
   bipyramid.faces = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
   BOOST_TEST(oracle::is_embedded_closed_manifold(bipyramid));
-  BOOST_TEST(oracle::collapse_stays_embedded(bipyramid, 3, 0)); // leaves the lower tetrahedron
+  BOOST_TEST(oracle::collapse_stays_embedded(bipyramid, 3, 0));  // leaves the lower tetrahedron
   BOOST_TEST(!oracle::collapse_stays_embedded(bipyramid, 0, 1)); // 2 keeps two faces on one edge
 }
 

@@ -47,8 +47,9 @@ Validity_report report_of(const std::filesystem::path& path) {
 
 const std::string tetrahedron = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
-const std::string ply_head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
-                             "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+const std::string ply_head =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
 const std::string ply_faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -83,7 +84,8 @@ BOOST_AUTO_TEST_CASE(off) {
   const Temporary_folder folder;
   const auto off = [&](const std::string& text) { return folder.file("m.off", text); };
   BOOST_TEST(refusal<Error>(off(tetrahedron)) == "");
-  BOOST_TEST(refusal<Error>(off("# a comment\n\n" + replaced(tetrahedron, "\n1 0 0", "\n\n# and one\n+1 0.0e5 .0 # here"))) == "");
+  BOOST_TEST(refusal<Error>(
+                 off("# a comment\n\n" + replaced(tetrahedron, "\n1 0 0", "\n\n# and one\n+1 0.0e5 .0 # here"))) == "");
   BOOST_TEST(refusal<Error>(off(replaced(tetrahedron, "OFF\n4 4 0", "OFF 4 4 0\r"))) == "");
   BOOST_TEST(refusal<Error>(off(replaced(tetrahedron, "OFF", "COFF"))) == "");
   BOOST_TEST(refusal<Error>(off(replaced(tetrahedron, "3 0 2 1", "3 0 2 1 255 0 0"))) == "");
@@ -179,10 +181,12 @@ BOOST_AUTO_TEST_CASE(binary_ply) {
     for (std::size_t n = 1; n < whole.size(); ++n)
       BOOST_TEST(refusal<Error>(folder.file("t.ply", whole.substr(0, n))) != "");
     check_unreadable(folder.file("t.ply", whole + "x"), "data follow");
-    check_unreadable(folder.file("n.ply", head(endian, "double", "int") + body(big, 0.0, std::int32_t(-3))), "negative");
+    check_unreadable(folder.file("n.ply", head(endian, "double", "int") + body(big, 0.0, std::int32_t(-3))),
+                     "negative");
     check_unreadable(folder.file("n.ply", head(endian, "double", "uint") + body(big, 0.0, std::uint32_t(4000000000u))),
                      "face 0 of 4: the file ends");
-    const auto nan = folder.file("n.ply", head(endian, "double", "uchar") + body(big, 0.0, std::uint8_t(3), std::nan("")));
+    const auto nan =
+        folder.file("n.ply", head(endian, "double", "uchar") + body(big, 0.0, std::uint8_t(3), std::nan("")));
     BOOST_TEST(report_of(nan).non_finite_vertices.size() == 1u);
   }
 }
@@ -193,7 +197,8 @@ BOOST_AUTO_TEST_CASE(obj) {
   const std::string v = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
   const std::string f = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   BOOST_TEST(refusal<Error>(obj(v + f)) == "");
-  BOOST_TEST(refusal<Error>(obj("# c\nmtllib x.mtl\no name\nvt 0 0\nvn 0 0 1\ns off\n" + v + "g a\nusemtl red\nf 1/1/1 3/1/1 2/1/1\nf "
+  BOOST_TEST(refusal<Error>(obj("# c\nmtllib x.mtl\no name\nvt 0 0\nvn 0 0 1\ns off\n" + v +
+                                "g a\nusemtl red\nf 1/1/1 3/1/1 2/1/1\nf "
                                 "-4//1 -3//1 -1//1\nf 2/1 3/1 4/1\nf 3 1 4\nl 1 2\n")) == "");
   BOOST_TEST(refusal<Error>(obj(f + v)) == ""); // faces may come first
   check_unreadable(obj(v + replaced(f, "3 1 4", "3 1 5")), "face 3 (counted from 0) names vertex 5");
@@ -256,7 +261,8 @@ BOOST_AUTO_TEST_CASE(truncated_text) {
     for (std::size_t n = 0; n < whole.size(); ++n)
       if (refusal<Error>(folder.file(std::string("t") + name, whole.substr(0, n))).empty()) {
         ++accepted;
-        BOOST_TEST(whole.find_first_not_of(" \n", n) == std::string::npos, std::string(name) + " cut at " + std::to_string(n));
+        BOOST_TEST(whole.find_first_not_of(" \n", n) == std::string::npos,
+                   std::string(name) + " cut at " + std::to_string(n));
       }
     BOOST_TEST(accepted <= 3u);
   }
@@ -270,12 +276,10 @@ BOOST_AUTO_TEST_CASE(damaged_files) {
   const Temporary_folder folder;
   const Mesh mesh = meshes::to_mesh(meshes::icosphere(0));
   std::size_t refused = 0, accepted = 0;
-  for (const auto& [name, encoding] : {std::pair("m.off", Write_options::Encoding::ascii),
-                                       std::pair("m.ply", Write_options::Encoding::ascii),
-                                       std::pair("m.ply", Write_options::Encoding::binary),
-                                       std::pair("m.obj", Write_options::Encoding::ascii),
-                                       std::pair("m.stl", Write_options::Encoding::ascii),
-                                       std::pair("m.stl", Write_options::Encoding::binary)}) {
+  for (const auto& [name, encoding] :
+       {std::pair("m.off", Write_options::Encoding::ascii), std::pair("m.ply", Write_options::Encoding::ascii),
+        std::pair("m.ply", Write_options::Encoding::binary), std::pair("m.obj", Write_options::Encoding::ascii),
+        std::pair("m.stl", Write_options::Encoding::ascii), std::pair("m.stl", Write_options::Encoding::binary)}) {
     Write_options options;
     options.encoding = encoding;
     options.allow_rounding = true;
@@ -316,15 +320,21 @@ BOOST_AUTO_TEST_CASE(surfaces_that_are_not_valid) {
   BOOST_TEST(report.number_of_faults() == 3u);
   BOOST_TEST((pair(report.boundary_edges.at(0)) == Pair(0, 2)));
   // An edge of four faces: two tetrahedra share the edge 0-1.
-  report = off(6, 8, points + "0 -1 0\n0 0 -1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 0 4 1\n3 0 1 5\n3 1 4 5\n3 4 0 5\n");
+  report =
+      off(6, 8, points + "0 -1 0\n0 0 -1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 0 4 1\n3 0 1 5\n3 1 4 5\n3 4 0 5\n");
   BOOST_TEST(report.number_of_faults() == 1u);
   BOOST_TEST((pair(report.non_manifold_edges.at(0)) == Pair(0, 1)));
   // Two tetrahedra share the vertex 0.
-  report = off(7, 8, points + "-1 0 0\n0 -1 0\n0 0 -1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 0 4 5\n3 0 6 4\n3 4 6 5\n3 5 6 0\n");
+  report =
+      off(7, 8,
+          points + "-1 0 0\n0 -1 0\n0 0 -1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 0 4 5\n3 0 6 4\n3 4 6 5\n3 5 6 0\n");
   BOOST_TEST(report.number_of_faults() == 1u);
   BOOST_TEST(std::size_t(report.non_manifold_vertices.at(0)) == 0u);
   // The same vertex twice.
-  report = off(8, 8, points + "0 0 0\n-1 0 0\n0 -1 0\n0 0 -1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 4 5 6\n3 4 7 5\n3 5 7 6\n3 6 7 4\n");
+  report = off(
+      8, 8,
+      points +
+          "0 0 0\n-1 0 0\n0 -1 0\n0 0 -1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 4 5 6\n3 4 7 5\n3 5 7 6\n3 6 7 4\n");
   BOOST_TEST((pair(report.coincident_vertices.at(0)) == Pair(0, 4)));
   BOOST_TEST(report.coincident_vertices.size() == 1u);
   BOOST_TEST(report.intersecting_faces.size() == 9u);
@@ -339,8 +349,9 @@ BOOST_AUTO_TEST_CASE(surfaces_that_are_not_valid) {
   report = off(4, 4, points + "3 0 1 2\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
   BOOST_TEST(report.inconsistently_oriented_edges.size() == 3u);
   // Two tetrahedra through each other; nothing else is wrong.
-  report = off(8, 8, points + "0.2 0.2 0.2\n1.2 0.2 0.2\n0.2 1.2 0.2\n0.2 0.2 1.2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
-                              "3 4 6 5\n3 4 5 7\n3 5 6 7\n3 6 4 7\n");
+  report = off(8, 8,
+               points + "0.2 0.2 0.2\n1.2 0.2 0.2\n0.2 1.2 0.2\n0.2 0.2 1.2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+                        "3 4 6 5\n3 4 5 7\n3 5 6 7\n3 6 4 7\n");
   BOOST_TEST(!report.intersecting_faces.empty());
   BOOST_TEST(report.number_of_faults() == report.intersecting_faces.size());
   // Not finite.

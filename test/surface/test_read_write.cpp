@@ -59,8 +59,10 @@ Mesh all_exponents() {
 }
 
 const std::vector<std::pair<std::string, Write_options::Encoding>> lossless{
-    {"m.off", Write_options::Encoding::automatic}, {"m.ply", Write_options::Encoding::ascii},
-    {"m.ply", Write_options::Encoding::binary},    {"m.obj", Write_options::Encoding::automatic},
+    {"m.off", Write_options::Encoding::automatic},
+    {"m.ply", Write_options::Encoding::ascii},
+    {"m.ply", Write_options::Encoding::binary},
+    {"m.obj", Write_options::Encoding::automatic},
     {"m.PLY", Write_options::Encoding::automatic}};
 
 } // namespace
@@ -69,8 +71,11 @@ BOOST_AUTO_TEST_SUITE(reading_and_writing)
 
 BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   const Temporary_folder folder;
-  const Mesh meshes_[] = {to_mesh(meshes::cube()), to_mesh(meshes::bumpy_sphere(3, 0.4, 0.01, 3)), all_exponents(),
-                          to_mesh(meshes::c_tube(1e-12)), to_mesh(meshes::nearly_pinched(1e-300)),
+  const Mesh meshes_[] = {to_mesh(meshes::cube()),
+                          to_mesh(meshes::bumpy_sphere(3, 0.4, 0.01, 3)),
+                          all_exponents(),
+                          to_mesh(meshes::c_tube(1e-12)),
+                          to_mesh(meshes::nearly_pinched(1e-300)),
                           to_mesh(meshes::ball_in_a_cavity())};
   for (const Mesh& mesh : meshes_) {
     BOOST_REQUIRE(validate(mesh).is_valid());
@@ -158,9 +163,8 @@ BOOST_AUTO_TEST_CASE(stl) {
   const Mesh mesh = to_mesh(meshes::bumpy_sphere(2));
   Write_options binary;
   binary.encoding = Write_options::Encoding::binary;
-  BOOST_CHECK_EXCEPTION(write_surface(folder / "b.stl", mesh, binary), Write_error, [](const Error& e) {
-    return std::string(e.what()).find("floats") != std::string::npos;
-  });
+  BOOST_CHECK_EXCEPTION(write_surface(folder / "b.stl", mesh, binary), Write_error,
+                        [](const Error& e) { return std::string(e.what()).find("floats") != std::string::npos; });
   BOOST_TEST(folder.number_of_files() == 0u);
   binary.allow_rounding = true;
   write_surface(folder / "b.stl", mesh, binary);
@@ -285,8 +289,8 @@ BOOST_AUTO_TEST_CASE(a_file_is_replaced_whole_or_not_at_all) {
   fs::remove(folder / "link.off");
 
   fs::create_directory(folder / "d.off");
-  for (const fs::path& path : {folder / "d.off", folder / "missing" / "m.off", fs::path("/proc/m.off"),
-                              folder / "m.txt", folder / "m"})
+  for (const fs::path& path :
+       {folder / "d.off", folder / "missing" / "m.off", fs::path("/proc/m.off"), folder / "m.txt", folder / "m"})
     BOOST_CHECK_THROW(write_surface(path, mesh), Write_error);
   BOOST_CHECK_THROW(replace_file("/dev/full", "x"), Write_error);
   BOOST_TEST(fs::is_character_file("/dev/full"));
@@ -391,10 +395,10 @@ BOOST_AUTO_TEST_CASE(the_million) {
   write_surface(folder / "m.ply", mesh);
   const auto written = Clock::now();
   BOOST_TEST(identical(internal::mesh_of<Mesh>(read_face_soup(folder / "m.ply")), mesh));
-  BOOST_TEST_MESSAGE(soup.number_of_faces() << " triangles: parsed " << seconds(start, parsed) << " s, validated "
-                                            << seconds(parsed, validated) << " s, made a mesh "
-                                            << seconds(validated, built) << " s, written " << seconds(built, written)
-                                            << " s");
+  BOOST_TEST_MESSAGE(soup.number_of_faces()
+                     << " triangles: parsed " << seconds(start, parsed) << " s, validated "
+                     << seconds(parsed, validated) << " s, made a mesh " << seconds(validated, built) << " s, written "
+                     << seconds(built, written) << " s");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

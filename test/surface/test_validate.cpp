@@ -19,8 +19,8 @@ using haptic_sculpt::validate;
 using haptic_sculpt::validate_soup;
 using haptic_sculpt::Validity_report;
 using meshes::Mesh;
-using meshes::Triangle_list;
 using meshes::to_mesh;
+using meshes::Triangle_list;
 
 namespace {
 
@@ -48,12 +48,12 @@ using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 void check_clean(const Triangle_list& list, std::size_t components, double delta = 0) {
   BOOST_TEST_CONTEXT(list.points.size() << " points, " << list.points.back()) {
-  const Validity_report report = validate(to_mesh(list), delta);
-  BOOST_TEST(report.is_valid(), report.message());
-  BOOST_TEST(report.message().empty());
-  BOOST_TEST(report.number_of_components == components);
-  BOOST_TEST(report.inside_out_components.empty());
-  BOOST_TEST(report.isolated_vertices.empty());
+    const Validity_report report = validate(to_mesh(list), delta);
+    BOOST_TEST(report.is_valid(), report.message());
+    BOOST_TEST(report.message().empty());
+    BOOST_TEST(report.number_of_components == components);
+    BOOST_TEST(report.inside_out_components.empty());
+    BOOST_TEST(report.isolated_vertices.empty());
   }
 }
 
@@ -181,7 +181,8 @@ BOOST_AUTO_TEST_CASE(pinched_vertex_in_a_surface_mesh) {
 }
 
 BOOST_AUTO_TEST_CASE(doubled_edge_in_a_surface_mesh) {
-  // Four tetrahedron-like fans around one edge: two cubes that share an edge become one soup with an edge of four faces.
+  // Four tetrahedron-like fans around one edge: two cubes that share an edge become one soup with an edge of four
+  // faces.
   auto list = meshes::cube(), other = meshes::cube();
   other.scale_and_move(1, 1, 1, 0);
   auto soup = soup_of(list);
@@ -192,7 +193,8 @@ BOOST_AUTO_TEST_CASE(doubled_edge_in_a_surface_mesh) {
     if (index.emplace(p, soup.points.size()).second)
       soup.points.push_back(p);
   for (const auto& f : other.faces)
-    soup.add_face(std::array<std::size_t, 3>{index[other.points[f[0]]], index[other.points[f[1]]], index[other.points[f[2]]]});
+    soup.add_face(
+        std::array<std::size_t, 3>{index[other.points[f[0]]], index[other.points[f[1]]], index[other.points[f[2]]]});
   const auto report = validate_soup(soup);
   BOOST_TEST(report.non_manifold_edges.size() == 1u);
   BOOST_TEST(report.non_manifold_vertices.empty()); // every fan at its ends hangs together through that edge
@@ -259,11 +261,11 @@ BOOST_AUTO_TEST_CASE(all_kinds_at_once) {
     }
     soup.add_face(face);
   };
-  add({{0.5, 0.5, -1}, {0.5, 0.6, 2}, {0.6, 0.5, 2}});       // 12, through two sides, boundary
-  add({{5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}});         // 13, a quadrangle
-  add({{5, 5, 5}, {6, 6, 6}, {7, 7, 7}});                    // 14, degenerate
-  add({{9, 0, 0}, {9, 0, 0}, {9, 1, std::nan("")}});         // 15, not finite, coincident
-  add({{20, 0, 0}, {30, 0, 0}, {25, 1e-3, 0}});              // 16, low
+  add({{0.5, 0.5, -1}, {0.5, 0.6, 2}, {0.6, 0.5, 2}}); // 12, through two sides, boundary
+  add({{5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}});   // 13, a quadrangle
+  add({{5, 5, 5}, {6, 6, 6}, {7, 7, 7}});              // 14, degenerate
+  add({{9, 0, 0}, {9, 0, 0}, {9, 1, std::nan("")}});   // 15, not finite, coincident
+  add({{20, 0, 0}, {30, 0, 0}, {25, 1e-3, 0}});        // 16, low
   soup.add_face(std::array<std::size_t, 3>{soup.corners[0], soup.corners[1], soup.corners[11]}); // 17, a third face
   const auto report = validate_soup(soup, 0.01);
   BOOST_TEST(report.non_triangular_faces.size() == 1u);
@@ -278,6 +280,17 @@ BOOST_AUTO_TEST_CASE(all_kinds_at_once) {
   for (const char* word : {"not triangles: 13", "degenerate", "below delta = 0.01", "infinite", "at one point",
                            "boundary", "more than two faces", "intersecting", ", ...", "PMP::"})
     BOOST_TEST(text.find(word) != std::string::npos, word);
+}
+
+BOOST_AUTO_TEST_CASE(property_maps_of_either_cgal) {
+  Mesh mesh = to_mesh(meshes::tetrahedron());
+  auto map = mesh.add_property_map<V, int>("v:colour", 3).first;
+  map[V(2)] = 5;
+  const auto found = haptic_sculpt::find_property_map<V, int>(mesh, "v:colour");
+  BOOST_REQUIRE(found.has_value());
+  BOOST_TEST((*found)[V(2)] == 5);
+  BOOST_TEST((!haptic_sculpt::find_property_map<V, double>(mesh, "v:colour")));
+  BOOST_TEST((!haptic_sculpt::find_property_map<V, int>(mesh, "v:other")));
 }
 
 BOOST_AUTO_TEST_CASE(any_kernel_on_doubles) {
@@ -335,16 +348,17 @@ BOOST_AUTO_TEST_CASE(intersections_agree_with_integers_on_degenerate_soups) {
 
 BOOST_AUTO_TEST_CASE(degenerate_faces_meet_others) {
   Face_soup soup = soup_of(meshes::cube());
-  const auto flat = [&](const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c) {
+  const auto flat = [&](const std::array<double, 3>& a, const std::array<double, 3>& b,
+                        const std::array<double, 3>& c) {
     const std::size_t n = soup.points.size();
     for (const auto& p : {a, b, c})
       soup.points.emplace_back(p[0], p[1], p[2]);
     soup.add_face(std::array<std::size_t, 3>{n, n + 1, n + 2});
   };
-  flat({.5, .3, .5}, {.5, .3, 3}, {.5, .3, 2});    // 12: out through a side
-  flat({.5, .3, 1.5}, {.5, .3, 3}, {.5, .3, 2});   // 13: outside, overlaps 12
-  flat({.5, -.3, 2}, {.5, 3, 2}, {.5, 1, 2});      // 14: crosses 12 and 13
-  flat({7, 7, 7}, {7, 7, 7}, {7, 7, 7});           // 15: a point
+  flat({.5, .3, .5}, {.5, .3, 3}, {.5, .3, 2});  // 12: out through a side
+  flat({.5, .3, 1.5}, {.5, .3, 3}, {.5, .3, 2}); // 13: outside, overlaps 12
+  flat({.5, -.3, 2}, {.5, 3, 2}, {.5, 1, 2});    // 14: crosses 12 and 13
+  flat({7, 7, 7}, {7, 7, 7}, {7, 7, 7});         // 15: a point
   const auto report = validate_soup(soup);
   BOOST_TEST(numbers(report.degenerate_faces) == (Numbers{12, 13, 14, 15}));
   Pairs among, with_cube;

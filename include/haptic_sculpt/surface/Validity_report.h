@@ -15,8 +15,8 @@ namespace haptic_sculpt {
 
 /// What `validate()` found: every offending element of every kind, named by its index.
 ///
-/// An edge is named by its two vertices, because the faces of a file that cannot become a `Surface_mesh` have edges too.
-/// Lists are sorted and name an element once.
+/// An edge is named by its two vertices, because the faces of a file that cannot become a `Surface_mesh` have edges
+/// too. Lists are sorted and name an element once.
 struct Validity_report {
   using Any_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>;
   using Vertex_index = Any_mesh::Vertex_index;

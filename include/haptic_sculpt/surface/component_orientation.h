@@ -19,9 +19,9 @@ namespace internal {
 
 /// Finds the components of a valid surface whose normals point into the solid.
 ///
-/// A closed embedded component has its normals on the outside of itself iff it encloses a positive signed volume. It has
-/// to, unless it lies in an odd number of other components, when it bounds a cavity and has to enclose a negative one.
-/// O(n), and for each component O(n of the components whose box holds it).
+/// A closed embedded component has its normals on the outside of itself iff it encloses a positive signed volume. It
+/// has to, unless it lies in an odd number of other components, when it bounds a cavity and has to enclose a negative
+/// one. O(n), and for each component O(n of the components whose box holds it).
 class Component_orientation {
   using Index = Face_soup::Index;
   using Point_3 = Decision_kernel::Point_3;
@@ -72,7 +72,8 @@ private:
     return CGAL::sign(volume<Exact_ring_number>(component));
   }
 
-  // Six times the signed volume, taken from a corner of the component so that intervals stay narrow far from the origin.
+  // Six times the signed volume, taken from a corner of the component so that intervals stay narrow far from the
+  // origin.
   template <class Number>
   Number volume(const Component& component) const {
     const Point_3& o = soup_.points[*soup_.begin(component.faces.front())];
@@ -92,8 +93,8 @@ private:
     return sum;
   }
 
-  // Parity of the faces that a segment from p to a point beyond the component's box crosses. A segment that meets an edge
-  // or a corner says nothing, so another is drawn at random: all but a null set of them will do.
+  // Parity of the faces that a segment from p to a point beyond the component's box crosses. A segment that meets an
+  // edge or a corner says nothing, so another is drawn at random: all but a null set of them will do.
   bool contains(const Component& component, const Point_3& p) const {
     const CGAL::Bbox_3& box = component.box;
     constexpr double far = std::numeric_limits<double>::max();
@@ -104,8 +105,10 @@ private:
     std::minstd_rand random(1);
     std::uniform_real_distribution<double> slope(-1, 1);
     for (;;) {
-      const double y = box.ymin() / 2 + box.ymax() / 2 + slope(random) * std::max(box.ymax() / 2 - box.ymin() / 2, length);
-      const double z = box.zmin() / 2 + box.zmax() / 2 + slope(random) * std::max(box.zmax() / 2 - box.zmin() / 2, length);
+      const double y =
+          box.ymin() / 2 + box.ymax() / 2 + slope(random) * std::max(box.ymax() / 2 - box.ymin() / 2, length);
+      const double z =
+          box.zmin() / 2 + box.zmax() / 2 + slope(random) * std::max(box.zmax() / 2 - box.zmin() / 2, length);
       const int crossings = count_crossings(component, p, Point_3(beyond(x, box, to_right), y, z));
       if (crossings >= 0)
         return crossings % 2 == 1;

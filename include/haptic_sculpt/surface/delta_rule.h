@@ -11,9 +11,9 @@ namespace haptic_sculpt {
 
 /// The delta rule of the paper (section 3.1): no altitude of a triangle is below `delta`.
 ///
-/// The least altitude stands on the longest edge, and altitude x edge = |n| for the normal n = (b-a) x (c-a). So the rule
-/// is |n|^2 >= delta^2 * (longest edge)^2: a sign of a polynomial of degree 6, decided exactly, by intervals and, where
-/// these leave it open, by exact arithmetic on the doubles given.
+/// The least altitude stands on the longest edge, and altitude x edge = |n| for the normal n = (b-a) x (c-a). So the
+/// rule is |n|^2 >= delta^2 * (longest edge)^2: a sign of a polynomial of degree 6, decided exactly, by intervals and,
+/// where these leave it open, by exact arithmetic on the doubles given.
 ///
 /// \tparam K a CGAL kernel with `FT = double`
 template <class K>
@@ -38,7 +38,7 @@ public:
       if (CGAL::is_certain(holds))
         return CGAL::get_certain(holds);
     }
-    return decide<Exact_ring_number>(a, b, c);
+    return CGAL::get_certain(decide<Exact_ring_number>(a, b, c));
   }
 
 private:
@@ -53,8 +53,8 @@ private:
     const Number area = n.squared_length();
     const Number square = CGAL::square(Number(delta_));
     // Every edge is asked, so the longest need not be known. The first term excludes the line for delta = 0.
-    return (area > Number(0)) & (area >= square * ab.squared_length()) & (area >= square * ac.squared_length()) &
-           (area >= square * bc.squared_length());
+    return CGAL::make_uncertain(area > Number(0)) & (area >= square * ab.squared_length()) &
+           (area >= square * ac.squared_length()) & (area >= square * bc.squared_length());
   }
 
   template <class Number>

@@ -107,8 +107,8 @@ inline std::vector<std::pair<Face_soup::Index, Face_soup::Index>>
 improper_intersections(const Face_soup& soup, const std::vector<Face_soup::Index>& faces,
                        const std::vector<bool>& flat) {
   using Index = Face_soup::Index;
-  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index,
-                                                        CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
+  using Box =
+      CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index, CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
   std::vector<Box> boxes;
   boxes.reserve(faces.size());
   for (const Index f : faces) {

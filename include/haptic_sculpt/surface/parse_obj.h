@@ -13,11 +13,11 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Reads the text of a Wavefront OBJ file: its `v` and `f` lines. Texture coordinates, normals, colours, materials, groups
-/// and lines are skipped; free-form surfaces and lines continued by a backslash are refused. \throw Read_error
+/// Reads the text of a Wavefront OBJ file: its `v` and `f` lines. Texture coordinates, normals, colours, materials,
+/// groups and lines are skipped; free-form surfaces and lines continued by a backslash are refused. \throw Read_error
 inline Face_soup parse_obj(std::string_view text) {
-  constexpr std::array<std::string_view, 12> skipped{"vt", "vn", "vp", "g", "o", "s", "mg", "l", "p", "usemtl", "mtllib",
-                                                     "usemap"};
+  constexpr std::array<std::string_view, 12> skipped{"vt", "vn", "vp", "g",      "o",      "s",
+                                                     "mg", "l",  "p",  "usemtl", "mtllib", "usemap"};
   Text_scanner scan(text);
   Face_soup soup;
   std::int64_t highest = -1;

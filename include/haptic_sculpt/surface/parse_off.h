@@ -33,7 +33,7 @@ inline Face_soup parse_off(std::string_view text) {
     return scan.to_number<std::uint64_t>(word, what);
   };
   const std::uint64_t vertices = count("the number of vertices"), faces = count("the number of faces");
-  scan.skip_rest_of_line(); // the number of edges, which nobody keeps
+  scan.skip_rest_of_line();                                 // the number of edges, which nobody keeps
   check_count(vertices, 6, scan.rest().size(), "vertices"); // "0 0 0" and the line's end
   check_count(faces, 2, scan.rest().size(), "faces");
 

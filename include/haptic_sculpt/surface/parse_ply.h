@@ -25,7 +25,7 @@ inline std::size_t size_of(Ply_type type) {
 
 struct Ply_property {
   std::string name;
-  Ply_type type;                        // of the value, or of the items of a list
+  Ply_type type;                         // of the value, or of the items of a list
   std::optional<Ply_type> length_type{}; // for lists
 };
 
@@ -38,7 +38,7 @@ struct Ply_element {
 struct Ply_header {
   enum class Encoding { ascii, little_endian, big_endian } encoding;
   std::vector<Ply_element> elements;
-  std::size_t size;  // in bytes
+  std::size_t size; // in bytes
   std::size_t lines;
 };
 
@@ -49,9 +49,9 @@ inline Ply_header parse_ply_header(std::string_view bytes) {
     throw Read_error("a PLY file begins with 'ply'");
   const auto type = [&]() {
     const std::string_view word = scan.word("a type");
-    constexpr std::string_view names[2][8] = {{"char", "uchar", "short", "ushort", "int", "uint", "float", "double"},
-                                              {"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32",
-                                               "float64"}};
+    constexpr std::string_view names[2][8] = {
+        {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"},
+        {"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"}};
     for (int i = 0; i < 8; ++i)
       if (word == names[0][i] || word == names[1][i])
         return static_cast<Ply_type>(i);
@@ -111,19 +111,28 @@ inline Ply_header parse_ply_header(std::string_view bytes) {
 class Ply_values {
 public:
   Ply_values(std::string_view body, const Ply_header& header)
-      : text_(header.encoding == Ply_header::Encoding::ascii), scan_text_(body, 0, header.lines),
-        scan_bytes_(body, header.encoding == Ply_header::Encoding::big_endian) {}
+      : text_(header.encoding == Ply_header::Encoding::ascii)
+      , scan_text_(body, 0, header.lines)
+      , scan_bytes_(body, header.encoding == Ply_header::Encoding::big_endian) {}
 
   double take(Ply_type type) {
     switch (type) {
-    case Ply_type::int8: return take_as<std::int8_t>();
-    case Ply_type::uint8: return take_as<std::uint8_t>();
-    case Ply_type::int16: return take_as<std::int16_t>();
-    case Ply_type::uint16: return take_as<std::uint16_t>();
-    case Ply_type::int32: return take_as<std::int32_t>();
-    case Ply_type::uint32: return take_as<std::uint32_t>();
-    case Ply_type::float32: return take_as<float>();
-    case Ply_type::float64: break;
+    case Ply_type::int8:
+      return take_as<std::int8_t>();
+    case Ply_type::uint8:
+      return take_as<std::uint8_t>();
+    case Ply_type::int16:
+      return take_as<std::int16_t>();
+    case Ply_type::uint16:
+      return take_as<std::uint16_t>();
+    case Ply_type::int32:
+      return take_as<std::int32_t>();
+    case Ply_type::uint32:
+      return take_as<std::uint32_t>();
+    case Ply_type::float32:
+      return take_as<float>();
+    case Ply_type::float64:
+      break;
     }
     return take_as<double>();
   }
@@ -146,8 +155,8 @@ private:
   Binary_scanner scan_bytes_;
 };
 
-/// Reads a PLY file, ASCII or binary: x, y, z of the element `vertex`, and the list `vertex_indices` (or `vertex_index`)
-/// of the element `face`. Everything else is skipped. \throw Read_error
+/// Reads a PLY file, ASCII or binary: x, y, z of the element `vertex`, and the list `vertex_indices` (or
+/// `vertex_index`) of the element `face`. Everything else is skipped. \throw Read_error
 inline Face_soup parse_ply(std::string_view bytes) {
   const Ply_header header = parse_ply_header(bytes);
   const bool text = header.encoding == Ply_header::Encoding::ascii;

@@ -64,7 +64,8 @@ inline Face_soup parse_ascii_stl(std::string_view text) {
   while (scan.has_word() || scan.next_line()) {
     expect("solid");
     scan.skip_rest_of_line(); // its name
-    for (std::string word = keyword("'facet' or 'endsolid'"); word != "endsolid"; word = keyword("'facet' or 'endsolid'")) {
+    for (std::string word = keyword("'facet' or 'endsolid'"); word != "endsolid";
+         word = keyword("'facet' or 'endsolid'")) {
       if (word != "facet")
         scan.fail("'" + word.substr(0, 40) + "' stands where 'facet' or 'endsolid' should");
       expect("normal");

@@ -70,10 +70,10 @@ Mesh mesh_of(const Face_soup& soup) {
 
 /// The points and faces of an OFF, PLY, OBJ or STL file, whatever they form. The format is told by the extension.
 ///
-/// The files are not read through CGAL::IO, because its readers (5.5) allocate what a header asks for, follow the global
-/// locale (a comma for a point changes coordinates), do not see data after the last face, and let an OBJ index one beyond
-/// the last vertex pass. Here each number is read to the nearest double in the C locale, sizes are checked against the
-/// file's before anything is allocated, and errors name the line. The tests compare both on good files.
+/// The files are not read through CGAL::IO, because its readers (5.5) allocate what a header asks for, follow the
+/// global locale (a comma for a point changes coordinates), do not see data after the last face, and let an OBJ index
+/// one beyond the last vertex pass. Here each number is read to the nearest double in the C locale, sizes are checked
+/// against the file's before anything is allocated, and errors name the line. The tests compare both on good files.
 /// \throw Read_error
 inline Face_soup read_face_soup(const std::filesystem::path& path) {
   try {
@@ -83,10 +83,18 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
     const std::string bytes = internal::bytes_of_file(path);
     Face_soup soup;
     switch (*format) {
-    case Mesh_file_format::off: soup = internal::parse_off(bytes); break;
-    case Mesh_file_format::ply: soup = internal::parse_ply(bytes); break;
-    case Mesh_file_format::obj: soup = internal::parse_obj(bytes); break;
-    case Mesh_file_format::stl: soup = internal::parse_stl(bytes); break;
+    case Mesh_file_format::off:
+      soup = internal::parse_off(bytes);
+      break;
+    case Mesh_file_format::ply:
+      soup = internal::parse_ply(bytes);
+      break;
+    case Mesh_file_format::obj:
+      soup = internal::parse_obj(bytes);
+      break;
+    case Mesh_file_format::stl:
+      soup = internal::parse_stl(bytes);
+      break;
     }
     if (soup.number_of_faces() == 0)
       throw Read_error("the file holds no faces");
@@ -98,9 +106,9 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
 
 /// Reads a valid surface from an OFF, PLY (ASCII or binary), OBJ or STL (ASCII or binary) file, or refuses it whole.
 ///
-/// Vertices and faces are numbered from 0 in file order. STL has no vertices: exactly equal corners become one, numbered
-/// by first appearance. Decimals are read to the nearest double, so what `write_surface()` wrote comes back bit for bit.
-/// Vertices without faces are kept (see `validate()`).
+/// Vertices and faces are numbered from 0 in file order. STL has no vertices: exactly equal corners become one,
+/// numbered by first appearance. Decimals are read to the nearest double, so what `write_surface()` wrote comes back
+/// bit for bit. Vertices without faces are kept (see `validate()`).
 ///
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param path to the file; its extension tells the format

@@ -19,10 +19,9 @@ namespace haptic_sculpt {
 
 /// Puts a file of these bytes at `path`, whole or not at all (POSIX).
 ///
-/// The bytes go to a temporary file in the same folder, are forced to the disk, and the temporary file is renamed. On any
-/// failure it is removed and what stood at `path` stays as it was. A file replaced passes on its permissions; a symbolic
-/// link stays, and what it leads to is replaced.
-/// \throw Write_error
+/// The bytes go to a temporary file in the same folder, are forced to the disk, and the temporary file is renamed. On
+/// any failure it is removed and what stood at `path` stays as it was. A file replaced passes on its permissions; a
+/// symbolic link stays, and what it leads to is replaced. \throw Write_error
 inline void replace_file(const std::filesystem::path& path, std::string_view bytes) {
   namespace fs = std::filesystem;
   const auto fail = [&](const std::string& why, int number = 0) {
@@ -78,7 +77,8 @@ inline void replace_file(const std::filesystem::path& path, std::string_view byt
     give_up("the data do not reach the disk");
   if (std::rename(temporary.c_str(), target.c_str()) != 0)
     give_up("the new file cannot take the place of the old");
-  // The name, too, has to survive a power failure; where a folder cannot be synchronised the file is whole all the same.
+  // The name, too, has to survive a power failure; where a folder cannot be synchronised the file is whole all the
+  // same.
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (directory >= 0) {

@@ -105,8 +105,9 @@ inline void prepare_stl(Face_soup& soup, bool binary, bool allow_rounding) {
   if (rounded.points == soup.points)
     return;
   if (!allow_rounding)
-    throw Write_error("binary STL holds floats, and the coordinates do not fit in them; write ASCII STL or PLY, or allow "
-                      "rounding");
+    throw Write_error(
+        "binary STL holds floats, and the coordinates do not fit in them; write ASCII STL or PLY, or allow "
+        "rounding");
   if (const Validity_report report = validate_soup(rounded); !report.is_valid())
     throw Write_error("rounded to the floats of binary STL the surface is no longer valid; write ASCII STL or PLY:\n" +
                       report.message());
@@ -134,10 +135,18 @@ inline std::string file_contents(const Face_soup& soup, Mesh_file_format format,
   const auto digits = CGAL::parameters::stream_precision(std::numeric_limits<double>::max_digits10);
   bool written = false;
   switch (format) {
-  case Mesh_file_format::off: written = CGAL::IO::write_OFF(out, soup.points, faces, digits); break;
-  case Mesh_file_format::ply: written = CGAL::IO::write_PLY(out, soup.points, faces, digits); break;
-  case Mesh_file_format::obj: written = CGAL::IO::write_OBJ(out, soup.points, faces, digits); break;
-  case Mesh_file_format::stl: written = CGAL::IO::write_STL(out, soup.points, faces, digits); break;
+  case Mesh_file_format::off:
+    written = CGAL::IO::write_OFF(out, soup.points, faces, digits);
+    break;
+  case Mesh_file_format::ply:
+    written = CGAL::IO::write_PLY(out, soup.points, faces, digits);
+    break;
+  case Mesh_file_format::obj:
+    written = CGAL::IO::write_OBJ(out, soup.points, faces, digits);
+    break;
+  case Mesh_file_format::stl:
+    written = CGAL::IO::write_STL(out, soup.points, faces, digits);
+    break;
   }
   if (!written)
     throw Write_error("CGAL's writer failed");
@@ -149,11 +158,11 @@ inline std::string file_contents(const Face_soup& soup, Mesh_file_format format,
 /// Writes a mesh without loss and atomically: the file is there whole, or what was there before is as it was.
 ///
 /// The format is told by the extension: .off, .ply, .obj or .stl. Coordinates come back bit for bit through
-/// `read_surface()` from every format but binary STL, which holds floats: there it is refused unless the coordinates are
-/// floats anyway, or `allow_rounding` is set and the rounded surface validates. ASCII STL holds 17 digits and is lossless,
-/// but numbers vertices anew, in order of first appearance.
-/// Removed elements are left out; vertices close up in index order or in `options.vertex_order`, faces in index order.
-/// An invalid surface is written as it is (and will not be read back), unless the format cannot hold it.
+/// `read_surface()` from every format but binary STL, which holds floats: there it is refused unless the coordinates
+/// are floats anyway, or `allow_rounding` is set and the rounded surface validates. ASCII STL holds 17 digits and is
+/// lossless, but numbers vertices anew, in order of first appearance. Removed elements are left out; vertices close up
+/// in index order or in `options.vertex_order`, faces in index order. An invalid surface is written as it is (and will
+/// not be read back), unless the format cannot hold it.
 ///
 /// \param path of the file; its folder has to exist
 /// \throw Write_error
