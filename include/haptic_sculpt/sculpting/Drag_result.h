@@ -25,12 +25,6 @@ inline const char* name_of(Drag_end end) {
   return names[static_cast<int>(end)];
 }
 
-/// How far a stopped vertex is from the impact that stopped it. Lengths; 0 for a drag that arrived.
-struct Stop_error {
-  double normal = 0;     ///< from the nearest contact plane (where the contact is flat: as along_path)
-  double along_path = 0; ///< from the exact point of impact, along the path
-};
-
 /// The outcome of `Grab::drag_to`. A blocked drag is a result like any other.
 template <class Mesh>
 struct Drag_result {
@@ -39,7 +33,10 @@ struct Drag_result {
   Drag_end end = Drag_end::reached;          ///< why the drag ended
   std::vector<Contact_3<Mesh>> contacts;     ///< what holds it, in an order that depends on the elements only
   int legs = 0;                              ///< straight motions that were made or tried
-  Stop_error stop_error;                     ///< of the last leg
+  /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact is
+  /// flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.
+  double stop_error = 0;
+  double stop_error_along_path = 0;          ///< the distance from the exact point of impact, along the path
   double kkt_residual = 0;                   ///< |d - nearest point of the cone of pushes| / |d|, d = target - position
 };
 

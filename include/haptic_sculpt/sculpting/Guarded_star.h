@@ -59,7 +59,7 @@ public:
                   Drag_result<Mesh>& result) {
     ++result.legs;
     result.contacts.clear();
-    result.stop_error = {};
+    result.stop_error = result.stop_error_along_path = 0;
     decide(source, target, delta);
     if (!is_blocked())
       return target;
@@ -183,7 +183,7 @@ private:
   void measure_stop(const Coordinates& source, const Coordinates& target, const Coordinates& end, double time, double delta,
                     Drag_result<Mesh>& result) const {
     const double made = internal::length(internal::minus(end, source));
-    result.stop_error.along_path = std::fmax(0.0, std::fma(time, internal::path_length(source, target), -made));
+    result.stop_error_along_path = std::fmax(0.0, std::fma(time, internal::path_length(source, target), -made));
     double normal = std::numeric_limits<double>::infinity();
     for (const Contact_3<Mesh>& contact : result.contacts)
       if (!contact.is_flat)
@@ -192,7 +192,7 @@ private:
     for (const Limit& limit : limits_)
       normal = std::fmin(normal, internal::altitude(end, star_.link_points[limit.face],
                                                     star_.link_points[star_.next(limit.face)], limit.side) - delta);
-    result.stop_error.normal = std::isfinite(normal) ? normal : result.stop_error.along_path;
+    result.stop_error = std::isfinite(normal) ? normal : result.stop_error_along_path;
   }
 };
 

@@ -8,7 +8,7 @@
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/is_within_distance.h>
-#include <haptic_sculpt/surface/Brute_force_broad_phase.h>
+#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/validate.h>
 
@@ -34,7 +34,7 @@ public:
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
-template <class Mesh_, class Broad_phase_ = Brute_force_broad_phase<Mesh_>>
+template <class Mesh_, class Broad_phase_ = Box_tree_broad_phase<Mesh_>>
 class Sculptor {
 public:
   using Mesh_type = Mesh_;

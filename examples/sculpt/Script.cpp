@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <istream>
+#include <optional>
+
+namespace haptic_sculpt::sculpt_program {
+namespace {
+
+using Kind = Command::Kind;
+
+/// What follows the first word of a line.
+struct Syntax {
+  const char* name;
+  Kind kind;
+  int indices, points;
+  enum Last { nothing, length, word } last;
+};
+
+constexpr Syntax syntaxes[] = {{"drag", Kind::drag, 1, 1, Syntax::nothing},
+                               {"release", Kind::release, 0, 0, Syntax::nothing},
+                               {"probe", Kind::probe, 0, 2, Syntax::nothing},
+                               {"insert_face", Kind::insert_face, 3, 1, Syntax::nothing},
+                               {"insert_edge", Kind::insert_edge, 2, 1, Syntax::nothing},
+                               {"remove", Kind::remove, 1, 0, Syntax::nothing},
+                               {"undo", Kind::undo, 0, 0, Syntax::nothing},
+                               {"redo", Kind::redo, 0, 0, Syntax::nothing},
+                               {"response", Kind::response, 0, 0, Syntax::word},
+                               {"clearance", Kind::clearance, 0, 0, Syntax::length},
+                               {"delta", Kind::delta, 0, 0, Syntax::length},
+                               {"mesh", Kind::mesh, 0, 0, Syntax::word}};
+
+class Line {
+public:
+  Line(const std::string& script, const std::string& text, std::size_t number)
+    : script_(script), text_(text.substr(0, text.find('#'))), number_(number) {}
+
+  std::optional<std::string> next_word() {
+    const std::size_t begin = text_.find_first_not_of(" \t\r", end_);
+    if (begin == std::string::npos)
+      return std::nullopt;
+    begin_ = begin;
+    end_ = std::min(text_.find_first_of(" \t\r", begin), text_.size());
+    return text_.substr(begin_, end_ - begin_);
+  }
+
+  std::string word(const std::string& expected) {
+    if (auto found = next_word())
+      return *found;
+    begin_ = text_.size();
+    fail("the line ends where " + expected + " is expected");
+  }
+
+  double number(const std::string& expected) {
+    const std::string found = word(expected);
+    char* end = nullptr;
+    const double value = std::strtod(found.c_str(), &end);
+    if (end != found.c_str() + found.size())
+      fail("'" + found + "' is not " + expected + " (a decimal or hexadecimal number)");
+    if (!std::isfinite(value))
+      fail("'" + found + "' is not a finite number");
+    return value;
+  }
+
+  std::size_t index() {
+    const std::string found = word("a vertex index");
+    constexpr std::size_t longest = 18; // digits that a 64-bit index surely holds
+    if (found.size() > longest || found.find_first_not_of("0123456789") != std::string::npos)
+      fail("'" + found + "' is not a vertex index (0, 1, 2, ...)");
+    return std::stoull(found);
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw Script_error(script_, number_, begin_ + 1, what); }
+
+private:
+  const std::string& script_;
+  std::string text_;
+  std::size_t number_, begin_ = 0, end_ = 0;
+};
+
+void read_last(Line& line, const Syntax& syntax, Command& command) {
+  if (syntax.last == Syntax::length) {
+    command.length = line.number("a length");
+    if (command.length < 0 || (command.length == 0 && command.kind == Kind::clearance))
+      line.fail(std::string("the ") + syntax.name + " must be " + (command.kind == Kind::delta ? "at least 0" : "more than 0"));
+  } else if (syntax.last == Syntax::word && command.kind == Kind::response) {
+    command.word = line.word("slide, stop or paper");
+    if (command.word != "slide" && command.word != "stop" && command.word != "paper")
+      line.fail("'" + command.word + "' is not a response: slide, stop or paper");
+  } else if (syntax.last == Syntax::word) {
+    command.word = line.word("the SHA-256 of the mesh file");
+    std::transform(command.word.begin(), command.word.end(), command.word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (command.word.size() != 64 || command.word.find_first_not_of("0123456789abcdef") != std::string::npos)
+      line.fail("'" + command.word + "' is not a SHA-256 (64 hexadecimal digits)");
+  }
+}
+
+} // namespace
+
+const char* name_of(Kind kind) {
+  return std::find_if(std::begin(syntaxes), std::end(syntaxes), [kind](const Syntax& s) { return s.kind == kind; })->name;
+}
+
+std::vector<Command> read_script(std::istream& input, const std::string& name) {
+  std::vector<Command> commands;
+  std::string text;
+  for (std::size_t number = 1; std::getline(input, text); ++number) {
+    Line line(name, text, number);
+    const auto first = line.next_word();
+    if (!first)
+      continue;
+    const auto syntax =
+        std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return *first == s.name; });
+    if (syntax == std::end(syntaxes))
+      line.fail("'" + *first + "' is not an edit or a directive");
+    Command command;
+    command.line = number;
+    command.kind = syntax->kind;
+    for (int i = 0; i < syntax->indices; ++i)
+      command.indices.push_back(line.index());
+    for (int i = 0; i < syntax->points; ++i) {
+      std::array<double, 3> point;
+      for (double& coordinate : point)
+        coordinate = line.number("a coordinate");
+      command.points.push_back(point);
+    }
+    read_last(line, *syntax, command);
+    if (const auto surplus = line.next_word())
+      line.fail("'" + *surplus + "' is more than '" + *first + "' takes");
+    commands.push_back(std::move(command));
+  }
+  if (input.bad())
+    throw Script_error("reading the script '" + name + "' failed");
+  return commands;
+}
+
+} // namespace haptic_sculpt::sculpt_program

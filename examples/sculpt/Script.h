@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_SCRIPT_H
+#define HAPTIC_SCULPT_EXAMPLES_SCRIPT_H
+
+#include <haptic_sculpt/Error.h>
+
+#include <array>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt::sculpt_program {
+
+/// One line of a script: an edit or a directive.
+struct Command {
+  enum class Kind {
+    drag, release, probe, insert_face, insert_edge, remove, undo, redo, // edits
+    response, clearance, delta, mesh                                    // directives
+  };
+
+  std::size_t line = 0; ///< from 1
+  Kind kind = Kind::release;
+  std::vector<std::size_t> indices;        ///< of vertices
+  std::vector<std::array<double, 3>> points;
+  double length = 0;                       ///< clearance, delta
+  std::string word;                        ///< response, mesh: in lower case
+};
+
+/// The word that a line of this kind begins with.
+const char* name_of(Command::Kind kind);
+
+/// A script that cannot be read. Says line and column (both from 1).
+class Script_error : public Error {
+public:
+  Script_error(const std::string& script, std::size_t line, std::size_t column, const std::string& what)
+    : Error(script + ": line " + std::to_string(line) + ", column " + std::to_string(column) + ": " + what) {}
+  explicit Script_error(const std::string& what) : Error(what) {}
+};
+
+/// Reads a whole script. \param name how messages call it. \throw Script_error
+std::vector<Command> read_script(std::istream& input, const std::string& name);
+
+} // namespace haptic_sculpt::sculpt_program
+
+#endif

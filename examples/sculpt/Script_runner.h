@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_SCRIPT_RUNNER_H
+#define HAPTIC_SCULPT_EXAMPLES_SCRIPT_RUNNER_H
+
+#include "Run_options.h"
+
+#include <chrono>
+#include <iostream>
+#include <set>
+
+namespace haptic_sculpt::sculpt_program {
+
+/// Carries out commands one by one. Vertices are named by index in file order; no edit here makes or removes any, so the
+/// mesh's own indices serve.
+template <class Broad_phase>
+class Script_runner {
+public:
+  using Result = Drag_result<Mesh>;
+
+  Script_runner(Mesh& mesh, const Sculptor_parameters& parameters) : mesh_(mesh), sculptor_(mesh, parameters) {}
+
+  Run_result run(const std::vector<Command>& script) {
+    const auto begin = Clock::now();
+    auto said = begin;
+    for (std::size_t i = 0; i < script.size(); ++i) {
+      carry_out(script[i]);
+      if (Clock::now() - said > std::chrono::seconds(2)) {
+        said = Clock::now();
+        std::cerr << "sculpt: " << i + 1 << " of " << script.size() << " lines, "
+                  << std::chrono::duration_cast<std::chrono::seconds>(said - begin).count() << " s\n";
+      }
+    }
+    result_.moved_vertices.assign(moved_.begin(), moved_.end());
+    result_.filter = sculptor_.filter_counters();
+    return std::move(result_);
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  using Kind = Command::Kind;
+  using Json = nlohmann::ordered_json;
+
+  Mesh& mesh_;
+  Sculptor<Mesh, Broad_phase> sculptor_;
+  Run_result result_;
+  std::set<std::size_t> moved_;
+
+  void carry_out(const Command& command) {
+    if (command.kind != Kind::drag)
+      held_ = false; // any other line ends the grab
+    switch (command.kind) {
+    case Kind::drag: drag(command); break;
+    case Kind::probe: probe(command); break;
+    case Kind::clearance:
+      sculptor_.release();
+      sculptor_.set_clearance(command.length);
+      break;
+    case Kind::delta: delta(command); break;
+    default: sculptor_.release(); // release; response stop; mesh was checked before the first edit
+    }
+  }
+
+  static Kernel::Point_3 point(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+
+  void drag(const Command& command) {
+    const std::size_t index = command.indices[0];
+    if (index >= mesh_.num_vertices()) {
+      refuse(command, "unknown-vertex", {index});
+      return;
+    }
+    const Mesh::Vertex_index v(static_cast<Mesh::size_type>(index));
+    const Kernel::Point_3 start = mesh_.point(v);
+    const auto begin = Clock::now();
+    // A grab of the vertex already in hand would let go of it first.
+    if (!grab_ || grab_->vertex() != v || !held_)
+      grab_.emplace(sculptor_.grab(v));
+    held_ = true;
+    const Result done = grab_->drag_to(point(command.points[0]));
+    finish(command, begin, done, start, command.points[0], {index});
+    if (done.position != start)
+      moved_.insert(index);
+  }
+
+  void probe(const Command& command) {
+    const auto begin = Clock::now();
+    const Result done = sculptor_.probe(point(command.points[0]), point(command.points[1]));
+    if (done.end == Drag_end::refused)
+      refuse(command, "starts-in-clearance", ids(done.contacts[0]));
+    else
+      finish(command, begin, done, point(command.points[0]), command.points[1], {});
+  }
+
+  void delta(const Command& command) {
+    try {
+      sculptor_.set_delta(command.length);
+    } catch (const Invalid_surface& error) {
+      std::vector<std::size_t> faces(error.report().low_faces.begin(), error.report().low_faces.end());
+      refuse(command, "delta", faces);
+    }
+  }
+
+  std::optional<typename Sculptor<Mesh, Broad_phase>::Grab_type> grab_;
+  bool held_ = false;
+
+  static std::vector<std::size_t> ids(const Contact_3<Mesh>& contact) {
+    return {contact.vertices.begin(), contact.vertices.end()};
+  }
+
+  void refuse(const Command& command, const char* reason, const std::vector<std::size_t>& elements) {
+    held_ = false;
+    ++result_.refused;
+    result_.edits.push_back(
+        {{"line", command.line}, {"op", name_of(command.kind)}, {"status", "refused"}, {"reason", reason},
+         {"elements", elements}, {"position", nullptr}, {"legs", 0}, {"stop_error", 0}, {"kkt_residual", 0},
+         {"contacts", Json::array()}});
+  }
+
+  void finish(const Command& command, Clock::time_point begin, const Result& done, const Kernel::Point_3& start,
+              const std::array<double, 3>& target, const std::vector<std::size_t>& elements) {
+    result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+    Json contacts = Json::array();
+    std::string what;
+    for (const auto& contact : done.contacts) {
+      contacts.push_back({{"kind", name_of(contact.kind)}, {"ids", ids(contact)}, {"normal", contact.normal}});
+      what += (what.empty() ? "" : ", ") + std::string(name_of(contact.kind));
+      for (std::size_t id : ids(contact))
+        what += ' ' + std::to_string(id);
+    }
+    const Kernel::Point_3& p = done.position;
+    result_.edits.push_back({{"line", command.line},
+                             {"op", name_of(command.kind)},
+                             {"status", done.reached ? "reached" : "blocked"},
+                             {"reason", done.reached ? Json() : Json(name_of(done.end))},
+                             {"elements", elements},
+                             {"position", {p.x(), p.y(), p.z()}},
+                             {"legs", done.legs},
+                             {"stop_error", done.stop_error},
+                             {"stop_error_along_path", done.stop_error_along_path},
+                             {"kkt_residual", done.kkt_residual},
+                             {"contacts", contacts}});
+    if (done.reached) {
+      ++result_.reached;
+      return;
+    }
+    ++result_.blocked;
+    result_.blocked_drags.push_back({command.line,
+                                     {start.x(), start.y(), start.z()},
+                                     {p.x(), p.y(), p.z()},
+                                     {target[0], target[1], target[2]},
+                                     what,
+                                     done.contacts.empty() ? std::array<double, 3>{} : done.contacts[0].normal});
+  }
+};
+
+template <class Broad_phase>
+Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Sculptor_parameters& parameters) {
+  return Script_runner<Broad_phase>(mesh, parameters).run(script);
+}
+
+} // namespace haptic_sculpt::sculpt_program
+
+#endif
