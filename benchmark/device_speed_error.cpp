@@ -90,9 +90,12 @@ template <class S> void measure(const char* name, const Population& p, const cha
     }
     auto row = [&](const char* what, double time, Errors errors) {
       json entry = {{"form", general ? "general" : "ditetra"}, {"what", what}, {"scalar", name}, {"population", population}, {"ns", time}, {"error_over_condition", errors.summary()}};
-      std::printf("%-8s %-8s %-24s %-12s %10.1f ns   error / condition %9.2g median %9.2g max\n", population, general ? "general" : "ditetra", what, name, time,
-                  entry["error_over_condition"]["median"].is_null() ? 0.0 : entry["error_over_condition"]["median"].get<double>(),
-                  entry["error_over_condition"]["max"].is_null() ? 0.0 : entry["error_over_condition"]["max"].get<double>());
+      const json& error = entry["error_over_condition"];
+      std::printf("%-8s %-8s %-24s %-12s %10.1f ns", population, general ? "general" : "ditetra", what, name, time);
+      if (error["median"].is_null())
+        std::printf("   error not measured\n");
+      else
+        std::printf("   error / condition %9.2g median %9.2g max\n", error["median"].get<double>(), error["max"].get<double>());
       rows.push_back(entry);
     };
     Errors forward, inverse, dynamics_errors;

@@ -100,8 +100,8 @@ BOOST_AUTO_TEST_CASE(there_and_back) {
       BOOST_REQUIRE((all && one));
       for (int leg = 0; leg < 3; ++leg) {
         const double sensitivity = c->constraint_condition / std::sqrt(std::max(all->one_minus_cosine[leg], 1e-15));
-        worst_point = std::max(worst_point, std::abs((knees[leg] ? all->plus : all->minus)[leg] - theta[leg]) / sensitivity);
-        worst_point = std::max(worst_point, std::abs(one->theta[leg] - theta[leg]) / sensitivity);
+        worst_point = std::max(worst_point, std::abs(std::remainder((knees[leg] ? all->plus : all->minus)[leg] - theta[leg], 2 * std::acos(-1.0))) / sensitivity);
+        worst_point = std::max(worst_point, std::abs(std::remainder(one->theta[leg] - theta[leg], 2 * std::acos(-1.0))) / sensitivity);
       }
       for (int choice = 0; choice < 8; ++choice) { // all eight bring the apex to the point, on one side or the other
         Vector angles;
@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(jacobian_and_its_derivative_against_differences) {
         continue;
       const auto motion = device_motion(parameters, *pose, rate);
       const auto start = forward_kinematics(fine, vector_as<Long>(theta));
-      const Long h = 1e-4L; // fourth-order differences: truncation about h^4
+      const Long h = 2e-5L; // fourth-order differences: truncation about h^4
       Device_matrix<Long> difference, rate_difference = Device_matrix<Long>::Zero();
       Eigen::Matrix<Long, 6, 3> jacobian_difference = Eigen::Matrix<Long, 6, 3>::Zero();
       for (int joint = 0; joint < 3; ++joint) {
@@ -369,7 +369,7 @@ BOOST_AUTO_TEST_CASE(elbows_on_a_line_or_in_one_point_are_named_singular) {
   d.form = Device_form::ditetrahedral;
   d.primary_length = 0.04; // acos(-1/2): all elbows on the axis
   const double together = 2.0943951023931957;
-  BOOST_TEST(!ditetrahedral_forward(Device_parameters<double>(d), Vector(together, together, together), 1));
+  BOOST_TEST((ditetrahedral_forward(Device_parameters<double>(d), Vector(together, together, together), 1).status() == Device_status::singular));
 }
 
 BOOST_AUTO_TEST_CASE(a_lost_mode_is_said_to_be_lost) {

@@ -76,9 +76,13 @@ template <class S> inline bool place_elbows(const Device_parameters<S>& paramete
   return all_finite(pose.sin_theta); // the sine of what is not finite is not a number
 }
 
-/// Elbows this close to a line (twice the triangle's area over the product of two sides) have no usable normal: the angles'
-/// own rounding turns it by more than a fifth of a right angle.
-template <class S> S collinearity_limit() { return S(16) * std::numeric_limits<S>::epsilon(); }
+/// Whether a triangle with the sides a, b (squares given) and normal n = a x b (square given) has a usable normal. Its corners, at a distance of
+/// about `size` from the origin, are uncertain by the rounding of that distance, which turns the normal by rounding times longest side over |n|:
+/// at 16 roundings there is no knowing where it points. Collinear and coincident corners both fail.
+template <class S> bool spans_a_plane(const S& normal_squared, const S& aa, const S& bb, const S& size) {
+  const S limit = S(16) * std::numeric_limits<S>::epsilon() * size;
+  return normal_squared > limit * limit * (aa > bb ? aa : bb);
+}
 
 } // namespace device_detail
 

@@ -247,8 +247,7 @@ template <class S> inline Outcome<Assembly_modes<S>> assembly_modes(const Device
   if (!device_detail::place_elbows(parameters, theta, pose))
     return Outcome<Assembly_modes<S>>(Device_status::not_finite, S(0));
   const Device_vector<S> a = pose.elbows.col(1) - pose.elbows.col(0), b = pose.elbows.col(2) - pose.elbows.col(0);
-  const S limit = device_detail::collinearity_limit<S>();
-  if (!(a.cross(b).squaredNorm() > limit * limit * a.squaredNorm() * b.squaredNorm()))
+  if (!device_detail::spans_a_plane<S>(a.cross(b).squaredNorm(), a.squaredNorm(), b.squaredNorm(), parameters.base_radius() + parameters.primary_length()))
     return Outcome<Assembly_modes<S>>(Device_status::singular, S(0));
   return device_detail::assembly_modes(device_detail::Platform_closure<S>(parameters, pose.elbows));
 }

@@ -33,13 +33,12 @@ template <class S> struct Apex_pair {
   }
 };
 
-template <class S> inline void apex_pair(const Device_matrix<S>& elbows, const S& length, Apex_pair<S>& pair) {
+template <class S> inline void apex_pair(const Device_matrix<S>& elbows, const S& length, const S& size, Apex_pair<S>& pair) {
   const Device_vector<S> a = elbows.col(1) - elbows.col(0), b = elbows.col(2) - elbows.col(0);
   pair.normal = a.cross(b);
   const S aa = a.squaredNorm(), bb = b.squaredNorm(), cc = (b - a).squaredNorm();
   pair.normal_squared = pair.normal.squaredNorm();
-  const S limit = collinearity_limit<S>();
-  pair.collinear = !(pair.normal_squared > limit * limit * aa * bb);
+  pair.collinear = !spans_a_plane(pair.normal_squared, aa, bb, size);
   pair.to_centre = (S(0.5) * (aa * b - bb * a)).cross(pair.normal);
   pair.full_height = length * length * pair.normal_squared;
   pair.height_squared = pair.full_height - S(0.25) * aa * bb * cc;
@@ -54,7 +53,7 @@ inline Device_vector<W> apex_pair_widened(const Device_parameters<S>& parameters
   for (int leg = 0; leg < 3; ++leg)
     elbows.col(leg) = Leg_frame<W>::in_leg_plane(leg, W(parameters.base_radius()) + W(parameters.primary_length()) * cos(W(theta[leg])),
                                                  W(parameters.primary_length()) * sin(W(theta[leg])));
-  apex_pair(elbows, W(parameters.secondary_length()), pair);
+  apex_pair(elbows, W(parameters.secondary_length()), W(parameters.base_radius()) + W(parameters.primary_length()), pair);
   return elbows.col(0);
 }
 
@@ -77,7 +76,7 @@ inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>&
   }
   pose.mode = mode;
   device_detail::Apex_pair<S> pair;
-  device_detail::apex_pair(pose.elbows, parameters.secondary_length(), pair);
+  device_detail::apex_pair(pose.elbows, parameters.secondary_length(), S(parameters.base_radius() + parameters.primary_length()), pair);
   if (!pair.collinear && pair.height_squared > device_detail::cancelled_height<S>() * pair.full_height) {
     pose.position = pose.elbows.col(0) + pair.apex(mode);
   } else {

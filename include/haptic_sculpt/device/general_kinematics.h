@@ -26,8 +26,8 @@ template <class S> inline bool place_platform(const Device_parameters<S>& parame
   const Device_vector<S> seen_a = seen.col(1) - seen.col(0), seen_b = seen.col(2) - seen.col(0);
   const Device_vector<S> world_n = world_a.cross(world_b), seen_n = seen_a.cross(seen_b);
   const S world_aa = world_a.squaredNorm(), world_nn = world_n.squaredNorm(), seen_aa = seen_a.squaredNorm(), seen_nn = seen_n.squaredNorm();
-  const S limit = collinearity_limit<S>();
-  if (!(world_nn > limit * limit * world_aa * world_b.squaredNorm()) || !(seen_nn > limit * limit * seen_aa * seen_b.squaredNorm()))
+  if (!spans_a_plane<S>(world_nn, world_aa, world_b.squaredNorm(), parameters.base_radius() + parameters.primary_length()) ||
+      !spans_a_plane<S>(seen_nn, seen_aa, seen_b.squaredNorm(), r + l2))
     return false;
   // Orthonormal frames (a, n x a, n) of both triangles; the scales of the first and last are folded into the products.
   const Device_vector<S> world_m = world_n.cross(world_a), seen_m = seen_n.cross(seen_a);
@@ -207,8 +207,8 @@ template <class S> inline Outcome<Device_pose<S>> mirror_forward(const Device_pa
   }
   const Device_vector<S> a = pose.elbows.col(1) - pose.elbows.col(0), b = pose.elbows.col(2) - pose.elbows.col(0);
   Device_vector<S> n = a.cross(b);
-  const S limit = collinearity_limit<S>(), nn = n.squaredNorm();
-  if (!(nn > limit * limit * a.squaredNorm() * b.squaredNorm())) {
+  const S nn = n.squaredNorm();
+  if (!spans_a_plane<S>(nn, a.squaredNorm(), b.squaredNorm(), parameters.base_radius() + parameters.primary_length())) {
     outcome.fail(Device_status::singular, S(0));
     return outcome;
   }
