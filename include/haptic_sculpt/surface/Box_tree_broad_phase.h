@@ -66,7 +66,7 @@ public:
       const std::uint32_t slot = slot_of_face_[f];
       if (slot == no_slot)
         continue;
-      set(slot, internal::Float_box());
+      set(slot, internal::Float_box::none());
       slot_of_face_[f] = no_slot;
       free_slots_.push_back(slot);
     }
@@ -91,7 +91,7 @@ private:
 
     Node() {
       for (int i = 0; i < 8; ++i)
-        set(i, internal::Float_box());
+        set(i, internal::Float_box::none());
     }
     void set(int j, const internal::Float_box& box) {
       for (int i = 0; i < 3; ++i)

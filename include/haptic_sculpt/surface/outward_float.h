@@ -34,9 +34,17 @@ inline float float_above(double x) { return -float_below(-x); }
 struct Float_box {
   std::array<float, 3> lower, upper;
 
+  /// The box of nothing, which grows.
   Float_box() {
     lower.fill(std::numeric_limits<float>::infinity());
     upper.fill(-std::numeric_limits<float>::infinity());
+  }
+  /// A box that meets no box, not even one whose bounds were rounded to infinity.
+  static Float_box none() {
+    Float_box box;
+    box.lower.fill(std::numeric_limits<float>::quiet_NaN());
+    box.upper.fill(std::numeric_limits<float>::quiet_NaN());
+    return box;
   }
   explicit Float_box(const Box_3& box) {
     for (int i = 0; i < 3; ++i) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_RANDOM_SCENE_H
+#define HAPTIC_SCULPT_TEST_RANDOM_SCENE_H
+
+#include "meshes/generated_meshes.h"
+
+#include <haptic_sculpt/sculpting.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+namespace haptic_sculpt::test {
+
+
+using Mesh = meshes::Mesh;
+using Point_3 = meshes::Point_3;
+using Vertex_index = Mesh::Vertex_index;
+using Random = std::mt19937_64;
+
+inline std::uint64_t seed_from_environment(std::uint64_t otherwise) {
+  const char* text = std::getenv("HAPTIC_SCULPT_SEED");
+  const std::uint64_t seed = text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+  std::cout << "seed " << seed << '\n';
+  return seed;
+}
+
+inline std::size_t count_from_environment(const char* name, std::size_t otherwise) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+inline Point_3 random_grid_point(Random& random, int size) {
+  const auto coordinate = [&] { return static_cast<double>(random() % (2 * size + 1)) - size; };
+  const double x = coordinate(), y = coordinate(), z = coordinate();
+  return {x, y, z};
+}
+
+/// A valid mesh of 4 to 12 vertices on a small integer grid: coplanar faces, aligned edges and touching-near parts abound.
+inline meshes::Triangle_list random_small_list(Random& random, int size) {
+  for (;;) {
+    meshes::Triangle_list list;
+    switch (random() % 5) {
+    case 0: list = meshes::tetrahedron(); break;
+    case 1: list = meshes::bipyramid(3 + random() % 4); break;
+    case 2: list = meshes::cube(); break;
+    case 3: list = meshes::bipyramid(3), list += meshes::tetrahedron(); break;
+    default: list = meshes::tetrahedron(), list += meshes::tetrahedron();
+    }
+    for (int attempt = 0; attempt < 200; ++attempt) {
+      for (Point_3& p : list.points)
+        p = random_grid_point(random, size);
+      const Mesh mesh = meshes::to_mesh(list);
+      if (validate(mesh).is_valid())
+        return list;
+    }
+  }
+}
+
+} // namespace haptic_sculpt::test
+
+#endif

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the facade promises beside geometry.
+#include "Random_scene.h"
+
+#include <boost/test/unit_test.hpp>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+Mesh ball() { return meshes::to_mesh(meshes::icosphere(1)); }
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(an_invalid_mesh_is_refused_and_named) {
+  Mesh mesh = ball();
+  mesh.point(Vertex_index(3)) = mesh.point(Vertex_index(7));
+  BOOST_CHECK_EXCEPTION(Sculptor<Mesh>{mesh}, Invalid_surface, [](const Invalid_surface& error) {
+    return error.report().coincident_vertices.size() == 1 && std::string(error.what()).find('7') != std::string::npos;
+  });
+  Mesh open = ball();
+  CGAL::Euler::remove_face(open.halfedge(*open.faces().begin()), open);
+  BOOST_CHECK_EXCEPTION(Sculptor<Mesh>{open}, Invalid_surface,
+                        [](const Invalid_surface& error) { return error.report().boundary_edges.size() == 3; });
+}
+
+BOOST_AUTO_TEST_CASE(bad_arguments_are_refused_and_change_nothing) {
+  Mesh mesh = ball();
+  BOOST_CHECK_THROW(Sculptor<Mesh>(mesh, parameters::clearance(0)), Invalid_parameter);
+  BOOST_CHECK_THROW(Sculptor<Mesh>(mesh, parameters::clearance(1e-9).delta(-1)), Invalid_parameter);
+  BOOST_CHECK_THROW(Sculptor<Mesh>(mesh, parameters::delta(10)), Invalid_surface);
+  Sculptor<Mesh> sculptor(mesh);
+  BOOST_CHECK_THROW(sculptor.grab(Vertex_index(4711)), Unknown_vertex);
+  BOOST_CHECK_THROW(sculptor.grab(Vertex_index()), Unknown_vertex);
+  auto grab = sculptor.grab(Vertex_index(0));
+  const Point_3 before = mesh.point(Vertex_index(0));
+  const double infinity = std::numeric_limits<double>::infinity();
+  BOOST_CHECK_THROW(grab.drag_to(Point_3(infinity, 0, 0)), Non_finite_point);
+  BOOST_CHECK_THROW(grab.drag_to(Point_3(0, std::nan(""), 0)), Non_finite_point);
+  BOOST_CHECK_THROW(sculptor.set_delta(10), Invalid_surface);
+  BOOST_CHECK_THROW(sculptor.set_clearance(-1), Invalid_parameter);
+  BOOST_TEST((mesh.point(Vertex_index(0)) == before));
+  BOOST_TEST(sculptor.options().delta_length == 0);
+  BOOST_TEST(grab.drag_to(before).reached);
+}
+
+BOOST_AUTO_TEST_CASE(changes_by_others_are_found) {
+  {
+    Mesh mesh = ball();
+    Sculptor<Mesh> sculptor(mesh);
+    mesh.point(Vertex_index(5)) = Point_3(3, 3, 3);
+    BOOST_CHECK_THROW(sculptor.grab(Vertex_index(0)), Mesh_changed);
+    BOOST_CHECK_THROW(sculptor.check_unchanged(), Mesh_changed);
+  }
+  {
+    Mesh mesh = ball();
+    Sculptor<Mesh> sculptor(mesh);
+    auto grab = sculptor.grab(Vertex_index(0));
+    mesh.point(Vertex_index(0)) = Point_3(3, 3, 3);
+    BOOST_CHECK_THROW(grab.drag_to(Point_3(0, 0, 2)), Mesh_changed);
+  }
+  {
+    Mesh mesh = ball();
+    Sculptor<Mesh> sculptor(mesh);
+    mesh.add_vertex(Point_3(9, 9, 9));
+    BOOST_CHECK_THROW(sculptor.grab(Vertex_index(0)), Mesh_changed);
+  }
+  {
+    Mesh mesh = ball();
+    const Vertex_index extra = mesh.add_vertex(Point_3(9, 9, 9));
+    mesh.remove_vertex(extra);
+    Sculptor<Mesh> sculptor(mesh);
+    mesh.collect_garbage();
+    BOOST_CHECK_THROW(sculptor.grab(Vertex_index(0)), Mesh_changed);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(property_maps_survive) {
+  Mesh mesh = ball();
+  auto weight = mesh.add_property_map<Vertex_index, int>("v:weight", 0).first;
+  for (const Vertex_index v : mesh.vertices())
+    weight[v] = static_cast<int>(v) * 3;
+  Sculptor<Mesh> sculptor(mesh);
+  sculptor.grab(Vertex_index(2)).drag_to(Point_3(0.1, 0.2, 0.3));
+  for (const Vertex_index v : mesh.vertices())
+    BOOST_TEST(weight[v] == static_cast<int>(v) * 3);
+}
+
+BOOST_AUTO_TEST_CASE(an_isolated_vertex_is_a_probe) {
+  Mesh mesh = ball();
+  const Vertex_index probe = mesh.add_vertex(Point_3(0.05, 0.02, 3));
+  Sculptor<Mesh> sculptor(mesh);
+  const auto result = sculptor.grab(probe).drag_to(Point_3(0.05, 0.02, -3));
+  BOOST_TEST(!result.reached);
+  BOOST_TEST(result.position.z() > 0.8);
+  BOOST_TEST((result.contacts.at(0).kind == Contact_kind::vertex_face));
+  // The same without a vertex, and a start on the surface is refused.
+  const auto swept = sculptor.probe(Point_3(0.05, 0.02, 3), Point_3(0.05, 0.02, -3));
+  BOOST_TEST((swept.position == result.position));
+  BOOST_TEST((sculptor.probe(mesh.point(Vertex_index(0)), Point_3(0, 0, 9)).end == Drag_end::refused));
+  // Nothing touches a probe.
+  const Point_3 outward = mesh.point(Vertex_index(0));
+  sculptor.grab(probe).drag_to(Point_3(1.5 * outward.x(), 1.5 * outward.y(), 1.5 * outward.z()));
+  BOOST_TEST(sculptor.grab(Vertex_index(0)).drag_to(Point_3(2 * outward.x(), 2 * outward.y(), 2 * outward.z())).reached);
+}
+
+BOOST_AUTO_TEST_CASE(an_inside_out_mesh_is_guarded_like_any_other) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1).turn_inside_out());
+  Sculptor<Mesh> sculptor(mesh);
+  const Point_3 start = mesh.point(Vertex_index(0));
+  const auto result = sculptor.grab(Vertex_index(0)).drag_to(Point_3(-3 * start.x(), -3 * start.y(), -3 * start.z()));
+  BOOST_TEST(!result.reached);
+  BOOST_TEST(validate(mesh).is_valid());
+}
+
+BOOST_AUTO_TEST_CASE(several_objects_do_not_tunnel) {
+  Mesh mesh = meshes::to_mesh(meshes::row_of_spheres(3));
+  Sculptor<Mesh> sculptor(mesh);
+  for (const Vertex_index v : mesh.vertices()) {
+    auto grab = sculptor.grab(v);
+    grab.drag_to(Point_3(20, 0.1, 0.2));
+    grab.drag_to(Point_3(-20, 0.1, 0.2));
+  }
+  BOOST_TEST(validate(mesh).is_valid());
+  sculptor.check_unchanged();
+}
+
+BOOST_AUTO_TEST_CASE(far_targets_and_huge_meshes_are_ordinary) {
+  Mesh mesh = ball();
+  Sculptor<Mesh> sculptor(mesh);
+  auto grab = sculptor.grab(Vertex_index(0));
+  const double huge = 1e300;
+  grab.drag_to(Point_3(-huge, huge, 0.5 * huge));
+  BOOST_TEST(validate(mesh).is_valid());
+  Mesh large = meshes::to_mesh(meshes::icosphere(1).scale_and_move(1e150, 0, 0, 0));
+  Sculptor<Mesh> other(large);
+  other.grab(Vertex_index(1)).drag_to(Point_3(0, 0, 0));
+  other.grab(Vertex_index(1)).drag_to(Point_3(-4e150, 0, 0));
+  BOOST_TEST(validate(large).is_valid());
+}
