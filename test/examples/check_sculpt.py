@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs `sculpt` and `sweep_queries` as a user would: results, reports, and every exit code with its message."""
+import hashlib
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+
+SCULPT, QUERIES, SOURCE = sys.argv[1:4]
+FAULTS = []
+
+
+def check(condition, what):
+    if not condition:
+        FAULTS.append(what)
+        print("FAULT:", what)
+
+
+def run(*arguments, program=SCULPT, script=None, limit=None):
+    def limit_size():
+        if limit is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=100,
+                          preexec_fn=limit_size, restore_signals=False)  # Python ignores SIGXFSZ; the write fails
+
+
+def fails(code, parts, done, what):
+    check(done.returncode == code, f"{what}: exit {done.returncode}, expected {code}: {done.stderr}")
+    for part in parts:
+        check(part in done.stderr, f"{what}: the message does not say '{part}': {done.stderr}")
+
+
+def points(path):
+    lines = [line for line in open(path).read().split("\n") if line and not line.startswith("#")]
+    return [tuple(map(float, line.split())) for line in lines[2:2 + int(lines[1].split()[0])]]
+
+
+TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0.1 0.1 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+
+
+def happy_path(folder, mesh):
+    out, report = f"{folder}/out.off", f"{folder}/report.json"
+    script = ("# comment\ndrag 3 0.2 0.2 0x1p+1  # up\ndrag 3 0.2 0.2 -1\nrelease\nprobe 5 5 5 0.2 0.2 -4\n"
+              "probe 0 0 0 1 1 1\ndrag 17 0 0 0\nclearance 1e-9\ndrag 3 0.3 0.3 -1\n")
+    done = run(mesh, "--script", "/dev/stdin", "-o", out, "--report", report, script=script)
+    check(done.returncode == 0, f"happy path: {done.returncode} {done.stderr}")
+    told = json.load(open(report))
+    check(set(told) >= {"version", "totals", "edits", "time_ns", "filter"}, "report keys")
+    check(set(told["time_ns"]) >= {"p50", "p99", "p999", "max"}, "time keys")
+    totals = told["totals"]
+    check(totals["asked"] == totals["reached"] + totals["blocked"] + totals["refused"] == 7, f"totals {totals}")
+    status = [(edit["line"], edit["op"], edit["status"]) for edit in told["edits"]]
+    check(status == [(2, "drag", "reached"), (3, "drag", "blocked"), (5, "probe", "blocked"), (6, "probe", "refused"),
+                     (7, "drag", "refused"), (9, "drag", "reached"), (10, "drag", "blocked")], f"statuses {status}")
+    for edit in told["edits"]:
+        check(set(edit) >= {"line", "op", "status", "reason", "elements", "position", "legs", "stop_error", "kkt_residual",
+                            "contacts"}, f"edit keys {edit}")
+    check(told["edits"][0]["position"] == [0.2, 0.2, 2.0], "hexadecimal target")
+    contact = told["edits"][1]["contacts"][0]
+    check(contact["kind"] == "vertex-face" and sorted(contact["ids"]) == [0, 1, 2] and contact["normal"] == [0, 0, 1],
+          f"contact {contact}")
+    check(0 < told["edits"][1]["position"][2] <= 8 * 2**-52, "stop above the base")
+    check(1e-10 < told["edits"][6]["position"][2] <= 2e-9, "clearance directive")
+    check(told["edits"][4]["elements"] == [17] and told["edits"][4]["reason"], "unknown vertex is named")
+    after = points(out)
+    check(after[:3] == points(mesh)[:3], "vertices that were not dragged keep their bits")
+    check(list(after[3]) == told["edits"][6]["position"], "the result has the position of the report, bit for bit")
+
+
+def formats(folder, mesh):
+    for name in ("a.ply", "b.obj", "c.stl", "d.off"):
+        done = run(mesh, "--script", "/dev/stdin", "-o", f"{folder}/{name}", script="drag 3 0.25 0.3 0.7000000000000001\n")
+        check(done.returncode == 0, f"{name}: {done.stderr}")
+        again = run(f"{folder}/{name}", "-o", f"{folder}/again.off")
+        check(again.returncode == 0, f"{name} read back: {again.stderr}")
+        check(any(p == (0.25, 0.3, 0.7000000000000001) for p in points(f"{folder}/again.off")), f"{name} keeps every bit")
+
+
+def broad_phases_agree(folder):
+    data = f"{SOURCE}/examples/data"
+    results = []
+    for broad_phase in ("tree", "six-lists", "brute"):
+        out = f"{folder}/{broad_phase}.off"
+        done = run(f"{data}/ball_and_moon.off", "--script", f"{data}/demo.script", "-o", out, "--broad-phase", broad_phase)
+        check(done.returncode == 0, done.stderr)
+        results.append(open(out, "rb").read())
+    check(results[0] == results[1] == results[2], "broad phases differ")
+
+
+def bad_usage(folder, mesh):
+    fails(2, [], run(), "no arguments")
+    fails(2, ["--nonsense"], run(mesh, "--nonsense"), "unknown option")
+    fails(2, ["clearance"], run(mesh, "--clearance", "-1"), "negative clearance")
+    fails(2, ["slide"], run(mesh, "--response", "slide"), "response that is not there")
+    fails(2, ["remove"], run(mesh, "--script", "/dev/stdin", script="drag 3 0 0 2\nremove 3\n"), "edit that is not there")
+    fails(2, [".xyz"], run(mesh, "-o", f"{folder}/out.xyz"), "unknown format of the result")
+    check(run("--help").returncode == 0, "--help")
+
+
+def bad_meshes(folder):
+    def refused(name, text, *parts):
+        path = f"{folder}/{name}"
+        with open(path, "w") as file:
+            file.write(text)
+        out = f"{folder}/must_not_be.off"
+        fails(3, parts, run(path, "-o", out), name)
+        check(not os.path.exists(out), f"{name}: something was written")
+
+    fails(3, ["missing.off"], run(f"{folder}/missing.off"), "missing file")
+    os.mkdir(f"{folder}/folder.off")
+    fails(3, ["folder.off"], run(f"{folder}/folder.off"), "a folder")
+    refused("empty.off", "")
+    refused("cut.off", TETRAHEDRON[:60])
+    refused("nan.off", TETRAHEDRON.replace("0.1 0.1 1", "0.1 nan 1"), "3")
+    refused("infinite.off", TETRAHEDRON.replace("0.1 0.1 1", "0.1 inf 1"), "3")
+    refused("huge.off", TETRAHEDRON.replace("4 4 0", "400000000000 4 0"))
+    refused("boundary.off", TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", ""), "boundary")
+    refused("polygon.off", "OFF\n5 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 .5 1\n4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n",
+            "triangle")
+    refused("flat.off", TETRAHEDRON.replace("0.1 0.1 1", "0.5 0 0"), "degenerate")
+    refused("duplicate.off", TETRAHEDRON.replace("0.1 0.1 1", "0 0 0"))
+    two = ("OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n.1 .1 .1\n2 .1 .1\n.1 2 .1\n.1 .1 2\n"
+           "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 4 6 5\n3 4 5 7\n3 5 6 7\n3 6 4 7\n")
+    refused("crossing.off", two, "intersecting")
+    pinched = two.replace("8 8 0", "7 8 0").replace(".1 .1 .1\n2 .1 .1\n.1 2 .1\n.1 .1 2\n", "-1 0 0\n0 -1 0\n0 0 -1\n").replace(
+        "3 4 6 5\n3 4 5 7\n3 5 6 7\n3 6 4 7\n", "3 0 4 5\n3 0 6 4\n3 4 6 5\n3 5 6 0\n")
+    refused("pinched.off", pinched, "non-manifold vertex")
+    doubled = "OFF\n5 6 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 -1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 1 0 4\n3 0 1 2\n3 2 1 4\n"
+    refused("doubled.off", doubled, "edge")
+
+
+def bad_scripts(folder, mesh):
+    def refused(script, line, column, *parts):
+        out = f"{folder}/must_not_be.off"
+        done = run(mesh, "--script", "/dev/stdin", "-o", out, script=script)
+        fails(4, [f"line {line}", f"column {column}", *parts], done, repr(script))
+        check(not os.path.exists(out), f"{script!r}: something was written")
+
+    refused("drag 3 0 0\n", 1, 11)
+    refused("drag 3 0 0 2\ndrag 3 0 x 2\n", 2, 10, "'x'")
+    refused("drag 3 0 0 nan\n", 1, 12, "finite")
+    refused("drag 3 0 0 1e999\n", 1, 12, "finite")
+    refused("drag -3 0 0 1\n", 1, 6, "-3")
+    refused("  drug 3 0 0 1\n", 1, 3, "drug")
+    refused("release 3\n", 1, 9)
+    refused("clearance 0\n", 1, 11)
+    refused("delta -1\n", 1, 7)
+    refused("response bounce\n", 1, 10, "bounce")
+    refused("mesh 12\n", 1, 6)
+    fails(4, ["missing.script"], run(mesh, "--script", f"{folder}/missing.script"), "missing script")
+    digest = hashlib.sha256(open(mesh, "rb").read()).hexdigest()
+    check(run(mesh, "--script", "/dev/stdin", script=f"mesh {digest.upper()}\n").returncode == 0, "own hash")
+    fails(6, [digest], run(mesh, "--script", "/dev/stdin", script=f"mesh {'0' * 64}\n"), "foreign hash")
+
+
+def bad_targets(folder, mesh):
+    kept = f"{folder}/kept.off"
+    with open(kept, "w") as file:
+        file.write("kept")
+    fails(5, [], run(mesh, "-o", kept, limit=64), "disk full")
+    check(open(kept).read() == "kept", "a full disk spoils the old file")
+    check(not [name for name in os.listdir(folder) if name.startswith("kept.off") and name != "kept.off"], "left-over file")
+    fails(5, ["nowhere"], run(mesh, "-o", f"{folder}/nowhere/out.off"), "missing folder of the result")
+    os.mkdir(f"{folder}/target.off")
+    fails(5, ["target.off"], run(mesh, "-o", f"{folder}/target.off"), "the result is a folder")
+    fails(5, ["nowhere"], run(mesh, "--report", f"{folder}/nowhere/report.json"), "missing folder of the report")
+    fails(5, ["nowhere"], run(mesh, "--picture", f"{folder}/nowhere/picture.png"), "missing folder of the picture")
+    done = run(mesh, "--picture", f"{folder}/picture.png")
+    check(done.returncode == 0 and open(f"{folder}/picture.png", "rb").read(4) == b"\x89PNG", f"picture: {done.stderr}")
+
+
+def queries(folder):
+    vertex_face = "VF 0.25 0.25 1 0.25 0.25 -1 0 0 0 1 0 0 0 1 0\n"
+    path = f"{folder}/queries.txt"
+
+    def ask(text):
+        with open(path, "w") as file:
+            file.write(text)
+        return run(path, program=QUERIES)
+
+    check(ask(vertex_face + vertex_face.replace("-1", "0x1p-1")).stdout == "1 1/2\n0\n", "sweep_queries answers")
+    check(ask("EE 0 0 1 0 0 2 0 0 0 -1 0 0 1 0 0\n").stdout == "1 0/1\n", "meeting without the moving end")
+    check(ask("VF 0 0 0 0 0 0 0 0 0 1 0 0 0 1 0\n").stdout == "1 0/1\n", "standing still in contact")
+    check(ask("VF 0 0 1 0 0 0 0 0 0 1 0 0 0 1 0\n").stdout == "1 1/1\n", "contact at the end")
+    fails(2, ["line 2", "column 1"], ask(vertex_face + "VX 1\n"), "unknown kind")
+    fails(2, ["line 1", "column 6"], ask(vertex_face.replace("0.25 0.25 1", "0.25x 0.25 1").replace("VF 0.25x", "VF 0 zz")), "bad number")
+    fails(2, ["line 1", "finite"], ask(vertex_face.replace("-1", "inf")), "infinite coordinate")
+    fails(2, ["line 1"], ask("VF 1 2 3\n"), "short line")
+    fails(2, ["none.txt"], run(f"{folder}/none.txt", program=QUERIES), "missing queries")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = f"{folder}/tetrahedron.off"
+        with open(mesh, "w") as file:
+            file.write(TETRAHEDRON)
+        happy_path(folder, mesh)
+        formats(folder, mesh)
+        broad_phases_agree(folder)
+        bad_usage(folder, mesh)
+        bad_meshes(folder)
+        bad_scripts(folder, mesh)
+        bad_targets(folder, mesh)
+        queries(folder)
+    print(len(FAULTS), "faults")
+    return 1 if FAULTS else 0
+
+
+sys.exit(main())
