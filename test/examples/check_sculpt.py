@@ -44,8 +44,8 @@ TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0.1 0.1 1\n3 0 2 1\n3 0 1 3\n3 1
 
 def happy_path(folder, mesh):
     out, report = f"{folder}/out.off", f"{folder}/report.json"
-    script = ("# comment\ndrag 3 0.2 0.2 0x1p+1  # up\ndrag 3 0.2 0.2 -1\nrelease\nprobe 5 5 5 0.2 0.2 -4\n"
-              "probe 0 0 0 1 1 1\ndrag 17 0 0 0\nclearance 1e-9\ndrag 3 0.3 0.3 -1\n")
+    script = ("# comment\ndrag 3 0.2 0.2 0x1p+1  # up\ndrag 3 0.2 0.2 -1\nrelease\nprobe 0.2 0.25 5 0.2 0.25 -4\n"
+              "probe 0 0 0 1 1 1\ndrag 17 0 0 0\nclearance 1e-9\ndrag 3 0.3 0.3 1\ndrag 3 0.3 0.3 -1\n")
     done = run(mesh, "--script", "/dev/stdin", "-o", out, "--report", report, script=script)
     check(done.returncode == 0, f"happy path: {done.returncode} {done.stderr}")
     told = json.load(open(report))
