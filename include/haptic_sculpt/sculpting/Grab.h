@@ -8,8 +8,8 @@ namespace haptic_sculpt {
 
 /// A vertex in the hand: made by `Sculptor::grab()`, dragged as often as wanted, let go by `release()` or destruction.
 ///
-/// Refers to its Sculptor, which must outlive it. Stays usable across edits elsewhere; once its vertex is removed,
-/// `drag_to()` throws Unknown_vertex.
+/// Refers to its Sculptor, which must outlive it. Stays usable across edits; while its vertex is removed, `drag_to()` throws
+/// Unknown_vertex.
 template <class Sculptor>
 class Grab {
 public:
@@ -17,23 +17,24 @@ public:
   using Point = typename Mesh::Point;
   using Vertex_index = typename Mesh::Vertex_index;
 
-  Grab(Sculptor& sculptor, Vertex_index v) : sculptor_(&sculptor), vertex_(v) {}
+  Grab(Sculptor& sculptor, std::size_t name) : sculptor_(&sculptor), name_(name) {}
 
-  Vertex_index vertex() const { return vertex_; }
+  /// The vertex; the null index once it has been removed, until undo revives it (maybe under another index).
+  Vertex_index vertex() const { return sculptor_->vertex(name_); }
 
   /// Drags the vertex towards `target` in a straight line, until it is there or something would be touched.
   ///
   /// \post The mesh is embedded as before, exactly, and nothing was crossed on the way.
   /// \throw Non_finite_point, Unknown_vertex, Mesh_changed; the mesh is then as it was.
   /// Cost: the candidates near the star times its valence; a look at the broad phase when the star leaves its region.
-  Drag_result<Mesh> drag_to(const Point& target) { return sculptor_->drag(vertex_, target); }
+  Drag_result<Mesh> drag_to(const Point& target) { return sculptor_->drag(vertex(), target); }
 
   /// Lets go. The next drag begins without contacts.
   void release() { sculptor_->release(); }
 
 private:
   Sculptor* sculptor_;
-  Vertex_index vertex_;
+  std::size_t name_; ///< a number that lasts: the mesh's own indices are recycled
 };
 
 } // namespace haptic_sculpt

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 #define HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 
+#include <haptic_sculpt/sculpting/Editor.h>
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Guarded_star.h>
 #include <haptic_sculpt/sculpting/Mesh_watch.h>
@@ -44,6 +45,8 @@ public:
   using Face_index = typename Mesh_type::Face_index;
   using Grab_type = Grab<Sculptor>;
   using Result = Drag_result<Mesh_type>;
+  using Edge_index = typename Mesh_type::Edge_index;
+  using Edited = Edit_result<Mesh_type>;
 
   static_assert(std::is_same<Mesh_type, CGAL::Surface_mesh<Point>>::value, "Sculptor: the mesh must be a CGAL::Surface_mesh");
   static_assert(std::is_same<typename CGAL::Kernel_traits<Point>::Kernel::FT, double>::value,
@@ -53,7 +56,7 @@ public:
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
   /// obey the delta rule; Invalid_parameter. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters())
-    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)),
+    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), editor_(mesh, broad_phase_, counters_),
       guard_(mesh, broad_phase_, counters_), probe_guard_(mesh, broad_phase_, counters_) {
     for (const Vertex_index v : mesh.vertices())
       largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(vertex_coordinates(mesh, v)));
@@ -73,7 +76,7 @@ public:
     internal::check_vertex(*mesh_, v);
     release();
     hold(v);
-    return Grab_type(*this, v);
+    return Grab_type(*this, editor_.names().name(v));
   }
 
   /// Lets go of the vertex in hand, if any.
@@ -83,6 +86,62 @@ public:
     held_ = Vertex_index();
     moved_ = false;
   }
+
+  /// \name Edits
+  /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand. A removed vertex and the
+  /// edges and faces of its star die, and their descriptors may be used again by Surface_mesh; `name()` gives a vertex a number
+  /// that lasts. Cost: the valence times the candidates near the star, and the broad phase. \throw Mesh_changed
+  ///@{
+
+  /// Creates a vertex at `p` and joins it to the corners of f, whose place the three new faces take. \throw Non_finite_point
+  Edited insert_on_face(Face_index f, const Point& p) {
+    internal::check_finite(p);
+    if (!f.is_valid() || static_cast<std::size_t>(f) >= mesh_->num_faces() || mesh_->is_removed(f))
+      return Edited::refused(Refusal_reason::unknown_element);
+    return edited([&] { return editor_.insert_on_face(f, internal::coordinates(p), options_.delta_length); });
+  }
+
+  /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of two.
+  /// \throw Non_finite_point
+  Edited insert_on_edge(Edge_index e, const Point& p) {
+    internal::check_finite(p);
+    if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh_->num_edges() || mesh_->is_removed(e))
+      return Edited::refused(Refusal_reason::unknown_element);
+    return edited([&] { return editor_.insert_on_edge(mesh_->halfedge(e), internal::coordinates(p), options_.delta_length); });
+  }
+
+  /// Draws v into one of its neighbours and lets the edge between them collapse.
+  Edited remove(Vertex_index v) {
+    if (!v.is_valid() || static_cast<std::size_t>(v) >= mesh_->num_vertices() || mesh_->is_removed(v))
+      return Edited::refused(Refusal_reason::unknown_element);
+    return edited([&] { return editor_.remove(v, options_.delta_length); });
+  }
+
+  /// Takes back the last drag, creation or removal that changed the mesh; without limit. A new change clears what could be redone.
+  Edited undo() {
+    return edited([&] { return editor_.undo(); });
+  }
+  Edited redo() {
+    return edited([&] { return editor_.redo(); });
+  }
+
+  const Edit_history& history() const { return editor_.history(); }
+  ///@}
+
+  /// \name Numbers of vertices that last
+  /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo revives it.
+  ///@{
+  std::size_t name(Vertex_index v) const { return editor_.names().name(v); }
+  Vertex_index vertex(std::size_t name) const { return editor_.names().vertex(name); }
+  /// One more than the largest number given.
+  std::size_t number_of_names() const { return editor_.names().size(); }
+  /// The null index where there is no such face or edge.
+  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return editor_.face_of(a, b, c); }
+  Edge_index edge_of(std::size_t a, std::size_t b) const {
+    const auto h = editor_.halfedge_of(a, b);
+    return h.is_valid() ? mesh_->edge(h) : Edge_index();
+  }
+  ///@}
 
   /// Sweeps a free point from `source` towards `target` with the response. Changes nothing. A start that is nearer than the
   /// clearance to a face, or on it, is refused: `end` is Drag_end::refused and the contact names the face.
@@ -136,6 +195,7 @@ private:
   Sculptor_parameters options_;
   Filter_counters counters_;
   Broad_phase broad_phase_;
+  Editor<Mesh_type, Broad_phase> editor_;
   Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
   Vertex_index held_; ///< whose star guard_ has; invalid when none
   bool moved_ = false; ///< the broad phase has not been told yet where the held star is
@@ -195,8 +255,27 @@ private:
       watch_.remember(v);
       largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(end));
       moved_ = true;
+      editor_.note_move(v, s, end);
     }
     finish(s, t, end, c, result);
+    return result;
+  }
+
+  /// Runs an edit between looking for changes by others and noting what it changed.
+  template <class Edit_function>
+  Edited edited(const Edit_function& edit) {
+    release();
+    watch_.check_counts();
+    watch_.check_some();
+    const Edited result = edit();
+    if (result) {
+      watch_.remember_counts();
+      const Vertex_index v = *result.vertex;
+      if (!mesh_->is_removed(v)) {
+        watch_.remember(v);
+        largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(vertex_coordinates(*mesh_, v)));
+      }
+    }
     return result;
   }
 

@@ -62,14 +62,14 @@ void fill_with_fan(Mesh& mesh, typename Mesh::Halfedge_index h, typename Mesh::V
   faces.push_back(mesh.face(into_apex));
 }
 
-/// The polygon of the fan of triangles apex, link[i], link[i + 1], i = 1 ...; `link[0]` is the apex. Undoes fill_with_fan().
+/// A halfedge of the polygon that is left when the fan of link[0] over link[1], link[2], ... (the order of Star::link) becomes one
+/// face. Undoes fill_with_fan().
 template <class Mesh>
 typename Mesh::Halfedge_index merge_fan(Mesh& mesh, const std::vector<typename Mesh::Vertex_index>& link) {
   for (std::size_t i = 2; i + 1 < link.size(); ++i)
     CGAL::Euler::join_face(mesh.halfedge(link[0], link[i]), mesh);
-  // Any halfedge inside the polygon; its orientation is told by the mesh: one of the two has both ends in order.
-  auto h = mesh.halfedge(link[0], link[1]);
-  return mesh.target(mesh.next(h)) == link[2] ? h : mesh.opposite(h);
+  // Star::link runs against the orientation of the faces, so the polygon has the halfedge from the second to the first.
+  return mesh.halfedge(link[1], link[0]);
 }
 
 } // namespace internal
