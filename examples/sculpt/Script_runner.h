@@ -10,8 +10,7 @@
 
 namespace haptic_sculpt::sculpt_program {
 
-/// Carries out commands one by one. Vertices are named by index in file order; no edit here makes or removes any, so the
-/// mesh's own indices serve.
+/// Carries out commands one by one. Vertices are named by numbers that last: at first the index in file order.
 template <class Broad_phase>
 class Script_runner {
 public:
@@ -19,18 +18,24 @@ public:
 
   Script_runner(Mesh& mesh, const Sculptor_parameters& parameters) : mesh_(mesh), sculptor_(mesh, parameters) {}
 
-  Run_result run(const std::vector<Command>& script) {
+  Run_result run(const std::vector<Command>& script, const After_command& after) {
     const auto begin = Clock::now();
     auto said = begin;
     for (std::size_t i = 0; i < script.size(); ++i) {
       carry_out(script[i]);
+      after(script[i]);
       if (Clock::now() - said > std::chrono::seconds(2)) {
         said = Clock::now();
         std::cerr << "sculpt: " << i + 1 << " of " << script.size() << " lines, "
                   << std::chrono::duration_cast<std::chrono::seconds>(said - begin).count() << " s\n";
       }
     }
-    result_.moved_vertices.assign(moved_.begin(), moved_.end());
+    for (const std::size_t name : moved_)
+      if (sculptor_.vertex(name).is_valid())
+        result_.moved_vertices.push_back(sculptor_.vertex(name));
+    for (std::size_t name = 0; name < sculptor_.number_of_names(); ++name)
+      if (sculptor_.vertex(name).is_valid())
+        result_.vertex_order.emplace_back(static_cast<Mesh::size_type>(sculptor_.vertex(name)));
     result_.filter = sculptor_.filter_counters();
     return std::move(result_);
   }
@@ -56,6 +61,11 @@ private:
       sculptor_.set_clearance(command.length);
       break;
     case Kind::delta: delta(command); break;
+    case Kind::insert_face: insert_on_face(command); break;
+    case Kind::insert_edge: insert_on_edge(command); break;
+    case Kind::remove: remove(command); break;
+    case Kind::undo: edit(command, [&] { return sculptor_.undo(); }); break;
+    case Kind::redo: edit(command, [&] { return sculptor_.redo(); }); break;
     default: sculptor_.release(); // release; response stop; mesh was checked before the first edit
     }
   }
@@ -64,11 +74,11 @@ private:
 
   void drag(const Command& command) {
     const std::size_t index = command.indices[0];
-    if (index >= mesh_.num_vertices()) {
-      refuse(command, "unknown-vertex", {index});
+    const Vertex_index v = sculptor_.vertex(index);
+    if (!v.is_valid()) {
+      refuse(command, "unknown-element", {index});
       return;
     }
-    const Mesh::Vertex_index v(static_cast<Mesh::size_type>(index));
     const Kernel::Point_3 start = mesh_.point(v);
     const auto begin = Clock::now();
     // A grab of the vertex already in hand would let go of it first.
@@ -79,6 +89,43 @@ private:
     finish(command, begin, done, start, command.points[0], {index});
     if (done.position != start)
       moved_.insert(index);
+  }
+
+  void insert_on_face(const Command& command) {
+    const auto f = sculptor_.face_of(command.indices[0], command.indices[1], command.indices[2]);
+    edit(command, [&] { return sculptor_.insert_on_face(f, point(command.points[0])); });
+  }
+
+  void insert_on_edge(const Command& command) {
+    const auto e = sculptor_.edge_of(command.indices[0], command.indices[1]);
+    edit(command, [&] { return sculptor_.insert_on_edge(e, point(command.points[0])); });
+  }
+
+  void remove(const Command& command) {
+    const Vertex_index v = sculptor_.vertex(command.indices[0]);
+    edit(command, [&] { return sculptor_.remove(v); });
+  }
+
+  template <class Edit>
+  void edit(const Command& command, const Edit& make) {
+    const auto begin = Clock::now();
+    const auto done = make();
+    if (!done) {
+      std::vector<std::size_t> elements;
+      for (const Vertex_index v : done.refusal->elements)
+        elements.push_back(sculptor_.name(v));
+      refuse(command, name_of(done.refusal->reason), elements.empty() ? command.indices : elements);
+      return;
+    }
+    result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+    const std::size_t name = sculptor_.name(*done.vertex);
+    const Kernel::Point_3& p = mesh_.point(*done.vertex);
+    if (command.kind == Kind::insert_face || command.kind == Kind::insert_edge)
+      moved_.insert(name);
+    ++result_.reached;
+    result_.edits.push_back({{"line", command.line}, {"op", name_of(command.kind)}, {"status", "reached"}, {"reason", nullptr},
+                             {"elements", {name}}, {"position", {p.x(), p.y(), p.z()}}, {"legs", 0}, {"stop_error", 0},
+                             {"kkt_residual", 0}, {"contacts", Json::array()}});
   }
 
   void probe(const Command& command) {
@@ -102,8 +149,8 @@ private:
   std::optional<typename Sculptor<Mesh, Broad_phase>::Grab_type> grab_;
   bool held_ = false;
 
-  static std::vector<std::size_t> ids(const Contact_3<Mesh>& contact) {
-    return {contact.vertices.begin(), contact.vertices.end()};
+  std::vector<std::size_t> ids(const Contact_3<Mesh>& contact) const {
+    return {sculptor_.name(contact.vertices[0]), sculptor_.name(contact.vertices[1]), sculptor_.name(contact.vertices[2])};
   }
 
   void refuse(const Command& command, const char* reason, const std::vector<std::size_t>& elements) {
@@ -153,8 +200,9 @@ private:
 };
 
 template <class Broad_phase>
-Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Sculptor_parameters& parameters) {
-  return Script_runner<Broad_phase>(mesh, parameters).run(script);
+Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Sculptor_parameters& parameters,
+                      const After_command& after) {
+  return Script_runner<Broad_phase>(mesh, parameters).run(script, after);
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sculpts a mesh from a script. See --help, and DESIGN's names of options, report keys and exit codes in doc/sculpt.md.
+#include "Log_file.h"
 #include "Run_options.h"
 #include "sha256_of_file.h"
 
@@ -38,11 +39,6 @@ struct Usage_error : Error {
   using Error::Error;
 };
 
-/// A log or script that names another mesh.
-struct Foreign_log : Error {
-  using Error::Error;
-};
-
 std::vector<Command> script_of(const Arguments& arguments) {
   if (arguments.script.empty())
     return {};
@@ -60,13 +56,6 @@ void check(const std::vector<Command>& script, const Arguments& arguments) {
   std::optional<std::string> hash;
   for (const Command& command : script)
     switch (command.kind) {
-    case Kind::insert_face:
-    case Kind::insert_edge:
-    case Kind::remove:
-    case Kind::undo:
-    case Kind::redo:
-      not_yet(command.line, std::string("the edit '") + name_of(command.kind) + "'");
-      break;
     case Kind::response:
       if (command.word != "stop")
         not_yet(command.line, "the response '" + command.word + "'");
@@ -83,16 +72,33 @@ void check(const std::vector<Command>& script, const Arguments& arguments) {
     }
 }
 
-Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& arguments) {
+Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& arguments, const After_command& after) {
   Sculptor_parameters parameters;
   parameters.delta(arguments.delta);
   if (arguments.clearance > 0)
     parameters.clearance(arguments.clearance);
   if (arguments.broad_phase == "brute")
-    return run_script<Brute_force_broad_phase<Mesh>>(mesh, script, parameters);
+    return run_script<Brute_force_broad_phase<Mesh>>(mesh, script, parameters, after);
   if (arguments.broad_phase == "six-lists")
-    return run_script<Six_list_broad_phase<Mesh>>(mesh, script, parameters);
-  return run_script<Box_tree_broad_phase<Mesh>>(mesh, script, parameters);
+    return run_script<Six_list_broad_phase<Mesh>>(mesh, script, parameters, after);
+  return run_script<Box_tree_broad_phase<Mesh>>(mesh, script, parameters, after);
+}
+
+/// The options that a log has to repeat, as directives.
+std::vector<Command> settings(const Arguments& arguments) {
+  std::vector<Command> directives;
+  Command command;
+  if (arguments.clearance > 0) {
+    command.kind = Kind::clearance;
+    command.length = arguments.clearance;
+    directives.push_back(command);
+  }
+  if (arguments.delta > 0) {
+    command.kind = Kind::delta;
+    command.length = arguments.delta;
+    directives.push_back(command);
+  }
+  return directives;
 }
 
 double percentile(std::vector<double> values, double share) {
@@ -143,7 +149,7 @@ void write_picture_of(const Mesh& mesh, const Run_result& result, const std::str
   drawing::Scene scene = drawing::scene_of(mesh);
   constexpr std::size_t most = 2000; // marks beyond this hide the mesh, and cost a few hundred triangles each
   for (std::size_t i = 0; i < result.moved_vertices.size() && i < most; ++i)
-    scene.add_moved_vertex(drawing::to_eigen(mesh.point(Mesh::Vertex_index(static_cast<Mesh::size_type>(result.moved_vertices[i])))));
+    scene.add_moved_vertex(drawing::to_eigen(mesh.point(result.moved_vertices[i])));
   for (std::size_t i = 0; i < result.blocked_drags.size() && i < most; ++i) {
     const Blocked_drag& drag = result.blocked_drags[i];
     scene.add_blocked_drag(drag.start, drag.stop, drag.target);
@@ -155,19 +161,33 @@ void write_picture_of(const Mesh& mesh, const Run_result& result, const std::str
 }
 
 int sculpt(const Arguments& arguments) {
-  if (!arguments.log.empty())
-    throw Usage_error("--log does not exist yet");
   if (arguments.response != "stop")
     throw Usage_error("the response '" + arguments.response + "' does not exist yet; use stop");
   if (!arguments.out.empty() && !mesh_file_format(arguments.out))
     throw Usage_error("'" + arguments.out + "' does not end in .off, .ply, .obj or .stl");
-  const std::vector<Command> script = script_of(arguments);
+  std::vector<Command> script = script_of(arguments);
   Mesh mesh = read_surface<Mesh>(arguments.mesh, arguments.delta);
   check(script, arguments);
-  const Run_result result = run(mesh, script, arguments);
+  std::optional<Log_file> log;
+  std::size_t replayed = 0;
+  if (!arguments.log.empty()) {
+    log.emplace(arguments.log, sha256_of_file(arguments.mesh), settings(arguments));
+    replayed = log->commands().size();
+    script.insert(script.begin(), log->commands().begin(), log->commands().end());
+  }
+  std::size_t made = 0;
+  const Run_result result = run(mesh, script, arguments, [&](const Command& command) {
+    if (log && ++made > replayed)
+      log->append(command);
+  });
+  if (replayed > 0)
+    std::cout << "replayed " << replayed << " lines of " << arguments.log << '\n';
   print_table(result, mesh);
-  if (!arguments.out.empty())
-    write_surface(arguments.out, mesh);
+  if (!arguments.out.empty()) {
+    Write_options options;
+    options.vertex_order = result.vertex_order;
+    write_surface(arguments.out, mesh, options);
+  }
   if (!arguments.report.empty())
     replace_file(arguments.report, report_of(result).dump(1) + '\n');
   if (!arguments.picture.empty())
@@ -183,13 +203,13 @@ int main(int argc, char** argv) {
                "Exit: 0 done (blocked drags and refused edits are done), 2 usage, 3 mesh refused, 4 script error, "
                "5 cannot write, 6 script or log of another mesh.\n"
                "Script, one edit a line, # comments, numbers decimal or hexadecimal:\n"
-               "  drag V X Y Z | release | probe X Y Z X2 Y2 Z2 |\n"
-               "  response stop | clearance L | delta L | mesh SHA256");
+               "  drag V X Y Z | release | insert_face A B C X Y Z | insert_edge A B X Y Z | remove V |\n"
+               "  probe X Y Z X2 Y2 Z2 | undo | redo | response stop | clearance L | delta L | mesh SHA256");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->required();
   app.add_option("--script", arguments.script, "The edits; may be /dev/stdin");
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes: .off .ply .obj .stl");
   app.add_option("--report", arguments.report, "Where the JSON report goes");
-  app.add_option("--log", arguments.log, "Edit log (does not exist yet)");
+  app.add_option("--log", arguments.log, "Edit log: replayed if it exists, then appended to");
   app.add_option("--response", arguments.response, "What a blocked vertex does; only stop exists yet")
       ->capture_default_str()->check(CLI::IsMember({"slide", "stop", "paper"}));
   app.add_option("--broad-phase", arguments.broad_phase, "How candidates are found; the results are the same")
