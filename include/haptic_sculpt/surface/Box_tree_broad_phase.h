@@ -32,8 +32,10 @@ public:
   }
 
   void query(const Swept_star_3& star, std::vector<Face_index>& faces) {
-    const internal::Float_box around = internal::Float_box::query(star.box());
     const internal::Cone_of_boxes cone(star);
+    if (!cone.is_long()) // then it is no thinner than a box, which costs less to ask
+      return query(star.box(), faces);
+    const internal::Float_box around = internal::Float_box::query(star.box());
     descend(
         [&](const Node& node) {
           const unsigned mask = node.meeting(around);

@@ -20,11 +20,18 @@ public:
     Box_3 base(star.source);
     for (std::size_t i = 0; i < star.valence; ++i)
       base.include(star.link[i]);
+    double extent = 0, way = 0;
     for (int i = 0; i < 3; ++i) {
+      extent = std::fmax(extent, base.upper[i] - base.lower[i]);
+      way = std::fmax(way, std::abs(star.target[i] - star.source[i]));
       restrict_time(i + 3, float_below(base.lower[i]), star.target[i] - base.lower[i], true);
       restrict_time(i, float_above(base.upper[i]), star.target[i] - base.upper[i], false);
     }
+    is_long_ = way > extent;
   }
+
+  /// Whether the way is longer than the star is wide.
+  bool is_long() const { return is_long_; }
 
   /// Bit j is 0 only if no box of the cone meets box j of the node.
   ///
@@ -69,6 +76,7 @@ private:
 
   std::array<Limit, 6> first_, last_;
   int firsts_ = 0, lasts_ = 0;
+  bool is_long_ = false;
 
   void restrict_time(int bound, float origin, double extent, bool is_upper) {
     if (!(std::abs(extent) >= least_extent && std::abs(extent) <= largest_extent))

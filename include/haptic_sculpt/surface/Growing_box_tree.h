@@ -34,12 +34,13 @@ public:
     }
     std::uint32_t at = root_;
     while (node(at).height != 0) {
-      std::uint32_t next = nearest_child(at, box);
+      const std::uint32_t next = nearest_child(at, box);
       if (node(next).count == Box_node::width) {
-        halve(next, put);
-        next = nearest_child(at, box);
+        const std::uint32_t sibling = halve(next, put); // `at` may be full now, so it has to be one of these two
+        at = growth(node(next).boxes.all(), box) <= growth(node(sibling).boxes.all(), box) ? next : sibling;
+      } else {
+        at = next;
       }
-      at = next;
     }
     adopt(at, item, box, put);
     refit(at);
@@ -144,9 +145,9 @@ private:
   }
 
   /// Moves half of a full node's children, those beyond the middle of its longest extent, to a new sibling.
-  /// \pre the parent has room
+  /// \pre the parent has room  \return the sibling
   template <class Put>
-  void halve(std::uint32_t full, const Put& put) {
+  std::uint32_t halve(std::uint32_t full, const Put& put) {
     const std::uint32_t sibling = new_node(node(full).height);
     Node& n = node(full);
     const Box_node boxes = n.boxes;
@@ -170,9 +171,18 @@ private:
     const std::uint32_t above = n.parent / Box_node::width;
     node(above).boxes.set(n.parent % Box_node::width, n.boxes.all());
     adopt(above, sibling, node(sibling).boxes.all(), put);
+    return sibling;
   }
 
-  /// The child whose box grows least in sum of extents; any would be correct.
+  /// By how much the sum of a box's extents grows when it takes in another.
+  static float growth(const Float_box& box, const Float_box& other) {
+    float sum = 0;
+    for (int i = 0; i < 3; ++i)
+      sum += std::max(0.f, box.lower[i] - other.lower[i]) + std::max(0.f, other.upper[i] - box.upper[i]);
+    return sum;
+  }
+
+  /// The child whose box grows least; any would be correct.
   std::uint32_t nearest_child(std::uint32_t at, const Float_box& box) {
     const Node& n = node(at);
     unsigned best = Box_node::width;
@@ -180,13 +190,9 @@ private:
     for (unsigned j = 0; j < Box_node::width; ++j) {
       if (n.child[j] == none)
         continue;
-      float growth = 0;
-      for (int i = 0; i < 3; ++i) {
-        growth += std::max(0.f, n.boxes.bounds[i][j] - box.lower[i]);
-        growth += std::max(0.f, box.upper[i] - n.boxes.bounds[i + 3][j]);
-      }
-      if (best == Box_node::width || growth < least)
-        best = j, least = growth;
+      const float sum = growth(n.boxes.box(j), box);
+      if (best == Box_node::width || sum < least)
+        best = j, least = sum;
     }
     return n.child[best];
   }
