@@ -15,6 +15,25 @@
 #include <cfenv>
 #include <cstdlib>
 #include <iostream>
+#include <new>
+
+namespace {
+std::size_t allocations = 0; // of this program, so far
+} // namespace
+
+// Not inlined, or g++ sees free() meet operator new and warns.
+__attribute__((noinline)) void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size))
+    return p;
+  throw std::bad_alloc();
+}
+__attribute__((noinline)) void operator delete(void* p) noexcept {
+  std::free(p);
+}
+__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
 
 using namespace haptic_sculpt;
 
@@ -36,7 +55,9 @@ std::uint64_t seed() {
   return value;
 }
 
-double uniform(Random& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; }
+double uniform(Random& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-52 - 1;
+}
 
 /// Where a scene lies: x -> offset + scale * x.
 struct Frame {
@@ -61,8 +82,9 @@ std::vector<Face_index> sorted(std::vector<Face_index> faces) {
 }
 
 /// Exactly whether the tetrahedron stgi, degenerate or not, meets the triangle: a corner of what they share is a corner
-/// of the triangle in the tetrahedron, or lies on an edge of one and a face of the other. Where the sweeps do not take a degenerate
-/// feature, others see what it meets; only a triangle that is a point on a tetrahedron with g == i is overlooked.
+/// of the triangle in the tetrahedron, or lies on an edge of one and a face of the other. Where the sweeps do not take
+/// a degenerate feature, others see what it meets; only a triangle that is a point on a tetrahedron with g == i is
+/// overlooked.
 bool do_meet(const Coordinates& s, const Coordinates& t, const Coordinates& g, const Coordinates& i,
              const std::array<Coordinates, 3>& triangle) {
   const Swept_collision_traits_3<Kernel> traits;
@@ -82,7 +104,8 @@ bool do_meet(const Coordinates& s, const Coordinates& t, const Coordinates& g, c
         return true;
   for (int j = 0; j < 4; ++j)
     for (int k = 0; k < 3; ++k)
-      if (a[k] != a[(k + 1) % 3] && edge_edge.do_collide(tet[(j + 1) % 4], tet[(j + 2) % 4], tet[(j + 3) % 4], a[k], a[(k + 1) % 3]))
+      if (a[k] != a[(k + 1) % 3] &&
+          edge_edge.do_collide(tet[(j + 1) % 4], tet[(j + 2) % 4], tet[(j + 3) % 4], a[k], a[(k + 1) % 3]))
         return true;
   return false;
 }
@@ -93,7 +116,7 @@ std::array<Coordinates, 3> corners(const Mesh& mesh, Face_index f) {
           vertex_coordinates(mesh, mesh.target(mesh.next(h)))};
 }
 
-/// The faces that the star sweeps over, and its first exact pass only over faces whose box meets the star's.
+/// The faces that the star sweeps over, exactly; only those whose box meets the star's can be among them.
 std::vector<Face_index> swept_faces(const Mesh& mesh, const Swept_star_3& star) {
   std::vector<Face_index> near, swept;
   Brute_force_broad_phase<Mesh>(mesh).query(star.box(), near);
@@ -129,7 +152,9 @@ struct Changing_mesh {
     mesh.point(v) = Point_3(q[0], q[1], q[2]);
   }
   template <class Faces>
-  void moved(const Faces& faces) { six_lists.faces_moved(faces), tree.faces_moved(faces); }
+  void moved(const Faces& faces) {
+    six_lists.faces_moved(faces), tree.faces_moved(faces);
+  }
   template <class Faces>
   void came(const Faces& faces) {
     six_lists.faces_inserted(faces), tree.faces_inserted(faces);
@@ -267,8 +292,8 @@ struct Changing_mesh {
   }
 };
 
-const std::vector<Frame> frames = {{1, 0},      {1, 1e6},       {1e-3, 1e9},    {1e-7, 1}, {1e-42, 0},
-                                   {1e-310, 0}, {3e38, 0},      {5e37, 2.5e38}, {1e150, 0}, {1e300, 0}};
+const std::vector<Frame> frames = {{1, 0},      {1, 1e6},  {1e-3, 1e9},    {1e-7, 1},  {1e-42, 0},
+                                   {1e-310, 0}, {3e38, 0}, {5e37, 2.5e38}, {1e150, 0}, {1e300, 0}};
 
 std::vector<Mesh> scenes() {
   return {meshes::to_mesh(meshes::icosphere(1)), meshes::to_mesh(meshes::box(3)), meshes::to_mesh(meshes::torus(9, 6)),
@@ -279,7 +304,8 @@ std::vector<Mesh> scenes() {
 
 BOOST_AUTO_TEST_CASE(rounding_is_outward_and_tight_in_every_mode) {
   Random random(seed());
-  std::vector<double> values = {0.0, -0.0, 1e-320, -1e-320, 1e-46, -1e-46, 1e39, -1e39, 3.5e38, 1e308, 0.1, -0.1, 16777217.0};
+  std::vector<double> values = {0.0,   -0.0,   1e-320, -1e-320, 1e-46, -1e-46,    1e39,
+                                -1e39, 3.5e38, 1e308,  0.1,     -0.1,  16777217.0};
   for (const float f : {1.f, 1e-45f, 1e-38f, std::numeric_limits<float>::max(), std::numeric_limits<float>::min()})
     for (const double x : {double(f), std::nextafter(double(f), 0.0), std::nextafter(double(f), 1e300)})
       values.push_back(x), values.push_back(-x);
@@ -407,6 +433,40 @@ BOOST_AUTO_TEST_CASE(a_long_push_asks_for_few_faces) {
   BOOST_TEST(found.size() * 20 < in_box.size());
 }
 
+BOOST_AUTO_TEST_CASE(neither_queries_nor_moves_allocate) {
+  Mesh mesh = meshes::to_mesh(meshes::torus(60, 30));
+  Random random(seed());
+  Box_tree_broad_phase<Mesh> tree(mesh);
+  for (int k = 0; k < 100; ++k) { // so that there is an overflow too
+    const Face_index f(static_cast<Mesh::size_type>(random() % mesh.num_faces()));
+    const Halfedge_index h = CGAL::Euler::add_center_vertex(mesh.halfedge(f), mesh);
+    mesh.point(mesh.target(h)) = mesh.point(mesh.source(h));
+    std::vector<Face_index> around(mesh.faces_around_target(h).begin(), mesh.faces_around_target(h).end());
+    tree.faces_inserted(around);
+  }
+  std::vector<Face_index> found;
+  Star<Mesh> star;
+  std::size_t before = 0;
+  for (int round = 0; round < 2; ++round) { // the same twice: the first warms up
+    Random script(17);
+    before = allocations;
+    for (int k = 0; k < 500; ++k) {
+      const Vertex_index v(static_cast<Mesh::size_type>(script() % mesh.num_vertices()));
+      star.collect(mesh, v);
+      const Coordinates s = vertex_coordinates(mesh, v), t = random_point(script, 2);
+      found.clear();
+      tree.query(star.swept(s, t), found);
+      tree.query(star.swept(s, s).box(), found);
+      mesh.point(v) = Point_3(t[0], t[1], t[2]);
+      tree.faces_moved(star.faces);
+      mesh.point(v) = Point_3(s[0], s[1], s[2]);
+      tree.faces_moved(star.faces);
+    }
+  }
+  BOOST_TEST(allocations == before);
+  BOOST_TEST(before > 0u);
+}
+
 BOOST_AUTO_TEST_CASE(memory_of_the_tree_is_as_promised) {
   const Mesh mesh = meshes::to_mesh(meshes::torus(300, 170));
   const double bytes = static_cast<double>(Box_tree_broad_phase<Mesh>(mesh).memory()) / mesh.number_of_faces();
@@ -427,9 +487,10 @@ std::vector<double> trace_of(Mesh mesh, std::uint64_t seed_of_script) {
     auto grab = sculptor.grab(v);
     for (int step = 0; step < 4; ++step) {
       const Coordinates p = vertex_coordinates(mesh, v), d = random_point(random, random() % 3 == 0 ? 3 : 0.2);
-      const auto result = random() % 8 == 0
-                              ? grab.drag_to(mesh.point(Vertex_index(static_cast<Mesh::size_type>(random() % mesh.num_vertices()))))
-                              : grab.drag_to(Point_3(p[0] + d[0], p[1] + d[1], p[2] + d[2]));
+      const auto result =
+          random() % 8 == 0
+              ? grab.drag_to(mesh.point(Vertex_index(static_cast<Mesh::size_type>(random() % mesh.num_vertices()))))
+              : grab.drag_to(Point_3(p[0] + d[0], p[1] + d[1], p[2] + d[2]));
       trace.insert(trace.end(), {result.position.x(), result.position.y(), result.position.z(), result.stop_error,
                                  result.stop_error_along_path, result.kkt_residual, double(result.legs),
                                  double(static_cast<int>(result.end)), double(result.contacts.size())});

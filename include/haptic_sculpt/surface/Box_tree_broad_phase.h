@@ -11,14 +11,14 @@ namespace haptic_sculpt {
 
 /// The default broad phase: an implicit 8-wide tree of boxes over the faces in a spatial order.
 ///
-/// Boxes are floats rounded outward, so that every box contains what it stands for; answers are supersets. Node k of a level
-/// has the children 8k ... 8k + 7 of the level below, and the children of the lowest level are the slots, one a face: no
-/// pointers. Moves refit the boxes above the faces that moved, up to the first that does not change. A new face takes a slot
-/// that was freed beside a face it shares an edge with; if there is none it goes to an overflow tree that grows. Nothing is
-/// ever built anew. A model of BroadPhase (doc/broad_phase.md).
+/// Boxes are floats rounded outward, so that every box contains what it stands for; answers are supersets. Node k of a
+/// level has the children 8k ... 8k + 7 of the level below, and the children of the lowest level are the slots, one a
+/// face: no pointers. Moves refit the boxes above the faces that moved, up to the first that does not change. A new
+/// face takes a slot that was freed beside a face it shares an edge with; if there is none it goes to an overflow tree
+/// that grows. Nothing is ever built anew. A model of BroadPhase (doc/broad_phase.md).
 ///
-/// Cost: build n log n; a query log n plus its answer; an update log n. 35.4 bytes a face, about 60 for one in the overflow.
-/// A query allocates nothing once its output has grown; neither do moves.
+/// Cost: build n log n; a query log n plus its answer; an update log n. 35.4 bytes a face, about 60 for one in the
+/// overflow. A query allocates nothing once its output has grown; neither do moves.
 template <class Mesh>
 class Box_tree_broad_phase {
 public:
@@ -103,11 +103,12 @@ private:
 
   static constexpr std::uint32_t width = Node::width;
   static constexpr std::uint32_t no_slot = ~std::uint32_t{0}, no_face = no_slot;
-  static constexpr std::uint32_t first_overflow = std::uint32_t{1} << 31; ///< slots from here on are places of the overflow
-  static constexpr int most_levels = 11; ///< 8^11 > 2^31
+  static constexpr std::uint32_t first_overflow = std::uint32_t{1}
+                                                  << 31; ///< slots from here on are places of the overflow
+  static constexpr int most_levels = 11;                 ///< 8^11 > 2^31
 
   const Mesh* mesh_;
-  std::vector<Node> nodes_; ///< level by level from the root
+  std::vector<Node> nodes_;                              ///< level by level from the root
   std::array<std::uint32_t, most_levels> level_begin_{}; ///< of the lowest level first; the last is the root's, 0
   int levels_ = 0;
   std::vector<std::uint32_t> face_of_slot_; ///< eight for each node of the lowest level
@@ -153,8 +154,8 @@ private:
     }
   }
 
-  /// Sets the box of child `index` of a level. Where that changes anything notes its node behind the first `count` touched ones,
-  /// unless it is among the last of them: the faces of a star share nodes. \return how many are noted
+  /// Sets the box of child `index` of a level. Where that changes anything notes its node behind the first `count`
+  /// touched ones, unless it is among the last of them: the faces of a star share nodes. \return how many are noted
   std::size_t set(int level, std::uint32_t index, const internal::Float_box& box, std::size_t count) {
     Node& node = nodes_[level_begin_[level] + index / width];
     if (node.is(index % width, box))
@@ -184,9 +185,8 @@ private:
   }
 
   void insert_into_overflow(Face_index f, const internal::Float_box& box) {
-    overflow_.insert(static_cast<std::uint32_t>(f), box, [this](std::uint32_t face, std::uint32_t place) {
-      slot_of_face_[face] = first_overflow + place;
-    });
+    overflow_.insert(static_cast<std::uint32_t>(f), box,
+                     [this](std::uint32_t face, std::uint32_t place) { slot_of_face_[face] = first_overflow + place; });
   }
 
   /// A free slot in the node of a face that shares an edge with f, or no_slot.

@@ -12,8 +12,8 @@ namespace internal {
 
 /// All boxes (1 - t) B + t T, 0 <= t <= 1, from the box B of a star at its start to the target T.
 ///
-/// It holds all that the star sweeps, for that is made of convex combinations of points of B with T. On long pushes it is
-/// far thinner than one box around all. The proof that no rounding loses a box is in doc/broad_phase.md.
+/// It holds all that the star sweeps, for that is made of convex combinations of points of B with T. On long pushes it
+/// is far thinner than one box around all. The proof that no rounding loses a box is in doc/broad_phase.md.
 class Cone_of_boxes {
 public:
   explicit Cone_of_boxes(const Swept_star_3& star) {
@@ -35,8 +35,8 @@ public:
 
   /// Bit j is 0 only if no box of the cone meets box j of the node.
   ///
-  /// For each axis (1 - t) B.lower + t T <= upper and (1 - t) B.upper + t T >= lower bound t from one side each; the times that
-  /// all six leave, and [0, 1], must not be empty.
+  /// For each axis (1 - t) B.lower + t T <= upper and (1 - t) B.upper + t T >= lower bound t from one side each; the
+  /// times that all six leave, and [0, 1], must not be empty.
   unsigned meeting(const Box_node& node) const {
     static constexpr int bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
     float first[8], last[8];

@@ -6,15 +6,17 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// The overflow of a laid-out tree: an 8-wide R-tree that takes boxes one by one, in log n each, and never moves its nodes.
+/// The overflow of a laid-out tree: an 8-wide R-tree that takes boxes one by one, in log n each, and never moves its
+/// nodes.
 ///
-/// Every box is an item, a number, at a place: node * 8 + child. A full node met on the way down is halved, so that there
-/// is always room for one more child above; that moves items, and `put(item, place)` is told.
+/// Every box is an item, a number, at a place: node * 8 + child. A full node met on the way down is halved, so that
+/// there is always room for one more child above; that moves items, and `put(item, place)` is told.
 class Growing_box_tree {
 public:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -82,10 +84,12 @@ public:
       stack_.pop_back();
       for (unsigned mask = passing(n.boxes); mask != 0; mask &= mask - 1) {
         const std::uint32_t child = n.child[lowest_bit(mask)];
-        if (n.height == 0)
+        if (n.height == 0) {
           found(child);
-        else
+        } else {
+          prefetch(&node(child), sizeof(Node));
           stack_.push_back(child);
+        }
       }
     }
   }
@@ -182,17 +186,22 @@ private:
     return sum;
   }
 
-  /// The child whose box grows least; any would be correct.
+  static float sum_of_extents(const Float_box& box) {
+    return (box.upper[0] - box.lower[0]) + (box.upper[1] - box.lower[1]) + (box.upper[2] - box.lower[2]);
+  }
+
+  /// The child whose box grows least, of those the smallest; any would be correct.
   std::uint32_t nearest_child(std::uint32_t at, const Float_box& box) {
     const Node& n = node(at);
     unsigned best = Box_node::width;
-    float least = 0;
+    std::pair<float, float> least;
     for (unsigned j = 0; j < Box_node::width; ++j) {
       if (n.child[j] == none)
         continue;
-      const float sum = growth(n.boxes.box(j), box);
-      if (best == Box_node::width || sum < least)
-        best = j, least = sum;
+      const Float_box there = n.boxes.box(j);
+      const std::pair<float, float> cost(growth(there, box), sum_of_extents(there));
+      if (best == Box_node::width || cost < least)
+        best = j, least = cost;
     }
     return n.child[best];
   }

@@ -10,12 +10,12 @@
 
 namespace haptic_sculpt {
 
-/// The broad phase of 1997 (paper 4.0): six lists of all faces, sorted by the lower and upper bounds of their boxes in x, y
-/// and z, and six pointers that run up and down the lists as the query box moves.
+/// The broad phase of 1997 (paper 4.0): six lists of all faces, sorted by the lower and upper bounds of their boxes in
+/// x, y and z, and six pointers that run up and down the lists as the query box moves.
 ///
-/// A face meets the query box when six comparisons hold, one a list; each list is divided by its pointer into those for which
-/// it holds and the others. The faces for which all six hold are the checklist. A model of BroadPhase (doc/broad_phase.md), and
-/// the historical baseline.
+/// A face meets the query box when six comparisons hold, one a list; each list is divided by its pointer into those for
+/// which it holds and the others. The faces for which all six hold are the checklist. A model of BroadPhase
+/// (doc/broad_phase.md), and the historical baseline.
 ///
 /// Cost: a query, the number of list entries between the old and the new pointers: few in a drag, all on a far jump.
 /// A face that moves: log n to find its entries, and as many steps as entries are passed. One that comes or goes: the n
@@ -74,14 +74,15 @@ private:
   using Entry = std::pair<double, std::uint32_t>;
 
   const Mesh* mesh_;
-  std::array<std::vector<Entry>, 6> lists_;   ///< lower x, y, z; upper x, y, z
-  std::array<std::size_t, 6> pointers_{};     ///< entries before it: lower bound <= query's upper; upper bound < query's lower
-  Box_3 query_box_;                           ///< at first the empty box
+  std::array<std::vector<Entry>, 6> lists_; ///< lower x, y, z; upper x, y, z
+  std::array<std::size_t, 6>
+      pointers_{};  ///< entries before it: lower bound <= query's upper; upper bound < query's lower
+  Box_3 query_box_; ///< at first the empty box
   std::vector<Box_3> boxes_;
   std::vector<char> alive_;
-  std::vector<std::uint8_t> holding_;         ///< how many of the six comparisons hold for a face
-  std::vector<std::uint32_t> checklist_;      ///< faces for which all six hold
-  std::vector<std::uint32_t> place_;          ///< of a face in the checklist
+  std::vector<std::uint8_t> holding_;    ///< how many of the six comparisons hold for a face
+  std::vector<std::uint32_t> checklist_; ///< faces for which all six hold
+  std::vector<std::uint32_t> place_;     ///< of a face in the checklist
 
   static double bound(int list, const Box_3& box) { return list < 3 ? box.lower[list] : box.upper[list - 3]; }
 

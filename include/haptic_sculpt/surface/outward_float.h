@@ -28,7 +28,9 @@ inline float float_below(double x) {
 }
 
 /// A float that is not below x.
-inline float float_above(double x) { return -float_below(-x); }
+inline float float_above(double x) {
+  return -float_below(-x);
+}
 
 /// A closed box of floats.
 struct Float_box {
@@ -48,7 +50,8 @@ struct Float_box {
   }
 
   /// The box to ask with: it meets what Float_box(box) meets, except the box of nothing. For the lower bound of a box
-  /// around finite doubles is never +infinity: no such box is lost where an upper bound asked with is at most the largest float.
+  /// around finite doubles is never +infinity: no such box is lost where an upper bound asked with is at most the
+  /// largest float.
   static Float_box query(const Box_3& box) {
     constexpr float largest = std::numeric_limits<float>::max();
     Float_box result(box);

@@ -18,8 +18,8 @@ struct Face_middle {
   std::uint32_t face;
 };
 
-/// Orders [begin, end) so that any `capacity` successive faces from `begin` on, and within them any capacity / 8, and so on,
-/// are near each other: halves what is there across its longest extent, at a multiple of the capacity.
+/// Orders [begin, end) so that any `capacity` successive faces from `begin` on, and within them any capacity / 8, and
+/// so on, are near each other: halves what is there across its longest extent, at a multiple of the capacity.
 inline void order_in_space(Face_middle* begin, Face_middle* end, std::size_t capacity) {
   const std::size_t count = end - begin;
   if (count <= Box_node::width)
