@@ -65,7 +65,8 @@ std::string cause_of(const Edit_record& edit) {
 }
 
 double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinates& q) {
-  return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  // By halves: the difference of two doubles may overflow, and std::hypot of infinities is not a number in some libraries.
+  return 2 * std::hypot(p[0] / 2 - q[0] / 2, p[1] / 2 - q[1] / 2, p[2] / 2 - q[2] / 2);
 }
 
 } // namespace

@@ -18,8 +18,12 @@ inline bool are_one_file(const std::filesystem::path& a, const std::filesystem::
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error))
     return true;
-  const auto full_a = std::filesystem::weakly_canonical(a, error), full_b = std::filesystem::weakly_canonical(b, error);
-  return !error && full_a == full_b;
+  // Made absolute first: weakly_canonical leaves the name of a file that is not there yet as it is, but not ./name.
+  const auto full = [](const std::filesystem::path& path) {
+    std::error_code ignored; // a name that leads nowhere is told by check_target()
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+  };
+  return full(a) == full(b);
 }
 
 /// Finds out before hours of work whether a file can be put at `path`, as far as that can be known without writing; a disk
