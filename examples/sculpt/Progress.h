@@ -10,8 +10,8 @@
 
 namespace haptic_sculpt::sculpt_program {
 
-/// Says on standard error how far a long run is. Nothing in the first two seconds; then a terminal is told twice a second
-/// in one line, and a file at 2, 4, 8, ... seconds, so that the log of a night's run stays short.
+/// Says on standard error how far a long run is. Nothing in the first two seconds; then a terminal is told twice a
+/// second in one line, and a file at 2, 4, 8, ... seconds, so that the log of a night's run stays short.
 class Progress {
 public:
   explicit Progress(std::size_t total) : total_(total), is_terminal_(::isatty(STDERR_FILENO) == 1) {}

@@ -47,7 +47,8 @@ double percentile(const std::vector<double>& sorted, double share) {
 
 /// What blocked or refused an edit.
 std::string cause_of(const Edit_record& edit) {
-  std::string text = edit.reason && (edit.status == Edit_record::Status::refused || edit.contacts.empty()) ? edit.reason : "";
+  std::string text =
+      edit.reason && (edit.status == Edit_record::Status::refused || edit.contacts.empty()) ? edit.reason : "";
   const auto name = [&text](const auto& ids) {
     constexpr std::size_t most = 6;
     for (std::size_t i = 0; i < ids.size() && i < most; ++i)
@@ -65,7 +66,8 @@ std::string cause_of(const Edit_record& edit) {
 }
 
 double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinates& q) {
-  // By halves: the difference of two doubles may overflow, and std::hypot of infinities is not a number in some libraries.
+  // By halves: the difference of two doubles may overflow, and std::hypot of infinities is not a number in some
+  // libraries.
   return 2 * std::hypot(p[0] / 2 - q[0] / 2, p[1] / 2 - q[1] / 2, p[2] / 2 - q[2] / 2);
 }
 
@@ -74,10 +76,8 @@ double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinate
 std::string report_of(const Run_result& result) {
   std::vector<double> times = result.nanoseconds;
   std::sort(times.begin(), times.end());
-  const Json totals = {{"asked", result.asked()},
-                       {"reached", result.reached},
-                       {"blocked", result.blocked},
-                       {"refused", result.refused}};
+  const Json totals = {
+      {"asked", result.asked()}, {"reached", result.reached}, {"blocked", result.blocked}, {"refused", result.refused}};
   const Json time = {{"p50", percentile(times, 0.5)},
                      {"p99", percentile(times, 0.99)},
                      {"p999", percentile(times, 0.999)},
@@ -87,7 +87,8 @@ std::string report_of(const Run_result& result) {
                        {"integer_128", result.filter.integer_128},
                        {"big_integer", result.filter.big_integer}};
   // Put together edit by edit: a tree of a million edits would take gigabytes.
-  std::string text = "{\n\"version\": " + Json(HAPTIC_SCULPT_VERSION).dump() + ",\n\"totals\": " + totals.dump() + ",\n\"edits\": [";
+  std::string text =
+      "{\n\"version\": " + Json(HAPTIC_SCULPT_VERSION).dump() + ",\n\"totals\": " + totals.dump() + ",\n\"edits\": [";
   for (std::size_t i = 0; i < result.edits.size(); ++i)
     text += (i == 0 ? "\n" : ",\n") + json_of(result.edits[i]).dump();
   return text + "\n],\n\"time_ns\": " + time.dump() + ",\n\"filter\": " + filter.dump() + "\n}\n";
@@ -95,8 +96,8 @@ std::string report_of(const Run_result& result) {
 
 void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) {
   out << mesh.number_of_vertices() << " vertices, " << mesh.number_of_faces() << " triangles\n"
-      << "edits asked " << result.asked() << ", reached " << result.reached << ", blocked " << result.blocked << ", refused "
-      << result.refused << '\n';
+      << "edits asked " << result.asked() << ", reached " << result.reached << ", blocked " << result.blocked
+      << ", refused " << result.refused << '\n';
   constexpr std::size_t most = 40;
   std::size_t told = 0;
   for (const Edit_record& edit : result.edits) {
@@ -108,8 +109,9 @@ void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) 
     }
     if (told++ == 0)
       out << "  line  edit    vertex  outcome  left to go  by (the vertices of what stands still)\n";
-    out << std::setw(6) << edit.line << "  " << std::left << std::setw(6) << name_of(edit.kind) << std::right << std::setw(8)
-        << (edit.kind == Command::Kind::drag ? std::to_string(edit.elements[0]) : "-") << "  " << name_of(edit.status);
+    out << std::setw(6) << edit.line << "  " << std::left << std::setw(6) << name_of(edit.kind) << std::right
+        << std::setw(8) << (edit.kind == Command::Kind::drag ? std::to_string(edit.elements[0]) : "-") << "  "
+        << name_of(edit.status);
     if (edit.motion)
       out << std::setw(12) << std::setprecision(4) << distance(edit.motion->stop, edit.motion->target);
     else

@@ -36,9 +36,10 @@ struct Edit_record {
   std::size_t line = 0;
   Command::Kind kind = Command::Kind::release;
   Status status = Status::refused;
-  const char* reason = nullptr;      ///< why it was not reached, or nullptr
-  std::vector<std::size_t> elements; ///< the vertices that the edit names; of a refused `delta`, those of too low triangles
-  std::optional<Motion> motion;      ///< none where refused
+  const char* reason = nullptr; ///< why it was not reached, or nullptr
+  std::vector<std::size_t>
+      elements;                 ///< the vertices that the edit names; of a refused `delta`, those of too low triangles
+  std::optional<Motion> motion; ///< none where refused
   int legs = 0;
   double stop_error = 0, stop_error_along_path = 0, kkt_residual = 0;
   std::vector<Contact> contacts;

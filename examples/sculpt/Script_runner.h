@@ -10,8 +10,8 @@
 
 namespace haptic_sculpt::sculpt_program {
 
-/// Carries out commands one by one. Vertices are named by index in file order; no edit here makes or removes any, so the
-/// mesh's own indices serve.
+/// Carries out commands one by one. Vertices are named by index in file order; no edit here makes or removes any, so
+/// the mesh's own indices serve.
 template <class Broad_phase>
 class Script_runner {
 public:
@@ -46,14 +46,21 @@ private:
     if (command.kind != Kind::drag)
       held_ = false; // any other line ends the grab
     switch (command.kind) {
-    case Kind::drag: drag(command); break;
-    case Kind::probe: probe(command); break;
+    case Kind::drag:
+      drag(command);
+      break;
+    case Kind::probe:
+      probe(command);
+      break;
     case Kind::clearance:
       sculptor_.release();
       sculptor_.set_clearance(command.length);
       break;
-    case Kind::delta: delta(command); break;
-    default: sculptor_.release(); // release; response stop; mesh was checked before the first edit
+    case Kind::delta:
+      delta(command);
+      break;
+    default:
+      sculptor_.release(); // release; response stop; mesh was checked before the first edit
     }
   }
 
@@ -122,8 +129,9 @@ private:
     record(command, Status::refused, reason, std::move(elements));
   }
 
-  void finish(const Command& command, Clock::time_point begin, const Result& done, const Edit_record::Coordinates& start,
-              const Edit_record::Coordinates& target, std::vector<std::size_t> elements) {
+  void finish(const Command& command, Clock::time_point begin, const Result& done,
+              const Edit_record::Coordinates& start, const Edit_record::Coordinates& target,
+              std::vector<std::size_t> elements) {
     result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
     ++(done.reached ? result_.reached : result_.blocked);
     Edit_record& edit = record(command, done.reached ? Status::reached : Status::blocked,

@@ -26,8 +26,8 @@ inline bool are_one_file(const std::filesystem::path& a, const std::filesystem::
   return full(a) == full(b);
 }
 
-/// Finds out before hours of work whether a file can be put at `path`, as far as that can be known without writing; a disk
-/// may still be full in the end. \throw Write_error
+/// Finds out before hours of work whether a file can be put at `path`, as far as that can be known without writing; a
+/// disk may still be full in the end. \throw Write_error
 inline void check_target(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   const auto fail = [&](const std::string& why) { throw Write_error("cannot write '" + path.string() + "': " + why); };

@@ -115,8 +115,8 @@ void check_mesh_directives(const std::vector<Command>& script, const Arguments& 
     if (hash.empty())
       hash = sha256_of_file(arguments.mesh);
     if (command.word != hash)
-      throw Foreign_log(arguments.script + ": line " + std::to_string(command.line) + " is about the mesh " + command.word +
-                        ", but '" + arguments.mesh + "' is " + hash);
+      throw Foreign_log(arguments.script + ": line " + std::to_string(command.line) + " is about the mesh " +
+                        command.word + ", but '" + arguments.mesh + "' is " + hash);
   }
 }
 
@@ -136,7 +136,8 @@ void write_picture_of(const Mesh& mesh, const Run_result& result, const std::str
   drawing::Scene scene = drawing::scene_of(mesh);
   constexpr std::size_t most = 2000; // marks beyond this hide the mesh, and cost a few hundred triangles each
   for (std::size_t i = 0; i < result.moved_vertices.size() && i < most; ++i)
-    scene.add_moved_vertex(drawing::to_eigen(mesh.point(Mesh::Vertex_index(static_cast<Mesh::size_type>(result.moved_vertices[i])))));
+    scene.add_moved_vertex(
+        drawing::to_eigen(mesh.point(Mesh::Vertex_index(static_cast<Mesh::size_type>(result.moved_vertices[i])))));
   const auto vector = [](const Edit_record::Coordinates& p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
   std::size_t marks = 0;
   for (const Edit_record& edit : result.edits) {
@@ -153,7 +154,8 @@ void write_picture_of(const Mesh& mesh, const Run_result& result, const std::str
   drawing::write_picture(scene, path);
 }
 
-/// Writes what was asked for. A file that cannot be written does not keep the others from being written: the work is done.
+/// Writes what was asked for. A file that cannot be written does not keep the others from being written: the work is
+/// done.
 bool write_all(const Mesh& mesh, const Run_result& result, const Arguments& arguments) {
   bool all_written = true;
   const auto attempt = [&](const std::string& path, const auto& write) {
@@ -197,7 +199,8 @@ Exit sculpt(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Sculpts a closed triangle mesh from a script; no surface ever passes through a surface.\n"
-               "Exit: 0 done (blocked drags and refused edits are done), 1 out of memory, 2 usage, 3 mesh refused, 4 script error, "
+               "Exit: 0 done (blocked drags and refused edits are done), 1 out of memory, 2 usage, 3 mesh refused, 4 "
+               "script error, "
                "5 cannot write, 6 script or log of another mesh.\n"
                "Script, one edit a line, # comments, numbers decimal or hexadecimal:\n"
                "  drag V X Y Z | release | probe X Y Z X2 Y2 Z2 |\n"
@@ -209,9 +212,11 @@ int main(int argc, char** argv) {
   app.add_option("--report", arguments.report, "Where the JSON report goes")->check(named);
   app.add_option("--log", arguments.log, "Edit log (does not exist yet)")->check(named);
   app.add_option("--response", arguments.response, "What a blocked vertex does; only stop exists yet")
-      ->capture_default_str()->check(CLI::IsMember({"slide", "stop", "paper"}));
+      ->capture_default_str()
+      ->check(CLI::IsMember({"slide", "stop", "paper"}));
   app.add_option("--broad-phase", arguments.broad_phase, "How candidates are found; the results are the same")
-      ->capture_default_str()->check(CLI::IsMember({"tree", "six-lists", "brute"}));
+      ->capture_default_str()
+      ->check(CLI::IsMember({"tree", "six-lists", "brute"}));
   app.add_option("--clearance", arguments.clearance,
                  "Distance kept from what blocks, > 0; by default 4 ulp of the largest coordinate");
   app.add_option("--delta", arguments.delta, "No triangle altitude may be less, >= 0")->capture_default_str();

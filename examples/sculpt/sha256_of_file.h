@@ -21,7 +21,8 @@ inline std::string sha256_of_file(const std::string& path) {
   sha256_init(&context);
   std::vector<char> buffer(1 << 16);
   while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
-    sha256_update(&context, static_cast<std::size_t>(file.gcount()), reinterpret_cast<const std::uint8_t*>(buffer.data()));
+    sha256_update(&context, static_cast<std::size_t>(file.gcount()),
+                  reinterpret_cast<const std::uint8_t*>(buffer.data()));
   if (!file.eof())
     throw Read_error("cannot read '" + path + "' to the end");
   std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest;

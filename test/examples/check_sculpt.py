@@ -19,12 +19,12 @@ def check(condition, what):
         print("FAULT:", what)
 
 
-def run(*arguments, program=SCULPT, script=None, limit=None):
+def run(*arguments, program=SCULPT, script=None, limit=None, folder=None):
     def limit_size():
         if limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
-    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=100,
+    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=100, cwd=folder,
                           preexec_fn=limit_size, restore_signals=False)  # Python ignores SIGXFSZ; the write fails
 
 
@@ -148,7 +148,7 @@ def bad_usage(folder, mesh):
     before = open(mesh).read()
     fails(2, ["mesh"], run(mesh, "--report", mesh), "the report in place of the mesh")
     check(open(mesh).read() == before, "the mesh is spoilt")
-    fails(2, ["one file"], run(mesh, "--report", f"{folder}/same", "--picture", f"{folder}/./same"), "two outputs in one file")
+    fails(2, ["one file"], run(mesh, "--report", "same", "--picture", "./same", folder=folder), "two outputs in one file")
     fails(2, ["slide"], run(mesh, "--response", "slide"), "response that is not there")
     fails(2, ["remove"], run(mesh, "--script", "/dev/stdin", script="drag 3 0 0 2\nremove 3\n"), "edit that is not there")
     fails(2, [".xyz"], run(mesh, "-o", f"{folder}/out.xyz"), "unknown format of the result")
