@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-SCULPT, QUERIES, SOURCE = sys.argv[1:4]
+SCULPT, QUERIES, SOURCE = map(os.path.abspath, sys.argv[1:4])
 FAULTS = []
 
 
