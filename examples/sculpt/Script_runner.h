@@ -10,8 +10,7 @@
 
 namespace haptic_sculpt::sculpt_program {
 
-/// Carries out commands one by one. Vertices are named by index in file order; no edit here makes or removes any, so
-/// the mesh's own indices serve.
+/// Carries out commands one by one. Vertices are named by numbers that last: at first the index in file order.
 template <class Broad_phase>
 class Script_runner {
 public:
@@ -19,13 +18,19 @@ public:
 
   Script_runner(Mesh& mesh, const Sculptor_parameters& parameters) : mesh_(mesh), sculptor_(mesh, parameters) {}
 
-  Run_result run(const std::vector<Command>& script) {
+  Run_result run(const std::vector<Command>& script, const After_command& after) {
     Progress progress(script.size());
     for (std::size_t i = 0; i < script.size(); ++i) {
       carry_out(script[i]);
+      after(script[i]);
       progress.step(i + 1);
     }
-    result_.moved_vertices.assign(moved_.begin(), moved_.end());
+    for (const std::size_t name : moved_)
+      if (sculptor_.vertex(name).is_valid())
+        result_.moved_vertices.push_back(sculptor_.vertex(name));
+    for (std::size_t name = 0; name < sculptor_.number_of_names(); ++name)
+      if (sculptor_.vertex(name).is_valid())
+        result_.vertex_order.emplace_back(static_cast<Mesh::size_type>(sculptor_.vertex(name)));
     result_.filter = sculptor_.filter_counters();
     return std::move(result_);
   }
@@ -37,8 +42,6 @@ private:
 
   Mesh& mesh_;
   Sculptor<Mesh, Broad_phase> sculptor_;
-  std::optional<typename Sculptor<Mesh, Broad_phase>::Grab_type> grab_;
-  bool held_ = false; ///< whether the line before was a drag of grab_'s vertex
   Run_result result_;
   std::set<std::size_t> moved_;
 
@@ -46,21 +49,19 @@ private:
     if (command.kind != Kind::drag)
       held_ = false; // any other line ends the grab
     switch (command.kind) {
-    case Kind::drag:
-      drag(command);
-      break;
-    case Kind::probe:
-      probe(command);
-      break;
+    case Kind::drag: drag(command); break;
+    case Kind::probe: probe(command); break;
     case Kind::clearance:
       sculptor_.release();
       sculptor_.set_clearance(command.length);
       break;
-    case Kind::delta:
-      delta(command);
-      break;
-    default:
-      sculptor_.release(); // release; response stop; mesh was checked before the first edit
+    case Kind::delta: delta(command); break;
+    case Kind::insert_face: insert_on_face(command); break;
+    case Kind::insert_edge: insert_on_edge(command); break;
+    case Kind::remove: remove(command); break;
+    case Kind::undo: edit(command, [&] { return sculptor_.undo(); }); break;
+    case Kind::redo: edit(command, [&] { return sculptor_.redo(); }); break;
+    default: sculptor_.release(); // release; response stop; mesh was checked before the first edit
     }
   }
 
@@ -69,21 +70,56 @@ private:
 
   void drag(const Command& command) {
     const std::size_t index = command.indices[0];
-    if (index >= mesh_.num_vertices()) {
-      refuse(command, "unknown-vertex", {index});
+    const Vertex_index v = sculptor_.vertex(index);
+    if (!v.is_valid()) {
+      refuse(command, "unknown-element", {index});
       return;
     }
-    const Mesh::Vertex_index v(static_cast<Mesh::size_type>(index));
     const Kernel::Point_3 start = mesh_.point(v);
     const auto begin = Clock::now();
     // A grab of the vertex already in hand would let go of it first.
-    if (!held_ || grab_->vertex() != v)
+    if (!grab_ || grab_->vertex() != v || !held_)
       grab_.emplace(sculptor_.grab(v));
     held_ = true;
     const Result done = grab_->drag_to(point(command.points[0]));
     finish(command, begin, done, coordinates(start), command.points[0], {index});
     if (done.position != start)
       moved_.insert(index);
+  }
+
+  void insert_on_face(const Command& command) {
+    const auto f = sculptor_.face_of(command.indices[0], command.indices[1], command.indices[2]);
+    edit(command, [&] { return sculptor_.insert_on_face(f, point(command.points[0])); });
+  }
+
+  void insert_on_edge(const Command& command) {
+    const auto e = sculptor_.edge_of(command.indices[0], command.indices[1]);
+    edit(command, [&] { return sculptor_.insert_on_edge(e, point(command.points[0])); });
+  }
+
+  void remove(const Command& command) {
+    const Vertex_index v = sculptor_.vertex(command.indices[0]);
+    edit(command, [&] { return sculptor_.remove(v); });
+  }
+
+  template <class Edit>
+  void edit(const Command& command, const Edit& make) {
+    const auto begin = Clock::now();
+    const auto done = make();
+    if (!done) {
+      std::vector<std::size_t> elements;
+      for (const Vertex_index v : done.refusal->elements)
+        elements.push_back(sculptor_.name(v));
+      refuse(command, name_of(done.refusal->reason), elements.empty() ? command.indices : elements);
+      return;
+    }
+    result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+    const std::size_t name = sculptor_.name(*done.vertex);
+    const Edit_record::Coordinates p = coordinates(mesh_.point(*done.vertex));
+    if (command.kind == Kind::insert_face || command.kind == Kind::insert_edge)
+      moved_.insert(name);
+    ++result_.reached;
+    record(command, Status::reached, nullptr, {name}).motion = {p, p, p};
   }
 
   void probe(const Command& command) {
@@ -102,14 +138,17 @@ private:
       std::set<std::size_t> corners;
       for (const auto f : error.report().low_faces)
         for (const auto v : mesh_.vertices_around_face(mesh_.halfedge(f)))
-          corners.insert(v);
+          corners.insert(sculptor_.name(v));
       refuse(command, "triangle-lower-than-delta", {corners.begin(), corners.end()});
     }
   }
 
+  std::optional<typename Sculptor<Mesh, Broad_phase>::Grab_type> grab_;
+  bool held_ = false;
+
   template <class Ids = std::vector<std::size_t>>
-  static Ids ids(const Contact_3<Mesh>& contact) {
-    return {contact.vertices[0], contact.vertices[1], contact.vertices[2]};
+  Ids ids(const Contact_3<Mesh>& contact) const {
+    return {sculptor_.name(contact.vertices[0]), sculptor_.name(contact.vertices[1]), sculptor_.name(contact.vertices[2])};
   }
 
   Edit_record& record(const Command& command, Status status, const char* reason, std::vector<std::size_t> elements) {
@@ -129,9 +168,8 @@ private:
     record(command, Status::refused, reason, std::move(elements));
   }
 
-  void finish(const Command& command, Clock::time_point begin, const Result& done,
-              const Edit_record::Coordinates& start, const Edit_record::Coordinates& target,
-              std::vector<std::size_t> elements) {
+  void finish(const Command& command, Clock::time_point begin, const Result& done, const Edit_record::Coordinates& start,
+              const Edit_record::Coordinates& target, std::vector<std::size_t> elements) {
     result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
     ++(done.reached ? result_.reached : result_.blocked);
     Edit_record& edit = record(command, done.reached ? Status::reached : Status::blocked,
@@ -147,8 +185,9 @@ private:
 };
 
 template <class Broad_phase>
-Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Sculptor_parameters& parameters) {
-  return Script_runner<Broad_phase>(mesh, parameters).run(script);
+Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Sculptor_parameters& parameters,
+                      const After_command& after) {
+  return Script_runner<Broad_phase>(mesh, parameters).run(script, after);
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/sculpt.md.
+#include "Log_file.h"
 #include "Report.h"
 #include "Run_result.h"
 #include "output_targets.h"
@@ -47,11 +48,6 @@ struct Usage_error : Error {
   using Error::Error;
 };
 
-/// A log or script that names another mesh.
-struct Foreign_log : Error {
-  using Error::Error;
-};
-
 std::vector<Command> script_of(const Arguments& arguments) {
   if (arguments.script.empty())
     return {};
@@ -63,8 +59,6 @@ std::vector<Command> script_of(const Arguments& arguments) {
 
 /// \throw Usage_error for what does not exist yet
 void refuse_what_does_not_exist(const std::vector<Command>& script, const Arguments& arguments) {
-  if (!arguments.log.empty())
-    throw Usage_error("--log does not exist yet");
   if (arguments.response != "stop")
     throw Usage_error("the response '" + arguments.response + "' does not exist yet; use stop");
   const auto not_yet = [&](std::size_t line, const std::string& what) {
@@ -72,13 +66,6 @@ void refuse_what_does_not_exist(const std::vector<Command>& script, const Argume
   };
   for (const Command& command : script)
     switch (command.kind) {
-    case Kind::insert_face:
-    case Kind::insert_edge:
-    case Kind::remove:
-    case Kind::undo:
-    case Kind::redo:
-      not_yet(command.line, std::string("the edit '") + name_of(command.kind) + "'");
-      break;
     case Kind::response:
       if (command.word != "stop")
         not_yet(command.line, "the response '" + command.word + "'");
@@ -92,13 +79,13 @@ void refuse_what_does_not_exist(const std::vector<Command>& script, const Argume
 void check_targets(const Arguments& arguments) {
   if (!arguments.out.empty() && !mesh_file_format(arguments.out))
     throw Usage_error("'" + arguments.out + "' does not end in .off, .ply, .obj or .stl");
-  // The result may take the place of the mesh that was read: it is what one asks of an editor.
-  std::vector<std::string> taken = {arguments.script, arguments.out, arguments.report, arguments.picture};
+  // The result may take the place of the mesh that was read: that is what one asks of an editor.
+  std::vector<std::string> taken = {arguments.script, arguments.out, arguments.report, arguments.picture, arguments.log};
   for (std::size_t i = 0; i < taken.size(); ++i)
     for (std::size_t j = i + 1; j < taken.size(); ++j)
       if (!taken[i].empty() && !taken[j].empty() && are_one_file(taken[i], taken[j]))
         throw Usage_error("'" + taken[i] + "' and '" + taken[j] + "' are one file; give each its own");
-  for (const std::string& path : {arguments.report, arguments.picture})
+  for (const std::string& path : {arguments.report, arguments.picture, arguments.log})
     if (!path.empty() && are_one_file(path, arguments.mesh))
       throw Usage_error("'" + path + "' is the mesh to be read; give another name");
   for (const std::string& path : {arguments.out, arguments.report, arguments.picture})
@@ -120,24 +107,40 @@ void check_mesh_directives(const std::vector<Command>& script, const Arguments& 
   }
 }
 
-Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& arguments) {
+Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& arguments, const After_command& after) {
   Sculptor_parameters parameters;
   parameters.delta(arguments.delta);
   if (arguments.clearance)
     parameters.clearance(*arguments.clearance);
   if (arguments.broad_phase == "brute")
-    return run_script<Brute_force_broad_phase<Mesh>>(mesh, script, parameters);
+    return run_script<Brute_force_broad_phase<Mesh>>(mesh, script, parameters, after);
   if (arguments.broad_phase == "six-lists")
-    return run_script<Six_list_broad_phase<Mesh>>(mesh, script, parameters);
-  return run_script<Box_tree_broad_phase<Mesh>>(mesh, script, parameters);
+    return run_script<Six_list_broad_phase<Mesh>>(mesh, script, parameters, after);
+  return run_script<Box_tree_broad_phase<Mesh>>(mesh, script, parameters, after);
+}
+
+/// The options that a log has to repeat, as directives.
+std::vector<Command> settings(const Arguments& arguments) {
+  std::vector<Command> directives;
+  Command command;
+  if (arguments.clearance) {
+    command.kind = Kind::clearance;
+    command.length = *arguments.clearance;
+    directives.push_back(command);
+  }
+  if (arguments.delta > 0) {
+    command.kind = Kind::delta;
+    command.length = arguments.delta;
+    directives.push_back(command);
+  }
+  return directives;
 }
 
 void write_picture_of(const Mesh& mesh, const Run_result& result, const std::string& path) {
   drawing::Scene scene = drawing::scene_of(mesh);
   constexpr std::size_t most = 2000; // marks beyond this hide the mesh, and cost a few hundred triangles each
   for (std::size_t i = 0; i < result.moved_vertices.size() && i < most; ++i)
-    scene.add_moved_vertex(
-        drawing::to_eigen(mesh.point(Mesh::Vertex_index(static_cast<Mesh::size_type>(result.moved_vertices[i])))));
+    scene.add_moved_vertex(drawing::to_eigen(mesh.point(result.moved_vertices[i])));
   const auto vector = [](const Edit_record::Coordinates& p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
   std::size_t marks = 0;
   for (const Edit_record& edit : result.edits) {
@@ -170,7 +173,11 @@ bool write_all(const Mesh& mesh, const Run_result& result, const Arguments& argu
       all_written = false;
     }
   };
-  attempt(arguments.out, [&](const std::string& path) { write_surface(path, mesh); });
+  attempt(arguments.out, [&](const std::string& path) {
+    Write_options options;
+    options.vertex_order = result.vertex_order;
+    write_surface(path, mesh, options);
+  });
   attempt(arguments.report, [&](const std::string& path) { replace_file(path, report_of(result)); });
   attempt(arguments.picture, [&](const std::string& path) { write_picture_of(mesh, result, path); });
   return all_written;
@@ -181,13 +188,26 @@ Exit sculpt(const Arguments& arguments) {
     throw Usage_error("--clearance must be a finite length > 0");
   if (!(arguments.delta >= 0 && std::isfinite(arguments.delta)))
     throw Usage_error("--delta must be a finite length >= 0");
-  const std::vector<Command> script = script_of(arguments);
+  std::vector<Command> script = script_of(arguments);
   refuse_what_does_not_exist(script, arguments);
   check_targets(arguments);
   Mesh mesh = read_surface<Mesh>(arguments.mesh, arguments.delta);
   check_mesh_directives(script, arguments);
-  const Run_result result = run(mesh, script, arguments);
+  std::optional<Log_file> log;
+  std::size_t replayed = 0;
+  if (!arguments.log.empty()) {
+    log.emplace(arguments.log, sha256_of_file(arguments.mesh), settings(arguments));
+    replayed = log->commands().size();
+    script.insert(script.begin(), log->commands().begin(), log->commands().end());
+  }
+  std::size_t made = 0;
+  const Run_result result = run(mesh, script, arguments, [&](const Command& command) {
+    if (log && ++made > replayed)
+      log->append(command);
+  });
   const bool all_written = write_all(mesh, result, arguments);
+  if (replayed > 0)
+    std::cout << "replayed " << replayed << " lines of " << arguments.log << '\n';
   print_table(std::cout, result, mesh); // last: whoever reads it may close the pipe
   if (!std::cout.flush())
     throw Write_error("cannot write the table to standard output");
@@ -203,14 +223,14 @@ int main(int argc, char** argv) {
                "script error, "
                "5 cannot write, 6 script or log of another mesh.\n"
                "Script, one edit a line, # comments, numbers decimal or hexadecimal:\n"
-               "  drag V X Y Z | release | probe X Y Z X2 Y2 Z2 |\n"
-               "  response stop | clearance L | delta L | mesh SHA256");
+               "  drag V X Y Z | release | insert_face A B C X Y Z | insert_edge A B X Y Z | remove V |\n"
+               "  probe X Y Z X2 Y2 Z2 | undo | redo | response stop | clearance L | delta L | mesh SHA256");
   const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->required()->check(named);
   app.add_option("--script", arguments.script, "The edits; may be /dev/stdin")->check(named);
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes: .off .ply .obj .stl")->check(named);
   app.add_option("--report", arguments.report, "Where the JSON report goes")->check(named);
-  app.add_option("--log", arguments.log, "Edit log (does not exist yet)")->check(named);
+  app.add_option("--log", arguments.log, "Edit log: replayed if it exists, then appended to")->check(named);
   app.add_option("--response", arguments.response, "What a blocked vertex does; only stop exists yet")
       ->capture_default_str()
       ->check(CLI::IsMember({"slide", "stop", "paper"}));

@@ -2,10 +2,14 @@
 #ifndef HAPTIC_SCULPT_SURFACE_H
 #define HAPTIC_SCULPT_SURFACE_H
 
+#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
+#include <haptic_sculpt/surface/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/Validity_report.h>
 #include <haptic_sculpt/surface/delta_rule.h>
 #include <haptic_sculpt/surface/read_surface.h>
+#include <haptic_sculpt/surface/star.h>
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/write_surface.h>
 

@@ -4,10 +4,12 @@
 import hashlib
 import json
 import os
+import random
 import resource
 import subprocess
 import sys
 import tempfile
+import time
 
 SCULPT, QUERIES, SOURCE = map(os.path.abspath, sys.argv[1:4])
 FAULTS = []
@@ -79,16 +81,16 @@ def directives_and_refusals(folder, mesh):
     check(done.returncode == 0, f"refusals: {done.returncode} {done.stderr}")
     told = json.load(open(report))
     status = [(edit["line"], edit["op"], edit["status"], edit["reason"]) for edit in told["edits"]]
-    check(status == [(1, "drag", "refused", "unknown-vertex"), (2, "drag", "refused", "unknown-vertex"), (4, "drag", "blocked", "held"),
+    check(status == [(1, "drag", "refused", "unknown-element"), (2, "drag", "refused", "unknown-element"), (4, "drag", "blocked", "held"),
                      (6, "delta", "refused", "triangle-lower-than-delta"), (8, "drag", "reached", None),
-                     (12, "drag", "refused", "unknown-vertex")], f"refusals {status}")
+                     (12, "drag", "refused", "unknown-element")], f"refusals {status}")
     edits = told["edits"]
     check(edits[1]["elements"] == [2**64 - 1] and edits[1]["position"] is None and edits[1]["contacts"] == [], "unknown vertex")
     check(edits[2]["contacts"][0]["kind"] == "delta", "the delta rule blocks")
     check(edits[3]["elements"] == [0, 1, 2, 3], f"vertices of low triangles: {edits[3]}")
     check(told["totals"] == {"asked": 6, "reached": 1, "blocked": 1, "refused": 4}, f"totals {told['totals']}")
     check(0 < told["time_ns"]["p50"] <= told["time_ns"]["p99"] <= told["time_ns"]["p999"] <= told["time_ns"]["max"], "times in order")
-    for words in ("unknown-vertex 4\n", "triangle-lower-than-delta 0 1 2 3\n"):
+    for words in ("unknown-element 4\n", "triangle-lower-than-delta 0 1 2 3\n"):
         check(words in done.stdout, f"the table does not say '{words}': {done.stdout}")
     empty = run(mesh, "--script", "/dev/null", "--report", report)
     told = json.load(open(report))
@@ -141,16 +143,15 @@ def bad_usage(folder, mesh):
         fails(2, [option], run(mesh, option, value), f"{option} {value}")
     check(run(mesh, "--clearance", "0x1p-20").returncode == 0, "hexadecimal option")
     fails(2, ["empty"], run(mesh, "-o", ""), "empty name")
-    fails(2, ["--log"], run(mesh, "--log", f"{folder}/edits.log"), "log that is not there")
-    for edit in ("insert_face 0 1 2 0 0 0", "insert_edge 0 1 0 0 0", "undo", "redo", "response slide", "response paper"):
-        fails(2, ["line 2", edit.split()[-1 if "response" in edit else 0]],
+    for edit in ("response slide", "response paper"):
+        fails(2, ["line 2", edit.split()[-1]],
               run(f"{folder}/no_mesh_is_read.off", "--script", "/dev/stdin", script=f"drag 3 0 0 2\n{edit}\n"), edit)
     before = open(mesh).read()
     fails(2, ["mesh"], run(mesh, "--report", mesh), "the report in place of the mesh")
     check(open(mesh).read() == before, "the mesh is spoilt")
     fails(2, ["one file"], run(mesh, "--report", "same", "--picture", "./same", folder=folder), "two outputs in one file")
     fails(2, ["slide"], run(mesh, "--response", "slide"), "response that is not there")
-    fails(2, ["remove"], run(mesh, "--script", "/dev/stdin", script="drag 3 0 0 2\nremove 3\n"), "edit that is not there")
+    fails(2, ["slide"], run(mesh, "--script", "/dev/stdin", script="drag 3 0 0 2\nresponse slide\n"), "directive that is not there")
     fails(2, [".xyz"], run(mesh, "-o", f"{folder}/out.xyz"), "unknown format of the result")
     check(run("--help").returncode == 0, "--help")
 
@@ -217,6 +218,78 @@ def bad_scripts(folder, mesh):
     fails(6, [digest], run(mesh, "--script", "/dev/stdin", script=f"mesh {'0' * 64}\n"), "foreign hash")
 
 
+EDITS = ("insert_face 0 1 2 0.2 0.2 0\ndrag 4 0.2 0.2 -0.5\ninsert_edge 1 2 0.55 0.55 0\nundo\nundo\nredo\nremove 4\n"
+         "remove 4\nundo\ndrag 4 0.3 0.2 -0.25\nremove 0\nredo\n")
+
+
+def edits_and_log(folder, mesh):
+    log, report = f"{folder}/edits.log", f"{folder}/edits.json"
+
+    def sculpt(*arguments, script=None):
+        arguments = [mesh, *arguments] + (["--script", "/dev/stdin"] if script is not None else [])
+        return run(*arguments, script=script)
+
+    whole = f"{folder}/whole.off"
+    done = sculpt("-o", whole, "--log", log, "--report", report, script=EDITS)
+    check(done.returncode == 0, f"edits: {done.stderr}")
+    told = [(e["op"], e["status"], e["reason"], e["elements"]) for e in json.load(open(report))["edits"]]
+    check(told[0] == ("insert_face", "reached", None, [4]) and told[2] == ("insert_edge", "reached", None, [5]), f"names {told}")
+    check(told[7] == ("remove", "refused", "unknown-element", [4]), f"a dead vertex {told[7]}")
+    check(told[11][1:3] == ("refused", "nothing-to-redo"), f"nothing to redo {told[11]}")
+    check(len(points(whole)) == 4, "one vertex came and one went")
+    expected = open(whole, "rb").read()
+    replayed = f"{folder}/replayed.off"
+    check(sculpt("-o", replayed, "--log", log).returncode == 0, "resume")
+    check(open(replayed, "rb").read() == expected, "replay is exact to the bit")
+    as_script = f"{folder}/as_script.off"
+    check(run(mesh, "--script", log, "-o", as_script).returncode == 0, "a log is a script")
+    check(open(as_script, "rb").read() == expected, "a log as a script gives the same")
+    # Cut anywhere in its last two lines, the log gives the state after the whole lines that are left.
+    bytes_of_log = open(log, "rb").read()
+    lines = bytes_of_log.splitlines(keepends=True)
+    cut = f"{folder}/cut.log"
+    for length in range(len(bytes_of_log) - len(lines[-1]) - len(lines[-2]), len(bytes_of_log)):
+        with open(cut, "wb") as file:
+            file.write(bytes_of_log[:length])
+        whole_lines = bytes_of_log[:length].count(b"\n")
+        prefix = b"".join(lines[:whole_lines]).decode()
+        check(sculpt("-o", replayed, "--log", cut).returncode == 0, f"log cut at {length}")
+        check(run(mesh, "--script", "/dev/stdin", "-o", as_script, script=prefix).returncode == 0, "prefix")
+        check(open(replayed, "rb").read() == open(as_script, "rb").read(), f"log cut at {length} gives another mesh")
+        check(open(cut, "rb").read() == prefix.encode(), f"log cut at {length}: the unfinished line stays")
+    with open(cut, "wb") as file:
+        file.write(lines[0] + b"drag 4 0 zero 0\n" + lines[1])
+    fails(4, ["line 2", "zero"], sculpt("--log", cut), "a spoilt line inside the log")
+    other = f"{folder}/other.off"
+    with open(other, "w") as file:
+        file.write(TETRAHEDRON.replace("0.1 0.1 1", "0.1 0.1 2"))
+    fails(6, ["hash"], run(other, "--log", log), "the log of another mesh")
+
+
+def killed_at_random_moments(folder):
+    """kill -9 while edits go on: the log replays to the state after its last whole line."""
+    mesh = f"{SOURCE}/examples/data/ball_and_moon.off"
+    rng = random.Random(7)
+    script = "".join(f"drag {rng.randrange(642)} {rng.uniform(-1.5, 1.5)} {rng.uniform(-1.5, 1.5)} {rng.uniform(-1.5, 1.5)}\n"
+                     for _ in range(20000))
+    kills = int(os.environ.get("HAPTIC_SCULPT_KILLS", "10"))
+    for kill in range(kills):
+        log = f"{folder}/killed{kill}.log"
+        process = subprocess.Popen([SCULPT, mesh, "--script", "/dev/stdin", "--log", log], stdin=subprocess.PIPE,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True)
+        process.stdin.write(script)
+        process.stdin.close()
+        time.sleep(rng.uniform(0.05, 0.4))
+        process.kill()
+        process.wait()
+        left = open(log).read() if os.path.exists(log) else ""
+        whole = left[:left.rfind("\n") + 1]
+        check(run(mesh, "--log", log, "-o", f"{folder}/a.off").returncode == 0, "resume after kill -9")
+        check(run(mesh, "--script", "/dev/stdin", "-o", f"{folder}/b.off",
+                  script="".join(whole.splitlines(keepends=True)[1:])).returncode == 0, "the same edits anew")
+        check(open(f"{folder}/a.off", "rb").read() == open(f"{folder}/b.off", "rb").read(), "state after kill -9")
+
+
 def bad_targets(folder, mesh):
     kept = f"{folder}/kept.off"
     with open(kept, "w") as file:
@@ -280,6 +353,8 @@ def main():
         bad_usage(folder, mesh)
         bad_meshes(folder)
         bad_scripts(folder, mesh)
+        edits_and_log(folder, mesh)
+        killed_at_random_moments(folder)
         bad_targets(folder, mesh)
         queries(folder)
     print(len(FAULTS), "faults")

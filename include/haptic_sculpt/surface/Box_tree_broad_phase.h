@@ -3,22 +3,22 @@
 #define HAPTIC_SCULPT_SURFACE_BOX_TREE_BROAD_PHASE_H
 
 #include <haptic_sculpt/surface/Cone_of_boxes.h>
+#include <haptic_sculpt/surface/Growing_box_tree.h>
 #include <haptic_sculpt/surface/face_box.h>
-#include <haptic_sculpt/surface/outward_float.h>
 #include <haptic_sculpt/surface/spatial_order.h>
 
 namespace haptic_sculpt {
 
 /// The default broad phase: an implicit 8-wide tree of boxes over the faces in a spatial order.
 ///
-/// Boxes are floats rounded outward, so that every box contains what it stands for; answers are supersets. Node k of a level
-/// has the children 8k ... 8k + 7 of the level below, and the children of the lowest level are the slots, one a face: no pointers.
-/// Moves refit the boxes from a slot up to the first one that does not change. New faces take freed slots, then slots at the end; the
-/// tree is laid out anew when more have been added at the end than half of what it was built for.
-/// A model of BroadPhase (doc/broad_phase.md).
+/// Boxes are floats rounded outward, so that every box contains what it stands for; answers are supersets. Node k of a
+/// level has the children 8k ... 8k + 7 of the level below, and the children of the lowest level are the slots, one a
+/// face: no pointers. Moves refit the boxes above the faces that moved, up to the first that does not change. A new
+/// face takes a slot that was freed beside a face it shares an edge with; if there is none it goes to an overflow tree
+/// that grows. Nothing is ever built anew. A model of BroadPhase (doc/broad_phase.md).
 ///
-/// Cost: build n log n; a query log n plus its answer; an update log n. 35.4 bytes a face. A query does not allocate once its
-/// output and the stack have grown.
+/// Cost: build n log n; a query log n plus its answer; an update log n. 35.4 bytes a face, about 60 for one in the
+/// overflow. A query allocates nothing once its output has grown; neither do moves.
 template <class Mesh>
 class Box_tree_broad_phase {
 public:
@@ -27,207 +27,213 @@ public:
   explicit Box_tree_broad_phase(const Mesh& mesh) : mesh_(&mesh) { build(); }
 
   void query(const Box_3& box, std::vector<Face_index>& faces) {
-    descend(Query_box(box), [](const Node&, int) { return true; }, faces);
+    const internal::Float_box around = internal::Float_box::query(box);
+    descend([&around](const Node& node) { return node.meeting(around); }, faces);
   }
 
   void query(const Swept_star_3& star, std::vector<Face_index>& faces) {
     const internal::Cone_of_boxes cone(star);
-    descend(Query_box(star.box()),
-            [&cone](const Node& node, int j) {
-              double lower[3], upper[3];
-              for (int i = 0; i < 3; ++i)
-                lower[i] = node.bounds[i][j], upper[i] = node.bounds[i + 3][j];
-              return cone.may_meet(lower, upper);
-            },
-            faces);
+    if (!cone.is_long()) // then it is no thinner than a box, which costs less to ask
+      return query(star.box(), faces);
+    const internal::Float_box around = internal::Float_box::query(star.box());
+    descend(
+        [&](const Node& node) {
+          const unsigned mask = node.meeting(around);
+          return mask == 0 ? mask : mask & cone.meeting(node);
+        },
+        faces);
   }
 
+  /// \pre each of the faces is known: it was there at the construction or has been inserted.
   template <class Faces>
   void faces_moved(const Faces& faces) {
+    touched_.clear();
     for (const Face_index f : faces)
-      set(slot_of_face_[f], internal::Float_box(face_box(*mesh_, f)));
+      place(slot_of_face_[f], internal::Float_box(face_box(*mesh_, f)));
+    refit();
   }
 
   template <class Faces>
   void faces_inserted(const Faces& faces) {
-    slot_of_face_.resize(mesh_->num_faces(), no_slot);
+    touched_.clear();
+    const std::size_t size = mesh_->num_faces();
+    if (size > slot_of_face_.capacity())
+      slot_of_face_.reserve(size + size / 16); // not doubled: memory is promised
+    slot_of_face_.resize(std::max(size, slot_of_face_.size()), no_slot);
     for (const Face_index f : faces) {
-      if (slot_of_face_[f] == no_slot)
-        take_slot(f);
-      set(slot_of_face_[f], internal::Float_box(face_box(*mesh_, f)));
+      const internal::Float_box box(face_box(*mesh_, f));
+      std::uint32_t& slot = slot_of_face_[f];
+      if (slot == no_slot)
+        slot = free_slot_beside(f);
+      if (slot != no_slot)
+        take(slot, f, box);
+      else
+        insert_into_overflow(f, box);
     }
-    if (face_of_slot_.size() > built_for_ + built_for_ / 2 + least_growth)
-      build();
+    refit();
   }
 
   template <class Faces>
   void faces_removed(const Faces& faces) {
+    touched_.clear();
     for (const Face_index f : faces) {
-      const std::uint32_t slot = slot_of_face_[f];
-      if (slot == no_slot)
+      if (static_cast<std::size_t>(f) >= slot_of_face_.size() || slot_of_face_[f] == no_slot)
         continue;
-      set(slot, internal::Float_box::none());
+      const std::uint32_t slot = slot_of_face_[f];
+      if (is_in_overflow(slot)) {
+        overflow_.remove(slot - first_overflow);
+      } else {
+        face_of_slot_[slot] = no_face;
+        place(slot, internal::Float_box());
+      }
       slot_of_face_[f] = no_slot;
-      free_slots_.push_back(slot);
     }
+    refit();
   }
 
   /// Bytes held, capacity included.
   std::size_t memory() const {
-    std::size_t bytes = slot_of_face_.capacity() * sizeof(std::uint32_t) + face_of_slot_.capacity() * sizeof(std::uint32_t) +
-                        free_slots_.capacity() * sizeof(std::uint32_t);
-    for (const std::vector<Node>& level : levels_)
-      bytes += level.capacity() * sizeof(Node);
-    return bytes;
+    return nodes_.capacity() * sizeof(Node) + slot_of_face_.capacity() * sizeof(std::uint32_t) +
+           face_of_slot_.capacity() * sizeof(std::uint32_t) + touched_.capacity() * sizeof(std::uint32_t) +
+           overflow_.memory() + sizeof *this;
   }
 
 private:
-  static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
-  static constexpr std::size_t least_growth = 1024; ///< faces; a small mesh is not laid out anew all the time
+  using Node = internal::Box_node;
 
-  /// Eight boxes, bound by bound, so that one comparison of eight becomes one or two instructions.
-  struct alignas(32) Node {
-    float bounds[6][8]; ///< lower x, y, z; upper x, y, z
-
-    Node() {
-      for (int i = 0; i < 8; ++i)
-        set(i, internal::Float_box::none());
-    }
-    void set(int j, const internal::Float_box& box) {
-      for (int i = 0; i < 3; ++i)
-        bounds[i][j] = box.lower[i], bounds[i + 3][j] = box.upper[i];
-    }
-    internal::Float_box all() const {
-      internal::Float_box box;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 8; ++j) {
-          box.lower[i] = bounds[i][j] < box.lower[i] ? bounds[i][j] : box.lower[i];
-          box.upper[i] = bounds[i + 3][j] > box.upper[i] ? bounds[i + 3][j] : box.upper[i];
-        }
-      return box;
-    }
-    bool is(int j, const internal::Float_box& box) const {
-      bool same = true;
-      for (int i = 0; i < 3; ++i)
-        same &= (bounds[i][j] == box.lower[i]) & (bounds[i + 3][j] == box.upper[i]);
-      return same;
-    }
-  };
-
-  struct Query_box {
-    internal::Float_box box;
-    explicit Query_box(const Box_3& b) : box(b) {}
-
-    /// Bit j: whether the node's box j meets the query's.
-    unsigned meets(const Node& node) const {
-      int hit[8];
-      for (int j = 0; j < 8; ++j)
-        hit[j] = (node.bounds[0][j] <= box.upper[0]) & (node.bounds[1][j] <= box.upper[1]) &
-                 (node.bounds[2][j] <= box.upper[2]) & (node.bounds[3][j] >= box.lower[0]) &
-                 (node.bounds[4][j] >= box.lower[1]) & (node.bounds[5][j] >= box.lower[2]);
-      unsigned mask = 0;
-      for (int j = 0; j < 8; ++j)
-        mask |= static_cast<unsigned>(hit[j]) << j;
-      return mask;
-    }
-  };
+  static constexpr std::uint32_t width = Node::width;
+  static constexpr std::uint32_t no_slot = ~std::uint32_t{0}, no_face = no_slot;
+  static constexpr std::uint32_t first_overflow = std::uint32_t{1}
+                                                  << 31; ///< slots from here on are places of the overflow
+  static constexpr int most_levels = 11;                 ///< 8^11 > 2^31
 
   const Mesh* mesh_;
-  std::vector<std::vector<Node>> levels_; ///< from the lowest; the last has one node
-  std::vector<std::uint32_t> face_of_slot_, slot_of_face_, free_slots_;
-  std::size_t built_for_ = 0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> stack_; ///< level, node
+  std::vector<Node> nodes_;                              ///< level by level from the root
+  std::array<std::uint32_t, most_levels> level_begin_{}; ///< of the lowest level first; the last is the root's, 0
+  int levels_ = 0;
+  std::vector<std::uint32_t> face_of_slot_; ///< eight for each node of the lowest level
+  std::vector<std::uint32_t> slot_of_face_;
+  internal::Growing_box_tree overflow_;
+  std::vector<std::uint32_t> touched_; ///< nodes of one level with a box that has changed
+
+  static bool is_in_overflow(std::uint32_t slot) { return slot >= first_overflow && slot != no_slot; }
 
   void build() {
     slot_of_face_.assign(mesh_->num_faces(), no_slot);
-    face_of_slot_ = internal::faces_in_spatial_order(*mesh_);
-    face_of_slot_.shrink_to_fit();
-    free_slots_.clear();
-    built_for_ = face_of_slot_.size();
-    levels_.assign(1, std::vector<Node>((built_for_ + 7) / 8));
-    for (std::size_t slot = 0; slot < built_for_; ++slot) {
-      const Face_index f(face_of_slot_[slot]);
-      slot_of_face_[f] = static_cast<std::uint32_t>(slot);
-      levels_[0][slot / 8].set(static_cast<int>(slot % 8), internal::Float_box(face_box(*mesh_, f)));
-    }
-    while (levels_.back().size() > 1) {
-      const std::vector<Node>& below = levels_.back();
-      std::vector<Node> level((below.size() + 7) / 8);
-      for (std::size_t k = 0; k < below.size(); ++k)
-        level[k / 8].set(static_cast<int>(k % 8), below[k].all());
-      levels_.push_back(std::move(level));
-    }
-  }
-
-  /// Stores a slot's box and what changes above it.
-  void set(std::size_t index, internal::Float_box box) {
-    for (std::vector<Node>& level : levels_) {
-      Node& node = level[index / 8];
-      const int j = static_cast<int>(index % 8);
-      if (node.is(j, box))
-        return;
-      node.set(j, box);
-      box = node.all();
-      index /= 8;
-    }
-  }
-
-  void take_slot(Face_index f) {
-    std::uint32_t slot;
-    if (!free_slots_.empty()) {
-      slot = free_slots_.back();
-      free_slots_.pop_back();
-    } else {
-      slot = static_cast<std::uint32_t>(face_of_slot_.size());
-      face_of_slot_.push_back(0);
-      make_nodes_for(slot);
-    }
-    face_of_slot_[slot] = static_cast<std::uint32_t>(f);
-    slot_of_face_[f] = slot;
-  }
-
-  void make_nodes_for(std::size_t index) {
-    for (std::size_t l = 0;; ++l) {
-      index /= 8;
-      if (l == levels_.size()) { // a new root over the old one
-        levels_.emplace_back(1);
-        levels_[l][0].set(0, levels_[l - 1][0].all());
-      }
-      if (index < levels_[l].size())
-        break;
-      levels_[l].resize(index + 1);
-    }
-    while (levels_.back().size() > 1) {
-      levels_.emplace_back(1);
-      Node& root = levels_.back()[0];
-      const std::vector<Node>& below = levels_[levels_.size() - 2];
-      for (std::size_t k = 0; k < below.size(); ++k)
-        root.set(static_cast<int>(k), below[k].all());
-    }
-  }
-
-  /// Visits what meets the box and passes `also(node, child)`; a child that passes at the lowest level is a face.
-  template <class Also>
-  void descend(const Query_box& query, const Also& also, std::vector<Face_index>& faces) {
-    if (levels_[0].empty())
+    const std::vector<internal::Face_middle> order = internal::faces_in_spatial_order(*mesh_);
+    if (order.empty())
       return;
-    stack_.clear();
-    stack_.emplace_back(static_cast<std::uint32_t>(levels_.size() - 1), 0);
-    while (!stack_.empty()) {
-      const auto [level, index] = stack_.back();
-      stack_.pop_back();
-      const Node& node = levels_[level][index];
-      for (unsigned mask = query.meets(node); mask != 0; mask &= mask - 1) {
-        const int j = __builtin_ctz(mask);
-        if (!also(node, j))
+    std::array<std::uint32_t, most_levels> sizes{};
+    std::size_t size = order.size();
+    do
+      size = sizes[levels_++] = static_cast<std::uint32_t>((size + width - 1) / width);
+    while (size > 1);
+    std::uint32_t begin = 0;
+    for (int level = levels_ - 1; level >= 0; --level)
+      level_begin_[level] = begin, begin += sizes[level];
+    nodes_.resize(begin);
+    face_of_slot_.assign(std::size_t{sizes[0]} * width, no_face);
+    for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
+      const Face_index f(order[slot].face);
+      face_of_slot_[slot] = order[slot].face;
+      slot_of_face_[f] = slot;
+      nodes_[level_begin_[0] + slot / width].set(slot % width, internal::Float_box(face_box(*mesh_, f)));
+    }
+    for (int level = 1; level < levels_; ++level)
+      for (std::uint32_t k = 0; k < sizes[level - 1]; ++k)
+        nodes_[level_begin_[level] + k / width].set(k % width, nodes_[level_begin_[level - 1] + k].all());
+  }
+
+  /// Sets the box of a slot and notes what is to be refitted.
+  void place(std::uint32_t slot, const internal::Float_box& box) {
+    if (is_in_overflow(slot)) {
+      overflow_.set(slot - first_overflow, box);
+    } else {
+      touched_.push_back(0);
+      touched_.resize(set(0, slot, box, touched_.size() - 1));
+    }
+  }
+
+  /// Sets the box of child `index` of a level. Where that changes anything notes its node behind the first `count`
+  /// touched ones, unless it is among the last of them: the faces of a star share nodes. \return how many are noted
+  std::size_t set(int level, std::uint32_t index, const internal::Float_box& box, std::size_t count) {
+    Node& node = nodes_[level_begin_[level] + index / width];
+    if (node.is(index % width, box))
+      return count;
+    node.set(index % width, box);
+    const std::size_t looked_at = std::min<std::size_t>(count, 8); // a node noted twice costs time only
+    const auto end = touched_.begin() + count;
+    if (std::find(end - looked_at, end, index / width) == end)
+      touched_[count++] = index / width;
+    return count;
+  }
+
+  /// Brings the boxes above the touched nodes up to date.
+  void refit() {
+    for (int level = 1; level < levels_ && !touched_.empty(); ++level) {
+      std::size_t count = 0; // nodes of this level are written over those of the level below that have been read
+      for (std::size_t k = 0; k < touched_.size(); ++k)
+        count = set(level, touched_[k], nodes_[level_begin_[level - 1] + touched_[k]].all(), count);
+      touched_.resize(count);
+    }
+  }
+
+  void take(std::uint32_t slot, Face_index f, const internal::Float_box& box) {
+    if (!is_in_overflow(slot))
+      face_of_slot_[slot] = static_cast<std::uint32_t>(f);
+    place(slot, box);
+  }
+
+  void insert_into_overflow(Face_index f, const internal::Float_box& box) {
+    overflow_.insert(static_cast<std::uint32_t>(f), box,
+                     [this](std::uint32_t face, std::uint32_t place) { slot_of_face_[face] = first_overflow + place; });
+  }
+
+  /// A free slot in the node of a face that shares an edge with f, or no_slot.
+  std::uint32_t free_slot_beside(Face_index f) const {
+    auto h = mesh_->halfedge(f);
+    for (int i = 0; i < 3; ++i, h = mesh_->next(h)) {
+      const Face_index g = mesh_->face(mesh_->opposite(h));
+      if (static_cast<std::size_t>(g) >= slot_of_face_.size() || slot_of_face_[g] >= first_overflow)
+        continue;
+      const auto begin = face_of_slot_.begin() + slot_of_face_[g] / width * width, end = begin + width;
+      const auto found = std::find(begin, end, no_face);
+      if (found != end)
+        return static_cast<std::uint32_t>(found - face_of_slot_.begin());
+    }
+    return no_slot;
+  }
+
+  /// Visits the children that pass, `passing(node)` being a mask of eight; at the lowest level they are faces.
+  template <class Passing>
+  void descend(const Passing& passing, std::vector<Face_index>& faces) {
+    const auto found = [&faces](std::uint32_t f) { faces.push_back(Face_index(f)); };
+    if (levels_ != 0) {
+      struct Step {
+        int level;
+        std::uint32_t node;
+      };
+      std::array<Step, (width - 1) * most_levels + 1> stack; // seven wait on each level at most
+      std::size_t height = 0;
+      stack[height++] = {levels_ - 1, 0};
+      while (height != 0) {
+        const Step at = stack[--height];
+        unsigned mask = passing(nodes_[level_begin_[at.level] + at.node]);
+        if (at.level == 0) {
+          for (; mask != 0; mask &= mask - 1)
+            found(face_of_slot_[at.node * width + internal::lowest_bit(mask)]);
           continue;
-        const std::uint32_t child = 8 * index + static_cast<std::uint32_t>(j);
-        if (level == 0)
-          faces.push_back(Face_index(face_of_slot_[child]));
-        else
-          stack_.emplace_back(level - 1, child);
+        }
+        for (; mask != 0; mask &= mask - 1) {
+          const std::uint32_t child = at.node * width + internal::lowest_bit(mask);
+          internal::prefetch(&nodes_[level_begin_[at.level - 1] + child], sizeof(Node));
+          if (at.level == 1)
+            internal::prefetch(&face_of_slot_[std::size_t{child} * width], width * sizeof(std::uint32_t));
+          stack[height++] = {at.level - 1, child};
+        }
       }
     }
+    overflow_.visit(passing, found);
   }
 };
 

@@ -10,15 +10,16 @@
 
 namespace haptic_sculpt {
 
-/// The broad phase of 1997 (paper 4.0): six lists of all faces, sorted by the lower and upper bounds of their boxes in x, y
-/// and z, and six pointers that run up and down the lists as the query box moves.
+/// The broad phase of 1997 (paper 4.0): six lists of all faces, sorted by the lower and upper bounds of their boxes in
+/// x, y and z, and six pointers that run up and down the lists as the query box moves.
 ///
-/// A face meets the query box when six comparisons hold, one a list; each list is divided by its pointer into those for which
-/// it holds and the others. The faces for which all six hold are the checklist. A model of BroadPhase (doc/broad_phase.md), and
-/// the historical baseline.
+/// A face meets the query box when six comparisons hold, one a list; each list is divided by its pointer into those for
+/// which it holds and the others. The faces for which all six hold are the checklist. A model of BroadPhase
+/// (doc/broad_phase.md), and the historical baseline.
 ///
 /// Cost: a query, the number of list entries between the old and the new pointers: few in a drag, all on a far jump.
-/// An update of a face: log n to find it, n to move the entries behind it.
+/// A face that moves: log n to find its entries, and as many steps as entries are passed. One that comes or goes: the n
+/// entries behind it are shifted.
 template <class Mesh>
 class Six_list_broad_phase {
 public:
@@ -51,10 +52,8 @@ public:
 
   template <class Faces>
   void faces_moved(const Faces& faces) {
-    for (const Face_index f : faces) {
-      remove(f);
-      insert(f);
-    }
+    for (const Face_index f : faces)
+      move(f);
   }
   template <class Faces>
   void faces_inserted(const Faces& faces) {
@@ -75,14 +74,15 @@ private:
   using Entry = std::pair<double, std::uint32_t>;
 
   const Mesh* mesh_;
-  std::array<std::vector<Entry>, 6> lists_;   ///< lower x, y, z; upper x, y, z
-  std::array<std::size_t, 6> pointers_{};     ///< entries before it: lower bound <= query's upper; upper bound < query's lower
-  Box_3 query_box_;                           ///< at first the empty box
+  std::array<std::vector<Entry>, 6> lists_; ///< lower x, y, z; upper x, y, z
+  std::array<std::size_t, 6>
+      pointers_{};  ///< entries before it: lower bound <= query's upper; upper bound < query's lower
+  Box_3 query_box_; ///< at first the empty box
   std::vector<Box_3> boxes_;
   std::vector<char> alive_;
-  std::vector<std::uint8_t> holding_;         ///< how many of the six comparisons hold for a face
-  std::vector<std::uint32_t> checklist_;      ///< faces for which all six hold
-  std::vector<std::uint32_t> place_;          ///< of a face in the checklist
+  std::vector<std::uint8_t> holding_;    ///< how many of the six comparisons hold for a face
+  std::vector<std::uint32_t> checklist_; ///< faces for which all six hold
+  std::vector<std::uint32_t> place_;     ///< of a face in the checklist
 
   static double bound(int list, const Box_3& box) { return list < 3 ? box.lower[list] : box.upper[list - 3]; }
 
@@ -128,9 +128,36 @@ private:
     }
   }
 
+  void move(Face_index f) {
+    const auto i = static_cast<std::uint32_t>(f);
+    const Box_3 box = face_box(*mesh_, f);
+    for (int list = 0; list < 6; ++list) {
+      std::vector<Entry>& entries = lists_[list];
+      const Entry from(bound(list, boxes_[i]), i), to(bound(list, box), i);
+      const auto old = std::lower_bound(entries.begin(), entries.end(), from);
+      const bool was_before = static_cast<std::size_t>(old - entries.begin()) < pointers_[list];
+      if (from < to) {
+        const auto place = std::lower_bound(old + 1, entries.end(), to);
+        *std::move(old + 1, place, old) = to;
+      } else {
+        const auto place = std::lower_bound(entries.begin(), old, to);
+        *(std::move_backward(place, old, old + 1) - 1) = to;
+      }
+      const bool is_before_now = is_before(list, to.first, query_box_);
+      pointers_[list] += static_cast<std::size_t>(is_before_now) - static_cast<std::size_t>(was_before);
+      if (was_before == is_before_now)
+        continue;
+      if (is_before_now == (list < 3))
+        begin_to_hold(i);
+      else
+        cease_to_hold(i);
+    }
+    boxes_[i] = box;
+  }
+
   void remove(Face_index f) {
     const auto i = static_cast<std::uint32_t>(f);
-    if (!alive_[i])
+    if (i >= alive_.size() || !alive_[i])
       return;
     for (int list = 0; list < 6; ++list) {
       std::vector<Entry>& entries = lists_[list];

@@ -28,29 +28,38 @@ inline float float_below(double x) {
 }
 
 /// A float that is not below x.
-inline float float_above(double x) { return -float_below(-x); }
+inline float float_above(double x) {
+  return -float_below(-x);
+}
 
-/// A closed box of floats; by construction around a box of doubles.
+/// A closed box of floats.
 struct Float_box {
   std::array<float, 3> lower, upper;
 
-  /// The box of nothing, which grows.
+  /// The box that holds nothing. It meets no `query()` box, and grows.
   Float_box() {
     lower.fill(std::numeric_limits<float>::infinity());
     upper.fill(-std::numeric_limits<float>::infinity());
   }
-  /// A box that meets no box, not even one whose bounds were rounded to infinity.
-  static Float_box none() {
-    Float_box box;
-    box.lower.fill(std::numeric_limits<float>::quiet_NaN());
-    box.upper.fill(std::numeric_limits<float>::quiet_NaN());
-    return box;
-  }
+  /// A box around a box of doubles.
   explicit Float_box(const Box_3& box) {
     for (int i = 0; i < 3; ++i) {
       lower[i] = float_below(box.lower[i]);
       upper[i] = float_above(box.upper[i]);
     }
+  }
+
+  /// The box to ask with: it meets what Float_box(box) meets, except the box of nothing. For the lower bound of a box
+  /// around finite doubles is never +infinity: no such box is lost where an upper bound asked with is at most the
+  /// largest float.
+  static Float_box query(const Box_3& box) {
+    constexpr float largest = std::numeric_limits<float>::max();
+    Float_box result(box);
+    for (int i = 0; i < 3; ++i) {
+      result.lower[i] = result.lower[i] < -largest ? -largest : result.lower[i];
+      result.upper[i] = result.upper[i] > largest ? largest : result.upper[i];
+    }
+    return result;
   }
 };
 

@@ -2,58 +2,64 @@
 #ifndef HAPTIC_SCULPT_SURFACE_SPATIAL_ORDER_H
 #define HAPTIC_SCULPT_SURFACE_SPATIAL_ORDER_H
 
+#include <haptic_sculpt/surface/Box_node.h>
 #include <haptic_sculpt/surface/face_box.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// Puts two zero bits before each of the lowest 21 bits.
-inline std::uint64_t spread_bits(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffff;
-  x = (x | x << 16) & 0x1f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  x = (x | x << 2) & 0x1249249249249249;
-  return x;
+/// A face and the middle of its box, rounded: an order changes the speed of what is laid out by it, never an answer.
+struct Face_middle {
+  std::array<float, 3> middle;
+  std::uint32_t face;
+};
+
+/// Orders [begin, end) so that any `capacity` successive faces from `begin` on, and within them any capacity / 8, and
+/// so on, are near each other: halves what is there across its longest extent, at a multiple of the capacity.
+inline void order_in_space(Face_middle* begin, Face_middle* end, std::size_t capacity) {
+  const std::size_t count = end - begin;
+  if (count <= Box_node::width)
+    return; // the order within a node does not matter
+  while (capacity >= count)
+    capacity /= Box_node::width;
+  std::array<float, 3> lower = begin->middle, upper = begin->middle;
+  for (const Face_middle* f = begin; f != end; ++f)
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = f->middle[i] < lower[i] ? f->middle[i] : lower[i];
+      upper[i] = f->middle[i] > upper[i] ? f->middle[i] : upper[i];
+    }
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    axis = upper[i] - lower[i] > upper[axis] - lower[axis] ? i : axis;
+  const std::size_t children = (count + capacity - 1) / capacity;
+  Face_middle* const middle = begin + children / 2 * capacity;
+  std::nth_element(begin, middle, end,
+                   [axis](const Face_middle& a, const Face_middle& b) { return a.middle[axis] < b.middle[axis]; });
+  order_in_space(begin, middle, capacity);
+  order_in_space(middle, end, capacity);
 }
 
-/// The faces of a mesh along a Morton curve through the middles of their boxes. The order changes the speed of what is laid
-/// out by it, never an answer, so it may be rounded.
+/// The faces of a mesh in such an order. Cost: n log n.
 template <class Mesh>
-std::vector<std::uint32_t> faces_in_spatial_order(const Mesh& mesh) {
-  Box_3 scene;
-  for (const auto v : mesh.vertices())
-    scene.include(vertex_coordinates(mesh, v));
-  constexpr double cells = 0x1fffff;
-  std::array<double, 3> scale;
-  for (int i = 0; i < 3; ++i) {
-    const double extent = scene.upper[i] / 2 - scene.lower[i] / 2;
-    scale[i] = extent > 0 && std::isfinite(cells / extent) ? cells / extent : 0;
-  }
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-  order.reserve(mesh.number_of_faces());
+std::vector<Face_middle> faces_in_spatial_order(const Mesh& mesh) {
+  std::vector<Face_middle> faces;
+  faces.reserve(mesh.number_of_faces());
   for (const auto f : mesh.faces()) {
     const Box_3 box = face_box(mesh, f);
-    std::uint64_t code = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double middle = box.lower[i] / 4 + box.upper[i] / 4 - scene.lower[i] / 2; // half of the way; never overflows
-      const double cell = std::fmin(cells, std::fmax(0.0, middle * scale[i]));
-      code |= spread_bits(static_cast<std::uint64_t>(cell)) << i;
-    }
-    order.emplace_back(code, static_cast<std::uint32_t>(f));
+    Face_middle entry;
+    for (int i = 0; i < 3; ++i)
+      entry.middle[i] = static_cast<float>(box.lower[i] / 2 + box.upper[i] / 2);
+    entry.face = static_cast<std::uint32_t>(f);
+    faces.push_back(entry);
   }
-  std::sort(order.begin(), order.end());
-  std::vector<std::uint32_t> faces;
-  faces.reserve(order.size());
-  for (const auto& entry : order)
-    faces.push_back(entry.second);
+  std::size_t capacity = Box_node::width;
+  while (capacity < faces.size())
+    capacity *= Box_node::width;
+  order_in_space(faces.data(), faces.data() + faces.size(), capacity);
   return faces;
 }
 
