@@ -2,6 +2,8 @@
 #include "Script.h"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <istream>
@@ -67,10 +69,13 @@ public:
 
   std::size_t index() {
     const std::string found = word("a vertex index");
-    constexpr std::size_t longest = 18; // digits that a 64-bit index surely holds
-    if (found.size() > longest || found.find_first_not_of("0123456789") != std::string::npos)
+    std::size_t value = 0;
+    const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
+    if (error == std::errc::invalid_argument || end != found.data() + found.size())
       fail("'" + found + "' is not a vertex index (0, 1, 2, ...)");
-    return std::stoull(found);
+    if (error == std::errc::result_out_of_range)
+      fail("'" + found + "' is more than any vertex index");
+    return value;
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw Script_error(script_, number_, begin_ + 1, what); }

@@ -2,10 +2,10 @@
 #ifndef HAPTIC_SCULPT_EXAMPLES_SCRIPT_RUNNER_H
 #define HAPTIC_SCULPT_EXAMPLES_SCRIPT_RUNNER_H
 
-#include "Run_options.h"
+#include "Progress.h"
+#include "Run_result.h"
 
 #include <chrono>
-#include <iostream>
 #include <set>
 
 namespace haptic_sculpt::sculpt_program {
@@ -19,16 +19,11 @@ public:
   Script_runner(Mesh& mesh, const Sculptor_parameters& parameters) : mesh_(mesh), sculptor_(mesh, parameters) {}
 
   Run_result run(const std::vector<Command>& script, const After_command& after) {
-    const auto begin = Clock::now();
-    auto said = begin;
+    Progress progress(script.size());
     for (std::size_t i = 0; i < script.size(); ++i) {
       carry_out(script[i]);
       after(script[i]);
-      if (Clock::now() - said > std::chrono::seconds(2)) {
-        said = Clock::now();
-        std::cerr << "sculpt: " << i + 1 << " of " << script.size() << " lines, "
-                  << std::chrono::duration_cast<std::chrono::seconds>(said - begin).count() << " s\n";
-      }
+      progress.step(i + 1);
     }
     for (const std::size_t name : moved_)
       if (sculptor_.vertex(name).is_valid())
@@ -43,7 +38,7 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
   using Kind = Command::Kind;
-  using Json = nlohmann::ordered_json;
+  using Status = Edit_record::Status;
 
   Mesh& mesh_;
   Sculptor<Mesh, Broad_phase> sculptor_;
@@ -70,7 +65,8 @@ private:
     }
   }
 
-  static Kernel::Point_3 point(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+  static Kernel::Point_3 point(const Edit_record::Coordinates& p) { return {p[0], p[1], p[2]}; }
+  static Edit_record::Coordinates coordinates(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
   void drag(const Command& command) {
     const std::size_t index = command.indices[0];
@@ -86,7 +82,7 @@ private:
       grab_.emplace(sculptor_.grab(v));
     held_ = true;
     const Result done = grab_->drag_to(point(command.points[0]));
-    finish(command, begin, done, start, command.points[0], {index});
+    finish(command, begin, done, coordinates(start), command.points[0], {index});
     if (done.position != start)
       moved_.insert(index);
   }
@@ -119,13 +115,11 @@ private:
     }
     result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
     const std::size_t name = sculptor_.name(*done.vertex);
-    const Kernel::Point_3& p = mesh_.point(*done.vertex);
+    const Edit_record::Coordinates p = coordinates(mesh_.point(*done.vertex));
     if (command.kind == Kind::insert_face || command.kind == Kind::insert_edge)
       moved_.insert(name);
     ++result_.reached;
-    result_.edits.push_back({{"line", command.line}, {"op", name_of(command.kind)}, {"status", "reached"}, {"reason", nullptr},
-                             {"elements", {name}}, {"position", {p.x(), p.y(), p.z()}}, {"legs", 0}, {"stop_error", 0},
-                             {"kkt_residual", 0}, {"contacts", Json::array()}});
+    record(command, Status::reached, nullptr, {name}).motion = {p, p, p};
   }
 
   void probe(const Command& command) {
@@ -134,68 +128,59 @@ private:
     if (done.end == Drag_end::refused)
       refuse(command, "starts-in-clearance", ids(done.contacts[0]));
     else
-      finish(command, begin, done, point(command.points[0]), command.points[1], {});
+      finish(command, begin, done, command.points[0], command.points[1], {});
   }
 
   void delta(const Command& command) {
     try {
       sculptor_.set_delta(command.length);
     } catch (const Invalid_surface& error) {
-      std::vector<std::size_t> faces(error.report().low_faces.begin(), error.report().low_faces.end());
-      refuse(command, "delta", faces);
+      std::set<std::size_t> corners;
+      for (const auto f : error.report().low_faces)
+        for (const auto v : mesh_.vertices_around_face(mesh_.halfedge(f)))
+          corners.insert(sculptor_.name(v));
+      refuse(command, "triangle-lower-than-delta", {corners.begin(), corners.end()});
     }
   }
 
   std::optional<typename Sculptor<Mesh, Broad_phase>::Grab_type> grab_;
   bool held_ = false;
 
-  std::vector<std::size_t> ids(const Contact_3<Mesh>& contact) const {
+  template <class Ids = std::vector<std::size_t>>
+  Ids ids(const Contact_3<Mesh>& contact) const {
     return {sculptor_.name(contact.vertices[0]), sculptor_.name(contact.vertices[1]), sculptor_.name(contact.vertices[2])};
   }
 
-  void refuse(const Command& command, const char* reason, const std::vector<std::size_t>& elements) {
-    held_ = false;
-    ++result_.refused;
-    result_.edits.push_back(
-        {{"line", command.line}, {"op", name_of(command.kind)}, {"status", "refused"}, {"reason", reason},
-         {"elements", elements}, {"position", nullptr}, {"legs", 0}, {"stop_error", 0}, {"kkt_residual", 0},
-         {"contacts", Json::array()}});
+  Edit_record& record(const Command& command, Status status, const char* reason, std::vector<std::size_t> elements) {
+    Edit_record edit;
+    edit.line = command.line;
+    edit.kind = command.kind;
+    edit.status = status;
+    edit.reason = reason;
+    edit.elements = std::move(elements);
+    result_.edits.push_back(std::move(edit));
+    return result_.edits.back();
   }
 
-  void finish(const Command& command, Clock::time_point begin, const Result& done, const Kernel::Point_3& start,
-              const std::array<double, 3>& target, const std::vector<std::size_t>& elements) {
+  void refuse(const Command& command, const char* reason, std::vector<std::size_t> elements) {
+    held_ = false;
+    ++result_.refused;
+    record(command, Status::refused, reason, std::move(elements));
+  }
+
+  void finish(const Command& command, Clock::time_point begin, const Result& done, const Edit_record::Coordinates& start,
+              const Edit_record::Coordinates& target, std::vector<std::size_t> elements) {
     result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
-    Json contacts = Json::array();
-    std::string what;
-    for (const auto& contact : done.contacts) {
-      contacts.push_back({{"kind", name_of(contact.kind)}, {"ids", ids(contact)}, {"normal", contact.normal}});
-      what += (what.empty() ? "" : ", ") + std::string(name_of(contact.kind));
-      for (std::size_t id : ids(contact))
-        what += ' ' + std::to_string(id);
-    }
-    const Kernel::Point_3& p = done.position;
-    result_.edits.push_back({{"line", command.line},
-                             {"op", name_of(command.kind)},
-                             {"status", done.reached ? "reached" : "blocked"},
-                             {"reason", done.reached ? Json() : Json(name_of(done.end))},
-                             {"elements", elements},
-                             {"position", {p.x(), p.y(), p.z()}},
-                             {"legs", done.legs},
-                             {"stop_error", done.stop_error},
-                             {"stop_error_along_path", done.stop_error_along_path},
-                             {"kkt_residual", done.kkt_residual},
-                             {"contacts", contacts}});
-    if (done.reached) {
-      ++result_.reached;
-      return;
-    }
-    ++result_.blocked;
-    result_.blocked_drags.push_back({command.line,
-                                     {start.x(), start.y(), start.z()},
-                                     {p.x(), p.y(), p.z()},
-                                     {target[0], target[1], target[2]},
-                                     what,
-                                     done.contacts.empty() ? std::array<double, 3>{} : done.contacts[0].normal});
+    ++(done.reached ? result_.reached : result_.blocked);
+    Edit_record& edit = record(command, done.reached ? Status::reached : Status::blocked,
+                               done.reached ? nullptr : name_of(done.end), std::move(elements));
+    edit.motion = {start, coordinates(done.position), target};
+    edit.legs = done.legs;
+    edit.stop_error = done.stop_error;
+    edit.stop_error_along_path = done.stop_error_along_path;
+    edit.kkt_residual = done.kkt_residual;
+    for (const auto& contact : done.contacts)
+      edit.contacts.push_back({name_of(contact.kind), ids<std::array<std::size_t, 3>>(contact), contact.normal});
   }
 };
 

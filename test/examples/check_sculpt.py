@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 
-SCULPT, QUERIES, SOURCE = sys.argv[1:4]
+SCULPT, QUERIES, SOURCE = map(os.path.abspath, sys.argv[1:4])
 FAULTS = []
 
 
@@ -21,12 +21,12 @@ def check(condition, what):
         print("FAULT:", what)
 
 
-def run(*arguments, program=SCULPT, script=None, limit=None):
+def run(*arguments, program=SCULPT, script=None, limit=None, folder=None):
     def limit_size():
         if limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
-    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=100,
+    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=100, cwd=folder,
                           preexec_fn=limit_size, restore_signals=False)  # Python ignores SIGXFSZ; the write fails
 
 
@@ -73,6 +73,48 @@ def happy_path(folder, mesh):
     check(list(after[3]) == told["edits"][6]["position"], "the result has the position of the report, bit for bit")
 
 
+def directives_and_refusals(folder, mesh):
+    report = f"{folder}/refusals.json"
+    script = ("drag 99999999999999999 0 0 0\n drag 18446744073709551615 0 0 0\ndelta 0.5\ndrag 3 0.1 0.1 0.3\r\nrelease\ndelta 3\n"
+              "delta 0\ndrag 3 0.1 0.1 0.3\nresponse stop\n\n# end\ndrag 4 0 0 0")
+    done = run(mesh, "--script", "/dev/stdin", "--report", report, script=script)
+    check(done.returncode == 0, f"refusals: {done.returncode} {done.stderr}")
+    told = json.load(open(report))
+    status = [(edit["line"], edit["op"], edit["status"], edit["reason"]) for edit in told["edits"]]
+    check(status == [(1, "drag", "refused", "unknown-element"), (2, "drag", "refused", "unknown-element"), (4, "drag", "blocked", "held"),
+                     (6, "delta", "refused", "triangle-lower-than-delta"), (8, "drag", "reached", None),
+                     (12, "drag", "refused", "unknown-element")], f"refusals {status}")
+    edits = told["edits"]
+    check(edits[1]["elements"] == [2**64 - 1] and edits[1]["position"] is None and edits[1]["contacts"] == [], "unknown vertex")
+    check(edits[2]["contacts"][0]["kind"] == "delta", "the delta rule blocks")
+    check(edits[3]["elements"] == [0, 1, 2, 3], f"vertices of low triangles: {edits[3]}")
+    check(told["totals"] == {"asked": 6, "reached": 1, "blocked": 1, "refused": 4}, f"totals {told['totals']}")
+    check(0 < told["time_ns"]["p50"] <= told["time_ns"]["p99"] <= told["time_ns"]["p999"] <= told["time_ns"]["max"], "times in order")
+    for words in ("unknown-element 4\n", "triangle-lower-than-delta 0 1 2 3\n"):
+        check(words in done.stdout, f"the table does not say '{words}': {done.stdout}")
+    empty = run(mesh, "--script", "/dev/null", "--report", report)
+    told = json.load(open(report))
+    check(empty.returncode == 0 and told["edits"] == [] and told["totals"]["asked"] == 0 and told["time_ns"]["max"] == 0, "empty script")
+    huge = run(mesh, "--script", "/dev/stdin", "--report", report, script="drag 3 1e308 1e308 1e308\ndrag 3 -1e308 -1e308 -1.7e308\n")
+    check(huge.returncode == 0 and len(json.load(open(report))["edits"]) == 2, f"huge coordinates: {huge.stderr}")
+
+
+def demo(folder):
+    """The demo shows what its comments say: every kind of contact, a drag that arrives, a refused edit."""
+    report = f"{folder}/demo.json"
+    data = f"{SOURCE}/examples/data"
+    done = run(f"{data}/ball_and_moon.off", "--script", f"{data}/demo.script", "--report", report, "-o", f"{folder}/demo.off")
+    told = json.load(open(report))
+    kinds = {contact["kind"] for edit in told["edits"] for contact in edit["contacts"]}
+    check(kinds == {"vertex-face", "edge-edge", "face-vertex"}, f"kinds of contact in the demo: {kinds}")
+    check(min(told["totals"].values()) > 0, f"totals of the demo: {told['totals']}")
+    before, after = points(f"{data}/ball_and_moon.off"), points(f"{folder}/demo.off")
+    dragged = {edit["elements"][0]: tuple(edit["position"]) for edit in told["edits"] if edit["op"] == "drag" and edit["position"]}
+    check(len(dragged) == 8, f"dragged vertices {dragged}")
+    check(after == [dragged.get(v, p) for v, p in enumerate(before)], "bits of the demo's result")
+    check(run(f"{folder}/demo.off").returncode == 0, "the demo's result is a valid mesh")
+
+
 def formats(folder, mesh):
     for name in ("a.ply", "b.obj", "c.stl", "d.off"):
         done = run(mesh, "--script", "/dev/stdin", "-o", f"{folder}/{name}", script="drag 3 0.25 0.3 0.7000000000000001\n")
@@ -97,6 +139,17 @@ def bad_usage(folder, mesh):
     fails(2, [], run(), "no arguments")
     fails(2, ["--nonsense"], run(mesh, "--nonsense"), "unknown option")
     fails(2, ["clearance"], run(mesh, "--clearance", "-1"), "negative clearance")
+    for option, value in (("--clearance", "nan"), ("--clearance", "inf"), ("--clearance", "0"), ("--delta", "nan"), ("--delta", "-1")):
+        fails(2, [option], run(mesh, option, value), f"{option} {value}")
+    check(run(mesh, "--clearance", "0x1p-20").returncode == 0, "hexadecimal option")
+    fails(2, ["empty"], run(mesh, "-o", ""), "empty name")
+    for edit in ("response slide", "response paper"):
+        fails(2, ["line 2", edit.split()[-1]],
+              run(f"{folder}/no_mesh_is_read.off", "--script", "/dev/stdin", script=f"drag 3 0 0 2\n{edit}\n"), edit)
+    before = open(mesh).read()
+    fails(2, ["mesh"], run(mesh, "--report", mesh), "the report in place of the mesh")
+    check(open(mesh).read() == before, "the mesh is spoilt")
+    fails(2, ["one file"], run(mesh, "--report", "same", "--picture", "./same", folder=folder), "two outputs in one file")
     fails(2, ["slide"], run(mesh, "--response", "slide"), "response that is not there")
     fails(2, ["slide"], run(mesh, "--script", "/dev/stdin", script="drag 3 0 0 2\nresponse slide\n"), "directive that is not there")
     fails(2, [".xyz"], run(mesh, "-o", f"{folder}/out.xyz"), "unknown format of the result")
@@ -153,6 +206,12 @@ def bad_scripts(folder, mesh):
     refused("delta -1\n", 1, 7)
     refused("response bounce\n", 1, 10, "bounce")
     refused("mesh 12\n", 1, 6)
+    refused("drag 3 0 0 0x1p\n", 1, 12)
+    refused("drag 99999999999999999999999 0 0 1\n", 1, 6)
+    refused("drag 3 0 0 1 # ok\n\tprobe 0 0 0 1 1 -inf\n", 2, 18, "finite")
+    refused("remove\n", 1, 7, "vertex index")
+    refused("drag 3 0 0 2\r\nundo 1\n", 2, 6)
+    fails(4, ["failed"], run(mesh, "--script", folder), "a folder as script")
     fails(4, ["missing.script"], run(mesh, "--script", f"{folder}/missing.script"), "missing script")
     digest = hashlib.sha256(open(mesh, "rb").read()).hexdigest()
     check(run(mesh, "--script", "/dev/stdin", script=f"mesh {digest.upper()}\n").returncode == 0, "own hash")
@@ -241,6 +300,20 @@ def bad_targets(folder, mesh):
     fails(5, ["nowhere"], run(mesh, "-o", f"{folder}/nowhere/out.off"), "missing folder of the result")
     os.mkdir(f"{folder}/target.off")
     fails(5, ["target.off"], run(mesh, "-o", f"{folder}/target.off"), "the result is a folder")
+    for option in ("--report", "--picture"):
+        with open(f"{folder}/kept.x", "w") as file:
+            file.write("kept")
+        fails(5, ["kept.x"], run(mesh, option, f"{folder}/kept.x", limit=64), f"disk full, {option}")
+        check(open(f"{folder}/kept.x").read() == "kept", f"a full disk spoils the old file of {option}")
+        check(not [name for name in os.listdir(folder) if name.startswith("kept.x") and name != "kept.x"], f"left-over file of {option}")
+        fails(5, ["/dev/full"], run(mesh, option, "/dev/full"), f"{option} to a device")
+        # Found before the work: the good target is not touched either.
+        fails(5, ["nowhere"], run(mesh, "-o", kept, option, f"{folder}/nowhere/file"), f"missing folder of {option} beside a good result")
+        check(open(kept).read() == "kept", f"the result is written though {option} cannot be")
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([SCULPT, mesh, "-o", f"{folder}/table.off"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=100)
+    fails(5, ["standard output"], done, "no room for the table")
+    check(os.path.exists(f"{folder}/table.off"), "the result is written before the table")
     fails(5, ["nowhere"], run(mesh, "--report", f"{folder}/nowhere/report.json"), "missing folder of the report")
     fails(5, ["nowhere"], run(mesh, "--picture", f"{folder}/nowhere/picture.png"), "missing folder of the picture")
     done = run(mesh, "--picture", f"{folder}/picture.png")
@@ -273,6 +346,8 @@ def main():
         with open(mesh, "w") as file:
             file.write(TETRAHEDRON)
         happy_path(folder, mesh)
+        directives_and_refusals(folder, mesh)
+        demo(folder)
         formats(folder, mesh)
         broad_phases_agree(folder)
         bad_usage(folder, mesh)

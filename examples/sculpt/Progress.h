@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_PROGRESS_H
+#define HAPTIC_SCULPT_EXAMPLES_PROGRESS_H
+
+#include <chrono>
+#include <cstddef>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace haptic_sculpt::sculpt_program {
+
+/// Says on standard error how far a long run is. Nothing in the first two seconds; then a terminal is told twice a
+/// second in one line, and a file at 2, 4, 8, ... seconds, so that the log of a night's run stays short.
+class Progress {
+public:
+  explicit Progress(std::size_t total) : total_(total), is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() {
+    if (is_terminal_ && said_)
+      std::cerr << '\n';
+  }
+
+  void step(std::size_t done) {
+    const auto elapsed = Clock::now() - begin_;
+    if (elapsed < next_)
+      return;
+    next_ = is_terminal_ ? elapsed + std::chrono::milliseconds(500) : 2 * elapsed;
+    said_ = true;
+    std::cerr << (is_terminal_ ? "\r" : "") << "sculpt: " << done << " of " << total_ << " lines, "
+              << std::chrono::duration_cast<std::chrono::seconds>(elapsed).count() << " s" << (is_terminal_ ? "" : "\n")
+              << std::flush;
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  std::size_t total_;
+  bool is_terminal_, said_ = false;
+  Clock::time_point begin_ = Clock::now();
+  Clock::duration next_ = std::chrono::seconds(2);
+};
+
+} // namespace haptic_sculpt::sculpt_program
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Report.h"
+
+#include <haptic_sculpt/version.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+
+namespace haptic_sculpt::sculpt_program {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(Edit_record::Status status) {
+  constexpr const char* names[] = {"reached", "blocked", "refused"};
+  return names[static_cast<int>(status)];
+}
+
+Json json_of(const Edit_record& edit) {
+  Json contacts = Json::array();
+  for (const auto& contact : edit.contacts)
+    contacts.push_back({{"kind", contact.kind}, {"ids", contact.ids}, {"normal", contact.normal}});
+  return {{"line", edit.line},
+          {"op", name_of(edit.kind)},
+          {"status", name_of(edit.status)},
+          {"reason", edit.reason ? Json(edit.reason) : Json()},
+          {"elements", edit.elements},
+          {"position", edit.motion ? Json(edit.motion->stop) : Json()},
+          {"legs", edit.legs},
+          {"stop_error", edit.stop_error},
+          {"stop_error_along_path", edit.stop_error_along_path},
+          {"kkt_residual", edit.kkt_residual},
+          {"contacts", std::move(contacts)}};
+}
+
+/// The smallest value that at least this share of the values does not exceed; 0 of none.
+double percentile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty())
+    return 0;
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
+}
+
+/// What blocked or refused an edit.
+std::string cause_of(const Edit_record& edit) {
+  std::string text =
+      edit.reason && (edit.status == Edit_record::Status::refused || edit.contacts.empty()) ? edit.reason : "";
+  const auto name = [&text](const auto& ids) {
+    constexpr std::size_t most = 6;
+    for (std::size_t i = 0; i < ids.size() && i < most; ++i)
+      text += ' ' + std::to_string(ids[i]);
+    if (ids.size() > most)
+      text += " ...";
+  };
+  if (edit.status == Edit_record::Status::refused)
+    name(edit.elements);
+  for (const auto& contact : edit.contacts) {
+    text += (text.empty() ? "" : ", ") + std::string(contact.kind);
+    name(contact.ids);
+  }
+  return text;
+}
+
+double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinates& q) {
+  // By halves: the difference of two doubles may overflow, and std::hypot of infinities is not a number in some
+  // libraries.
+  return 2 * std::hypot(p[0] / 2 - q[0] / 2, p[1] / 2 - q[1] / 2, p[2] / 2 - q[2] / 2);
+}
+
+} // namespace
+
+std::string report_of(const Run_result& result) {
+  std::vector<double> times = result.nanoseconds;
+  std::sort(times.begin(), times.end());
+  const Json totals = {
+      {"asked", result.asked()}, {"reached", result.reached}, {"blocked", result.blocked}, {"refused", result.refused}};
+  const Json time = {{"p50", percentile(times, 0.5)},
+                     {"p99", percentile(times, 0.99)},
+                     {"p999", percentile(times, 0.999)},
+                     {"max", percentile(times, 1)}};
+  const Json filter = {{"permanent", result.filter.permanent},
+                       {"integer_64", result.filter.integer_64},
+                       {"integer_128", result.filter.integer_128},
+                       {"big_integer", result.filter.big_integer}};
+  // Put together edit by edit: a tree of a million edits would take gigabytes.
+  std::string text =
+      "{\n\"version\": " + Json(HAPTIC_SCULPT_VERSION).dump() + ",\n\"totals\": " + totals.dump() + ",\n\"edits\": [";
+  for (std::size_t i = 0; i < result.edits.size(); ++i)
+    text += (i == 0 ? "\n" : ",\n") + json_of(result.edits[i]).dump();
+  return text + "\n],\n\"time_ns\": " + time.dump() + ",\n\"filter\": " + filter.dump() + "\n}\n";
+}
+
+void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) {
+  out << mesh.number_of_vertices() << " vertices, " << mesh.number_of_faces() << " triangles\n"
+      << "edits asked " << result.asked() << ", reached " << result.reached << ", blocked " << result.blocked
+      << ", refused " << result.refused << '\n';
+  constexpr std::size_t most = 40;
+  std::size_t told = 0;
+  for (const Edit_record& edit : result.edits) {
+    if (edit.status == Edit_record::Status::reached)
+      continue;
+    if (told == most) {
+      out << "  and " << result.blocked + result.refused - most << " more (see the report)\n";
+      break;
+    }
+    if (told++ == 0)
+      out << "  line  edit    vertex  outcome  left to go  by (the vertices of what stands still)\n";
+    out << std::setw(6) << edit.line << "  " << std::left << std::setw(6) << name_of(edit.kind) << std::right
+        << std::setw(8) << (edit.kind == Command::Kind::drag ? std::to_string(edit.elements[0]) : "-") << "  "
+        << name_of(edit.status);
+    if (edit.motion)
+      out << std::setw(12) << std::setprecision(4) << distance(edit.motion->stop, edit.motion->target);
+    else
+      out << std::setw(12) << '-';
+    out << "  " << cause_of(edit) << '\n';
+  }
+}
+
+} // namespace haptic_sculpt::sculpt_program

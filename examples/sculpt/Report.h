@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_REPORT_H
+#define HAPTIC_SCULPT_EXAMPLES_REPORT_H
+
+#include "Run_result.h"
+
+#include <iosfwd>
+#include <string>
+
+namespace haptic_sculpt::sculpt_program {
+
+/// The report: JSON, one edit a line. doc/sculpt.md lists its keys. Doubles come back bit for bit.
+std::string report_of(const Run_result& result);
+
+/// The totals, and a line for each edit that was blocked or refused, up to 40 of them.
+void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh);
+
+} // namespace haptic_sculpt::sculpt_program
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_RUN_RESULT_H
+#define HAPTIC_SCULPT_EXAMPLES_RUN_RESULT_H
+
+#include "Script.h"
+
+#include <haptic_sculpt/sculpting.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace haptic_sculpt::sculpt_program {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Vertex_index = Mesh::Vertex_index;
+
+/// What became of one edit. Small: a benchmark's script has millions of lines.
+struct Edit_record {
+  enum class Status : std::uint8_t { reached, blocked, refused };
+  using Coordinates = std::array<double, 3>;
+
+  struct Contact {
+    const char* kind;
+    std::array<std::size_t, 3> ids; ///< of vertices, as in Contact_3
+    Coordinates normal;
+  };
+  /// Where a motion began, ended, and was to end.
+  struct Motion {
+    Coordinates start, stop, target;
+  };
+
+  std::size_t line = 0;
+  Command::Kind kind = Command::Kind::release;
+  Status status = Status::refused;
+  const char* reason = nullptr; ///< why it was not reached, or nullptr
+  std::vector<std::size_t>
+      elements;                 ///< the vertices that the edit names; of a refused `delta`, those of too low triangles
+  std::optional<Motion> motion; ///< none where refused; a creation, removal, undo or redo stands still
+  int legs = 0;
+  double stop_error = 0, stop_error_along_path = 0, kkt_residual = 0;
+  std::vector<Contact> contacts;
+};
+
+/// What a script did.
+struct Run_result {
+  std::vector<Edit_record> edits;
+  std::size_t reached = 0, blocked = 0, refused = 0;
+  std::vector<Vertex_index> moved_vertices;                ///< those that are still there
+  std::vector<Validity_report::Vertex_index> vertex_order; ///< by number, dead ones left out
+  std::vector<double> nanoseconds;         ///< of each edit that was carried out
+  Filter_counters filter;
+
+  std::size_t asked() const { return reached + blocked + refused; }
+};
+
+/// Called after a command has been carried out.
+using After_command = std::function<void(const Command&)>;
+
+/// Carries out a script on a mesh. \throw Invalid_surface, Invalid_parameter, and what `after` throws
+template <class Broad_phase>
+Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Sculptor_parameters& parameters,
+                      const After_command& after);
+
+} // namespace haptic_sculpt::sculpt_program
+
+#endif
