@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Script.h"
 
+#include <haptic_sculpt/sculpting/Response.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -93,7 +95,7 @@ void read_last(Line& line, const Syntax& syntax, Command& command) {
       line.fail(std::string("the ") + syntax.name + " must be " + (command.kind == Kind::delta ? "at least 0" : "more than 0"));
   } else if (syntax.last == Syntax::word && command.kind == Kind::response) {
     command.word = line.word("slide, stop or paper");
-    if (command.word != "slide" && command.word != "stop" && command.word != "paper")
+    if (!response_named(command.word))
       line.fail("'" + command.word + "' is not a response: slide, stop or paper");
   } else if (syntax.last == Syntax::word) {
     command.word = line.word("the SHA-256 of the mesh file");

@@ -61,7 +61,8 @@ private:
     case Kind::remove: remove(command); break;
     case Kind::undo: edit(command, [&] { return sculptor_.undo(); }); break;
     case Kind::redo: edit(command, [&] { return sculptor_.redo(); }); break;
-    default: sculptor_.release(); // release; response stop; mesh was checked before the first edit
+    case Kind::response: sculptor_.set_response(*response_named(command.word)); break;
+    default: sculptor_.release(); // release; mesh was checked before the first edit
     }
   }
 

@@ -38,7 +38,7 @@ using Kind = Command::Kind;
 enum Exit { done = 0, no_memory = 1, usage = 2, mesh_refused = 3, script_error = 4, cannot_write = 5, foreign_log = 6 };
 
 struct Arguments {
-  std::string mesh, script, out, report, log, response = "stop", broad_phase = "tree", picture;
+  std::string mesh, script, out, report, log, response, broad_phase = "tree", picture;
   std::optional<double> clearance;
   double delta = 0;
 };
@@ -55,24 +55,6 @@ std::vector<Command> script_of(const Arguments& arguments) {
   if (!file)
     throw Script_error("cannot open the script '" + arguments.script + "': " + std::strerror(errno));
   return read_script(file, arguments.script);
-}
-
-/// \throw Usage_error for what does not exist yet
-void refuse_what_does_not_exist(const std::vector<Command>& script, const Arguments& arguments) {
-  if (arguments.response != "stop")
-    throw Usage_error("the response '" + arguments.response + "' does not exist yet; use stop");
-  const auto not_yet = [&](std::size_t line, const std::string& what) {
-    throw Usage_error(arguments.script + ": line " + std::to_string(line) + ": " + what + " does not exist yet");
-  };
-  for (const Command& command : script)
-    switch (command.kind) {
-    case Kind::response:
-      if (command.word != "stop")
-        not_yet(command.line, "the response '" + command.word + "'");
-      break;
-    default:
-      break;
-    }
 }
 
 /// \throw Usage_error where one file would be written over another of this run; Write_error
@@ -110,6 +92,8 @@ void check_mesh_directives(const std::vector<Command>& script, const Arguments& 
 Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& arguments, const After_command& after) {
   Sculptor_parameters parameters;
   parameters.delta(arguments.delta);
+  if (!arguments.response.empty())
+    parameters.response(*response_named(arguments.response));
   if (arguments.clearance)
     parameters.clearance(*arguments.clearance);
   if (arguments.broad_phase == "brute")
@@ -123,6 +107,12 @@ Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& 
 std::vector<Command> settings(const Arguments& arguments) {
   std::vector<Command> directives;
   Command command;
+  if (!arguments.response.empty()) {
+    command.kind = Kind::response;
+    command.word = arguments.response;
+    directives.push_back(command);
+    command.word.clear();
+  }
   if (arguments.clearance) {
     command.kind = Kind::clearance;
     command.length = *arguments.clearance;
@@ -189,7 +179,6 @@ Exit sculpt(const Arguments& arguments) {
   if (!(arguments.delta >= 0 && std::isfinite(arguments.delta)))
     throw Usage_error("--delta must be a finite length >= 0");
   std::vector<Command> script = script_of(arguments);
-  refuse_what_does_not_exist(script, arguments);
   check_targets(arguments);
   Mesh mesh = read_surface<Mesh>(arguments.mesh, arguments.delta);
   check_mesh_directives(script, arguments);
@@ -224,15 +213,14 @@ int main(int argc, char** argv) {
                "5 cannot write, 6 script or log of another mesh.\n"
                "Script, one edit a line, # comments, numbers decimal or hexadecimal:\n"
                "  drag V X Y Z | release | insert_face A B C X Y Z | insert_edge A B X Y Z | remove V |\n"
-               "  probe X Y Z X2 Y2 Z2 | undo | redo | response stop | clearance L | delta L | mesh SHA256");
+               "  probe X Y Z X2 Y2 Z2 | undo | redo | response slide|stop|paper | clearance L | delta L | mesh SHA256");
   const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->required()->check(named);
   app.add_option("--script", arguments.script, "The edits; may be /dev/stdin")->check(named);
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes: .off .ply .obj .stl")->check(named);
   app.add_option("--report", arguments.report, "Where the JSON report goes")->check(named);
   app.add_option("--log", arguments.log, "Edit log: replayed if it exists, then appended to")->check(named);
-  app.add_option("--response", arguments.response, "What a blocked vertex does; only stop exists yet")
-      ->capture_default_str()
+  app.add_option("--response", arguments.response, "What a blocked vertex does: slide (the default), stop or paper")
       ->check(CLI::IsMember({"slide", "stop", "paper"}));
   app.add_option("--broad-phase", arguments.broad_phase, "How candidates are found; the results are the same")
       ->capture_default_str()

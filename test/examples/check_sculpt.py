@@ -143,15 +143,11 @@ def bad_usage(folder, mesh):
         fails(2, [option], run(mesh, option, value), f"{option} {value}")
     check(run(mesh, "--clearance", "0x1p-20").returncode == 0, "hexadecimal option")
     fails(2, ["empty"], run(mesh, "-o", ""), "empty name")
-    for edit in ("response slide", "response paper"):
-        fails(2, ["line 2", edit.split()[-1]],
-              run(f"{folder}/no_mesh_is_read.off", "--script", "/dev/stdin", script=f"drag 3 0 0 2\n{edit}\n"), edit)
     before = open(mesh).read()
     fails(2, ["mesh"], run(mesh, "--report", mesh), "the report in place of the mesh")
     check(open(mesh).read() == before, "the mesh is spoilt")
     fails(2, ["one file"], run(mesh, "--report", "same", "--picture", "./same", folder=folder), "two outputs in one file")
-    fails(2, ["slide"], run(mesh, "--response", "slide"), "response that is not there")
-    fails(2, ["slide"], run(mesh, "--script", "/dev/stdin", script="drag 3 0 0 2\nresponse slide\n"), "directive that is not there")
+    fails(2, ["bounce"], run(mesh, "--response", "bounce"), "response that is not there")
     fails(2, [".xyz"], run(mesh, "-o", f"{folder}/out.xyz"), "unknown format of the result")
     check(run("--help").returncode == 0, "--help")
 

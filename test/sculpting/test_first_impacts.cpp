@@ -65,7 +65,7 @@ std::set<Named> brute_force(const Mesh& mesh, Vertex_index j, const Point_3& tar
 template <class Broad_phase>
 std::vector<Point_3> positions_after(Mesh mesh, std::uint64_t seed, std::size_t drags) {
   Random random(seed);
-  Sculptor<Mesh, Broad_phase> sculptor(mesh);
+  Sculptor<Mesh, Broad_phase> sculptor(mesh, parameters::response(Response::stop));
   std::uniform_real_distribution<double> step(-0.5, 0.5);
   std::vector<Point_3> positions;
   for (std::size_t i = 0; i < drags; ++i) {

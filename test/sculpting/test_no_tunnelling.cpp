@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(verdicts_and_times_agree_with_an_independent_decision) {
       else if (expected && found->impact().exact_time() != *expected)
         ++wrong_times;
       Mesh mesh = original;
-      Sculptor<Mesh> sculptor(mesh);
+      Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
       const auto result = sculptor.grab(v).drag_to(target);
       if (result.reached == expected.has_value() && original.point(v) != target)
         ++wrong_verdicts;

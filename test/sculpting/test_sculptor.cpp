@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(property_maps_survive) {
 BOOST_AUTO_TEST_CASE(an_isolated_vertex_is_a_probe) {
   Mesh mesh = ball();
   const Vertex_index probe = mesh.add_vertex(Point_3(0.05, 0.02, 3));
-  Sculptor<Mesh> sculptor(mesh);
+  Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
   const auto result = sculptor.grab(probe).drag_to(Point_3(0.05, 0.02, -3));
   BOOST_TEST(!result.reached);
   BOOST_TEST(result.position.z() > 0.8);

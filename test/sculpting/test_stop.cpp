@@ -36,7 +36,7 @@ Mesh tip_over_plane(const Point_3& tip) {
 
 BOOST_AUTO_TEST_CASE(a_vertex_stops_on_a_plane) {
   Mesh mesh = tip_over_plane({0.1, 0.2, 1});
-  Sculptor<Mesh> sculptor(mesh);
+  Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
   const Point_3 target(0.3, 0.1, -1);
   const double c = sculptor.clearance(target);
   BOOST_TEST(c == 4 * (std::nextafter(8.0, 9.0) - 8.0));
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(an_edge_stops_on_an_edge) {
   // The ridge from (-4, 0, 0) to (4, 0, 0) along x; the moving edge runs along y above it.
   Mesh mesh = two_tetrahedra({Point_3(-4, 0, 0), Point_3(4, 0, 0), Point_3(0, -1, -3), Point_3(0, 1, -3), Point_3(0, -2, 1),
                               Point_3(0, 2, 0.5), Point_3(-0.5, 0, 4), Point_3(0.5, 0, 4)});
-  Sculptor<Mesh> sculptor(mesh);
+  Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
   const Point_3 target(0, -2, -3);
   const double c = sculptor.clearance(target);
   const auto result = sculptor.grab(Vertex_index(pushed)).drag_to(target);
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(a_face_stops_on_a_vertex) {
   // A spike with its tip at the origin; a flat face comes down on it, held by two corners at z = 1/2.
   Mesh mesh = two_tetrahedra({Point_3(0, 0, 0), Point_3(-1, -1, -3), Point_3(1, -1, -3), Point_3(0, 1, -3), Point_3(0, 3, 1),
                               Point_3(-2, -1, 0.5), Point_3(2, -1, 0.5), Point_3(0, 0, 6)});
-  Sculptor<Mesh> sculptor(mesh);
+  Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
   const Point_3 target(0, 3, -6);
   const double c = sculptor.clearance(target);
   const auto result = sculptor.grab(Vertex_index(pushed)).drag_to(target);
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(repeated_and_grazing_pushes_keep_the_gap) {
   std::uniform_real_distribution<double> number(-1, 1);
   for (int scene = 0; scene < 20; ++scene) {
     Mesh mesh = tip_over_plane({0.3 * number(random), 0.3 * number(random), 1});
-    Sculptor<Mesh> sculptor(mesh);
+    Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
     auto grab = sculptor.grab(Vertex_index(pushed));
     const double c = sculptor.clearance({0, 0, 0});
     for (int push = 0; push < 100; ++push) {
@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(generic_stops_are_not_lazy_at_any_scale_and_offset) {
         for (const Vertex_index v : mesh.vertices())
           mesh.point(v) = Point_3(mesh.point(v).x() * scale + offset, mesh.point(v).y() * scale + offset,
                                   mesh.point(v).z() * scale + offset);
-        Sculptor<Mesh> sculptor(mesh);
+        Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
         const Point_3 start = mesh.point(Vertex_index(pushed));
         const Point_3 target(start.x() + number(random) * scale, start.y() + number(random) * scale, start.z() - 2 * scale);
         const auto impacts = first_impacts(mesh, Vertex_index(pushed), target);
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(slivers_stop_what_comes) {
   // The top face is a sliver 1e-12 wide along x; the vertex is pushed straight down on its middle.
   Mesh mesh = two_tetrahedra({Point_3(-8, 0, 0), Point_3(8, 0, 0), Point_3(0, 1e-12, 0), Point_3(0, 0, -3), Point_3(0, 4e-13, 1),
                               Point_3(-0.5, -0.5, 2), Point_3(0.5, -0.5, 2), Point_3(0, 0.5, 2)});
-  Sculptor<Mesh> sculptor(mesh);
+  Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
   const Point_3 target(0, 4e-13, -1);
   const auto result = sculptor.grab(Vertex_index(pushed)).drag_to(target);
   BOOST_TEST(!result.reached);
@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(the_delta_rule_stops_where_a_rational_bisection_says) {
     const Point_3 source = mesh.point(v), target = random_grid_point(random, 5);
     if (source == target)
       continue;
-    Sculptor<Mesh> sculptor(mesh, parameters::delta(delta));
+    Sculptor<Mesh> sculptor(mesh, parameters::delta(delta).response(Response::stop));
     const auto result = sculptor.grab(v).drag_to(target);
     wrong += !validate(mesh, delta).is_valid();
     // The rational time up to which no sampled point of the way breaks the rule, on 2^12 points.

@@ -31,7 +31,7 @@ struct Contact_3 {
   /// Of length 1, towards the side J came from: the direction in which the contact pushes. Floating point.
   Coordinates normal{};
 
-  /// The three points of the contact plane, exact. Not meaningful where `is_flat`, or for `delta`.
+  /// The three points of the contact plane, exact. Do not span it where `is_flat`; G, I, I for `delta`.
   std::array<Coordinates, 3> plane{};
 
   /// Whether the plane is not determined by the features: the motion was coplanar with them.

@@ -3,25 +3,22 @@
 #define HAPTIC_SCULPT_SCULPTING_DRAG_RESULT_H
 
 #include <haptic_sculpt/sculpting/Contact_3.h>
+#include <haptic_sculpt/sculpting/Response.h>
 
 namespace haptic_sculpt {
-
-/// What a vertex does when its way is blocked.
-enum class Response : std::uint8_t {
-  stop ///< it stays where it was stopped
-};
 
 /// Why a drag ended.
 enum class Drag_end : std::uint8_t {
   reached,     ///< it is at the target
   held,        ///< contacts hold it where it is
   no_progress, ///< no representable point on the way keeps the clearance: it did not move
+  leg_limit,   ///< as many legs were made as one drag may make; the next drag to the same target goes on
   refused      ///< a probe that starts on a face, or nearer to it than the clearance
 };
 
-/// The name used in reports: "reached", "held", "no-progress" or "refused".
+/// The name used in reports: "reached", "held", "no-progress", "leg-limit" or "refused".
 inline const char* name_of(Drag_end end) {
-  constexpr const char* names[] = {"reached", "held", "no-progress", "refused"};
+  constexpr const char* names[] = {"reached", "held", "no-progress", "leg-limit", "refused"};
   return names[static_cast<int>(end)];
 }
 
@@ -32,7 +29,7 @@ struct Drag_result {
   bool reached = false;                      ///< whether that is the target
   Drag_end end = Drag_end::reached;          ///< why the drag ended
   std::vector<Contact_3<Mesh>> contacts;     ///< what holds it, in an order that depends on the elements only
-  int legs = 0;                              ///< straight motions that were made or tried
+  int legs = 0;                              ///< straight motions that were made, one after the other
   /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact is
   /// flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.
   double stop_error = 0;

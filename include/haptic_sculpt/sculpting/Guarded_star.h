@@ -63,25 +63,34 @@ public:
     decide(source, target, delta);
     if (!is_blocked())
       return target;
-    double back = std::numeric_limits<double>::infinity(), time = 1;
-    for (const Star_impact<Mesh>& first : firsts_) {
-      const internal::Path_at_plane at = internal::path_at_plane(first.impact());
-      // Of several simultaneous contacts the steepest decides: they meet in a point, and a clearance from one plane
-      // through it is a clearance from it. The proof sees to the others.
-      back = std::fmin(back, internal::setback(clearance, at.sine));
-      time = at.time;
-      result.contacts.push_back(haptic_sculpt::contact_of(first, at));
-    }
-    for (const Limit& limit : limits_) {
-      const Contact_3<Mesh> contact = contact_of_limit(limit, source, target, time);
-      const double sine = -internal::dot(contact.normal, internal::normalized(internal::minus(target, source)));
+    double back = std::numeric_limits<double>::infinity();
+    // Of several simultaneous contacts the steepest decides: they meet in a point, and a clearance from one plane
+    // through it is a clearance from it. The proof sees to the others.
+    const double time = for_each_first_contact(source, target, [&](const Contact_3<Mesh>& contact, double sine) {
       back = std::fmin(back, internal::setback(clearance, sine));
       result.contacts.push_back(contact);
-    }
+    });
     const Coordinates end = internal::stop_before(source, target, time, back,
                                                   [&](const Coordinates& q) { return is_free(source, q, delta); });
     measure_stop(source, target, end, time, delta, result);
     return end;
+  }
+
+  /// Calls `found(contact, sine)` for all that come first in the motion last decided; `sine` is that of the angle between
+  /// the path and the contact plane. Returns when, as a fraction of the path. \pre is_blocked()
+  template <class Found>
+  double for_each_first_contact(const Coordinates& source, const Coordinates& target, const Found& found) const {
+    double time = 1;
+    for (const Star_impact<Mesh>& first : firsts_) {
+      const internal::Path_at_plane at = internal::path_at_plane(first.impact());
+      time = at.time;
+      found(haptic_sculpt::contact_of(first, at), at.sine);
+    }
+    for (const Limit& limit : limits_) {
+      const Contact_3<Mesh> contact = contact_of_limit(limit, source, target, time);
+      found(contact, -internal::dot(contact.normal, internal::normalized(internal::minus(target, source))));
+    }
+    return time;
   }
 
 private:
@@ -176,6 +185,7 @@ private:
                               : limit.side == internal::Altitude_over::ji ? g : i};
     contact.normal = internal::altitude_gradient(internal::point_of_path(source, target, time),
                                                  star_.link_points[limit.face], star_.link_points[next], limit.side);
+    contact.plane = {star_.link_points[limit.face], star_.link_points[next], star_.link_points[next]};
     contact.is_flat = true;
     return contact;
   }

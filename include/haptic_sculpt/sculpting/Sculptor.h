@@ -6,6 +6,7 @@
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Guarded_star.h>
 #include <haptic_sculpt/sculpting/Mesh_watch.h>
+#include <haptic_sculpt/sculpting/Responses.h>
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/is_within_distance.h>
@@ -85,6 +86,7 @@ public:
       broad_phase_.faces_moved(guard_.star().faces);
     held_ = Vertex_index();
     moved_ = false;
+    responses_.forget();
   }
 
   /// \name Edits
@@ -156,11 +158,14 @@ public:
     const double c = clearance_of(s, t);
     Result result;
     result.position = source;
+    result.reached = s == t;
     if (refuse_start(s, c, result))
       return result;
     probe_guard_.star().clear();
     probe_guard_.invalidate();
-    finish(s, t, probe_guard_.leg(s, t, c, 0, result), c, result);
+    if (s != t)
+      finish(responses_.move(options_.response_rule, probe_guard_, *mesh_, s, t, c, largest_of(s, t), 0, result), t, result);
+    responses_.forget();
     return result;
   }
 
@@ -182,7 +187,10 @@ public:
     options_ = changed;
   }
 
-  void set_response(Response rule) { options_.response(rule); }
+  void set_response(Response rule) {
+    release();
+    options_.response(rule);
+  }
 
   /// \throw Mesh_changed if anything was changed by others. Cost: reads every point.
   void check_unchanged() const { watch_.check_all(); }
@@ -197,6 +205,7 @@ private:
   Broad_phase broad_phase_;
   Editor<Mesh_type, Broad_phase> editor_;
   Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
+  Responses<Mesh_type> responses_;
   Vertex_index held_; ///< whose star guard_ has; invalid when none
   bool moved_ = false; ///< the broad phase has not been told yet where the held star is
   double largest_coordinate_ = 0;
@@ -219,8 +228,11 @@ private:
   double clearance_of(const internal::Coordinates& p, const internal::Coordinates& q) const {
     if (options_.clearance_length)
       return *options_.clearance_length;
-    return default_clearance(
-        std::fmax(largest_coordinate_, std::fmax(internal::largest_magnitude(p), internal::largest_magnitude(q))));
+    return default_clearance(largest_of(p, q));
+  }
+
+  double largest_of(const internal::Coordinates& p, const internal::Coordinates& q) const {
+    return std::fmax(largest_coordinate_, std::fmax(internal::largest_magnitude(p), internal::largest_magnitude(q)));
   }
 
   /// Makes guard_ the guard of v. \throw Mesh_changed
@@ -247,7 +259,9 @@ private:
     const internal::Coordinates s = vertex_coordinates(*mesh_, v), t = internal::coordinates(target);
     const double c = clearance_of(s, t);
     Result result;
-    const internal::Coordinates end = s == t ? t : guard_.leg(s, t, c, options_.delta_length, result);
+    const internal::Coordinates end = s == t ? t
+                                             : responses_.move(options_.response_rule, guard_, *mesh_, s, t, c, largest_of(s, t),
+                                                               options_.delta_length, result);
     for (const auto& candidate : guard_.checklist().vertices())
       watch_.check(candidate.index);
     if (end != s) {
@@ -257,7 +271,7 @@ private:
       moved_ = true;
       editor_.note_move(v, s, end);
     }
-    finish(s, t, end, c, result);
+    finish(end, t, result);
     return result;
   }
 
@@ -279,21 +293,9 @@ private:
     return result;
   }
 
-  /// A pull no longer than this many clearances says nothing about its direction.
-  static constexpr double shortest_pull = 16;
-
-  static void finish(const internal::Coordinates& source, const internal::Coordinates& target,
-                     const internal::Coordinates& end, double clearance, Result& result) {
+  static void finish(const internal::Coordinates& end, const internal::Coordinates& target, Result& result) {
     result.position = Point(end[0], end[1], end[2]);
     result.reached = end == target;
-    result.end = result.reached ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
-    const internal::Vector pull = internal::minus(target, end);
-    if (internal::length(pull) <= shortest_pull * clearance)
-      return;
-    std::vector<internal::Vector> normals;
-    for (const auto& contact : result.contacts)
-      normals.push_back(contact.normal);
-    result.kkt_residual = internal::kkt_residual(pull, normals);
   }
 
   bool refuse_start(const internal::Coordinates& start, double clearance, Result& result) {

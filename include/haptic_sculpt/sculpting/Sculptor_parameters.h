@@ -12,7 +12,7 @@ namespace haptic_sculpt {
 struct Sculptor_parameters {
   std::optional<double> clearance_length; ///< unset: default_clearance() of the scene and the motion
   double delta_length = 0;                ///< 0: only exactly degenerate triangles are refused
-  Response response_rule = Response::stop;
+  Response response_rule = Response::slide;
 
   /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates; > 0 and finite.
   Sculptor_parameters& clearance(double length) {

@@ -127,16 +127,21 @@ inline std::optional<Limit_time> delta_limit(const Coordinates& s, const Coordin
       altitude_excess<CGAL::Gmpq>(exact(s), exact(t), exact(g), exact(i), CGAL::Gmpq(delta), side));
 }
 
-/// The direction in which the altitude grows fastest when J moves, of length 1; floating point.
-inline Vector altitude_gradient(const Coordinates& j, const Coordinates& g, const Coordinates& i, Altitude_over side) {
+/// The gradient of the altitude where J is: how much it grows when J moves. Floating point.
+inline Vector altitude_slope(const Coordinates& j, const Coordinates& g, const Coordinates& i, Altitude_over side) {
   const Vector n = cross(minus(g, j), minus(i, j));
   const Vector area_gradient = cross(minus(g, i), normalized(n));
   if (side == Altitude_over::gi)
     return normalized(area_gradient);
   const Vector along = minus(j, side == Altitude_over::ji ? i : g);
   const double l = length(along);
-  // grad (|n| / L) = grad |n| / L - |n| / L^2 grad L, times L
-  return normalized(advanced(area_gradient, -length(n) / (l * l), along));
+  // grad (|n| / L) = grad |n| / L - |n| / L^2 grad L
+  return scaled(advanced(area_gradient, -length(n) / (l * l), along), 1 / l);
+}
+
+/// The direction in which the altitude grows fastest when J moves, of length 1; floating point.
+inline Vector altitude_gradient(const Coordinates& j, const Coordinates& g, const Coordinates& i, Altitude_over side) {
+  return normalized(altitude_slope(j, g, i, side));
 }
 
 /// The altitude in doubles.

@@ -38,9 +38,8 @@ inline double kkt_residual(const Vector& pull, const std::vector<Vector>& normal
       // d = x a + y b + z axis; both weights of -a and -b have to be >= 0.
       const double ab = dot(a, b), da = dot(d, a), db = dot(d, b);
       const double x = std::fma(-ab, db, da) / square, y = std::fma(-ab, da, db) / square;
-      if (x > 0 || y > 0)
-        continue;
-      keep(scaled(axis, dot(d, axis) / square));
+      if (x <= 0 && y <= 0)
+        keep(scaled(axis, dot(d, axis) / square));
       for (std::size_t k = j + 1; k < n; ++k) {
         const Vector& c = normals[k];
         const double volume = dot(axis, c);

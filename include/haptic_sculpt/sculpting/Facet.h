@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_FACET_H
+#define HAPTIC_SCULPT_SCULPTING_FACET_H
+
+#include <haptic_sculpt/sculpting/Contact_3.h>
+#include <haptic_sculpt/sculpting/delta_limit.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// What one contact forbids the moving vertex J, taken as a point: to cross a planar convex facet (RULES 4, doc/slide.md).
+///
+/// vertex-face: the triangle ABC; edge-edge: the part of plane V A B beyond AB, between the rays VA and VB; face-vertex:
+/// the wedge A + s (A - G) + t (A - I), s, t >= 0. The delta rule forbids to go through the surface of constant altitude,
+/// of which a facet is the tangent plane where J is. A flat impact determines no plane; its facet is a wall across the path.
+///
+/// Heights of the three kinds are exact up to one rounding; the rest is floating point and only proposes.
+template <class Mesh>
+class Facet {
+public:
+  Facet(const Contact_3<Mesh>& contact, const Vector& point_of_contact) : contact_(contact), foot_(point_of_contact) {
+    if (contact.kind == Contact_kind::delta || contact.is_flat)
+      return;
+    // The plane's own normal, about which its three points run counterclockwise.
+    const Vector normal = scaled(contact.normal, contact.side);
+    const auto& [a, b, c] = contact.plane;
+    switch (contact.kind) {
+    case Contact_kind::vertex_face: add_border(a, b, normal, 1), add_border(b, c, normal, 1), add_border(c, a, normal, 1); break;
+    case Contact_kind::edge_edge: add_border(a, b, normal, 1), add_border(b, c, normal, -1), add_border(c, a, normal, 1); break;
+    default: add_border(b, c, normal, -1), add_border(c, a, normal, -1);
+    }
+  }
+
+  const Contact_3<Mesh>& contact() const { return contact_; }
+
+  /// Of length 1, towards the side J came from.
+  const Vector& normal() const { return contact_.normal; }
+
+  /// A wall holds for one drag only: another path meets another wall.
+  bool is_wall() const { return contact_.kind != Contact_kind::delta && contact_.is_flat; }
+
+  /// How far J is from the facet's plane, as of the last measure(); negative beyond.
+  double height() const { return height_; }
+
+  /// Whether J has lifted off, or has gone round the facet to its other side (whose sign is exact).
+  bool is_over(double lifted) const {
+    return height_ > lifted || (height_ < 0 && !contact_.is_flat);
+  }
+
+  /// J is at x now.
+  void measure(const Vector& x) {
+    if (contact_.kind == Contact_kind::delta) {
+      const Altitude_over over = side_of_altitude();
+      const Vector slope = altitude_slope(x, contact_.plane[0], contact_.plane[1], over);
+      const double steepness = length(slope);
+      contact_.normal = normalized(slope);
+      height_ = (altitude(x, contact_.plane[0], contact_.plane[1], over) - delta_) / (steepness > 0 ? steepness : 1);
+    } else if (contact_.is_flat)
+      height_ = dot(contact_.normal, minus(x, foot_));
+    else
+      height_ = contact_.side * height_over_plane(contact_.plane[0], contact_.plane[1], contact_.plane[2], x);
+  }
+
+  /// How far x, seen along the normal, is out of the facet; negative inside. At corners the larger of two distances.
+  double outside(const Vector& x) const {
+    double most = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < borders_; ++i)
+      most = std::fmax(most, dot(outward_[i], minus(x, border_[i])));
+    return most;
+  }
+
+  int borders() const { return borders_; }
+  /// The direction, of length 1, of border i.
+  Vector along_border(int i) const { return cross(outward_[i], contact_.normal); }
+
+  void set_delta(double delta) { delta_ = delta; }
+
+  friend bool is_same(const Facet& a, const Contact_3<Mesh>& b) {
+    return !a.is_wall() && a.contact_.kind == b.kind && a.contact_.vertices == b.vertices && a.contact_.side == b.side;
+  }
+
+private:
+  Contact_3<Mesh> contact_;
+  Vector foot_;
+  std::array<Vector, 3> border_{}, outward_{};
+  int borders_ = 0;
+  double height_ = 0, delta_ = 0;
+
+  /// The line from p to q; the facet lies on its left about the normal where sign is 1, on its right where it is -1.
+  void add_border(const Vector& p, const Vector& q, const Vector& normal, double sign) {
+    border_[borders_] = p;
+    outward_[borders_++] = scaled(normalized(cross(normalized(minus(q, p)), normal)), sign);
+  }
+
+  Altitude_over side_of_altitude() const {
+    return contact_.vertices[2] == contact_.vertices[0]   ? Altitude_over::ji
+           : contact_.vertices[2] == contact_.vertices[1] ? Altitude_over::jg
+                                                          : Altitude_over::gi;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_RESPONSES_H
+#define HAPTIC_SCULPT_SCULPTING_RESPONSES_H
+
+#include <haptic_sculpt/sculpting/Paper_response.h>
+#include <haptic_sculpt/sculpting/Slide_response.h>
+#include <haptic_sculpt/sculpting/clearance.h>
+#include <haptic_sculpt/sculpting/kkt_residual.h>
+
+namespace haptic_sculpt {
+
+/// The three responses to a blocked way behind one call, with the contacts they carry along.
+template <class Mesh>
+class Responses {
+public:
+  using Coordinates = internal::Coordinates;
+
+  /// The vertex was let go: the next drag begins without contacts.
+  void forget() {
+    slide_.forget();
+    paper_.forget();
+  }
+
+  /// Moves from source towards target and fills in the result. Returns where the vertex is then. \pre source != target
+  template <class Guard>
+  Coordinates move(Response rule, Guard& guard, const Mesh& mesh, const Coordinates& source, const Coordinates& target,
+                   double clearance, double largest_coordinate, double delta, Drag_result<Mesh>& result) {
+    const internal::Slide_lengths lengths = {clearance, unit_in_the_last_place(largest_coordinate), delta};
+    Coordinates end;
+    if (rule == Response::slide)
+      end = slide_.move(guard, source, target, lengths, result);
+    else if (rule == Response::paper)
+      end = paper_.move(guard, mesh, source, target, clearance, delta, result);
+    else {
+      end = guard.leg(source, target, clearance, delta, result);
+      result.end = end == target ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
+    }
+    const internal::Vector pull = internal::minus(target, end);
+    if (result.contacts.empty())
+      result.kkt_residual = end == target ? 0 : 1;
+    if (!result.contacts.empty() && internal::length(pull) > lengths.shortest_pull())
+      measure_residual(pull, result);
+    return end;
+  }
+
+private:
+  Slide_response<Mesh> slide_;
+  Paper_response<Mesh> paper_;
+  std::vector<internal::Vector> normals_;
+
+  void measure_residual(const internal::Vector& pull, Drag_result<Mesh>& result) {
+    normals_.clear();
+    for (const Contact_3<Mesh>& contact : result.contacts)
+      normals_.push_back(contact.normal);
+    result.kkt_residual = internal::kkt_residual(pull, normals_);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_SLIDE_WALK_H
+#define HAPTIC_SCULPT_SCULPTING_SLIDE_WALK_H
+
+#include <haptic_sculpt/sculpting/Facet.h>
+#include <haptic_sculpt/sculpting/nearest_permitted.h>
+#include <haptic_sculpt/sculpting/stop.h>
+
+#include <boost/container/static_vector.hpp>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// The lengths of a slide. All in the unit of the coordinates.
+struct Slide_lengths {
+  double clearance;  ///< c: what is kept from every contact plane
+  double resolution; ///< one unit in the last place of the scene: what rounding a point can do
+  double delta;      ///< the delta rule's
+
+  /// Higher than this over its plane J has left a contact (RULES 4, step 1).
+  double lifted() const { return 8 * clearance; }
+  /// Farther than this out of its facet J has left a contact; nearer than this to its border another feature may be near.
+  double border() const { return 16 * clearance; }
+  /// A leg no longer than this is not worth making: it is what rounding leaves of a perfect one.
+  double settled() const { return 2 * resolution; }
+  /// A pull no longer than this says nothing about its direction.
+  double shortest_pull() const { return 16 * clearance; }
+};
+
+/// How a walk ended.
+enum class Walk_end : std::uint8_t {
+  reached, ///< at the target
+  settled, ///< at the point nearest to the target that the contacts permit
+  stuck,   ///< no representable point on the way there is free
+  limit    ///< as many legs as permitted
+};
+
+/// A vertex under way, with its contacts: goes in legs, each proven free, to the point nearest to the target that the contacts
+/// permit; finds contacts on the way and loses others (RULES 4, steps 1 to 5). Plain data: copied to try a way out.
+///
+/// \tparam Guard decides motions exactly: Guarded_star
+template <class Mesh>
+struct Slide_walk {
+  /// More contacts than this at once are not carried; whoever matters is met again.
+  static constexpr std::size_t most_facets = 16;
+  /// Bounds the turns in which no leg is made: each of them learns of a contact or forgets one.
+  static constexpr int turns_per_leg = 4;
+  /// How often a place near a new contact is sought, with growing clearance, before the vertex steps back along its path.
+  static constexpr int approaches = 6;
+
+  /// Two units in the last place of a unit vector.
+  static constexpr double rounding_of_normals = 0x1p-51;
+
+  using Facets = boost::container::static_vector<Facet<Mesh>, most_facets>;
+  using Half_spaces = boost::container::static_vector<Half_space, most_facets>;
+
+  Vector x{};
+  Facets facets;
+  int legs = 0; ///< made
+
+  /// Walks until it ends, or `most_legs` have been made.
+  template <class Guard>
+  Walk_end go(Guard& guard, const Vector& target, const Slide_lengths& lengths, int most_legs) {
+    forget([&](const Facet<Mesh>& f) { return f.is_over(lengths.lifted()); });
+    for (int turn = 0; turn < turns_per_leg * most_legs; ++turn) {
+      const Nearest_permitted way = nearest(minus(target, x), lengths.clearance, lengths.resolution);
+      const bool is_to_target = way.exists && way.number_active == 0;
+      const Vector y = is_to_target ? target : plus(x, way.displacement);
+      if (y == target && x == target)
+        return Walk_end::reached;
+      if (!way.exists || y == x || (!is_to_target && length(way.displacement) <= lengths.settled())) {
+        if (forget([&](const Facet<Mesh>& f) { return f.outside(x) > lengths.border(); }))
+          continue;
+        return Walk_end::settled;
+      }
+      if (legs >= most_legs)
+        return Walk_end::limit;
+      guard.decide(x, y, lengths.delta);
+      if (guard.is_blocked()) {
+        if (!approach(guard, y, lengths))
+          return Walk_end::stuck;
+        continue;
+      }
+      step_to(y);
+      if (is_to_target)
+        return Walk_end::reached;
+      forget([&](const Facet<Mesh>& f) { return f.outside(x) > lengths.border() || f.is_over(lengths.lifted()); });
+    }
+    return Walk_end::limit;
+  }
+
+  /// Where the contacts let J go from x, when it wants to go by `pull`, keeping `clearance` from all; in a gap too narrow for
+  /// that a half or a quarter of it, and at last coming no nearer to any than it is.
+  Nearest_permitted nearest(const Vector& pull, double clearance, double slack) const {
+    // At the far end of the pull the rounding of the normals is felt.
+    slack += rounding_of_normals * length(pull);
+    Half_spaces spaces;
+    Nearest_permitted found;
+    for (const double kept : {clearance, clearance / 2, clearance / 4}) {
+      spaces.clear();
+      for (const Facet<Mesh>& f : facets)
+        spaces.push_back({f.normal(), kept - f.height()});
+      found = nearest_permitted(pull, spaces, slack);
+      if (found.exists)
+        return found;
+    }
+    for (Half_space& space : spaces)
+      space.least = std::fmin(space.least, 0);
+    return nearest_permitted(pull, spaces, slack);
+  }
+
+  /// J is at x; contacts are measured from there.
+  void place(const Vector& place) {
+    x = place;
+    for (Facet<Mesh>& f : facets)
+      f.measure(x);
+  }
+
+  /// Whether one was new and there was room for it.
+  bool meet(const Contact_3<Mesh>& contact, const Vector& where, double delta) {
+    for (const Facet<Mesh>& f : facets)
+      if (is_same(f, contact))
+        return false;
+    if (facets.size() == most_facets)
+      return false;
+    facets.emplace_back(contact, where);
+    facets.back().set_delta(delta);
+    facets.back().measure(x);
+    return true;
+  }
+
+  template <class Predicate>
+  bool forget(const Predicate& is_over) {
+    const auto kept = std::remove_if(facets.begin(), facets.end(), is_over);
+    const bool any = kept != facets.end();
+    facets.erase(kept, facets.end());
+    return any;
+  }
+
+private:
+  void step_to(const Vector& place_reached) {
+    place(place_reached);
+    ++legs;
+  }
+
+  /// Takes in the contacts that came first in the motion last decided, from x to y. Returns the fraction of the way.
+  template <class Guard>
+  double meet_firsts(const Guard& guard, const Vector& y, double delta, double& steepest, bool& any_new) {
+    bool any_plane = false;
+    guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double sine) {
+      any_plane = any_plane || !contact.is_flat || contact.kind == Contact_kind::delta;
+      steepest = std::fmax(steepest, sine);
+    });
+    double time = 1;
+    // Flat impacts beside another say nothing that it does not say.
+    time = guard.for_each_first_contact(x, y, [](const Contact_3<Mesh>&, double) {});
+    const Vector where = point_of_path(x, y, time);
+    guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double) {
+      if (!any_plane || !contact.is_flat || contact.kind == Contact_kind::delta)
+        any_new = meet(contact, where, delta) || any_new;
+    });
+    return time;
+  }
+
+  /// The way from x to y has just been found blocked: goes to the free point nearest to the impact that is c off all contacts,
+  /// new ones included. Returns whether anything was gained, in place or in knowledge.
+  template <class Guard>
+  bool approach(Guard& guard, const Vector& y, const Slide_lengths& lengths) {
+    double steepest = 0;
+    bool any_new = false;
+    const double time = meet_firsts(guard, y, lengths.delta, steepest, any_new);
+    const Vector to_impact = scaled(minus(y, x), time);
+    bool met = any_new;
+    double clearance = lengths.clearance;
+    for (int attempt = 0; attempt < approaches; ++attempt) {
+      const Nearest_permitted near = nearest(to_impact, clearance, lengths.resolution);
+      const Vector z = plus(x, near.displacement);
+      if (!near.exists || z == x)
+        break;
+      guard.decide(x, z, lengths.delta);
+      if (!guard.is_blocked()) {
+        step_to(z);
+        return true;
+      }
+      bool new_here = false;
+      meet_firsts(guard, z, lengths.delta, steepest, new_here);
+      met = met || new_here;
+      if (!new_here)
+        clearance *= 2;
+    }
+    if (met)
+      return true;
+    // In a gap that closes slowly a whole clearance is not to be had; half the way then is.
+    const double back = std::fmin(setback(lengths.clearance, steepest), time * path_length(x, y) / 2);
+    const Vector z = stop_before(x, y, time, back,
+                                 [&](const Vector& q) { return guard.is_free(x, q, lengths.delta); });
+    if (z == x)
+      return false;
+    step_to(z);
+    return true;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
