@@ -159,7 +159,7 @@ void check_queries(std::uint64_t seed) {
     if (i % 30 == 0)
       for (const auto f : mesh.faces()) {
         Checklist<Mesh> list;
-        list.assign(mesh, swept, {f}, Box_3());
+        list.assign(mesh, Face_corners<Mesh>(mesh), swept, {f}, Box_3());
         No_filter_counters uncounted;
         missed += !Narrow_phase<Mesh, No_filter_counters>(uncounted).is_free(swept, list, source, target) && unique.count(f) == 0;
       }

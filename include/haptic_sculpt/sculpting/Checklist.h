@@ -2,6 +2,8 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_CHECKLIST_H
 #define HAPTIC_SCULPT_SCULPTING_CHECKLIST_H
 
+#include <haptic_sculpt/sculpting/Distinct_numbers.h>
+#include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/star.h>
 
 #include <algorithm>
@@ -49,37 +51,34 @@ public:
   }
 
   /// Takes the candidate faces that are not incident to the star's centre; `region` is where they are complete.
-  /// Cost: n log n in the number of candidates.
-  void assign(const Mesh& mesh, const Star<Mesh>& star, const std::vector<Face_index>& candidates, const Box_3& region) {
+  /// \param corners_of gives a face's corners in the orientation of the mesh: Face_corners, or corners_in(mesh)
+  /// Cost: linear in the number of candidates.
+  template <class Corners_of>
+  void assign(const Mesh& mesh, const Corners_of& corners_of, const Star<Mesh>& star,
+              const std::vector<Face_index>& candidates, const Box_3& region) {
     clear();
     region_ = region;
+    names_.prepare(3 * candidates.size());
     for (const Face_index f : candidates) {
-      const auto h = mesh.halfedge(f);
-      const std::array<Vertex_index, 3> corners = {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
+      const std::array<Vertex_index, 3> corners = corners_of(f);
       if (star.valence() != 0 && std::find(corners.begin(), corners.end(), star.centre) != corners.end())
         continue;
       Face face;
       face.index = f;
       for (int i = 0; i < 3; ++i) {
-        face.vertices[i] = static_cast<std::uint32_t>(corners[i]); // renamed below, once all are known
-        vertices_.push_back({corners[i], {}});
+        const auto [position, is_new] = names_.insert(static_cast<std::uint64_t>(corners[i]));
+        face.vertices[i] = position;
+        if (is_new)
+          vertices_.push_back({corners[i], {}});
       }
       faces_.push_back(face);
     }
-    std::sort(vertices_.begin(), vertices_.end(), [](const Vertex& a, const Vertex& b) { return a.index < b.index; });
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end(),
-                                [](const Vertex& a, const Vertex& b) { return a.index == b.index; }),
-                    vertices_.end());
+    // All at once, so that the memory is asked for all at once.
     for (Vertex& v : vertices_)
       v.point = vertex_coordinates(mesh, v.index);
+    names_.prepare(3 * faces_.size());
     for (Face& face : faces_)
       finish(face);
-    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.vertices < b.vertices; });
-    edges_.erase(std::unique(edges_.begin(), edges_.end(),
-                             [](const Edge& a, const Edge& b) { return a.vertices == b.vertices; }),
-                 edges_.end());
-    for (Edge& edge : edges_)
-      edge.box = Box_3(vertices_[edge.vertices[0]].point).include(vertices_[edge.vertices[1]].point);
   }
 
 private:
@@ -87,17 +86,15 @@ private:
   std::vector<Edge> edges_;
   std::vector<Face> faces_;
   Box_3 region_;
+  internal::Distinct_numbers names_; ///< of the vertices, then of the edges that were met so far
 
   void finish(Face& face) {
-    for (std::uint32_t& corner : face.vertices) {
-      const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), Vertex_index(corner),
-                                          [](const Vertex& v, Vertex_index index) { return v.index < index; });
-      corner = static_cast<std::uint32_t>(found - vertices_.begin());
-      face.box.include(found->point);
-    }
+    for (const std::uint32_t corner : face.vertices)
+      face.box.include(vertices_[corner].point);
     for (int i = 0; i < 3; ++i) {
-      const std::uint32_t a = face.vertices[i], b = face.vertices[(i + 1) % 3];
-      edges_.push_back({{std::min(a, b), std::max(a, b)}, {}});
+      const auto [a, b] = std::minmax(face.vertices[i], face.vertices[(i + 1) % 3]);
+      if (names_.insert(std::uint64_t{a} << 32 | b).second)
+        edges_.push_back({{a, b}, Box_3(vertices_[a].point).include(vertices_[b].point)});
     }
   }
 };

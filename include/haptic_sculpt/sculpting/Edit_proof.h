@@ -72,10 +72,14 @@ public:
             b.index == star.link[i])
           continue;
         if (edge_edge_verdict(Sweep_points{centre, target, star.link_points[i], a.point, b.point}, *counters_).hits) {
-          in_the_way = {a.index, b.index};
-          return false;
+          // The least of all, so that what is told does not depend on the order of the list.
+          const std::vector<Vertex_index> found = {std::min(a.index, b.index), std::max(a.index, b.index)};
+          if (in_the_way.empty() || found < in_the_way)
+            in_the_way = found;
         }
       }
+      if (!in_the_way.empty())
+        return false;
     }
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = star.next(i);
@@ -89,10 +93,12 @@ public:
         if (face_vertex_verdict(Sweep_points{centre, target, star.link_points[i], star.link_points[j], vertex.point},
                                 *counters_)
                 .hits) {
-          in_the_way = {vertex.index};
-          return false;
+          if (in_the_way.empty() || vertex.index < in_the_way[0])
+            in_the_way = {vertex.index};
         }
       }
+      if (!in_the_way.empty())
+        return false;
     }
     return true;
   }

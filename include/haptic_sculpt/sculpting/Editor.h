@@ -26,8 +26,8 @@ public:
   using Coordinates = internal::Coordinates;
   using Result = Edit_result<Mesh>;
 
-  Editor(Mesh& mesh, Broad_phase& broad_phase, Filter_counters& counters)
-    : mesh_(&mesh), broad_phase_(&broad_phase), names_(mesh), proof_(counters) {}
+  Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), names_(mesh), proof_(counters) {}
 
   const Vertex_names<Mesh>& names() const { return names_; }
   const Edit_history& history() const { return history_; }
@@ -67,7 +67,7 @@ public:
     candidates_.clear();
     // Whatever the pivot, the way stays in the hull of the star.
     broad_phase_->query(star_.swept(centre, centre).box(), candidates_);
-    list_.assign(*mesh_, star_, candidates_, Box_3());
+    list_.assign(*mesh_, *corners_of_, star_, candidates_, Box_3());
     Result refusal = Result::refused(Refusal_reason::doubled_edge);
     for (const std::size_t pivot : pivots_by_quality()) {
       std::vector<Vertex_index> in_the_way;
@@ -161,6 +161,7 @@ private:
 
   Mesh* mesh_;
   Broad_phase* broad_phase_;
+  Face_corners<Mesh>* corners_of_;
   Vertex_names<Mesh> names_;
   Edit_history history_;
   internal::Edit_proof<Mesh, Filter_counters> proof_;
@@ -316,7 +317,12 @@ private:
 
   void tell_new_star(Vertex_index v) {
     star_.collect(*mesh_, v);
-    broad_phase_->faces_inserted(star_.faces);
+    tell_new_faces(star_.faces);
+  }
+
+  void tell_new_faces(const std::vector<Face_index>& faces) {
+    corners_of_->update(faces);
+    broad_phase_->faces_inserted(faces);
   }
 
   void name_new(Vertex_index v, std::size_t name) {
@@ -353,7 +359,7 @@ private:
   void take_away(const Edit& edit) {
     faces_.clear();
     internal::fill_with_fan(*mesh_, empty_star(vertex(edit.vertex)), vertex(edit.around[0]), faces_);
-    broad_phase_->faces_inserted(faces_);
+    tell_new_faces(faces_);
   }
 
   Vertex_index put_back(const Edit& edit) {
@@ -378,7 +384,7 @@ private:
       faces_.push_back(mesh_->face(h));
     else
       internal::fill_with_fan(*mesh_, h, a, faces_); // the quadrangle's diagonal from one end of the old edge to the other
-    broad_phase_->faces_inserted(faces_);
+    tell_new_faces(faces_);
     return a;
   }
 };

@@ -65,11 +65,24 @@ public:
   double outside(const Vector& x) const {
     double most = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < borders_; ++i)
-      most = std::fmax(most, dot(outward_[i], minus(x, border_[i])));
+      most = std::fmax(most, beyond_border(i, x));
     return most;
   }
 
+  /// Whether J has gone past a border: its plane goes on, but is no obstacle there. At once when J is as far as the clearance
+  /// from the facet itself; a facet that is met again right after that holds on until J is `border` past it.
+  bool is_left(const Vector& x, double clearance, double resolution, double border) const {
+    const double beside = outside(x);
+    return beside > (holds_on_ ? border : resolution) && beside * beside + height_ * height_ > clearance * clearance;
+  }
+
+  void hold_on() { holds_on_ = true; }
+
   int borders() const { return borders_; }
+  /// Out of the facet, in its plane, normal to border i; of length 1.
+  const Vector& outward(int i) const { return outward_[i]; }
+  /// How far x is beyond the line of border i.
+  double beyond_border(int i, const Vector& x) const { return dot(outward_[i], minus(x, border_[i])); }
   /// The direction, of length 1, of border i.
   Vector along_border(int i) const { return cross(outward_[i], contact_.normal); }
 
@@ -85,6 +98,7 @@ private:
   std::array<Vector, 3> border_{}, outward_{};
   int borders_ = 0;
   double height_ = 0, delta_ = 0;
+  bool holds_on_ = false;
 
   /// The line from p to q; the facet lies on its left about the normal where sign is 1, on its right where it is -1.
   void add_border(const Vector& p, const Vector& q, const Vector& normal, double sign) {

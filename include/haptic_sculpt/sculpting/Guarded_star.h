@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_GUARDED_STAR_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
+#include <haptic_sculpt/sculpting/Free_ball.h>
 #include <haptic_sculpt/sculpting/Narrow_phase.h>
 #include <haptic_sculpt/sculpting/clearance.h>
 #include <haptic_sculpt/sculpting/delta_limit.h>
@@ -20,20 +21,27 @@ public:
   using Coordinates = internal::Coordinates;
   using Vertex_index = typename Mesh::Vertex_index;
 
-  Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, Filter_counters& counters)
-    : mesh_(&mesh), broad_phase_(&broad_phase), counters_(&counters), narrow_phase_(counters) {}
+  Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), counters_(&counters), narrow_phase_(counters) {}
 
   Star<Mesh>& star() { return star_; }
   const Star<Mesh>& star() const { return star_; }
   const Checklist<Mesh>& checklist() const { return list_; }
 
   /// Forget the candidates: an element outside the star has changed.
-  void invalidate() { list_.clear(); }
+  void invalidate() {
+    list_.clear();
+    forget_ball();
+  }
 
   /// Finds what stops the motion: `firsts()` and the delta limits that come exactly first, or neither.
   void decide(const Coordinates& source, const Coordinates& target, double delta) {
-    look_around(source, target);
-    narrow_phase_.first_impacts(star_, list_, source, target, firsts_);
+    if (is_in_free_ball(source, target))
+      firsts_.clear();
+    else {
+      look_around(source, target);
+      narrow_phase_.first_impacts(star_, list_, source, target, firsts_);
+    }
     find_delta_limits(source, target, delta);
     if (limits_.empty() || firsts_.empty())
       return;
@@ -50,6 +58,8 @@ public:
 
   /// Whether the closed way touches nothing and keeps the delta rule; exact.
   bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
+    if (is_in_free_ball(source, target))
+      return keeps_delta(source, target, delta);
     look_around(source, target);
     return narrow_phase_.is_free(star_, list_, source, target) && keeps_delta(source, target, delta);
   }
@@ -103,10 +113,13 @@ private:
 
   const Mesh* mesh_;
   Broad_phase* broad_phase_;
+  const Face_corners<Mesh>* corners_of_;
   Filter_counters* counters_;
   Narrow_phase<Mesh, Filter_counters> narrow_phase_;
   Star<Mesh> star_;
   Checklist<Mesh> list_;
+  Free_ball<Mesh> ball_;
+  int motions_without_ball_ = 0, patience_ = 1;
   std::vector<typename Mesh::Face_index> candidates_;
   Star_impacts<Mesh> firsts_;
   std::vector<Limit> limits_;
@@ -114,12 +127,40 @@ private:
   /// How much larger than the swept star, in units of the star's largest extent, the region of a checklist is.
   static constexpr double region_margin = 0.5;
 
+  /// A ball costs as much as some motions without one: it is begun when the vertex stays near, and when one turns out smaller
+  /// than a step or two (in contact it is as small as the clearance) the next is begun after twice as many motions.
+  static constexpr int most_patience = 64;
+
+  bool is_in_free_ball(const Coordinates& source, const Coordinates& target) {
+    if (ball_.contains(source, target)) {
+      patience_ = 1;
+      return true;
+    }
+    if (star_.valence() == 0 || !list_.region().contains(star_.swept(source, target).box()))
+      return false;
+    if (ball_.is_unfinished())
+      ball_.go_on(star_, list_);
+    else if (++motions_without_ball_ > patience_) {
+      motions_without_ball_ = 0;
+      patience_ = std::min(2 * patience_, most_patience);
+      ball_.begin(star_, list_, source);
+    }
+    return false;
+  }
+
+  void forget_ball() {
+    ball_.clear();
+    motions_without_ball_ = 0;
+    patience_ = 1;
+  }
+
   /// Makes the checklist complete for this motion. Short motions of one grab share a list.
   void look_around(const Coordinates& source, const Coordinates& target) {
     const Swept_star_3 swept = star_.swept(source, target);
     const Box_3 box = swept.box();
     if (list_.region().contains(box))
       return;
+    forget_ball();
     candidates_.clear();
     Box_3 here(source);
     for (const Coordinates& p : star_.link_points)
@@ -136,10 +177,10 @@ private:
         region.upper[i] += region_margin * extent;
       }
       broad_phase_->query(region, candidates_);
-      list_.assign(*mesh_, star_, candidates_, region);
+      list_.assign(*mesh_, *corners_of_, star_, candidates_, region);
     } else { // for this motion alone: an empty region makes the next one ask again
       broad_phase_->query(swept, candidates_);
-      list_.assign(*mesh_, star_, candidates_, Box_3());
+      list_.assign(*mesh_, *corners_of_, star_, candidates_, Box_3());
     }
   }
 

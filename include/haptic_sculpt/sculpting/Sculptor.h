@@ -57,8 +57,9 @@ public:
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
   /// obey the delta rule; Invalid_parameter. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters())
-    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), editor_(mesh, broad_phase_, counters_),
-      guard_(mesh, broad_phase_, counters_), probe_guard_(mesh, broad_phase_, counters_) {
+    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), corners_(mesh),
+      editor_(mesh, broad_phase_, corners_, counters_), guard_(mesh, broad_phase_, corners_, counters_),
+      probe_guard_(mesh, broad_phase_, corners_, counters_) {
     for (const Vertex_index v : mesh.vertices())
       largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(vertex_coordinates(mesh, v)));
   }
@@ -203,6 +204,7 @@ private:
   Sculptor_parameters options_;
   Filter_counters counters_;
   Broad_phase broad_phase_;
+  Face_corners<Mesh_type> corners_;
   Editor<Mesh_type, Broad_phase> editor_;
   Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
   Responses<Mesh_type> responses_;

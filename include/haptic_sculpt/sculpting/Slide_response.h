@@ -34,8 +34,7 @@ public:
     using internal::Walk_end;
     if (walk_.x != source)
       forget();
-    walk_.legs = 0;
-    walk_.place(source);
+    walk_.begin(source);
     Walk_end end;
     do
       end = walk_.go(guard, target, lengths, most_legs);
@@ -72,7 +71,7 @@ private:
     const auto brings_nearer = [&](const Vector& first_aim) {
       ++trials;
       if (first_aim != target)
-        trial_.go(guard, first_aim, lengths, walk_.legs + trial_legs);
+        trial_.go(guard, first_aim, lengths, trial_.legs + 1); // one leg: on from there it must not climb
       trial_.go(guard, target, lengths, walk_.legs + trial_legs);
       for (const auto& facet : trial_.facets)
         remember(facet);
@@ -113,6 +112,7 @@ private:
   bool follow_features(Guard& guard, const Vector& pull, const Vector& target, const internal::Slide_lengths& lengths,
                        const int& trials, const Brings_nearer& brings_nearer) {
     const Vector lifted = off_the_contacts(guard, lengths);
+    const double beside = lengths.border() / 4;
     const auto start = [&] {
       trial_.facets.clear();
       trial_.legs = walk_.legs;
@@ -128,9 +128,17 @@ private:
       if (brings_nearer(target))
         return true;
       for (int k = 0; k < seen_[i].borders() && trials < most_trials; ++k) {
-        const Vector along = seen_[i].along_border(k);
-        if (seen_[i].outside(walk_.x) < -lengths.border())
+        if (seen_[i].beyond_border(k, walk_.x) < -lengths.border())
           continue;
+        // Past the border, where it may be only a clearance to free space.
+        start();
+        const Vector past = internal::advanced(trial_.x, beside, seen_[i].outward(k));
+        if (guard.is_free(trial_.x, past, lengths.delta)) {
+          trial_.x = past, ++trial_.legs;
+          if (brings_nearer(target))
+            return true;
+        }
+        const Vector along = seen_[i].along_border(k);
         start();
         if (brings_nearer(internal::advanced(trial_.x, internal::dot(pull, along), along)))
           return true;

@@ -8,6 +8,9 @@
 
 #include <boost/container/static_vector.hpp>
 
+#include <algorithm>
+#include <optional>
+
 namespace haptic_sculpt {
 namespace internal {
 
@@ -19,7 +22,7 @@ struct Slide_lengths {
 
   /// Higher than this over its plane J has left a contact (RULES 4, step 1).
   double lifted() const { return 8 * clearance; }
-  /// Farther than this out of its facet J has left a contact; nearer than this to its border another feature may be near.
+  /// Nearer than this to the border of a facet another feature may be near.
   double border() const { return 16 * clearance; }
   /// A leg no longer than this is not worth making: it is what rounding leaves of a perfect one.
   double settled() const { return 2 * resolution; }
@@ -61,15 +64,15 @@ struct Slide_walk {
   /// Walks until it ends, or `most_legs` have been made.
   template <class Guard>
   Walk_end go(Guard& guard, const Vector& target, const Slide_lengths& lengths, int most_legs) {
-    forget([&](const Facet<Mesh>& f) { return f.is_over(lengths.lifted()); });
+    leave_what_is_past(lengths);
     for (int turn = 0; turn < turns_per_leg * most_legs; ++turn) {
       const Nearest_permitted way = nearest(minus(target, x), lengths.clearance, lengths.resolution);
       const bool is_to_target = way.exists && way.number_active == 0;
-      const Vector y = is_to_target ? target : plus(x, way.displacement);
+      const Vector y = is_to_target ? target : plus(x, scaled(way.displacement, stride(way)));
       if (y == target && x == target)
         return Walk_end::reached;
       if (!way.exists || y == x || (!is_to_target && length(way.displacement) <= lengths.settled())) {
-        if (forget([&](const Facet<Mesh>& f) { return f.outside(x) > lengths.border(); }))
+        if (leave_what_is_past(lengths))
           continue;
         return Walk_end::settled;
       }
@@ -77,14 +80,18 @@ struct Slide_walk {
         return Walk_end::limit;
       guard.decide(x, y, lengths.delta);
       if (guard.is_blocked()) {
+        const int legs_before = legs;
         if (!approach(guard, y, lengths))
           return Walk_end::stuck;
+        // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last one.
+        if (legs != legs_before)
+          forget([&](const Facet<Mesh>& f) { return f.is_over(lengths.lifted()); });
         continue;
       }
       step_to(y);
       if (is_to_target)
         return Walk_end::reached;
-      forget([&](const Facet<Mesh>& f) { return f.outside(x) > lengths.border() || f.is_over(lengths.lifted()); });
+      leave_what_is_past(lengths);
     }
     return Walk_end::limit;
   }
@@ -116,15 +123,22 @@ struct Slide_walk {
       f.measure(x);
   }
 
-  /// Whether one was new and there was room for it.
-  bool meet(const Contact_3<Mesh>& contact, const Vector& where, double delta) {
+  bool knows(const Contact_3<Mesh>& contact) const {
     for (const Facet<Mesh>& f : facets)
       if (is_same(f, contact))
-        return false;
-    if (facets.size() == most_facets)
+        return true;
+    return false;
+  }
+
+  /// Whether it was new and there was room for it.
+  bool meet(const Contact_3<Mesh>& contact, const Vector& where, double delta) {
+    if (knows(contact) || facets.size() == most_facets)
       return false;
     facets.emplace_back(contact, where);
     facets.back().set_delta(delta);
+    for (const Contact_3<Mesh>& before : left_)
+      if (is_same(facets.back(), before))
+        facets.back().hold_on();
     facets.back().measure(x);
     return true;
   }
@@ -137,42 +151,72 @@ struct Slide_walk {
     return any;
   }
 
+  /// A new drag begins: what was left in the last one may be met and left again.
+  void begin(const Vector& source) {
+    legs = 0;
+    left_.clear();
+    place(source);
+  }
+
 private:
+  boost::container::static_vector<Contact_3<Mesh>, most_facets> left_; ///< contacts gone past in this drag
+
+  bool leave_what_is_past(const Slide_lengths& lengths) {
+    return forget([&](const Facet<Mesh>& f) {
+      if (f.is_over(lengths.lifted()))
+        return true;
+      if (!f.is_left(x, lengths.clearance, lengths.resolution, lengths.border()))
+        return false;
+      if (left_.size() < left_.capacity())
+        left_.push_back(f.contact());
+      return true;
+    });
+  }
+
+  /// How far along its way a leg goes. Round a finely cut convex surface every facet costs two legs, along it and down to the
+  /// next; where J leaves the facet anyway, long walks take two facets at once. Below 2 each leg still brings J nearer.
+  double stride(const Nearest_permitted& way) const {
+    constexpr int long_walk = 8;
+    constexpr double far = 1.9;
+    const bool leaves = way.number_active == 1 && facets[way.active[0]].outside(plus(x, way.displacement)) > 0;
+    return legs >= long_walk && leaves ? far : 1;
+  }
+
   void step_to(const Vector& place_reached) {
     place(place_reached);
     ++legs;
   }
 
-  /// Takes in the contacts that came first in the motion last decided, from x to y. Returns the fraction of the way.
+  /// Takes in the steepest of the contacts that came first in the motion last decided, from x to y, and are not known yet: of
+  /// several features that meet in one point some are no obstacle, and whichever is will be met next. Returns the fraction
+  /// of the way.
   template <class Guard>
-  double meet_firsts(const Guard& guard, const Vector& y, double delta, double& steepest, bool& any_new) {
-    bool any_plane = false;
-    guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double sine) {
-      any_plane = any_plane || !contact.is_flat || contact.kind == Contact_kind::delta;
+  double meet_first(const Guard& guard, const Vector& y, double delta, double& steepest, bool& is_new) {
+    std::optional<Contact_3<Mesh>> best;
+    double best_sine = -1;
+    const double time = guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double sine) {
       steepest = std::fmax(steepest, sine);
+      // A flat impact has the sine 0: it counts where there is no other.
+      if (sine > best_sine && !knows(contact)) {
+        best = contact;
+        best_sine = sine;
+      }
     });
-    double time = 1;
-    // Flat impacts beside another say nothing that it does not say.
-    time = guard.for_each_first_contact(x, y, [](const Contact_3<Mesh>&, double) {});
-    const Vector where = point_of_path(x, y, time);
-    guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double) {
-      if (!any_plane || !contact.is_flat || contact.kind == Contact_kind::delta)
-        any_new = meet(contact, where, delta) || any_new;
-    });
+    is_new = best && meet(*best, point_of_path(x, y, time), delta);
     return time;
   }
 
   /// The way from x to y has just been found blocked: goes to the free point nearest to the impact that is c off all contacts,
-  /// new ones included. Returns whether anything was gained, in place or in knowledge.
+  /// the new one included. Returns whether anything was gained, in place or in knowledge.
   template <class Guard>
   bool approach(Guard& guard, const Vector& y, const Slide_lengths& lengths) {
     double steepest = 0;
     bool any_new = false;
-    const double time = meet_firsts(guard, y, lengths.delta, steepest, any_new);
+    const double time = meet_first(guard, y, lengths.delta, steepest, any_new);
     const Vector to_impact = scaled(minus(y, x), time);
     bool met = any_new;
     double clearance = lengths.clearance;
-    for (int attempt = 0; attempt < approaches; ++attempt) {
+    for (int attempt = 0; attempt < approaches;) { // ends: there is room for most_facets new contacts
       const Nearest_permitted near = nearest(to_impact, clearance, lengths.resolution);
       const Vector z = plus(x, near.displacement);
       if (!near.exists || z == x)
@@ -183,19 +227,19 @@ private:
         return true;
       }
       bool new_here = false;
-      meet_firsts(guard, z, lengths.delta, steepest, new_here);
+      meet_first(guard, z, lengths.delta, steepest, new_here);
       met = met || new_here;
-      if (!new_here)
-        clearance *= 2;
+      if (new_here)
+        continue;
+      clearance *= 2;
+      ++attempt;
     }
-    if (met)
-      return true;
     // In a gap that closes slowly a whole clearance is not to be had; half the way then is.
     const double back = std::fmin(setback(lengths.clearance, steepest), time * path_length(x, y) / 2);
     const Vector z = stop_before(x, y, time, back,
                                  [&](const Vector& q) { return guard.is_free(x, q, lengths.delta); });
     if (z == x)
-      return false;
+      return met;
     step_to(z);
     return true;
   }

@@ -61,7 +61,7 @@ Star_impacts<Mesh> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v
   const Swept_star_3 swept = star.swept(source, end);
   Brute_force_broad_phase<Mesh>(mesh).query(swept, candidates);
   Checklist<Mesh> list;
-  list.assign(mesh, star, candidates, swept.box());
+  list.assign(mesh, [&mesh](auto f) { return corners_of_face(mesh, f); }, star, candidates, swept.box());
   No_filter_counters uncounted;
   Star_impacts<Mesh> firsts;
   Narrow_phase<Mesh, No_filter_counters>(uncounted).first_impacts(star, list, source, end, firsts);

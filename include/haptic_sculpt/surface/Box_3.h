@@ -44,6 +44,14 @@ struct Box_3 {
   }
 };
 
+/// Whether the point lies in the closed box.
+inline bool contains(const Box_3& box, const Box_3::Coordinates& p) {
+  bool inside = true;
+  for (int i = 0; i < 3; ++i)
+    inside &= (box.lower[i] <= p[i]) & (p[i] <= box.upper[i]);
+  return inside;
+}
+
 /// Whether the closed boxes have a point in common.
 inline bool do_meet(const Box_3& a, const Box_3& b) {
   bool meet = true;
