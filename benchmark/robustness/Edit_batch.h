@@ -68,9 +68,18 @@ private:
       create_on_edge();
     else if (kind < 16)
       count("remove", sculptor_.remove(places_.vertex()));
+    else if (kind < 19)
+      go_back();
     else
-      for (std::size_t steps = 1 + places_.below(4); steps > 0; --steps)
-        kind < 18 ? count("undo", sculptor_.undo()) : count("redo", sculptor_.redo());
+      count("redo", sculptor_.redo());
+  }
+
+  /// A few steps back and, half of the time, some forth before a new edit clears them.
+  void go_back() {
+    for (std::size_t steps = 1 + places_.below(4); steps > 0; --steps)
+      count("undo", sculptor_.undo());
+    for (std::size_t steps = places_.below(2) * (1 + places_.below(4)); steps > 0; --steps)
+      count("redo", sculptor_.redo());
   }
 
   void count(const char* kind, const Edited& edited) {

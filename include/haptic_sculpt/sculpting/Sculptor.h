@@ -28,6 +28,7 @@ public:
 ///
 /// \tparam Mesh_ `CGAL::Surface_mesh<K::Point_3>` with K::FT = double
 /// \tparam Broad_phase_ a model of BroadPhase (doc/broad_phase.md); no result depends on the choice
+/// \tparam Visitor_ a model of EditVisitor (Default_edit_visitor), told of moved, created and dead elements
 ///
 /// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay. Changes
 /// made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()` looks at all.
@@ -36,11 +37,12 @@ public:
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
-template <class Mesh_, class Broad_phase_ = Box_tree_broad_phase<Mesh_>>
+template <class Mesh_, class Broad_phase_ = Box_tree_broad_phase<Mesh_>, class Visitor_ = Default_edit_visitor>
 class Sculptor {
 public:
   using Mesh_type = Mesh_;
   using Broad_phase = Broad_phase_;
+  using Visitor = Visitor_;
   using Point = typename Mesh_type::Point;
   using Vertex_index = typename Mesh_type::Vertex_index;
   using Face_index = typename Mesh_type::Face_index;
@@ -56,8 +58,9 @@ public:
 
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
   /// obey the delta rule; Invalid_parameter. The mesh is not changed. Cost: that of validate(), n log n in practice.
-  explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters())
-    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), editor_(mesh, broad_phase_, counters_),
+  explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
+    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)),
+      editor_(mesh, broad_phase_, counters_, std::move(visitor)),
       guard_(mesh, broad_phase_, counters_), probe_guard_(mesh, broad_phase_, counters_) {
     for (const Vertex_index v : mesh.vertices())
       largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(vertex_coordinates(mesh, v)));
@@ -68,6 +71,9 @@ public:
 
   const Mesh_type& mesh() const { return *mesh_; }
   const Sculptor_parameters& options() const { return options_; }
+
+  /// The Sculptor's own copy.
+  Visitor& visitor() { return editor_.visitor(); }
 
   /// How many signs the floating-point filter could not decide so far.
   const Filter_counters& filter_counters() const { return counters_; }
@@ -203,7 +209,7 @@ private:
   Sculptor_parameters options_;
   Filter_counters counters_;
   Broad_phase broad_phase_;
-  Editor<Mesh_type, Broad_phase> editor_;
+  Editor<Mesh_type, Broad_phase, Visitor> editor_;
   Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
   Responses<Mesh_type> responses_;
   Vertex_index held_; ///< whose star guard_ has; invalid when none
