@@ -5,7 +5,7 @@
 #include <haptic_sculpt/sculpting/Change_maker.h>
 #include <haptic_sculpt/sculpting/Edit_proof.h>
 #include <haptic_sculpt/sculpting/Edit_result.h>
-#include <haptic_sculpt/sculpting/vector_3.h>
+#include <haptic_sculpt/sculpting/Pivot_order.h>
 #include <haptic_sculpt/surface/delta_rule.h>
 
 #include <CGAL/Kernel_traits.h>
@@ -65,7 +65,8 @@ public:
     broad_phase_->query(star_.swept(centre, centre).box(), candidates_);
     list_.assign(*mesh_, star_, candidates_, Box_3());
     Result refusal = Result::refused(Refusal_reason::doubled_edge);
-    for (const std::size_t pivot : pivots_by_quality()) {
+    for (internal::Pivot_order<Mesh> order(star_); const auto next = order.next();) {
+      const std::size_t pivot = *next;
       std::vector<Vertex_index> in_the_way;
       if (!link_condition(pivot, in_the_way))
         keep_graver(refusal, Refusal_reason::doubled_edge, in_the_way);
@@ -253,28 +254,6 @@ private:
   static void keep_graver(Result& refusal, Refusal_reason reason, const std::vector<Vertex_index>& elements) {
     if (refusal.refusal->elements.empty() || reason > refusal.refusal->reason)
       refusal = Result::refused(reason, elements);
-  }
-
-  /// Pivots by the least altitude of their fan relative to its longest edge, largest first; equal ones in link order.
-  std::vector<std::size_t> pivots_by_quality() const {
-    const std::size_t n = star_.valence();
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t pivot = 0; pivot < n; ++pivot) {
-      double worst = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 1; k + 1 < n; ++k) {
-        const Coordinates &a = star_.link_points[pivot], &b = star_.link_points[(pivot + k) % n],
-                          &c = star_.link_points[(pivot + k + 1) % n];
-        const internal::Vector ab = internal::minus(b, a), ac = internal::minus(c, a), bc = internal::minus(c, b);
-        const double longest = std::fmax(internal::length(ab), std::fmax(internal::length(ac), internal::length(bc)));
-        worst = std::fmin(worst, internal::length(internal::cross(internal::scaled(ab, 1 / longest), internal::scaled(ac, 1 / longest))));
-      }
-      order.emplace_back(-worst, pivot);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<std::size_t> pivots;
-    for (const auto& entry : order)
-      pivots.push_back(entry.second);
-    return pivots;
   }
 };
 

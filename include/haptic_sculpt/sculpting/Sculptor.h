@@ -96,12 +96,14 @@ public:
   }
 
   /// \name Edits
-  /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand. A removed vertex and the
-  /// edges and faces of its star die, and their descriptors may be used again by Surface_mesh; `name()` gives a vertex a number
-  /// that lasts. Cost: the valence times the candidates near the star, and the broad phase. \throw Mesh_changed
+  /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand; a Grab stays usable. What
+  /// dies is said at each; Surface_mesh may use its descriptors again, within the edit too, all others stay, and `name()` gives
+  /// a vertex a number that lasts. The visitor is told. Cost: the valence times the candidates near the star, and the broad phase;
+  /// undo and redo: the valence and the broad phase. \throw Mesh_changed
   ///@{
 
-  /// Creates a vertex at `p` and joins it to the corners of f, whose place the three new faces take. \throw Non_finite_point
+  /// Creates a vertex at `p` and joins it to the corners of f, whose place the three new faces take.
+  /// \post f has died; its edges and corners have not. \throw Non_finite_point
   Edited insert_on_face(Face_index f, const Point& p) {
     internal::check_finite(p);
     if (!f.is_valid() || static_cast<std::size_t>(f) >= mesh_->num_faces() || mesh_->is_removed(f))
@@ -110,7 +112,7 @@ public:
   }
 
   /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of two.
-  /// \throw Non_finite_point
+  /// \post e and its two faces have died, no vertex has. \throw Non_finite_point
   Edited insert_on_edge(Edge_index e, const Point& p) {
     internal::check_finite(p);
     if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh_->num_edges() || mesh_->is_removed(e))
@@ -118,7 +120,9 @@ public:
     return edited([&] { return editor_.insert_on_edge(mesh_->halfedge(e), internal::coordinates(p), options_.delta_length); });
   }
 
-  /// Draws v into one of its neighbours and lets the edge between them collapse.
+  /// Draws v into one of its neighbours and lets the edge between them collapse. The neighbours are tried in the order of the
+  /// triangles they leave, best first (doc/edits.md).
+  /// \post v has died, and so have the edges and faces of its star; its neighbours have not.
   Edited remove(Vertex_index v) {
     if (!v.is_valid() || static_cast<std::size_t>(v) >= mesh_->num_vertices() || mesh_->is_removed(v))
       return Edited::refused(Refusal_reason::unknown_element);
@@ -126,9 +130,11 @@ public:
   }
 
   /// Takes back the last drag, creation or removal that changed the mesh; without limit. A new change clears what could be redone.
+  /// \post What the change had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
   Edited undo() {
     return edited([&] { return editor_.undo(); });
   }
+  /// Makes the change that was taken back last again. \post The same have died as when it was first made.
   Edited redo() {
     return edited([&] { return editor_.redo(); });
   }
