@@ -1,60 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Creation, removal, undo and redo: against the independent decision, in inverse pairs, and mixed at random.
-#include "Random_scene.h"
+#include "Mesh_snapshot.h"
+#include "random_edits.h"
 
 #include "oracle/embedding_oracle.h"
 
 #include <boost/test/unit_test.hpp>
 
-#include <algorithm>
 #include <map>
-#include <set>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
-
-namespace {
-
-/// What can be seen of a mesh by numbers that last: points by number, faces as corner triples that begin with the smallest.
-struct Snapshot {
-  std::map<std::size_t, std::array<double, 3>> points;
-  std::set<std::array<std::size_t, 3>> faces;
-  bool operator==(const Snapshot& other) const { return points == other.points && faces == other.faces; }
-};
-
-template <class Sculptor_type>
-Snapshot snapshot(const Sculptor_type& sculptor) {
-  Snapshot result;
-  const Mesh& mesh = sculptor.mesh();
-  for (const Vertex_index v : mesh.vertices())
-    result.points[sculptor.name(v)] = vertex_coordinates(mesh, v);
-  for (const auto f : mesh.faces()) {
-    const auto h = mesh.halfedge(f);
-    std::array<std::size_t, 3> c = {sculptor.name(mesh.source(h)), sculptor.name(mesh.target(h)),
-                                    sculptor.name(mesh.target(mesh.next(h)))};
-    std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
-    result.faces.insert(c);
-  }
-  return result;
-}
-
-int euler_characteristic(const Mesh& mesh) {
-  return static_cast<int>(mesh.number_of_vertices()) - static_cast<int>(mesh.number_of_edges()) +
-         static_cast<int>(mesh.number_of_faces());
-}
-
-template <class Range>
-auto pick(const Range& range, std::size_t size, Random& random) {
-  return *std::next(range.begin(), static_cast<std::ptrdiff_t>(random() % size));
-}
-
-Point_3 in_face(const Mesh& mesh, Mesh::Face_index f, double a, double b) {
-  const auto h = mesh.halfedge(f);
-  const Point_3 p = mesh.point(mesh.source(h)), q = mesh.point(mesh.target(h)), r = mesh.point(mesh.target(mesh.next(h)));
-  return p + a * (q - p) + b * (r - p);
-}
-
-} // namespace
 
 BOOST_AUTO_TEST_CASE(removal_agrees_with_an_independent_decision) {
   Random random(seed_from_environment(31));
@@ -188,7 +144,6 @@ BOOST_AUTO_TEST_CASE(refusals_name_the_rule) {
 
 BOOST_AUTO_TEST_CASE(edits_mixed_at_random_keep_every_promise_and_undo_to_the_bit) {
   Random random(seed_from_environment(33));
-  std::uniform_real_distribution<double> number(-1, 1);
   const std::size_t edits = count_from_environment("HAPTIC_SCULPT_EDITS", 12000);
   std::map<int, std::size_t> done, refused;
   std::size_t invalid = 0;
@@ -198,28 +153,10 @@ BOOST_AUTO_TEST_CASE(edits_mixed_at_random_keep_every_promise_and_undo_to_the_bi
     Mesh mesh = meshes::to_mesh(list);
     const int characteristic = euler_characteristic(mesh);
     Sculptor<Mesh> sculptor(mesh);
-    const Snapshot begin = snapshot(sculptor);
+    const Mesh_snapshot begin = snapshot(sculptor);
     for (int i = 0; i < 2000; ++i) {
-      const int kind = static_cast<int>(random() % 8);
-      const Vertex_index v = pick(mesh.vertices(), mesh.number_of_vertices(), random);
-      const auto f = pick(mesh.faces(), mesh.number_of_faces(), random);
-      const auto e = pick(mesh.edges(), mesh.number_of_edges(), random);
-      bool is_done = true;
-      switch (kind) {
-      case 0: case 1:
-        is_done = sculptor.grab(v).drag_to(mesh.point(v) + (random() % 5 == 0 ? 2 : 0.2) * meshes::Kernel::Vector_3(number(random), number(random), number(random))).reached;
-        break;
-      case 2: {
-        const double a = random() % 4 == 0 ? 1e-9 : 0.4 + 0.2 * number(random);
-        is_done = static_cast<bool>(sculptor.insert_on_face(f, in_face(mesh, f, a, random() % 6 == 0 ? 0 : 0.3)));
-        break;
-      }
-      case 3: is_done = static_cast<bool>(sculptor.insert_on_edge(e, CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))))); break;
-      case 4: case 5: is_done = static_cast<bool>(sculptor.remove(v)); break;
-      case 6: is_done = static_cast<bool>(sculptor.undo()); break;
-      default: is_done = static_cast<bool>(sculptor.redo());
-      }
-      ++(is_done ? done : refused)[kind];
+      const Random_edit edit = random_edit(sculptor, random);
+      ++(edit.is_done ? done : refused)[edit.kind];
       BOOST_REQUIRE(mesh.is_valid(false));
       BOOST_REQUIRE(euler_characteristic(mesh) == characteristic);
       if (i % 100 == 99)
@@ -228,7 +165,7 @@ BOOST_AUTO_TEST_CASE(edits_mixed_at_random_keep_every_promise_and_undo_to_the_bi
     sculptor.check_unchanged();
     while (sculptor.redo())
       ;
-    const Snapshot end = snapshot(sculptor);
+    const Mesh_snapshot end = snapshot(sculptor);
     std::size_t steps = 0;
     while (sculptor.undo())
       ++steps;
@@ -243,7 +180,6 @@ BOOST_AUTO_TEST_CASE(edits_mixed_at_random_keep_every_promise_and_undo_to_the_bi
   for (const auto& [kind, count] : done)
     BOOST_TEST_MESSAGE("kind " << kind << ": " << count << " done, " << refused[kind] << " refused or blocked");
   BOOST_TEST(invalid == 0u);
-  BOOST_TEST(done[2] > 100u);
-  BOOST_TEST(done[3] > 100u);
-  BOOST_TEST(done[4] > 100u);
+  for (const int kind : {Random_edit::drag, Random_edit::insert_on_face, Random_edit::insert_on_edge, Random_edit::remove})
+    BOOST_TEST(done[kind] > 100u);
 }

@@ -2,12 +2,10 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_EDITOR_H
 #define HAPTIC_SCULPT_SCULPTING_EDITOR_H
 
-#include <haptic_sculpt/sculpting/Edit_history.h>
+#include <haptic_sculpt/sculpting/Change_maker.h>
 #include <haptic_sculpt/sculpting/Edit_proof.h>
 #include <haptic_sculpt/sculpting/Edit_result.h>
-#include <haptic_sculpt/sculpting/Vertex_names.h>
-#include <haptic_sculpt/sculpting/star_edits.h>
-#include <haptic_sculpt/sculpting/vector_3.h>
+#include <haptic_sculpt/sculpting/Pivot_order.h>
 #include <haptic_sculpt/surface/delta_rule.h>
 
 #include <CGAL/Kernel_traits.h>
@@ -15,8 +13,8 @@
 namespace haptic_sculpt {
 
 /// Creates and removes vertices of a mesh by Euler operations: each is proven and then done, or refused and nothing has changed.
-/// Also takes changes back and makes them again. Keeps the broad phase told. See doc/edits.md.
-template <class Mesh, class Broad_phase>
+/// Also takes changes back and makes them again. Change_maker makes what is decided here. See doc/edits.md.
+template <class Mesh, class Broad_phase, class Visitor = Default_edit_visitor>
 class Editor {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
@@ -26,34 +24,33 @@ public:
   using Coordinates = internal::Coordinates;
   using Result = Edit_result<Mesh>;
 
-  Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), names_(mesh), proof_(counters) {}
+  Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters, Visitor visitor = Visitor())
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners),
+      changes_(mesh, broad_phase, corners, std::move(visitor)), proof_(counters) {}
 
-  const Vertex_names<Mesh>& names() const { return names_; }
+  const Vertex_names<Mesh>& names() const { return changes_.names(); }
+  Visitor& visitor() { return changes_.visitor(); }
   const Edit_history& history() const { return history_; }
 
   /// A drag that has been made.
   void note_move(Vertex_index v, const Coordinates& before, const Coordinates& after) {
-    history_.push({Edit_kind::move, names_.name(v), before, after, {}});
+    history_.push({Edit_kind::move, names().name(v), before, after, {}});
+    changes_.visitor().vertex_moved(v);
   }
 
   Result insert_on_face(Face_index f, const Coordinates& p, double delta) {
     const Halfedge_index h = mesh_->halfedge(f);
     if (auto refusal = refuse_creation({h}, p, delta))
       return *std::move(refusal);
-    const Edit edit{Edit_kind::insert_on_face, names_.size(), p, p, names_of(corners(h))};
-    const Vertex_index v = create_on_face(h, edit);
-    history_.push(edit);
-    return Result::done(v);
+    const Edit edit{Edit_kind::insert_on_face, names().size(), p, p, names_of(corners(h))};
+    return make(edit);
   }
 
   Result insert_on_edge(Halfedge_index h, const Coordinates& p, double delta) {
     if (auto refusal = refuse_creation({h, mesh_->opposite(h)}, p, delta))
       return *std::move(refusal);
-    const Edit edit{Edit_kind::insert_on_edge, names_.size(), p, p, {names_.name(mesh_->source(h)), names_.name(mesh_->target(h))}};
-    const Vertex_index v = create_on_edge(h, edit);
-    history_.push(edit);
-    return Result::done(v);
+    const Edit edit{Edit_kind::insert_on_edge, names().size(), p, p, {names().name(mesh_->source(h)), names().name(mesh_->target(h))}};
+    return make(edit);
   }
 
   /// Draws v into each neighbour in turn, the one first whose fan has the largest least angle, until one is free.
@@ -69,7 +66,8 @@ public:
     broad_phase_->query(star_.swept(centre, centre).box(), candidates_);
     list_.assign(*mesh_, *corners_of_, star_, candidates_, Box_3());
     Result refusal = Result::refused(Refusal_reason::doubled_edge);
-    for (const std::size_t pivot : pivots_by_quality()) {
+    for (internal::Pivot_order<Mesh> order(star_); const auto next = order.next();) {
+      const std::size_t pivot = *next;
       std::vector<Vertex_index> in_the_way;
       if (!link_condition(pivot, in_the_way))
         keep_graver(refusal, Refusal_reason::doubled_edge, in_the_way);
@@ -80,12 +78,8 @@ public:
       else {
         std::vector<std::size_t> link;
         for (std::size_t i = 0; i < star_.valence(); ++i)
-          link.push_back(names_.name(star_.link[(pivot + i) % star_.valence()]));
-        const Edit edit{Edit_kind::remove, names_.name(v), centre, centre, std::move(link)};
-        const Vertex_index into = star_.link[pivot];
-        take_away(edit);
-        history_.push(edit);
-        return Result::done(into);
+          link.push_back(names().name(star_.link[(pivot + i) % star_.valence()]));
+        return make({Edit_kind::remove, names().name(v), centre, centre, std::move(link)});
       }
     }
     return refusal;
@@ -96,17 +90,7 @@ public:
     const Edit* edit = history_.to_undo();
     if (edit == nullptr)
       return Result::refused(Refusal_reason::nothing_to_undo);
-    Vertex_index v;
-    switch (edit->kind) {
-    case Edit_kind::move:
-      v = put(edit->vertex, edit->before);
-      break;
-    case Edit_kind::remove:
-      v = put_back(*edit);
-      break;
-    default:
-      v = un_create(*edit);
-    }
+    const Vertex_index v = changes_.take_back(*edit);
     history_.undone();
     return Result::done(v);
   }
@@ -116,21 +100,7 @@ public:
     const Edit* edit = history_.to_redo();
     if (edit == nullptr)
       return Result::refused(Refusal_reason::nothing_to_redo);
-    Vertex_index v;
-    switch (edit->kind) {
-    case Edit_kind::move:
-      v = put(edit->vertex, edit->after);
-      break;
-    case Edit_kind::insert_on_face:
-      v = create_on_face(mesh_->halfedge(face_of(edit->around[0], edit->around[1], edit->around[2])), *edit);
-      break;
-    case Edit_kind::insert_on_edge:
-      v = create_on_edge(mesh_->halfedge(vertex(edit->around[0]), vertex(edit->around[1])), *edit);
-      break;
-    case Edit_kind::remove:
-      v = vertex(edit->around[0]);
-      take_away(*edit);
-    }
+    const Vertex_index v = changes_.make(*edit);
     history_.redone();
     return Result::done(v);
   }
@@ -138,7 +108,7 @@ public:
   /// The face with these three corners, by number and in any order; the null index where there is none.
   Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const {
     const Halfedge_index h = halfedge_of(a, b);
-    const Vertex_index third = names_.vertex(c);
+    const Vertex_index third = names().vertex(c);
     if (!h.is_valid() || !third.is_valid())
       return Face_index();
     for (const Halfedge_index g : {h, mesh_->opposite(h)})
@@ -149,7 +119,7 @@ public:
 
   /// The halfedge from a to b, by number; the null index where there is none.
   Halfedge_index halfedge_of(std::size_t a, std::size_t b) const {
-    const Vertex_index v = names_.vertex(a), w = names_.vertex(b);
+    const Vertex_index v = names().vertex(a), w = names().vertex(b);
     if (!v.is_valid() || !w.is_valid() || v == w || mesh_->is_isolated(v) || mesh_->is_isolated(w))
       return Halfedge_index();
     return mesh_->halfedge(v, w);
@@ -161,22 +131,27 @@ private:
 
   Mesh* mesh_;
   Broad_phase* broad_phase_;
-  Face_corners<Mesh>* corners_of_;
-  Vertex_names<Mesh> names_;
+  const Face_corners<Mesh>* corners_of_;
+  Change_maker<Mesh, Broad_phase, Visitor> changes_;
   Edit_history history_;
   internal::Edit_proof<Mesh, Filter_counters> proof_;
   Star<Mesh> star_;
   Checklist<Mesh> list_;
-  std::vector<Face_index> candidates_, faces_;
+  std::vector<Face_index> candidates_;
 
-  Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
+  Result make(Edit edit) {
+    const Vertex_index v = changes_.make(edit);
+    history_.push(std::move(edit));
+    return Result::done(v);
+  }
+
   static Point to_point(const Coordinates& p) { return Point(p[0], p[1], p[2]); }
 
   std::array<Vertex_index, 3> corners(Halfedge_index h) const {
     return {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))};
   }
   std::vector<std::size_t> names_of(const std::array<Vertex_index, 3>& vertices) const {
-    return {names_.name(vertices[0]), names_.name(vertices[1]), names_.name(vertices[2])};
+    return {names().name(vertices[0]), names().name(vertices[1]), names().name(vertices[2])};
   }
   Corners with_points(const std::array<Vertex_index, 3>& v) const {
     Corners result;
@@ -281,111 +256,6 @@ private:
   static void keep_graver(Result& refusal, Refusal_reason reason, const std::vector<Vertex_index>& elements) {
     if (refusal.refusal->elements.empty() || reason > refusal.refusal->reason)
       refusal = Result::refused(reason, elements);
-  }
-
-  /// Pivots by the least altitude of their fan relative to its longest edge, largest first; equal ones in link order.
-  std::vector<std::size_t> pivots_by_quality() const {
-    const std::size_t n = star_.valence();
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t pivot = 0; pivot < n; ++pivot) {
-      double worst = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 1; k + 1 < n; ++k) {
-        const Coordinates &a = star_.link_points[pivot], &b = star_.link_points[(pivot + k) % n],
-                          &c = star_.link_points[(pivot + k + 1) % n];
-        const internal::Vector ab = internal::minus(b, a), ac = internal::minus(c, a), bc = internal::minus(c, b);
-        const double longest = std::fmax(internal::length(ab), std::fmax(internal::length(ac), internal::length(bc)));
-        worst = std::fmin(worst, internal::length(internal::cross(internal::scaled(ab, 1 / longest), internal::scaled(ac, 1 / longest))));
-      }
-      order.emplace_back(-worst, pivot);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<std::size_t> pivots;
-    for (const auto& entry : order)
-      pivots.push_back(entry.second);
-    return pivots;
-  }
-
-  // What follows changes the mesh, and nothing before it does.
-
-  Vertex_index put(std::size_t name, const Coordinates& p) {
-    const Vertex_index v = vertex(name);
-    mesh_->point(v) = to_point(p);
-    star_.collect(*mesh_, v);
-    broad_phase_->faces_moved(star_.faces);
-    return v;
-  }
-
-  void tell_new_star(Vertex_index v) {
-    star_.collect(*mesh_, v);
-    tell_new_faces(star_.faces);
-  }
-
-  void tell_new_faces(const std::vector<Face_index>& faces) {
-    corners_of_->update(faces);
-    broad_phase_->faces_inserted(faces);
-  }
-
-  void name_new(Vertex_index v, std::size_t name) {
-    if (name == names_.size())
-      names_.give_new_name(v);
-    else
-      names_.give(name, v);
-  }
-
-  Vertex_index create_on_face(Halfedge_index h, const Edit& edit) {
-    broad_phase_->faces_removed(std::array<Face_index, 1>{mesh_->face(h)});
-    const Vertex_index v = internal::insert_star_in_face(*mesh_, h, to_point(edit.after));
-    name_new(v, edit.vertex);
-    tell_new_star(v);
-    return v;
-  }
-
-  Vertex_index create_on_edge(Halfedge_index h, const Edit& edit) {
-    broad_phase_->faces_removed(std::array<Face_index, 2>{mesh_->face(h), mesh_->face(mesh_->opposite(h))});
-    const Vertex_index v = internal::insert_star_in_edge(*mesh_, h, to_point(edit.after));
-    name_new(v, edit.vertex);
-    tell_new_star(v);
-    return v;
-  }
-
-  /// Removes the star of v; returns a halfedge of the hole's polygon.
-  Halfedge_index empty_star(Vertex_index v) {
-    star_.collect(*mesh_, v);
-    broad_phase_->faces_removed(star_.faces);
-    names_.take(names_.name(v));
-    return internal::remove_star(*mesh_, v);
-  }
-
-  void take_away(const Edit& edit) {
-    faces_.clear();
-    internal::fill_with_fan(*mesh_, empty_star(vertex(edit.vertex)), vertex(edit.around[0]), faces_);
-    tell_new_faces(faces_);
-  }
-
-  Vertex_index put_back(const Edit& edit) {
-    std::vector<Vertex_index> link;
-    for (const std::size_t name : edit.around)
-      link.push_back(vertex(name));
-    faces_.clear();
-    for (std::size_t i = 1; i + 1 < edit.around.size(); ++i)
-      faces_.push_back(face_of(edit.around[0], edit.around[i], edit.around[i + 1]));
-    broad_phase_->faces_removed(faces_);
-    const Vertex_index v = internal::insert_star_in_face(*mesh_, internal::merge_fan(*mesh_, link), to_point(edit.before));
-    names_.give(edit.vertex, v);
-    tell_new_star(v);
-    return v;
-  }
-
-  Vertex_index un_create(const Edit& edit) {
-    const Halfedge_index h = empty_star(vertex(edit.vertex));
-    const Vertex_index a = vertex(edit.around[0]);
-    faces_.clear();
-    if (edit.kind == Edit_kind::insert_on_face)
-      faces_.push_back(mesh_->face(h));
-    else
-      internal::fill_with_fan(*mesh_, h, a, faces_); // the quadrangle's diagonal from one end of the old edge to the other
-    tell_new_faces(faces_);
-    return a;
   }
 };
 

@@ -28,6 +28,7 @@ public:
 ///
 /// \tparam Mesh_ `CGAL::Surface_mesh<K::Point_3>` with K::FT = double
 /// \tparam Broad_phase_ a model of BroadPhase (doc/broad_phase.md); no result depends on the choice
+/// \tparam Visitor_ a model of EditVisitor (Default_edit_visitor), told of moved, created and dead elements
 ///
 /// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay. Changes
 /// made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()` looks at all.
@@ -36,11 +37,12 @@ public:
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
-template <class Mesh_, class Broad_phase_ = Box_tree_broad_phase<Mesh_>>
+template <class Mesh_, class Broad_phase_ = Box_tree_broad_phase<Mesh_>, class Visitor_ = Default_edit_visitor>
 class Sculptor {
 public:
   using Mesh_type = Mesh_;
   using Broad_phase = Broad_phase_;
+  using Visitor = Visitor_;
   using Point = typename Mesh_type::Point;
   using Vertex_index = typename Mesh_type::Vertex_index;
   using Face_index = typename Mesh_type::Face_index;
@@ -56,9 +58,9 @@ public:
 
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
   /// obey the delta rule; Invalid_parameter. The mesh is not changed. Cost: that of validate(), n log n in practice.
-  explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters())
+  explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
     : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), corners_(mesh),
-      editor_(mesh, broad_phase_, corners_, counters_), guard_(mesh, broad_phase_, corners_, counters_),
+      editor_(mesh, broad_phase_, corners_, counters_, std::move(visitor)), guard_(mesh, broad_phase_, corners_, counters_),
       probe_guard_(mesh, broad_phase_, corners_, counters_) {
     for (const Vertex_index v : mesh.vertices())
       largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(vertex_coordinates(mesh, v)));
@@ -69,6 +71,9 @@ public:
 
   const Mesh_type& mesh() const { return *mesh_; }
   const Sculptor_parameters& options() const { return options_; }
+
+  /// The Sculptor's own copy.
+  Visitor& visitor() { return editor_.visitor(); }
 
   /// How many signs the floating-point filter could not decide so far.
   const Filter_counters& filter_counters() const { return counters_; }
@@ -91,12 +96,14 @@ public:
   }
 
   /// \name Edits
-  /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand. A removed vertex and the
-  /// edges and faces of its star die, and their descriptors may be used again by Surface_mesh; `name()` gives a vertex a number
-  /// that lasts. Cost: the valence times the candidates near the star, and the broad phase. \throw Mesh_changed
+  /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand; a Grab stays usable. What
+  /// dies is said at each; Surface_mesh may use its descriptors again, within the edit too, all others stay, and `name()` gives
+  /// a vertex a number that lasts. The visitor is told. Cost: the valence times the candidates near the star, and the broad phase;
+  /// undo and redo: the valence and the broad phase. \throw Mesh_changed
   ///@{
 
-  /// Creates a vertex at `p` and joins it to the corners of f, whose place the three new faces take. \throw Non_finite_point
+  /// Creates a vertex at `p` and joins it to the corners of f, whose place the three new faces take.
+  /// \post f has died; its edges and corners have not. \throw Non_finite_point
   Edited insert_on_face(Face_index f, const Point& p) {
     internal::check_finite(p);
     if (!f.is_valid() || static_cast<std::size_t>(f) >= mesh_->num_faces() || mesh_->is_removed(f))
@@ -105,7 +112,7 @@ public:
   }
 
   /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of two.
-  /// \throw Non_finite_point
+  /// \post e and its two faces have died, no vertex has. \throw Non_finite_point
   Edited insert_on_edge(Edge_index e, const Point& p) {
     internal::check_finite(p);
     if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh_->num_edges() || mesh_->is_removed(e))
@@ -113,7 +120,9 @@ public:
     return edited([&] { return editor_.insert_on_edge(mesh_->halfedge(e), internal::coordinates(p), options_.delta_length); });
   }
 
-  /// Draws v into one of its neighbours and lets the edge between them collapse.
+  /// Draws v into one of its neighbours and lets the edge between them collapse. The neighbours are tried in the order of the
+  /// triangles they leave, best first (doc/edits.md).
+  /// \post v has died, and so have the edges and faces of its star; its neighbours have not.
   Edited remove(Vertex_index v) {
     if (!v.is_valid() || static_cast<std::size_t>(v) >= mesh_->num_vertices() || mesh_->is_removed(v))
       return Edited::refused(Refusal_reason::unknown_element);
@@ -121,9 +130,11 @@ public:
   }
 
   /// Takes back the last drag, creation or removal that changed the mesh; without limit. A new change clears what could be redone.
+  /// \post What the change had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
   Edited undo() {
     return edited([&] { return editor_.undo(); });
   }
+  /// Makes the change that was taken back last again. \post The same have died as when it was first made.
   Edited redo() {
     return edited([&] { return editor_.redo(); });
   }
@@ -205,7 +216,7 @@ private:
   Filter_counters counters_;
   Broad_phase broad_phase_;
   Face_corners<Mesh_type> corners_;
-  Editor<Mesh_type, Broad_phase> editor_;
+  Editor<Mesh_type, Broad_phase, Visitor> editor_;
   Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
   Responses<Mesh_type> responses_;
   Vertex_index held_; ///< whose star guard_ has; invalid when none

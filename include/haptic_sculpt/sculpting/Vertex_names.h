@@ -33,18 +33,15 @@ public:
   /// \pre v is in the mesh
   std::size_t name(Vertex_index v) const { return names_[static_cast<std::size_t>(v)]; }
 
-  std::size_t give_new_name(Vertex_index v) {
-    vertices_.push_back(Vertex_index());
-    give(vertices_.size() - 1, v);
-    return vertices_.size() - 1;
-  }
-
-  /// Gives a dead number back. \pre it was given before
+  /// Gives v a number: the next never used, which is size(), or a dead one. \pre name <= size(), and no vertex has it
   void give(std::size_t name, Vertex_index v) {
     const auto index = static_cast<std::size_t>(v);
+    if (name == vertices_.size())
+      vertices_.push_back(v);
+    else
+      vertices_[name] = v;
     if (index >= names_.size())
       names_.resize(index + 1);
-    vertices_[name] = v;
     names_[index] = name;
   }
 

@@ -49,27 +49,37 @@ typename Mesh::Halfedge_index remove_star(Mesh& mesh, typename Mesh::Vertex_inde
   return CGAL::Euler::remove_center_vertex(mesh.halfedge(v), mesh);
 }
 
-/// Fills the polygon with the fan of `apex`. Appends its faces to `faces`.
+/// A fan is told by the halfedges into its apex, one in each of its faces: the first on the polygon around the fan, the others within.
 template <class Mesh>
-void fill_with_fan(Mesh& mesh, typename Mesh::Halfedge_index h, typename Mesh::Vertex_index apex,
-                   std::vector<typename Mesh::Face_index>& faces) {
+using Fan = std::vector<typename Mesh::Halfedge_index>;
+
+/// Fills the polygon of h with the fan of `apex`. Cost: the size of the polygon.
+template <class Mesh>
+void fill_with_fan(Mesh& mesh, typename Mesh::Halfedge_index h, typename Mesh::Vertex_index apex, Fan<Mesh>& fan) {
   const auto into_apex = halfedge_of_face_to(mesh, h, apex);
+  fan.assign(1, into_apex);
   while (mesh.next(mesh.next(mesh.next(into_apex))) != into_apex) {
     const auto second = mesh.next(mesh.next(into_apex));
-    CGAL::Euler::split_face(into_apex, second, mesh);
-    faces.push_back(mesh.face(second));
+    CGAL::Euler::split_face(into_apex, second, mesh); // cuts off the triangle of `second`
+    fan.push_back(mesh.next(second));
   }
-  faces.push_back(mesh.face(into_apex));
 }
 
-/// A halfedge of the polygon that is left when the fan of link[0] over link[1], link[2], ... (the order of Star::link) becomes one
-/// face. Undoes fill_with_fan().
+/// Finds the fan of link[0] over link[1], link[2], ..., in the order of Star::link, which runs against the orientation of the faces.
+/// Cost: its size and the degree of link[0].
 template <class Mesh>
-typename Mesh::Halfedge_index merge_fan(Mesh& mesh, const std::vector<typename Mesh::Vertex_index>& link) {
-  for (std::size_t i = 2; i + 1 < link.size(); ++i)
-    CGAL::Euler::join_face(mesh.halfedge(link[0], link[i]), mesh);
-  // Star::link runs against the orientation of the faces, so the polygon has the halfedge from the second to the first.
-  return mesh.halfedge(link[1], link[0]);
+void find_fan(const Mesh& mesh, const std::vector<typename Mesh::Vertex_index>& link, Fan<Mesh>& fan) {
+  fan.assign(1, mesh.halfedge(link[1], link[0]));
+  while (fan.size() + 2 < link.size())
+    fan.push_back(mesh.opposite(mesh.next(fan.back())));
+}
+
+/// Makes one face of a fan. Undoes fill_with_fan(). Cost: the size of the fan.
+template <class Mesh>
+typename Mesh::Halfedge_index merge_fan(Mesh& mesh, const Fan<Mesh>& fan) {
+  for (std::size_t i = 1; i < fan.size(); ++i)
+    CGAL::Euler::join_face(mesh.opposite(fan[i]), mesh); // the triangle of fan[i] goes; the other way the loop would be walked again and again
+  return fan[0];
 }
 
 } // namespace internal

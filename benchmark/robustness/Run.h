@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_RUN_H
+#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_RUN_H
+
+#include "Drag_batch.h"
+#include "Edit_batch.h"
+
+#include <haptic_sculpt/surface.h>
+
+#include <iostream>
+#include <sstream>
+
+namespace haptic_sculpt::robustness {
+
+enum Exit {
+  all_kept = 0,
+  usage = 2,
+  not_embedded = 10,     ///< validate() found a fault after drags or edits
+  lazy_short = 11,       ///< fewer than 95 % of the short random drags arrived
+  lazy_long = 12,        ///< a push through the object stayed at its start though it had more than two clearances to go
+  wrongly_accepted = 13, ///< a mesh that has to be refused was not
+  wrongly_refused = 14,  ///< a mesh that has to be accepted was refused
+  mesh_changed = 15,     ///< a vertex that was not in hand has moved
+  undo_differs = 16,     ///< undoing everything did not give back the input, bit for bit
+  redo_differs = 17,     ///< redoing everything did not give back the end, bit for bit
+  lazy_creation = 18     ///< more than 1 % of the feasible creations were refused
+};
+
+struct Options {
+  std::string folder, json, shard = "0/1", response = "slide";
+  std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, batch = 1000, edit_batch = 5000;
+  std::uint64_t seed = 1;
+  std::vector<std::string> refuse;
+};
+
+constexpr std::size_t large = 200000; ///< faces: from here on drags_on_large and edits_on_large, and one validation a batch
+
+/// All batches on all meshes, or a shard of them; sums them up.
+class Run {
+public:
+  explicit Run(const Options& options) : options_(options), response_(*response_named(options.response)) {
+    std::istringstream text(options.shard);
+    char slash = 0;
+    if (!(text >> shard_ >> slash >> shards_) || slash != '/' || shard_ >= shards_)
+      throw Error("--shard takes i/n with 0 <= i < n, not '" + options.shard + "'");
+  }
+
+  void mesh(const std::string& name, const Mesh& mesh) {
+    Json row = {{"mesh", name}, {"faces", mesh.number_of_faces()}};
+    const bool has_drags = drag(name, mesh, row), has_edits = edit(name, mesh, row);
+    if (has_drags || has_edits)
+      rows_.push_back(row);
+  }
+
+  void folder() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(options_.folder))
+      if (mesh_file_format(entry.path()))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+      const std::string name = file.filename().string();
+      const bool has_to_be_refused = std::find(options_.refuse.begin(), options_.refuse.end(), name) != options_.refuse.end();
+      try {
+        const Mesh read = read_surface<Mesh>(file);
+        wrongly_accepted_ += has_to_be_refused;
+        mesh(name, read);
+      } catch (const Invalid_surface& error) {
+        std::cout << name << ": refused: " << error.what() << '\n';
+        wrongly_refused_ += !has_to_be_refused;
+      }
+    }
+  }
+
+  Exit finish() const {
+    const Exit exit = broken_promise();
+    std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, response " << options_.response
+              << ", seed " << options_.seed << ", exit " << exit << '\n';
+    for (const auto& [kind, counts] : edits_.rows) {
+      std::cout << "  " << kind << ": " << counts.asked << " asked, " << counts.done << " done";
+      for (const auto& [reason, count] : counts.refused)
+        std::cout << ", " << count << ' ' << reason;
+      std::cout << '\n';
+    }
+    if (!options_.json.empty())
+      replace_file(options_.json, Json{{"seed", options_.seed}, {"shard", options_.shard}, {"response", options_.response},
+                                       {"meshes", rows_}, {"total", drags_.json()}, {"total_of_edits", edits_.json()},
+                                       {"wrongly_accepted", wrongly_accepted_}, {"wrongly_refused", wrongly_refused_},
+                                       {"exit", static_cast<int>(exit)}}
+                                          .dump(1) + '\n');
+    return exit;
+  }
+
+private:
+  Options options_;
+  Response response_;
+  std::size_t shard_ = 0, shards_ = 1, unit_ = 0, wrongly_accepted_ = 0, wrongly_refused_ = 0;
+  Drag_tally drags_;
+  Edit_tally edits_;
+  Json rows_ = Json::array();
+
+  /// Whether the next batch belongs to this shard.
+  bool is_ours() { return unit_++ % shards_ == shard_; }
+  std::uint64_t seed_of_batch() const { return options_.seed * 1000003 + unit_; }
+
+  bool drag(const std::string& name, const Mesh& mesh, Json& row) {
+    const bool is_large = mesh.number_of_faces() >= large;
+    const std::size_t drags = is_large ? options_.drags_on_large : options_.drags;
+    Drag_tally tally;
+    for (std::size_t done = 0; done < drags; done += options_.batch)
+      if (is_ours())
+        tally += Drag_batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100).run(std::min(options_.batch, drags - done));
+    if (tally.drags == 0)
+      return false;
+    drags_ += tally;
+    row.update(tally.json());
+    std::cout << name << ": " << tally.drags << " drags, " << tally.blocked << " blocked, short "
+              << tally.short_arrived << '/' << tally.short_asked << ", through stayed " << tally.through_stayed << '/'
+              << tally.through_asked << " (lazy " << tally.through_lazy << "), stop error up to " << tally.largest_stop_error
+              << " c, " << tally.invalid << " invalid of " << tally.validations << ", "
+              << tally.nanoseconds / static_cast<double>(tally.drags) << " ns\n" << std::flush;
+    return true;
+  }
+
+  bool edit(const std::string& name, const Mesh& mesh, Json& row) {
+    const bool is_large = mesh.number_of_faces() >= large;
+    const std::size_t edits = is_large ? options_.edits_on_large : options_.edits;
+    Edit_tally tally;
+    for (std::size_t done = 0; done < edits; done += options_.edit_batch)
+      if (is_ours())
+        tally += Edit_batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100).run(std::min(options_.edit_batch, edits - done));
+    if (tally.edits == 0)
+      return false;
+    edits_ += tally;
+    row["mixed_edits"] = tally.json();
+    std::cout << name << ": " << tally.edits << " mixed edits, " << tally.done() << " done, " << tally.creations_wrongly_refused
+              << " of " << tally.feasible_creations() << " feasible creations refused, " << tally.undo_differs << " differ undone, "
+              << tally.redo_differs << " redone, " << tally.invalid << " invalid of " << tally.validations << '\n' << std::flush;
+    return true;
+  }
+
+  Exit broken_promise() const {
+    if (drags_.invalid + edits_.invalid > 0)
+      return not_embedded;
+    if (drags_.changed + edits_.changed > 0)
+      return mesh_changed;
+    if (edits_.undo_differs > 0)
+      return undo_differs;
+    if (edits_.redo_differs > 0)
+      return redo_differs;
+    if (wrongly_accepted_ > 0)
+      return wrongly_accepted;
+    if (wrongly_refused_ > 0)
+      return wrongly_refused;
+    if (drags_.through_lazy > 0)
+      return lazy_long;
+    if (static_cast<double>(drags_.short_arrived) < 0.95 * static_cast<double>(drags_.short_asked))
+      return lazy_short;
+    if (static_cast<double>(edits_.creations_wrongly_refused) > 0.01 * static_cast<double>(edits_.feasible_creations()))
+      return lazy_creation;
+    return all_kept;
+  }
+};
+
+} // namespace haptic_sculpt::robustness
+
+#endif

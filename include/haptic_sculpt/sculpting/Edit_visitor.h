@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_VISITOR_H
+#define HAPTIC_SCULPT_SCULPTING_EDIT_VISITOR_H
+
+#include <cstddef>
+
+namespace haptic_sculpt {
+
+/// The concept EditVisitor, and its model that ignores everything: no call is then made, and nothing is looked up for one.
+///
+/// A Sculptor tells its visitor of every element that a drag, creation, removal, undo or redo moves, kills or creates. Derive
+/// from this class and hide the functions of interest; descriptors are those of the mesh.
+///
+/// - A drag that moved its vertex, or such a one undone or redone: `vertex_moved`, after the move, once however many legs there were.
+/// - All other edits, undone and redone ones included, replace some faces by others. First, while the mesh is still as before,
+///   `face_dies`, `edge_dies`, `vertex_dies` of what the edit takes away; then, when the mesh is complete again, `vertex_created`,
+///   `edge_created`, `face_created` of what it has made. Each element once.
+/// - A face or edge is the triangle or segment of its vertices: one that is replaced has died, though one of the new ones may have
+///   got its descriptor, as Surface_mesh uses them again, within one edit too. What died has to be forgotten before the new is noted.
+/// - Nothing is told of what was refused, of a drag that did not move, of a probe, of set_delta() and the like.
+///
+/// \pre The functions do not change the mesh, do not call the Sculptor's edits, and do not throw.
+struct Default_edit_visitor {
+  template <class Vertex_index>
+  void vertex_moved(Vertex_index) {}
+  /// \param number the one that lasts, `Sculptor::name()`
+  template <class Vertex_index>
+  void vertex_dies(Vertex_index, std::size_t /*number*/) {}
+  template <class Edge_index>
+  void edge_dies(Edge_index) {}
+  template <class Face_index>
+  void face_dies(Face_index) {}
+  /// \param number a new one, or the old one of a vertex that undo or redo has revived, maybe with another descriptor
+  template <class Vertex_index>
+  void vertex_created(Vertex_index, std::size_t /*number*/) {}
+  template <class Edge_index>
+  void edge_created(Edge_index) {}
+  template <class Face_index>
+  void face_created(Face_index) {}
+};
+
+} // namespace haptic_sculpt
+
+#endif
