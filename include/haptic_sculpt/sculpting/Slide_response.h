@@ -71,8 +71,8 @@ private:
     const auto brings_nearer = [&](const Vector& first_aim) {
       ++trials;
       if (first_aim != target)
-        trial_.go(guard, first_aim, lengths, trial_.legs + 1); // one leg: on from there it must not climb
-      trial_.go(guard, target, lengths, walk_.legs + trial_legs);
+        trial_.go(guard, first_aim, lengths, std::min(trial_.legs + 1, most_legs)); // one leg: on from there it must not climb
+      trial_.go(guard, target, lengths, std::min(walk_.legs + trial_legs, most_legs));
       for (const auto& facet : trial_.facets)
         remember(facet);
       if (internal::length(internal::minus(target, trial_.x)) >= distance - gain)
@@ -85,9 +85,26 @@ private:
     return follow_features(guard, pull, target, lengths, trials, brings_nearer);
   }
 
+  /// Another facet forbids to go past a border where its normal is against the way by more than this: a thousandth of a radian,
+  /// to leave coplanar neighbours, which forbid nothing, on the other side of it.
+  static constexpr double least_slope = 0x1p-10;
+
+  /// Whether there may be a way past a border of some contact. At the inner edge of a concave corner there is none: the other
+  /// contact lies across it.
   bool is_near_border(const internal::Slide_lengths& lengths) const {
+    for (const auto& facet : walk_.facets) {
+      if (facet.is_wall())
+        return true;
+      for (int k = 0; k < facet.borders(); ++k)
+        if (facet.beyond_border(k, walk_.x) > -lengths.border() && !is_closed(facet.outward(k)))
+          return true;
+    }
+    return false;
+  }
+
+  bool is_closed(const Vector& way) const {
     for (const auto& facet : walk_.facets)
-      if (facet.is_wall() || facet.outside(walk_.x) > -lengths.border())
+      if (!facet.is_wall() && internal::dot(facet.normal(), way) < -least_slope)
         return true;
     return false;
   }
@@ -117,7 +134,7 @@ private:
       trial_.facets.clear();
       trial_.legs = walk_.legs;
       trial_.x = walk_.x;
-      if (lifted != walk_.x)
+      if (lifted != walk_.x && trial_.legs < most_legs)
         trial_.x = lifted, ++trial_.legs;
     };
     // seen_ grows on the way.
@@ -133,7 +150,7 @@ private:
         // Past the border, where it may be only a clearance to free space.
         start();
         const Vector past = internal::advanced(trial_.x, beside, seen_[i].outward(k));
-        if (guard.is_free(trial_.x, past, lengths.delta)) {
+        if (trial_.legs < most_legs && guard.is_free(trial_.x, past, lengths.delta)) {
           trial_.x = past, ++trial_.legs;
           if (brings_nearer(target))
             return true;

@@ -48,11 +48,12 @@ struct Slide_walk {
   static constexpr std::size_t most_facets = 16;
   /// Bounds the turns in which no leg is made: each of them learns of a contact or forgets one.
   static constexpr int turns_per_leg = 4;
-  /// How often a place near a new contact is sought, with growing clearance, before the vertex steps back along its path.
-  static constexpr int approaches = 6;
+  /// How often a place near a new contact is sought with growing clearance, and how often at all, as each may meet yet another
+  /// contact, before the vertex steps back along its path.
+  static constexpr int approaches = 6, most_tries = 24;
 
-  /// Two units in the last place of a unit vector.
-  static constexpr double rounding_of_normals = 0x1p-51;
+  /// One unit in the last place of a unit vector.
+  static constexpr double rounding_of_normals = 0x1p-52;
 
   using Facets = boost::container::static_vector<Facet<Mesh>, most_facets>;
   using Half_spaces = boost::container::static_vector<Half_space, most_facets>;
@@ -99,21 +100,20 @@ struct Slide_walk {
   /// Where the contacts let J go from x, when it wants to go by `pull`, keeping `clearance` from all; in a gap too narrow for
   /// that a half or a quarter of it, and at last coming no nearer to any than it is.
   Nearest_permitted nearest(const Vector& pull, double clearance, double slack) const {
-    // At the far end of the pull the rounding of the normals is felt.
-    slack += rounding_of_normals * length(pull);
+    const double slack_there = slack + rounding_of_normals * length(pull);
     Half_spaces spaces;
     Nearest_permitted found;
     for (const double kept : {clearance, clearance / 2, clearance / 4}) {
       spaces.clear();
       for (const Facet<Mesh>& f : facets)
         spaces.push_back({f.normal(), kept - f.height()});
-      found = nearest_permitted(pull, spaces, slack);
+      found = nearest_permitted(pull, spaces, slack, slack_there);
       if (found.exists)
         return found;
     }
     for (Half_space& space : spaces)
       space.least = std::fmin(space.least, 0);
-    return nearest_permitted(pull, spaces, slack);
+    return nearest_permitted(pull, spaces, slack, slack_there);
   }
 
   /// J is at x; contacts are measured from there.
@@ -130,10 +130,14 @@ struct Slide_walk {
     return false;
   }
 
-  /// Whether it was new and there was room for it.
+  /// Whether it was new.
   bool meet(const Contact_3<Mesh>& contact, const Vector& where, double delta) {
-    if (knows(contact) || facets.size() == most_facets)
+    if (knows(contact))
       return false;
+    if (facets.size() == most_facets) // the one J is farthest out of makes room
+      facets.erase(std::max_element(facets.begin(), facets.end(), [this](const Facet<Mesh>& a, const Facet<Mesh>& b) {
+        return a.outside(x) < b.outside(x);
+      }));
     facets.emplace_back(contact, where);
     facets.back().set_delta(delta);
     for (const Contact_3<Mesh>& before : left_)
@@ -216,7 +220,8 @@ private:
     const Vector to_impact = scaled(minus(y, x), time);
     bool met = any_new;
     double clearance = lengths.clearance;
-    for (int attempt = 0; attempt < approaches;) { // ends: there is room for most_facets new contacts
+    int tries = 0;
+    for (int attempt = 0; attempt < approaches && tries < most_tries; ++tries) {
       const Nearest_permitted near = nearest(to_impact, clearance, lengths.resolution);
       const Vector z = plus(x, near.displacement);
       if (!near.exists || z == x)
@@ -234,12 +239,14 @@ private:
       clearance *= 2;
       ++attempt;
     }
+    if (met && facets.size() < most_facets)
+      return true;
     // In a gap that closes slowly a whole clearance is not to be had; half the way then is.
     const double back = std::fmin(setback(lengths.clearance, steepest), time * path_length(x, y) / 2);
     const Vector z = stop_before(x, y, time, back,
                                  [&](const Vector& q) { return guard.is_free(x, q, lengths.delta); });
     if (z == x)
-      return met;
+      return false;
     step_to(z);
     return true;
   }

@@ -37,16 +37,17 @@ inline void refine(Vector& d, const Half_space& a) { d = advanced(d, a.least - d
 /// The nearest point of a convex polyhedron to a given one: minimizes |d - wanted| over all d with normal_i . d >= least_i - slack.
 ///
 /// By enumeration of active sets of one, two and three half-spaces: the first that is feasible and has no negative
-/// multiplier is the optimum, which is unique. \param slack a length: rounding of what the caller measured; > 0
+/// multiplier is the optimum, which is unique. \param slack a length, > 0: rounding of what the caller measured
+/// \param slack_there the same at the end of a constrained way, where that of the normals is felt too
 /// Cost: cubic in the number of half-spaces. Floating point; proposes only. A polyhedron without a point: `exists` is false.
 template <class Half_spaces>
-Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spaces, double slack) {
+Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spaces, double slack, double slack_there) {
   using namespace nearest_permitted_detail;
   const std::size_t n = spaces.size();
   Nearest_permitted result;
   const auto accept = [&](const Vector& d, std::array<std::size_t, 3> active, int number) {
     for (const Half_space& space : spaces)
-      if (!(dot(space.normal, d) >= space.least - slack))
+      if (!(dot(space.normal, d) >= space.least - (number > 0 ? slack_there : slack)))
         return false;
     result = {true, d, active, number};
     return true;
