@@ -47,6 +47,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t judged_share = 16; ///< the decision is linear in the mesh
+
   using Edited = Edit_result<Mesh>;
 
   Mesh mesh_;
@@ -109,9 +111,7 @@ private:
   }
 
   void create_on_face(const char* kind, Halfedge_index h, const Point_3& p) {
-    const Edited edited = sculptor_.insert_on_face(mesh_.face(h), p);
-    count(kind, edited);
-    judge(edited, {h}, p);
+    create(kind, {h}, p, [&] { return sculptor_.insert_on_face(mesh_.face(h), p); });
   }
 
   void create_on_edge() {
@@ -125,16 +125,21 @@ private:
   }
 
   void create_on_edge(const char* kind, Halfedge_index h, const Point_3& p) {
-    const Edited edited = sculptor_.insert_on_edge(mesh_.edge(h), p);
-    count(kind, edited);
-    judge(edited, {h, mesh_.opposite(h)}, p);
+    create(kind, {h, mesh_.opposite(h)}, p, [&] { return sculptor_.insert_on_edge(mesh_.edge(h), p); });
   }
 
-  void judge(const Edited& edited, const std::vector<Halfedge_index>& old_halfedges, const Point_3& p) {
+  /// Every refusal is judged by the independent decision, and one in `judged_share` before it is known what comes of it.
+  template <class Make>
+  void create(const char* kind, const std::vector<Halfedge_index>& old_halfedges, const Point_3& p, const Make& make) {
+    const bool is_judged = tally_.edits % judged_share == 0;
+    const bool is_feasible = is_judged && is_feasible_creation(mesh_, old_halfedges, p);
+    const Edited edited = make();
+    count(kind, edited);
     if (edited)
-      ++tally_.creations_done;
+      ++tally_.creations_done, tally_.creations_wrongly_accepted += is_judged && !is_feasible;
     else
-      tally_.creations_wrongly_refused += is_feasible_creation(mesh_, old_halfedges, p);
+      tally_.creations_wrongly_refused += is_judged ? is_feasible : is_feasible_creation(mesh_, old_halfedges, p);
+    tally_.creations_judged += is_judged || !edited;
   }
 
   void check() {

@@ -17,7 +17,7 @@ struct Edit_tally {
   };
   std::map<std::string, Row> rows; ///< by kind of edit, e.g. "insert_face near a corner"
   std::size_t edits = 0, validations = 0, invalid = 0, undo_differs = 0, redo_differs = 0, changed = 0;
-  std::size_t creations_done = 0, creations_wrongly_refused = 0; ///< what is feasible is one or the other
+  std::size_t creations_done = 0, creations_judged = 0, creations_wrongly_accepted = 0, creations_wrongly_refused = 0; ///< what is feasible is one or the other
   std::size_t longest_history = 0;
 
   void count(const std::string& kind, const char* refusal) {
@@ -41,6 +41,7 @@ struct Edit_tally {
     edits += t.edits, validations += t.validations, invalid += t.invalid;
     undo_differs += t.undo_differs, redo_differs += t.redo_differs, changed += t.changed;
     creations_done += t.creations_done, creations_wrongly_refused += t.creations_wrongly_refused;
+    creations_judged += t.creations_judged, creations_wrongly_accepted += t.creations_wrongly_accepted;
     longest_history = std::max(longest_history, t.longest_history);
     return *this;
   }
@@ -65,6 +66,8 @@ struct Edit_tally {
             {"changed_elsewhere", changed},
             {"feasible_creations", feasible_creations()},
             {"feasible_creations_refused", creations_wrongly_refused},
+            {"creations_judged", creations_judged},
+            {"infeasible_creations_accepted", creations_wrongly_accepted},
             {"longest_history", longest_history},
             {"kinds", kinds}};
   }

@@ -23,7 +23,8 @@ enum Exit {
   mesh_changed = 15,     ///< a vertex that was not in hand has moved
   undo_differs = 16,     ///< undoing everything did not give back the input, bit for bit
   redo_differs = 17,     ///< redoing everything did not give back the end, bit for bit
-  lazy_creation = 18     ///< more than 1 % of the feasible creations were refused
+  lazy_creation = 18,    ///< more than 1 % of the feasible creations were refused
+  jumped_over = 19       ///< a creation was accepted that crosses or jumps over a part of the surface
 };
 
 struct Options {
@@ -134,7 +135,8 @@ private:
     edits_ += tally;
     row["mixed_edits"] = tally.json();
     std::cout << name << ": " << tally.edits << " mixed edits, " << tally.done() << " done, " << tally.creations_wrongly_refused
-              << " of " << tally.feasible_creations() << " feasible creations refused, " << tally.undo_differs << " differ undone, "
+              << " of " << tally.feasible_creations() << " feasible creations refused, " << tally.creations_wrongly_accepted << " infeasible accepted of " << tally.creations_judged
+              << " judged, " << tally.undo_differs << " differ undone, "
               << tally.redo_differs << " redone, " << tally.invalid << " invalid of " << tally.validations << '\n' << std::flush;
     return true;
   }
@@ -142,6 +144,8 @@ private:
   Exit broken_promise() const {
     if (drags_.invalid + edits_.invalid > 0)
       return not_embedded;
+    if (edits_.creations_wrongly_accepted > 0)
+      return jumped_over;
     if (drags_.changed + edits_.changed > 0)
       return mesh_changed;
     if (edits_.undo_differs > 0)

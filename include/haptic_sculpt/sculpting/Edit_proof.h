@@ -49,7 +49,8 @@ public:
 
   /// Whether a vertex lies in the closed tetrahedron of a triangle and a point.
   bool contains(const Corners<Mesh>& base, const Coordinates& apex, const Coordinates& vertex) const {
-    return face_vertex_verdict(Sweep_points{base[0].point, apex, base[1].point, base[2].point, vertex}, *counters_).hits;
+    return do_meet(Box_3(vertex), box(base).include(apex)) &&
+           face_vertex_verdict(Sweep_points{base[0].point, apex, base[1].point, base[2].point, vertex}, *counters_).hits;
   }
 
   /// The sweeps of a star's centre into its neighbour `link[pivot]`, for the collapse that follows (RULES 3): true when
@@ -106,8 +107,12 @@ public:
 private:
   Counters* counters_;
 
+  static Box_3 box(const Corners<Mesh>& f) { return Box_3(f[0].point).include(f[1].point).include(f[2].point); }
+
+  /// The boxes are exact and closed, so what they rule out does not meet.
   bool meets(const Corner<Mesh>& a, const Corner<Mesh>& b, const Corners<Mesh>& f) const {
-    return vertex_face_verdict(Sweep_points{a.point, b.point, f[0].point, f[1].point, f[2].point}, *counters_).hits;
+    return do_meet(Box_3(a.point).include(b.point), box(f)) &&
+           vertex_face_verdict(Sweep_points{a.point, b.point, f[0].point, f[1].point, f[2].point}, *counters_).hits;
   }
 
   /// Whether the third corners lie on one side of the shared edge. \pre coplanar, neither triangle degenerate
