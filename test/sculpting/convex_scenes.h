@@ -118,7 +118,7 @@ inline Draft pit_scene(Mover mover, Random& random) {
   const Point_3 bottom = Point_3(0, 0, -uniform(random, 1, 3)) + uniform_vector(random, 0.2);
   std::array<Point_3, 3> rim;
   for (int i = 0; i < 3; ++i) {
-    const double angle = 2.0943951023931953 * i + uniform(random, -0.4, 0.4), radius = uniform(random, 1, 3);
+    const double angle = 2.0943951023931953 * i + uniform(random, -0.2, 0.2), radius = uniform(random, 1.5, 2.5);
     rim[i] = Point_3(radius * std::cos(angle), radius * std::sin(angle), 0);
   }
   Draft draft{"pit", pit(rim, bottom), 0, {}, {}};
