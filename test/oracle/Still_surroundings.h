@@ -34,8 +34,9 @@ public:
   using Vertex_index = typename Mesh::Vertex_index;
 
   Still_surroundings(const Mesh& mesh, Vertex_index v) {
+    points_.resize(mesh.num_vertices()); // removed ones too: indices stay
     for (const Vertex_index w : mesh.vertices())
-      points_.push_back(mesh.point(w));
+      points_[w] = mesh.point(w);
     if (!mesh.is_isolated(v)) {
       const auto first = mesh.halfedge(v);
       auto h = first;

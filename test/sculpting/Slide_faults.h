@@ -14,7 +14,7 @@ namespace haptic_sculpt::test {
 /// ends anywhere.
 inline Response response_under_test() {
   const char* text = std::getenv("HAPTIC_SCULPT_TESTED_RESPONSE");
-  return text != nullptr && std::string(text) == "stop" ? Response::stop : Response::stop;
+  return text != nullptr && std::string(text) == "stop" ? Response::stop : Response::slide;
 }
 
 inline std::string exact_text(const Point_3& p) {

@@ -116,6 +116,26 @@ inline meshes::Triangle_list pit(const std::array<Point_3, 3>& rim, const Point_
   return list;
 }
 
+/// A square plate below z = 0, 2 wide, its top cut into n x n cells of two coplanar triangles.
+inline meshes::Triangle_list plate(std::size_t n) {
+  meshes::Triangle_list list;
+  const auto at = [&](std::size_t i, std::size_t j) { return i * (n + 1) + j; };
+  for (std::size_t i = 0; i <= n; ++i)
+    for (std::size_t j = 0; j <= n; ++j)
+      list.add_point(2.0 * static_cast<double>(i) / static_cast<double>(n) - 1, 2.0 * static_cast<double>(j) / static_cast<double>(n) - 1, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      list.add_quadrangle(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+  const std::size_t bottom = list.add_point(0, 0, -1);
+  for (std::size_t k = 0; k < n; ++k) {
+    list.add_face(at(k + 1, 0), at(k, 0), bottom);
+    list.add_face(at(n, k + 1), at(n, k), bottom);
+    list.add_face(at(k, n), at(k + 1, n), bottom);
+    list.add_face(at(0, k), at(0, k + 1), bottom);
+  }
+  return list;
+}
+
 /// How the dragged vertex looks.
 enum class Mover { probe, tetrahedron, bipyramid };
 
