@@ -111,7 +111,7 @@ void chart_scenes(Chart& chart, std::size_t drags, Random& random) {
     for (const Convex_scene& scene : test::convex_scenes(random)) {
       std::vector<Point_3> targets;
       for (std::size_t i = 0; i < targets_per_grab; ++i)
-        targets.push_back(scene.target(random));
+        targets.push_back(scene.any_target(random));
       chart.add({scene.name, scene.mesh, scene.moved, 2}, targets);
     }
     for (const Outside_scene& scene : test::outside_scenes(random)) {

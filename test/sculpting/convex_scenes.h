@@ -9,15 +9,32 @@
 #include "oracle/constrained_optimum.h"
 #include "sculpting/scene_parts.h"
 
+#include <optional>
+
 namespace haptic_sculpt::test {
 
-/// As far as the targets drawn by `target` reach, `moved` is free exactly where all half-spaces hold.
+/// As far as the targets drawn by `target()` reach, `moved` is free exactly where all half-spaces hold.
 struct Convex_scene {
   std::string name;
   Mesh mesh;
   Vertex_index moved;
   std::vector<Half_space> half_spaces;
-  std::function<Point_3(Random&)> target;
+  std::function<Point_3(Random&)> any_target;
+  std::optional<std::array<Point_3, 3>> rim; ///< of a groove or a pit; the free side is positive
+
+  /// A target from where `moved` may be now. Out of a groove a slide could climb over the rim, and then another end is right;
+  /// not so where the ball about the target that holds the source, in which a slide stays, is all below the rim.
+  Point_3 target(Random& random, const Point_3& source) const {
+    for (;;) {
+      const Point_3 t = any_target(random);
+      if (!rim)
+        return t;
+      const Vector_3 n = CGAL::cross_product((*rim)[1] - (*rim)[0], (*rim)[2] - (*rim)[0]);
+      const double depth = -(n * (t - (*rim)[0])) / std::sqrt(n.squared_length());
+      if (depth > 1.001 * std::sqrt(CGAL::squared_distance(t, source)))
+        return t;
+    }
+  }
 };
 
 namespace internal_scenes {
@@ -29,6 +46,7 @@ struct Draft {
   std::size_t moved = 0;
   std::vector<std::array<std::size_t, 3>> planes; ///< three points each; the moved vertex starts on the free side
   std::function<Point_3(Random&)> target;
+  std::optional<std::array<std::size_t, 3>> rim = std::nullopt;
 };
 
 inline std::array<double, 3> array_of(const Point_3& p) { return {p.x(), p.y(), p.z()}; }
@@ -45,7 +63,11 @@ inline Convex_scene finished(Draft draft, const Rigid_motion& motion) {
     scene.half_spaces.push_back({{array_of(p[f[0]]), array_of(p[f[1]]), array_of(p[f[2]])}, side});
   }
   const auto target = draft.target;
-  scene.target = [target, motion](Random& random) { return motion(target(random)); };
+  scene.any_target = [target, motion](Random& random) { return motion(target(random)); };
+  if (draft.rim) {
+    const auto& p = draft.list.points;
+    scene.rim = {{p[(*draft.rim)[0]], p[(*draft.rim)[1]], p[(*draft.rim)[2]]}};
+  }
   return scene;
 }
 
@@ -98,7 +120,7 @@ inline meshes::Triangle_list random_tetrahedron(Random& random) {
 
 inline Draft groove_scene(Mover mover, Random& random) {
   const double width = uniform(random, 0.5, 2), depth = uniform(random, 0.5, 3);
-  Draft draft{"groove", groove(width, depth), 0, {}, {}};
+  Draft draft{"groove", groove(width, depth), 0, {}, {}, {{0, 4, 7}}};
   draft.planes = {draft.list.faces[0], draft.list.faces[2]};
   put_mover(draft, mover, {0.05, 0.1, -0.3 * depth}, {0, 0, 2}, 0.1);
   const double slope = depth / width, length = std::sqrt(1 + slope * slope);
@@ -108,7 +130,8 @@ inline Draft groove_scene(Mover mover, Random& random) {
     const std::size_t kind = r() % 3;
     const Point_3 left(-height / slope, y, height - depth), right(height / slope, y, height - depth), bottom(0, y, -depth);
     const Vector_3 into_left(-slope / length, 0, -1 / length), into_right(slope / length, 0, -1 / length);
-    const double a = uniform(r, -0.05, 2), b = uniform(r, 0, 2);
+    const double deep = r() % 4 == 0 ? 20 : 2; // where it stands near the rim only a far target is right
+    const double a = uniform(r, -0.05, deep), b = uniform(r, 0, deep);
     return kind == 0 ? left + a * into_left : kind == 1 ? right + a * into_right : bottom + a * into_left + b * into_right;
   };
   return draft;
@@ -121,7 +144,7 @@ inline Draft pit_scene(Mover mover, Random& random) {
     const double angle = 2.0943951023931953 * i + uniform(random, -0.2, 0.2), radius = uniform(random, 1.5, 2.5);
     rim[i] = Point_3(radius * std::cos(angle), radius * std::sin(angle), 0);
   }
-  Draft draft{"pit", pit(rim, bottom), 0, {}, {}};
+  Draft draft{"pit", pit(rim, bottom), 0, {}, {}, {{4, 5, 6}}};
   draft.planes = {draft.list.faces[0], draft.list.faces[1], draft.list.faces[2]};
   const Vector_3 axis = CGAL::centroid(rim[0], rim[1], rim[2]) - bottom; // within the cone of the three sides
   put_mover(draft, mover, bottom + 0.4 * axis, bottom + 1.8 * axis, 0.02);
@@ -132,7 +155,8 @@ inline Draft pit_scene(Mover mover, Random& random) {
   }
   draft.target = [=](Random& r) {
     const std::size_t i = r() % 3, j = (i + 1) % 3;
-    const double s = uniform(r, 0.05, 0.9), t = uniform(r, 0, 1), a = uniform(r, 0, 2), b = uniform(r, 0, 2), c = uniform(r, 0, 2);
+    const double deep = r() % 4 == 0 ? 20 : 2;
+    const double s = uniform(r, 0.05, 0.9), t = uniform(r, 0, 1), a = uniform(r, 0, deep), b = uniform(r, 0, deep), c = uniform(r, 0, deep);
     switch (r() % 3) {
     case 0: return bottom + s * (t * (rim[i] - bottom) + (1 - t) * (rim[j] - bottom)) + a * into[i];
     // The edge from the bottom to rim[j] is that of sides i and j.

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(pushes_end_at_the_unique_optimum) {
           sculptor.set_clearance(length);
         auto grab = sculptor.grab(scene.moved);
         for (std::size_t i = 0; i < pushes_per_grab; ++i, ++done) {
-          const Point_3 source = mesh.point(scene.moved), target = scene.target(random);
+          const Point_3 source = mesh.point(scene.moved), target = scene.target(random, source);
           const auto r = grab.drag_to(target);
           BOOST_REQUIRE(r.position == mesh.point(scene.moved));
           check_end(scene, mesh, source, target, sculptor.clearance(target), is_default, r, "push " + std::to_string(i), found);
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(probes_end_at_the_unique_optimum) {
           sculptor.set_clearance(length);
         const Point_3 source = mesh.point(scene.moved);
         for (int i = 0; i < 10; ++i, ++done) {
-          const Point_3 target = scene.target(random);
+          const Point_3 target = scene.target(random, source);
           const auto r = sculptor.probe(source, target);
           check_end(scene, mesh, source, target, std::fmax(length, length == default_length ? sculptor.clearance(target) : 0),
                     length == default_length, r, "probe", found);

