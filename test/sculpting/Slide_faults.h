@@ -2,10 +2,10 @@
 #ifndef HAPTIC_SCULPT_TEST_SLIDE_FAULTS_H
 #define HAPTIC_SCULPT_TEST_SLIDE_FAULTS_H
 
-#include "oracle/hexadecimal.h"
 #include "sculpting/scene_parts.h"
 
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 namespace haptic_sculpt::test {
@@ -23,6 +23,12 @@ inline std::string exact_text(const Point_3& p) {
   return text.str();
 }
 
+/// What was done to a vertex before: where it began, then targets, and nothing where it was let go.
+struct Drag_history {
+  Point_3 start;
+  std::vector<std::optional<Point_3>> targets;
+};
+
 /// Counts faults of one kind, prints the first few as cases to repeat, and writes their meshes where
 /// HAPTIC_SCULPT_FAULTS names a folder: NAME.off with full digits, with the mesh as before the drag.
 class Slide_faults {
@@ -30,7 +36,7 @@ public:
   explicit Slide_faults(std::string kind) : kind_(std::move(kind)) {}
 
   void add(const std::string& scene, const Mesh& mesh, Vertex_index v, const Point_3& source, const Point_3& target,
-           double clearance, const std::string& what) {
+           double clearance, const std::string& what, const Drag_history* history = nullptr) {
     constexpr std::size_t most_printed = 4;
     if (++count_ > most_printed)
       return;
@@ -40,12 +46,16 @@ public:
     BOOST_TEST_MESSAGE(text.str());
     if (const char* folder = std::getenv("HAPTIC_SCULPT_FAULTS")) {
       Mesh before = mesh;
-      before.point(v) = source;
+      before.point(v) = history != nullptr ? history->start : source;
       std::string name = kind_ + "_" + scene + "_" + std::to_string(count_);
       for (char& c : name)
         c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
       std::ofstream file(std::string(folder) + "/" + name + ".off");
-      file << "OFF\n# " << text.str() << '\n' << before.number_of_vertices() << ' ' << before.number_of_faces() << " 0\n";
+      file << "OFF\n# " << text.str() << '\n';
+      if (history != nullptr)
+        for (const auto& t : history->targets)
+          file << (t ? "# drag " + exact_text(*t) : std::string("# release")) << '\n';
+      file << before.number_of_vertices() << ' ' << before.number_of_faces() << " 0\n";
       file.precision(17);
       for (const Vertex_index w : before.vertices())
         file << before.point(w) << '\n';

@@ -26,14 +26,14 @@ struct Findings {
 
 template <class Result>
 void check_end(const Convex_scene& scene, const Mesh& mesh, const Point_3& source, const Point_3& target, double c, bool is_default,
-               const Result& r, const std::string& which, Findings& found) {
+               const Result& r, const std::string& which, Findings& found, const Drag_history* history = nullptr) {
   Errors& errors = found.errors[is_default ? 0 : 1][scene.name];
   ++errors.pushes;
   errors.held += !r.reached;
   errors.most_legs = std::max(errors.most_legs, static_cast<std::size_t>(r.legs));
   const auto fault = [&](Slide_faults& faults, const std::string& what) {
     faults.add(scene.name, mesh, scene.moved, source, target, c,
-               what + "; " + name_of(r.end) + " at " + exact_text(r.position) + ", " + std::to_string(r.legs) + " legs, " + which);
+               what + "; " + name_of(r.end) + " at " + exact_text(r.position) + ", " + std::to_string(r.legs) + " legs, " + which, history);
   };
   // The triangles of one side of a turned cube are coplanar to within an ulp only.
   if (!Offset_half_spaces(scene.half_spaces, -4 * ulp_of(mesh, target)).contains(rational(r.position)))
@@ -82,11 +82,13 @@ BOOST_AUTO_TEST_CASE(pushes_end_at_the_unique_optimum) {
         if (!is_default)
           sculptor.set_clearance(length);
         auto grab = sculptor.grab(scene.moved);
+        Drag_history history{mesh.point(scene.moved), {}};
         for (std::size_t i = 0; i < pushes_per_grab; ++i, ++done) {
           const Point_3 source = mesh.point(scene.moved), target = scene.target(random, source);
+          history.targets.push_back(target);
           const auto r = grab.drag_to(target);
           BOOST_REQUIRE(r.position == mesh.point(scene.moved));
-          check_end(scene, mesh, source, target, sculptor.clearance(target), is_default, r, "push " + std::to_string(i), found);
+          check_end(scene, mesh, source, target, sculptor.clearance(target), is_default, r, "push " + std::to_string(i), found, &history);
         }
         BOOST_REQUIRE(validate(mesh).is_valid());
       }

@@ -40,10 +40,14 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
   auto grab = sculptor.grab(scene.moved);
   Ends& ends = found.by_scene[scene.name];
   ends.has_needle_grooves = scene.has_needle_grooves;
+  Drag_history history{mesh.point(scene.moved), {}};
   for (std::size_t i = 0; i < drags; ++i) {
-    if (random() % 8 == 0)
+    if (random() % 8 == 0) {
       grab.release();
+      history.targets.push_back(std::nullopt);
+    }
     const Point_3 source = mesh.point(scene.moved), target = outside_target(scene, mesh, random);
+    history.targets.push_back(target);
     const double c = sculptor.clearance(target);
     const auto r = grab.drag_to(target);
     ++ends.drags;
@@ -56,7 +60,7 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
       for (const auto& contact : r.contacts)
         text += std::string(" ") + name_of(contact.kind) + (contact.is_flat ? "(flat) " : " ") + std::to_string(contact.vertices[0]) + '-' +
                 std::to_string(contact.vertices[1]) + '-' + std::to_string(contact.vertices[2]);
-      faults.add(scene.name, mesh, scene.moved, source, target, c, text);
+      faults.add(scene.name, mesh, scene.moved, source, target, c, text, &history);
     };
     if (r.position != mesh.point(scene.moved) || r.reached != (r.position == target) || r.reached != (r.end == Drag_end::reached))
       fault(found.end, "the result contradicts itself");

@@ -215,11 +215,15 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
       Point_3 target;
       std::vector<std::size_t> active;
       double c = 0;
+      const auto is_pushed = [&] { // far enough beyond the planes for a tremor not to lift it
+        const auto optimum = Offset_half_spaces(scene.half_spaces, c).nearest({target.x(), target.y(), target.z()});
+        active = optimum.active;
+        return !active.empty() && distance(optimum.point, rational(target)) > 1e-3;
+      };
       do {
         target = scene.target(random, mesh.point(scene.moved));
         c = sculptor.clearance(target);
-        active = Offset_half_spaces(scene.half_spaces, c).nearest({target.x(), target.y(), target.z()}).active;
-      } while (active.empty());
+      } while (!is_pushed());
       ++held;
       const Offset_half_spaces permitted(scene.half_spaces, c);
       const auto height = [&](std::size_t i, const Point_3& p) {
