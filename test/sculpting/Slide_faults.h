@@ -5,6 +5,7 @@
 #include "sculpting/scene_parts.h"
 
 #include <fstream>
+#include <map>
 #include <optional>
 #include <sstream>
 
@@ -29,7 +30,7 @@ struct Drag_history {
   std::vector<std::optional<Point_3>> targets;
 };
 
-/// Counts faults of one kind, prints the first few as cases to repeat, and writes their meshes where
+/// Counts faults of one kind, prints the first few of each scene as cases to repeat, and writes their meshes where
 /// HAPTIC_SCULPT_FAULTS names a folder: NAME.off with full digits, with the mesh as before the drag.
 class Slide_faults {
 public:
@@ -37,8 +38,9 @@ public:
 
   void add(const std::string& scene, const Mesh& mesh, Vertex_index v, const Point_3& source, const Point_3& target,
            double clearance, const std::string& what, const Drag_history* history = nullptr) {
-    constexpr std::size_t most_printed = 4;
-    if (++count_ > most_printed)
+    constexpr std::size_t most_printed = 2;
+    ++count_;
+    if (++count_in_[scene] > most_printed)
       return;
     std::ostringstream text;
     text << kind_ << ": " << scene << ": vertex " << v << " from " << exact_text(source) << " to " << exact_text(target)
@@ -47,7 +49,7 @@ public:
     if (const char* folder = std::getenv("HAPTIC_SCULPT_FAULTS")) {
       Mesh before = mesh;
       before.point(v) = history != nullptr ? history->start : source;
-      std::string name = kind_ + "_" + scene + "_" + std::to_string(count_);
+      std::string name = kind_ + "_" + scene + "_" + std::to_string(count_in_[scene]);
       for (char& c : name)
         c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
       std::ofstream file(std::string(folder) + "/" + name + ".off");
@@ -72,6 +74,7 @@ public:
 private:
   std::string kind_;
   std::size_t count_ = 0;
+  std::map<std::string, std::size_t> count_in_;
 };
 
 } // namespace haptic_sculpt::test

@@ -22,7 +22,7 @@ struct Local_minimum_check {
   double kkt_residual = 0;      ///< from normals computed anew
   bool wrong_contact = false;   ///< a contact that is not there: too far, on the wrong side, or with another normal
   bool only_flat = false;       ///< a flat impact is among what holds it, and without those the pull is not in the cone
-  double slack = 0;             ///< L: how far the end is from the optimum of its own contacts at clearance 0
+  double slack = 0;             ///< L: how far the end is from the optimum of its own contacts at clearance 0; 0 where those do not hold it
   double allowed = 0;           ///< gains below max(8 c, 4 L) are the clearance's
   double random_gain = 0, directed_gain = 0; ///< how much nearer the best free way leads, less what is allowed; > 0: a fault
   Point_3 better;               ///< where the best free way leads
@@ -142,7 +142,9 @@ Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& 
   }
   check.kkt_residual = residual(pull, flat_too);
   check.only_flat = residual(pull, normals) > check.kkt_residual + 1e-10;
-  if (!check.wrong_contact && !planes.empty())
+  // Contacts that do not hold it determine no optimum, and L would excuse anything.
+  constexpr double held = 1e-6;
+  if (!check.wrong_contact && !planes.empty() && check.kkt_residual <= held)
     check.slack = distance(Offset_half_spaces(planes, 0).nearest({target.x(), target.y(), target.z()}).point,
                            rational({x.x(), x.y(), x.z()}));
   check.allowed = std::fmax(8 * c, 4 * check.slack);
