@@ -12,6 +12,8 @@
 
 #include <CGAL/Side_of_triangle_mesh.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 
 namespace haptic_sculpt::test {
@@ -21,6 +23,7 @@ struct Outside_scene {
   Mesh mesh;
   Vertex_index moved;
   double size = 1;                 ///< half of the largest extent of what stands still
+  Point_3 centre{0, 0, 0};
   bool has_needle_grooves = false; ///< stretched so much that grooves are acute
   std::size_t first_of_mover = 0;  ///< vertices from here on belong to what is dragged; all others are other solids'
 };
@@ -181,6 +184,34 @@ inline std::vector<Outside_scene> outside_scenes(Random& random) {
   return scenes;
 }
 
+/// The valid meshes of a folder with at most so many faces, in order of their names; which vertex is dragged is left open.
+inline std::vector<Outside_scene> shared_scenes(const std::filesystem::path& folder, std::size_t most_faces) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (mesh_file_format(entry.path()))
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<Outside_scene> scenes;
+  for (const auto& file : files)
+    try {
+      Outside_scene scene;
+      scene.mesh = read_surface<Mesh>(file);
+      if (scene.mesh.number_of_faces() > most_faces)
+        continue;
+      scene.name = file.filename().string();
+      meshes::Triangle_list points;
+      for (const Vertex_index v : scene.mesh.vertices())
+        points.points.push_back(scene.mesh.point(v));
+      scene.size = internal_scenes::half_extent(points);
+      const auto box = CGAL::bbox_3(points.points.begin(), points.points.end());
+      scene.centre = Point_3((box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2);
+      scenes.push_back(std::move(scene));
+    } catch (const Invalid_surface&) {
+      // What read_surface() refuses is none of a drag's business; test_surface sees to it.
+    }
+  return scenes;
+}
+
 /// Somewhere, and on purpose: through other vertices, exactly on them, on faces, in the plane of own faces, along own edges,
 /// beyond the own star's other side, with coordinates of other vertices so that paths lie in planes of faces, and close by.
 inline Point_3 outside_target(const Outside_scene& scene, const Mesh& mesh, Random& random) {
@@ -196,8 +227,8 @@ inline Point_3 outside_target(const Outside_scene& scene, const Mesh& mesh, Rand
     return mesh.point(mesh.source(h));
   };
   switch (random() % 12) {
-  case 0: case 1: return Point_3(0, 0, 0) + uniform_vector(random, 1.5 * scene.size);
-  case 2: return Point_3(0, 0, 0) + uniform_vector(random, 0.5 * scene.size);
+  case 0: case 1: return scene.centre + uniform_vector(random, 1.5 * scene.size);
+  case 2: return scene.centre + uniform_vector(random, 0.5 * scene.size);
   case 3: { const Point_3 q = any(); return q + uniform(random, 0, 0.5) * (q - p); }
   case 4: return any();
   case 5: { const Point_3 a = any(), b = any(); return CGAL::midpoint(a, b); }
@@ -212,7 +243,7 @@ inline Point_3 outside_target(const Outside_scene& scene, const Mesh& mesh, Rand
   }
   case 9: return p + uniform_vector(random, 0.1 * scene.size);
   case 10: return p + uniform_vector(random, 0.01 * scene.size);
-  default: return p + uniform(random, 0, 0.2) * (Point_3(0, 0, 0) + uniform_vector(random, 0.3) - p);
+  default: return p + uniform(random, 0, 0.2) * (scene.centre + uniform_vector(random, 0.3 * scene.size) - p);
   }
 }
 
