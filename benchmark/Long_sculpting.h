@@ -48,14 +48,17 @@ public:
   /// \param validate_every drags between two validations, \param check_every drags between two checks of a local minimum
   Long_tally run(std::size_t drags, std::size_t validate_every, std::size_t check_every) {
     while (tally_.drags < drags) {
-      if (random_() % 8 == 0)
+      if (random_() % 2 == 0)
         edit();
       const Vertex_index v = any_vertex();
       if (mesh_.is_isolated(v))
         continue;
       auto grab = sculptor_.grab(v);
       for (std::size_t i = 1 + random_() % 10; i > 0 && tally_.drags < drags; --i) {
-        drag(grab, v, target(v), tally_.drags % check_every == 0);
+        const Point_3 to = target(v);
+        if (!CGAL::is_finite(to.x()) || !CGAL::is_finite(to.y()) || !CGAL::is_finite(to.z()))
+          continue; // beyond the largest doubles
+        drag(grab, v, to, tally_.drags % check_every == 0);
         if (tally_.drags % validate_every == 0)
           validate_now();
       }

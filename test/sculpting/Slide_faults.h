@@ -4,6 +4,8 @@
 
 #include "sculpting/scene_parts.h"
 
+#include <boost/test/unit_test.hpp>
+
 #include <fstream>
 #include <map>
 #include <optional>
