@@ -90,8 +90,9 @@ BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
     Mesh mesh = meshes::to_mesh(list);
     const Vertex_index v(static_cast<Mesh::size_type>(moved));
     Broad_phase broad_phase(mesh);
+    const Face_corners<Mesh> corners(mesh);
     Filter_counters counters;
-    Recording_guard guard(mesh, broad_phase, counters);
+    Recording_guard guard(mesh, broad_phase, corners, counters);
     guard.star().collect(mesh, v);
     Responses<Mesh> responses;
     for (int i = 0; i < 5; ++i, ++done) {
