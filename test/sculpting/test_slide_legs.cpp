@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// No leg of a slide crosses anything: every leg against the independent decision of all pairs of faces at all times.
+#include "Random_scene.h"
+
+#include "oracle/embedding_oracle.h"
+#include "sculpting/Slide_faults.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <set>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+using Coordinates = std::array<double, 3>;
+using Broad_phase = Box_tree_broad_phase<Mesh>;
+
+/// A guard that notes which motions it has found free: the legs of a walk are among them.
+class Recording_guard : public Guarded_star<Mesh, Broad_phase> {
+public:
+  using Guarded_star<Mesh, Broad_phase>::Guarded_star;
+
+  void decide(const Coordinates& source, const Coordinates& target, double delta) {
+    Guarded_star::decide(source, target, delta);
+    if (!is_blocked())
+      free_.emplace(source, target);
+  }
+  bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
+    const bool free = Guarded_star::is_free(source, target, delta);
+    if (free)
+      free_.emplace(source, target);
+    return free;
+  }
+
+  /// The legs of a way from source to target through free motions only, or none: then the vertex has gone where nothing was proven.
+  std::vector<std::pair<Coordinates, Coordinates>> way(const Coordinates& source, const Coordinates& target) const {
+    std::map<Coordinates, Coordinates> came_from;
+    std::vector<Coordinates> open = {source};
+    while (!open.empty() && came_from.count(target) == 0) {
+      const Coordinates x = open.back();
+      open.pop_back();
+      for (auto i = free_.lower_bound({x, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}}); i != free_.end() && i->first == x; ++i)
+        if (i->second != source && came_from.emplace(i->second, x).second)
+          open.push_back(i->second);
+    }
+    std::vector<std::pair<Coordinates, Coordinates>> legs;
+    if (came_from.count(target) != 0)
+      for (Coordinates x = target; x != source; x = came_from.at(x))
+        legs.emplace_back(came_from.at(x), x);
+    return legs;
+  }
+  void clear() { free_.clear(); }
+
+private:
+  std::set<std::pair<Coordinates, Coordinates>> free_;
+};
+
+oracle::Mesh_list to_oracle(const meshes::Triangle_list& list) {
+  oracle::Mesh_list result;
+  for (const Point_3& p : list.points)
+    result.points.push_back({p.x(), p.y(), p.z()});
+  for (const auto& f : list.faces)
+    result.faces.push_back({static_cast<int>(f[0]), static_cast<int>(f[1]), static_cast<int>(f[2])});
+  return result;
+}
+
+Point_3 target_of_hand(Random& random, const meshes::Triangle_list& list, int size) {
+  const auto vertex = [&] { return list.points[random() % list.points.size()]; };
+  switch (random() % 5) {
+  case 0: return vertex();
+  case 1: return CGAL::midpoint(vertex(), vertex());
+  case 2: return random_grid_point(random, 2 * size);
+  case 3: return random_grid_point(random, size);
+  default: return Point_3(0, 0, 0) + uniform_vector(random, 2 * size);
+  }
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
+  const std::size_t drags = count_from_environment("HAPTIC_SCULPT_SLIDE_LEGS", 600);
+  Random random(seed_from_environment(510));
+  std::size_t checked = 0, crossing = 0, unproven = 0, held = 0, invalid = 0, done = 0;
+  while (done < drags) {
+    const int size = 1 + static_cast<int>(random() % 3);
+    meshes::Triangle_list list = random_small_list(random, size);
+    std::size_t moved = random() % list.points.size();
+    Mesh mesh = meshes::to_mesh(list);
+    const Vertex_index v(static_cast<Mesh::size_type>(moved));
+    Broad_phase broad_phase(mesh);
+    const Face_corners<Mesh> corners(mesh);
+    Filter_counters counters;
+    Recording_guard guard(mesh, broad_phase, corners, counters);
+    guard.star().collect(mesh, v);
+    Responses<Mesh> responses;
+    for (int i = 0; i < 5; ++i, ++done) {
+      const Point_3 target = target_of_hand(random, list, size);
+      const Coordinates s = vertex_coordinates(mesh, v), t = {target.x(), target.y(), target.z()};
+      if (s == t)
+        continue;
+      const double c = i % 2 == 0 ? default_clearance(4 * size) : 1e-6;
+      Drag_result<Mesh> result;
+      guard.clear();
+      const Coordinates end = responses.move(response_under_test(), guard, mesh, s, t, c, 4 * size, 0, result);
+      held += end != t;
+      const auto legs = guard.way(s, end);
+      if (end != s && legs.empty())
+        ++unproven;
+      oracle::Mesh_list independent = to_oracle(list);
+      for (const auto& [from, to] : legs) {
+        independent.points[moved] = from;
+        ++checked;
+        if (oracle::first_time_not_embedded(independent, static_cast<int>(moved), to)) {
+          ++crossing;
+          BOOST_TEST_MESSAGE("a leg from " << exact_text(Point_3(from[0], from[1], from[2])) << " to "
+                                           << exact_text(Point_3(to[0], to[1], to[2])) << " crosses something");
+        }
+      }
+      mesh.point(v) = Point_3(end[0], end[1], end[2]);
+      list.points[moved] = mesh.point(v);
+      invalid += !validate(mesh).is_valid();
+    }
+  }
+  BOOST_TEST_MESSAGE(done << " drags, " << held << " held, " << checked << " legs checked, " << crossing << " cross something, " << unproven
+                          << " ways are not proven");
+  BOOST_TEST(checked > drags / 2);
+  BOOST_TEST(held > drags / 4);
+  BOOST_TEST(crossing == 0u);
+  BOOST_TEST(unproven == 0u);
+  BOOST_TEST(invalid == 0u);
+}
