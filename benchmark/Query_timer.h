@@ -52,6 +52,9 @@ public:
   /// The smallest difference between two timings of nothing, in nanoseconds: single times are no finer than this.
   double resolution() const { return m_resolution; }
 
+  /// What timing nothing takes, in nanoseconds.
+  double overhead() const { return static_cast<double>(m_overhead) * m_nanoseconds_per_tick; }
+
   /// The duration of what ran between two calls of now(), less what timing nothing takes.
   double nanoseconds(std::uint64_t start, std::uint64_t end) const {
     return end - start <= m_overhead ? 0 : static_cast<double>(end - start - m_overhead) * m_nanoseconds_per_tick;

@@ -35,9 +35,13 @@ public:
     double extent = 0;
     for (const Coordinates& p : star.link_points)
       extent = std::fmax(extent, internal::largest_magnitude(internal::minus(p, centre)));
-    if (!(extent > least_extent && extent < largest_extent))
+    // What stands still may reach far beyond the star: products with it round by as much more.
+    double reach = extent;
+    for (const auto& vertex : list.vertices())
+      reach = std::fmax(reach, internal::largest_magnitude(internal::minus(vertex.point, centre)));
+    if (!(extent > least_extent && reach < largest_extent))
       return;
-    error_ = rounding * (extent + internal::largest_magnitude(centre));
+    error_ = rounding * (reach + internal::largest_magnitude(centre));
     // The link stays; only J can leave the region.
     radius_ = widest * extent;
     for (int i = 0; i < 3; ++i)
@@ -92,7 +96,8 @@ private:
     for (const Vector& q : still)
       highest = std::fmax(highest, internal::dot(n, q));
     const double apart = (lowest - highest) / norm;
-    radius_ = apart > 0 ? std::fmin(radius_, apart) : 0; // NaN, of n = 0, is not apart
+    // The two are about |n| apart. Where that is no more than roundings, and the norm of a tiny n worth nothing, no ball is.
+    radius_ = norm > error_ && apart > 0 ? std::fmin(radius_, apart) : 0;
   }
 
   /// A lower bound of the distance of two boxes.

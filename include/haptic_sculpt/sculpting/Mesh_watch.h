@@ -82,6 +82,9 @@ public:
       check(Vertex_index(static_cast<typename Vertex_index::size_type>(i)));
   }
 
+  /// Bytes held, capacity included.
+  std::size_t memory() const { return points_.capacity() * sizeof(Coordinates); }
+
 private:
   using Counts = std::array<std::size_t, 6>;
 

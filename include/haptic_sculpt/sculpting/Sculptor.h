@@ -207,6 +207,10 @@ public:
   /// \throw Mesh_changed if anything was changed by others. Cost: reads every point.
   void check_unchanged() const { watch_.check_all(); }
 
+  /// Bytes held that grow with the mesh, capacity included: the broad phase, the corners of the faces, the copy of the points, the
+  /// numbers of the vertices. Not the mesh itself, nor the history.
+  std::size_t memory() const { return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory(); }
+
 private:
   friend class Grab<Sculptor>;
 

@@ -47,6 +47,9 @@ public:
 
   void take(std::size_t name) { vertices_[name] = Vertex_index(); }
 
+  /// Bytes held, capacity included.
+  std::size_t memory() const { return vertices_.capacity() * sizeof(Vertex_index) + names_.capacity() * sizeof(std::size_t); }
+
 private:
   std::vector<Vertex_index> vertices_;
   std::vector<std::size_t> names_;

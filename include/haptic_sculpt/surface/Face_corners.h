@@ -37,6 +37,9 @@ public:
       corners_[f] = corners_of_face(*mesh_, f);
   }
 
+  /// Bytes held, capacity included.
+  std::size_t memory() const { return corners_.capacity() * sizeof(corners_[0]); }
+
 private:
   const Mesh* mesh_;
   std::vector<std::array<Vertex_index, 3>> corners_;

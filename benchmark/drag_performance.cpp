@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a drag costs: against the size of the mesh, the valence, and what others do. See doc/performance.md.
+#include "drag_performance/run_structures.h"
+
+#include <CLI/CLI.hpp>
+
+#include <fstream>
+#include <iostream>
+#if defined(__linux__)
+#include <sched.h>
+#endif
+
+namespace {
+
+using namespace haptic_sculpt::benchmark;
+
+/// Runs on one core from now on, so that caches and time stamps are one core's. Returns whether that was possible.
+bool pin_to(int core) {
+#if defined(__linux__)
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  CPU_SET(core, &cores);
+  return sched_setaffinity(0, sizeof cores, &cores) == 0;
+#else
+  (void)core;
+  return false;
+#endif
+}
+
+void print(const Json& row) {
+  std::cout << row.value("structure", "") << ", " << row.value("triangles", 0) << " triangles, " << row.value("mesh", "")
+            << (row.contains("valence") ? ", valence " + std::to_string(row["valence"].get<int>()) : "") << ", "
+            << row.value("workload", "") << ", " << row.value("step_edges", 0.0) << ' ' << row.value("response", "") << ": ";
+  for (const char* key : {"median_ns", "mean_ns", "p99_ns", "p999_ns", "max_ns"})
+    if (row.contains(key))
+      std::cout << key << ' ' << std::lround(row[key].get<double>()) << "  ";
+  for (const char* key : {"blocked", "stop_error_max_clearances", "missed", "wrong_alarms", "tree_seconds", "sculptor_seconds_with_validation",
+                          "tree_bytes_per_triangle", "sculptor_bytes_per_triangle", "per_drag"})
+    if (row.contains(key))
+      std::cout << key << ' ' << row[key] << "  ";
+  std::cout << std::endl;
+}
+
+/// Runs one part and prints what it has found.
+template <class Run>
+void run(Json& rows, const Run& part) {
+  const std::size_t before = rows.size();
+  part();
+  for (std::size_t i = before; i < rows.size(); ++i)
+    print(rows[i]);
+}
+
+} // namespace
+
+int main(int argument_count, char** arguments) {
+  CLI::App app("What a drag costs against the size of the mesh and the valence, beside other structures in the same run");
+  std::string path, parts = "tpovn";
+  std::vector<std::size_t> sizes = {1000, 10000, 100000, 1000000, 5000000};
+  std::vector<std::size_t> valences = {3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 1000};
+  Effort effort;
+  int core = 1;
+  std::size_t largest_peer = 1000000;
+  bool quick = false;
+  app.add_option("--json", path, "write the results here");
+  app.add_option("--seed", effort.seed, "of the random vertices and directions");
+  app.add_option("--sizes", sizes, "numbers of triangles")->delimiter(',');
+  app.add_option("--valences", valences, "of the apex of a fan; none below 3")->delimiter(',');
+  app.add_option("--drags", effort.drags, "timed operations a workload")->check(CLI::PositiveNumber);
+  app.add_option("--peer-drags", effort.peer_drags, "the same, at most, for other structures")->check(CLI::PositiveNumber);
+  app.add_option("--largest-peer", largest_peer, "other structures get no larger mesh");
+  app.add_option("--core", core, "the core to stay on; -1: any");
+  app.add_option("--parts", parts, "t: the box tree; p: its phases; o: other broad phases; v: valence; n: end states by CGAL");
+  app.add_flag("--quick", quick, "small meshes and few drags: shows that everything runs");
+  CLI11_PARSE(app, argument_count, arguments);
+  if (quick) {
+    sizes = {1000, 10000};
+    valences = {3, 16, 100};
+    effort.drags = 400, effort.peer_drags = 100, effort.slow = 1;
+  }
+  const bool is_pinned = core >= 0 && pin_to(core);
+  const auto wanted = [&](char part) { return parts.find(part) != std::string::npos; };
+  Json rows = Json::array(), phases = Json::array();
+  for (const std::size_t triangles : sizes) {
+    if (wanted('t'))
+      run(rows, [&] { run_box_tree(rows, triangles, effort); });
+    if (wanted('p'))
+      run(phases, [&] { run_phases(phases, triangles, effort); });
+    if (triangles > largest_peer)
+      continue;
+    if (wanted('o')) {
+      run(rows, [&] { run_brute_force(rows, triangles, effort); });
+      run(rows, [&] { run_six_lists(rows, triangles, effort); });
+      run(rows, [&] { run_rtree(rows, triangles, effort); });
+    }
+    if (wanted('n'))
+      run(rows, [&] { run_end_states(rows, triangles, effort); });
+  }
+  if (wanted('v'))
+    run(rows, [&] { run_valences(rows, valences, effort); });
+  if (path.empty())
+    return 0;
+  std::ofstream file(path);
+  file << Json{{"seed", effort.seed},
+               {"pinned_to_core", is_pinned ? Json(core) : Json(nullptr)},
+               {"timer_resolution_ns", timer().resolution()},
+               {"timer_overhead_ns", timer().overhead()},
+               {"rows", rows},
+               {"phases", phases}}
+              .dump(1)
+       << '\n';
+  if (!file) {
+    std::cerr << "cannot write " << path << '\n';
+    return 1;
+  }
+}

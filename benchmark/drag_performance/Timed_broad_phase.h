@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_TIMED_BROAD_PHASE_H
+#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_TIMED_BROAD_PHASE_H
+
+#include "drag_performance/Latencies.h"
+
+#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
+
+namespace haptic_sculpt::benchmark {
+
+/// The box tree with a stopwatch in front of it.
+template <class Mesh>
+class Timed_broad_phase {
+public:
+  using Face_index = typename Mesh::Face_index;
+
+  explicit Timed_broad_phase(const Mesh& mesh) : tree_(mesh) {}
+
+  template <class Query>
+  void query(const Query& query, std::vector<Face_index>& faces) {
+    const std::uint64_t start = Query_timer::now();
+    tree_.query(query, faces);
+    asking() += timer().nanoseconds(start, Query_timer::now());
+  }
+  template <class Faces>
+  void faces_moved(const Faces& faces) {
+    const std::uint64_t start = Query_timer::now();
+    tree_.faces_moved(faces);
+    updating() += timer().nanoseconds(start, Query_timer::now());
+  }
+  template <class Faces>
+  void faces_inserted(const Faces& faces) { tree_.faces_inserted(faces); }
+  template <class Faces>
+  void faces_removed(const Faces& faces) { tree_.faces_removed(faces); }
+
+  /// Nanoseconds in queries and in updates since they were set to 0. Of all objects: a Sculptor makes its own.
+  static double& asking() { static double time = 0; return time; }
+  static double& updating() { static double time = 0; return time; }
+
+private:
+  Box_tree_broad_phase<Mesh> tree_;
+};
+
+} // namespace haptic_sculpt::benchmark
+
+#endif

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the time of a drag goes. Nothing in the library is timed from within: the same motions are made by a whole Sculptor, by its
+// Guarded_star with the stop, and by its Guarded_star deciding only; the differences are the phases.
+#include "drag_performance/Random_motions.h"
+#include "drag_performance/Timed_broad_phase.h"
+#include "drag_performance/run_structures.h"
+
+#include <haptic_sculpt/sculpting.h>
+
+namespace haptic_sculpt::benchmark {
+
+namespace {
+
+using Timed = Timed_broad_phase<Mesh>;
+
+/// Motions of one vertex after the other, each straight on from where the last one ended.
+struct Drag_of_steps {
+  Vertex_index vertex;
+  std::vector<Vector> targets;
+};
+
+using Drags = std::vector<Drag_of_steps>;
+
+Drags drags_of(const Workload_mesh& scene, std::uint64_t seed, std::size_t count, std::size_t steps, double step, bool inwards) {
+  Random_motions random(seed);
+  Drags drags;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vertex_index v = random.vertex(scene.mesh);
+    const Vector normal = normal_at(scene.mesh, v);
+    Smooth_way way(random, normal);
+    Vector at = vertex_coordinates(scene.mesh, v);
+    drags.push_back({v, {}});
+    for (std::size_t i = 0; i < steps; ++i)
+      drags.back().targets.push_back(at = internal::advanced(at, step * scene.edge, inwards ? internal::scaled(normal, -1) : way.next()));
+  }
+  return drags;
+}
+
+/// Times of one pass, by what was timed.
+struct Pass {
+  Latencies grab, motion, asking, updating;
+};
+
+/// `is_counted(i, blocked)`: which steps of a drag count.
+template <class Is_counted>
+Pass by_sculptor(const Workload_mesh& scene, const Drags& drags, const Is_counted& is_counted) {
+  Mesh mesh = scene.mesh;
+  Sculptor<Mesh, Timed> sculptor(mesh, parameters::response(Response::stop));
+  Pass pass;
+  for (const Drag_of_steps& drag : drags) {
+    Latencies grabbed;
+    auto grab = grabbed.measure([&] { return sculptor.grab(drag.vertex); });
+    for (std::size_t i = 0; i < drag.targets.size(); ++i) {
+      Latencies moved;
+      Timed::asking() = 0;
+      const bool blocked = !moved.measure([&] { return grab.drag_to(to_point(drag.targets[i])); }).reached;
+      if (is_counted(i, blocked)) {
+        pass.grab.add_nanoseconds(i == 0 ? grabbed.last() : 0);
+        pass.motion.add_nanoseconds(moved.last());
+        pass.asking.add_nanoseconds(Timed::asking());
+      }
+      if (blocked)
+        break;
+    }
+    Timed::updating() = 0;
+    grab.release();
+    pass.updating.add_nanoseconds(Timed::updating());
+    while (sculptor.history().number_of_undo_steps() > 0)
+      sculptor.undo();
+  }
+  return pass;
+}
+
+/// The same by a Guarded_star alone. \param with_stop false: only decides
+template <class Is_counted>
+Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_counted& is_counted, bool with_stop) {
+  Mesh mesh = scene.mesh;
+  Timed broad_phase(mesh);
+  const Face_corners<Mesh> corners(mesh);
+  Filter_counters counters;
+  Guarded_star<Mesh, Timed> guard(mesh, broad_phase, corners, counters);
+  Drag_result<Mesh> result;
+  const double clearance = default_clearance(2);
+  Latencies counted;
+  for (const Drag_of_steps& drag : drags) {
+    guard.star().collect(mesh, drag.vertex);
+    guard.invalidate();
+    Vector at = vertex_coordinates(mesh, drag.vertex);
+    for (std::size_t i = 0; i < drag.targets.size(); ++i) {
+      Latencies moved;
+      if (with_stop)
+        moved.measure([&] { guard.leg(at, drag.targets[i], clearance, 0, result); });
+      else
+        moved.measure([&] { guard.decide(at, drag.targets[i], 0); });
+      const bool blocked = guard.is_blocked() || !guard.is_free(at, drag.targets[i], 0);
+      if (is_counted(i, blocked))
+        counted.add_nanoseconds(moved.last());
+      if (blocked)
+        break;
+      at = drag.targets[i];
+    }
+  }
+  return counted;
+}
+
+template <class Is_counted>
+void add_phases(Json& phases, const Workload_mesh& scene, const char* workload, const Drags& drags, const Is_counted& is_counted) {
+  Pass whole = by_sculptor(scene, drags, is_counted);
+  Latencies leg = by_star(scene, drags, is_counted, true), decision = by_star(scene, drags, is_counted, false);
+  const double grab = whole.grab.mean_of_most(), drag = whole.motion.mean_of_most(), broad = whole.asking.mean_of_most();
+  phases.push_back({{"mesh", scene.name},
+                    {"triangles", static_cast<std::size_t>(scene.mesh.number_of_faces())},
+                    {"workload", workload},
+                    {"count", leg.size()},
+                    {"per_drag",
+                     {{"grab_ns", grab},
+                      {"broad_ns", broad},
+                      {"narrow_with_checklist_ns", std::max(0.0, decision.mean_of_most() - broad)},
+                      {"stop_ns", std::max(0.0, leg.mean_of_most() - decision.mean_of_most())},
+                      {"watch_and_history_ns", std::max(0.0, drag - leg.mean_of_most())},
+                      {"update_at_release_ns", whole.updating.mean_of_most()},
+                      {"drag_ns", drag}}}});
+}
+
+} // namespace
+
+void run_phases(Json& phases, std::size_t triangles, const Effort& effort) {
+  const Workload_mesh torus = torus_of(triangles), shell = shell_of(triangles);
+  const std::uint64_t seed = effort.seed + 10;
+  const auto first = [](std::size_t i, bool) { return i == 0; };
+  const auto further = [](std::size_t i, bool) { return i > 0; };
+  const auto blocked = [](std::size_t, bool is_blocked) { return is_blocked; };
+  add_phases(phases, torus, "new vertex, 0.1 edge", drags_of(torus, seed, effort.drags / 4, 1, 0.1, false), first);
+  add_phases(phases, torus, "in a drag, 0.01 edge", drags_of(torus, seed, effort.drags / 80, 100, 0.01, false), further);
+  add_phases(phases, torus, "in a drag, 0.1 edge", drags_of(torus, seed, effort.drags / 40, 40, 0.1, false), further);
+  add_phases(phases, shell, "the step that meets", drags_of(shell, seed, effort.drags / 40, 40, 0.1, true), blocked);
+  add_phases(phases, torus, "push of 100 edges", drags_of(torus, seed, effort.drags / 10, 1, 100, false), first);
+}
+
+} // namespace haptic_sculpt::benchmark
