@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a fan says is apart, the exact sweeps find apart: on small grids, a few units in the last place beside the fan, at any scale, for flat
+// fans, vanishing motions and repeated points. And it says so often enough to be of use.
+#include "Random_scene.h"
+
+#include <haptic_sculpt/collision.h>
+#include <haptic_sculpt/sculpting/Swept_fan.h>
+
+#include <boost/test/unit_test.hpp>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+using Coordinates = std::array<double, 3>;
+using internal::minus;
+
+struct Drawn_fan {
+  Coordinates source, target;
+  std::vector<Coordinates> link;
+  double scale, offset;
+
+  Drawn_fan(Random& random, int faces) {
+    std::uniform_real_distribution<double> number(-1, 1);
+    scale = std::ldexp(1.0, static_cast<int>(random() % 400) - 200);
+    offset = random() % 2 == 0 ? 0 : scale * 1e3;
+    const bool is_flat = random() % 4 == 0, stands = random() % 8 == 0;
+    source = place(0.1 * number(random), 0.1 * number(random), is_flat ? 0 : 1);
+    target = stands ? source : place(0.3 * number(random), 0.3 * number(random), is_flat ? 0 : 1 + 0.5 * number(random));
+    const double turn = random() % 2 == 0 ? 1 : -1, first = 6 * number(random), opening = 0.3 * (1.1 + number(random));
+    for (int i = 0; i <= faces; ++i)
+      link.push_back(beside(first + turn * opening * i / faces));
+    if (faces > 1 && random() % 8 == 0)
+      link.back() = link.front();
+  }
+
+  Coordinates place(double x, double y, double z) const { return {offset + scale * x, offset + scale * y, offset + scale * z}; }
+  Coordinates beside(double angle) const { return place(std::cos(angle), std::sin(angle), 0.1 * std::cos(3 * angle)); }
+
+  /// A point of the link moved by a few units in the last place, one near its plane, or any.
+  Coordinates draw_still(Random& random) const {
+    std::uniform_real_distribution<double> number(-1, 1);
+    Coordinates p = random() % 2 == 0 ? link[random() % link.size()] : beside(7 * number(random));
+    if (random() % 4 == 0)
+      p = source;
+    switch (random() % 4) {
+    case 0: return place(number(random), number(random), number(random));
+    case 1: return p;
+    case 2:
+      for (double& x : p)
+        x = std::nextafter(x, x + scale * number(random));
+      return p;
+    default:
+      for (double& x : p)
+        x += 0.05 * scale * number(random);
+      return p;
+    }
+  }
+};
+
+Point_3 point(const Coordinates& p) { return Point_3(p[0], p[1], p[2]); }
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(what_a_fan_says_is_apart_is_apart) {
+  Random random(seed_from_environment(71));
+  const std::size_t fans = count_from_environment("HAPTIC_SCULPT_FANS", 6000);
+  const Edge_edge_sweep_3<meshes::Kernel> edge_sweep;
+  const Face_vertex_sweep_3<meshes::Kernel> face_sweep;
+  std::size_t asked = 0, apart = 0, really = 0, wrong = 0;
+  for (std::size_t k = 0; k < fans; ++k) {
+    const int faces = 1 + static_cast<int>(random() % 4);
+    const Drawn_fan drawn(random, faces);
+    std::vector<internal::Vector> spokes;
+    double reach = 4 * drawn.scale;
+    for (const Coordinates& p : drawn.link)
+      spokes.push_back(minus(p, drawn.source));
+    const internal::Swept_fan fan(minus(drawn.target, drawn.source), spokes, 0, static_cast<std::size_t>(faces), reach);
+    for (int i = 0; i < 10; ++i) {
+      const Coordinates p = drawn.draw_still(random), q = drawn.draw_still(random);
+      if (p == q)
+        continue;
+      const auto is_hit = [&](const auto& sweep, const auto&... points) {
+        return sweep.do_collide(point(drawn.source), point(drawn.target), point(points)...);
+      };
+      bool hits = false, p_hits = false;
+      for (int f = 0; f <= faces; ++f)
+        hits = hits || is_hit(edge_sweep, drawn.link[f], p, q);
+      for (int f = 0; f < faces; ++f)
+        p_hits = p_hits || is_hit(face_sweep, drawn.link[f], drawn.link[f + 1], p);
+      const bool is_edge_apart = fan.is_apart(minus(p, drawn.source), minus(q, drawn.source));
+      const bool is_point_apart = fan.is_apart(minus(p, drawn.source));
+      asked += 2, apart += is_edge_apart + is_point_apart, really += !hits + !p_hits;
+      wrong += (is_edge_apart && hits) + (is_point_apart && p_hits);
+    }
+  }
+  BOOST_TEST_MESSAGE(asked << " asked, " << apart << " said to be apart of " << really);
+  BOOST_TEST(wrong == 0u);
+  BOOST_TEST(really < asked);
+  BOOST_TEST(2 * apart > really);
+}
