@@ -2,8 +2,8 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_EDIT_PROOF_H
 #define HAPTIC_SCULPT_SCULPTING_EDIT_PROOF_H
 
-#include <haptic_sculpt/sculpting/Checklist.h>
 #include <haptic_sculpt/collision.h>
+#include <haptic_sculpt/sculpting/Star_runs.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -56,56 +56,62 @@ public:
   /// The sweeps of a star's centre into its neighbour `link[pivot]`, for the collapse that follows (RULES 3): true when
   /// nothing but the faces that vanish is touched. `list` holds the faces not incident to the centre.
   bool can_collapse(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& centre, std::size_t pivot,
-                    std::vector<Vertex_index>& in_the_way) const {
+                    std::vector<Vertex_index>& in_the_way) {
     const std::size_t n = star.valence();
     const std::size_t left = pivot + 1 < n ? pivot + 1 : 0, right = pivot > 0 ? pivot - 1 : n - 1;
     const Vertex_index apex = star.link[pivot];
     const Coordinates& target = star.link_points[pivot];
-    const Box_3 path = Box_3(centre).include(target);
     const auto& vertices = list.vertices();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i == pivot || i == left || i == right)
-        continue;
-      const Box_3 swept = Box_3(path).include(star.link_points[i]);
-      for (const auto& edge : list.edges()) {
+    // The least of all, so that what is told does not depend on the order of the list.
+    const auto note = [&](std::vector<Vertex_index> found) {
+      if (in_the_way.empty() || found < in_the_way)
+        in_the_way = std::move(found);
+    };
+    const auto moving_edge = [&](std::size_t i, const Positions& edges) {
+      const Box_3 swept = Box_3(centre).include(target).include(star.link_points[i]);
+      for (const std::uint32_t e : edges) {
+        const auto& edge = list.edges()[e];
         const auto &a = vertices[edge.vertices[0]], &b = vertices[edge.vertices[1]];
-        if (!do_meet(edge.box, swept) || a.index == apex || b.index == apex || a.index == star.link[i] ||
-            b.index == star.link[i])
+        if (!do_meet(edge.box, swept) || a.index == apex || b.index == apex || a.index == star.link[i] || b.index == star.link[i])
           continue;
-        if (edge_edge_verdict(Sweep_points{centre, target, star.link_points[i], a.point, b.point}, *counters_).hits) {
-          // The least of all, so that what is told does not depend on the order of the list.
-          const std::vector<Vertex_index> found = {std::min(a.index, b.index), std::max(a.index, b.index)};
-          if (in_the_way.empty() || found < in_the_way)
-            in_the_way = found;
-        }
+        if (edge_edge_verdict(Sweep_points{centre, target, star.link_points[i], a.point, b.point}, *counters_).hits)
+          note({std::min(a.index, b.index), std::max(a.index, b.index)});
       }
-      if (!in_the_way.empty())
-        return false;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t j = star.next(i);
-      if (i == pivot || j == pivot)
-        continue;
-      const Box_3 swept = Box_3(path).include(star.link_points[i]).include(star.link_points[j]);
-      for (const auto& vertex : vertices) {
-        if (!do_meet(Box_3(vertex.point), swept) || vertex.index == apex || vertex.index == star.link[i] ||
+    };
+    const auto moving_face = [&](std::size_t i, std::size_t j, const Positions& near) {
+      const Box_3 swept = Box_3(centre).include(target).include(star.link_points[i]).include(star.link_points[j]);
+      for (const std::uint32_t v : near) {
+        const auto& vertex = vertices[v];
+        if (!haptic_sculpt::contains(swept, vertex.point) || vertex.index == apex || vertex.index == star.link[i] ||
             vertex.index == star.link[j])
           continue;
-        if (face_vertex_verdict(Sweep_points{centre, target, star.link_points[i], star.link_points[j], vertex.point},
-                                *counters_)
-                .hits) {
-          if (in_the_way.empty() || vertex.index < in_the_way[0])
-            in_the_way = {vertex.index};
-        }
+        if (face_vertex_verdict(Sweep_points{centre, target, star.link_points[i], star.link_points[j], vertex.point}, *counters_)
+                .hits)
+          note({vertex.index});
       }
-      if (!in_the_way.empty())
-        return false;
-    }
-    return true;
+    };
+    Star_motion motion(centre, target);
+    return runs_.for_each_run(star, list, motion,
+                              [&](std::size_t first, std::size_t last, const Positions& edges, const Positions&) {
+                                for (std::size_t i = first; i < last && in_the_way.empty(); ++i)
+                                  if (i != pivot && i != left && i != right)
+                                    moving_edge(i, edges);
+                                return in_the_way.empty();
+                              }) &&
+           runs_.for_each_run(star, list, motion,
+                              [&](std::size_t first, std::size_t last, const Positions&, const Positions& near) {
+                                for (std::size_t i = first; i < last && in_the_way.empty(); ++i)
+                                  if (i != pivot && star.next(i) != pivot)
+                                    moving_face(i, star.next(i), near);
+                                return in_the_way.empty();
+                              });
   }
 
 private:
+  using Positions = typename Star_runs<Mesh>::Positions;
+
   Counters* counters_;
+  Star_runs<Mesh> runs_;
 
   static Box_3 box(const Corners<Mesh>& f) { return Box_3(f[0].point).include(f[1].point).include(f[2].point); }
 
