@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
 #define HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
 
-#include <haptic_sculpt/sculpting/Checklist.h>
+#include <haptic_sculpt/sculpting/Near_pairs.h>
 #include <haptic_sculpt/sculpting/Star_impact.h>
 
 namespace haptic_sculpt {
@@ -21,117 +21,120 @@ public:
 
   /// Whether nothing is touched on the closed way from source to target.
   bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source, const Coordinates& target) {
-    return for_each_hit(star, list, source, target,
-                        [&](Impact_feature, const std::array<Vertex_index, 3>&, const internal::Sweep_points&,
-                            const internal::Sweep_verdict&) { return false; });
+    return for_each_hit({star, list, source, target, Box_3(source).include(target)}, Any());
+  }
+
+  /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
+  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs, const Coordinates& source,
+               const Coordinates& target) {
+    return for_each_hit({star, list, source, target, Box_3(source).include(target)}, pairs, Any());
   }
 
   /// Fills `firsts` with the impacts that come exactly first; leaves it empty when the way is free.
   void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
                      const Coordinates& target, Star_impacts<Mesh>& firsts) {
+    first_impacts_near(star, list, source, target, Box_3(source).include(target), firsts);
+  }
+
+  /// The same among the pairs that may meet while J is in the box `path`: what comes first while it is there comes first of all.
+  void first_impacts_near(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source, const Coordinates& target,
+                          const Box_3& path, Star_impacts<Mesh>& firsts) {
     firsts.clear();
-    for_each_hit(star, list, source, target,
-                 [&](Impact_feature feature, const std::array<Vertex_index, 3>& vertices,
-                     const internal::Sweep_points& points, const internal::Sweep_verdict& verdict) {
-                   const int order =
-                       firsts.empty() ? -1
-                                      : internal::compare_times(points, verdict, firsts[0].impact().coordinates(),
-                                                                firsts[0].impact().verdict(), *counters_);
-                   if (order < 0)
-                     firsts.clear();
-                   if (order <= 0)
-                     firsts.emplace_back(feature, vertices, points, verdict);
-                   return true;
-                 });
+    for_each_hit({star, list, source, target, path}, Keep_first{firsts, *counters_});
+    std::sort(firsts.begin(), firsts.end());
+  }
+
+  /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
+  void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs, const Coordinates& source,
+                     const Coordinates& target, Star_impacts<Mesh>& firsts) {
+    firsts.clear();
+    for_each_hit({star, list, source, target, Box_3(source).include(target)}, pairs, Keep_first{firsts, *counters_});
     std::sort(firsts.begin(), firsts.end());
   }
 
 private:
-  using Positions = std::vector<std::uint32_t>;
-
-  /// Candidates that the boxes of some neighbouring faces of the star meet, as positions in the checklist.
-  struct Near {
-    Positions edges, vertices;
-  };
+  using Vertices = std::array<Vertex_index, 3>;
 
   Counters* counters_;
-  std::vector<Near> near_; ///< by depth; kept to allocate no more
-
-  /// So many faces of a star are compared with the candidates one by one; more are halved first. A star of a thousand
-  /// faces, each near few candidates, costs n log n that way, not n^2.
-  static constexpr std::size_t few_faces = 3;
+  internal::Near_candidates<Mesh> near_;
 
   /// One motion.
   struct Motion {
     const Star<Mesh>& star;
     const Checklist<Mesh>& list;
     const Coordinates &source, &target;
-    Box_3 path;
+    Box_3 path; ///< where J is
   };
 
-  /// Calls `hit(feature, vertices, points, verdict)` for every pair that meets, until it returns false; returns whether it
-  /// never did.
-  template <class Hit>
-  bool for_each_hit(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
-                    const Coordinates& target, const Hit& hit) {
-    if (source == target && star.valence() != 0)
-      return true; // an embedded star that stands still touches nothing new
-    const Motion motion = {star, list, source, target, Box_3(source).include(target)};
-    const auto& vertices = list.vertices();
-    for (const auto& face : list.faces()) {
-      if (!do_meet(face.box, motion.path))
-        continue;
-      const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
-      const internal::Sweep_points points = {source, target, a.point, b.point, c.point};
-      const internal::Sweep_verdict verdict = internal::vertex_face_verdict(points, *counters_);
-      if (verdict.hits && !hit(Impact_feature::vertex_face, {a.index, b.index, c.index}, points, verdict))
-        return false;
-    }
-    return star.valence() == 0 || star_faces(motion, 0, star.valence(), 0, hit);
-  }
+  /// What is done with a hit, `hit(feature, vertices, points, verdict)`: goes on while that is true.
+  struct Any {
+    bool operator()(Impact_feature, const Vertices&, const internal::Sweep_points&, const internal::Sweep_verdict&) const { return false; }
+  };
+  struct Keep_first {
+    Star_impacts<Mesh>& firsts;
+    Counters& counters;
 
-  /// The faces [first, last) of the star with their edges, against the candidates that their box meets. `depth` times halved.
+    bool operator()(Impact_feature feature, const Vertices& vertices, const internal::Sweep_points& points,
+                    const internal::Sweep_verdict& verdict) const {
+      const int order = firsts.empty() ? -1
+                                       : internal::compare_times(points, verdict, firsts[0].impact().coordinates(),
+                                                                 firsts[0].impact().verdict(), counters);
+      if (order < 0)
+        firsts.clear();
+      if (order <= 0)
+        firsts.emplace_back(feature, vertices, points, verdict);
+      return true;
+    }
+  };
+
+  /// Tells of every pair that meets; returns whether no telling ended it.
   template <class Hit>
-  bool star_faces(const Motion& motion, std::size_t first, std::size_t last, std::size_t depth, const Hit& hit) {
-    if (near_.size() <= depth)
-      near_.resize(depth + 1);
-    const Star<Mesh>& star = motion.star;
-    Box_3 box = motion.path;
-    for (std::size_t i = first; i < last; ++i)
-      box.include(star.link_points[i]);
-    box.include(star.link_points[star.next(last - 1)]);
-    near_[depth].edges.clear();
-    near_[depth].vertices.clear();
-    const auto keep_edge = [&](std::uint32_t e) {
-      if (do_meet(motion.list.edges()[e].box, box))
-        near_[depth].edges.push_back(e);
-    };
-    const auto keep_vertex = [&](std::uint32_t v) {
-      if (contains(box, motion.list.vertices()[v].point))
-        near_[depth].vertices.push_back(v);
-    };
-    if (depth == 0) {
-      for (std::uint32_t e = 0; e < motion.list.edges().size(); ++e)
-        keep_edge(e);
-      for (std::uint32_t v = 0; v < motion.list.vertices().size(); ++v)
-        keep_vertex(v);
-    } else {
-      for (const std::uint32_t e : near_[depth - 1].edges)
-        keep_edge(e);
-      for (const std::uint32_t v : near_[depth - 1].vertices)
-        keep_vertex(v);
-    }
-    if (last - first > few_faces) {
-      const std::size_t middle = first + (last - first) / 2;
-      return star_faces(motion, first, middle, depth + 1, hit) && star_faces(motion, middle, last, depth + 1, hit);
-    }
-    for (std::size_t i = first; i < last; ++i)
-      if (!moving_edge(motion, i, near_[depth].edges, hit) || !moving_face(motion, i, near_[depth].vertices, hit))
+  bool for_each_hit(const Motion& motion, const Hit& hit) {
+    if (stands_still(motion))
+      return true;
+    for (std::uint32_t f = 0; f < motion.list.faces().size(); ++f)
+      if (!vertex_on_face(motion, f, hit))
         return false;
-    return true;
+    return motion.star.valence() == 0 ||
+           near_.for_each_group(motion.star, motion.list, motion.path, 0,
+                                [&](std::size_t first, std::size_t last, const auto& edges, const auto& vertices) {
+                                  for (std::size_t i = first; i < last; ++i)
+                                    if (!moving_edge(motion, i, edges, hit) || !moving_face(motion, i, vertices, hit))
+                                      return false;
+                                  return true;
+                                });
   }
 
   template <class Hit>
+  bool for_each_hit(const Motion& motion, const Near_pairs<Mesh>& pairs, const Hit& hit) {
+    return stands_still(motion) || pairs.for_each_near(motion.source, motion.target, [&](const typename Near_pairs<Mesh>::Pair& pair) {
+      switch (pair.feature) {
+      case Impact_feature::vertex_face: return vertex_on_face(motion, pair.candidate, hit);
+      case Impact_feature::edge_edge: return moving_edge(motion, pair.spoke, One{pair.candidate}, hit);
+      default: return moving_face(motion, pair.spoke, One{pair.candidate}, hit);
+      }
+    });
+  }
+
+  /// An embedded star that stands still touches nothing new.
+  static bool stands_still(const Motion& motion) { return motion.source == motion.target && motion.star.valence() != 0; }
+
+  using One = std::array<std::uint32_t, 1>;
+
+  template <class Hit>
+  bool vertex_on_face(const Motion& motion, std::uint32_t f, const Hit& hit) const {
+    const auto& face = motion.list.faces()[f];
+    if (!do_meet(face.box, motion.path))
+      return true;
+    const auto& vertices = motion.list.vertices();
+    const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
+    const internal::Sweep_points points = {motion.source, motion.target, a.point, b.point, c.point};
+    const internal::Sweep_verdict verdict = internal::vertex_face_verdict(points, *counters_);
+    return !verdict.hits || hit(Impact_feature::vertex_face, Vertices{a.index, b.index, c.index}, points, verdict);
+  }
+
+  /// The edge to link vertex i against these candidates.
+  template <class Positions, class Hit>
   bool moving_edge(const Motion& motion, std::size_t i, const Positions& edges, const Hit& hit) const {
     const auto& vertices = motion.list.vertices();
     const Vertex_index far_end = motion.star.link[i];
@@ -148,13 +151,14 @@ private:
       const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
       const internal::Sweep_points points = {motion.source, motion.target, far_point, low.point, high.point};
       const internal::Sweep_verdict verdict = internal::edge_edge_verdict(points, *counters_);
-      if (verdict.hits && !hit(Impact_feature::edge_edge, {far_end, low.index, high.index}, points, verdict))
+      if (verdict.hits && !hit(Impact_feature::edge_edge, Vertices{far_end, low.index, high.index}, points, verdict))
         return false;
     }
     return true;
   }
 
-  template <class Hit>
+  /// Face i against these candidates.
+  template <class Positions, class Hit>
   bool moving_face(const Motion& motion, std::size_t i, const Positions& vertices, const Hit& hit) const {
     const Star<Mesh>& star = motion.star;
     const std::size_t j = star.next(i);
@@ -165,7 +169,7 @@ private:
         continue;
       const internal::Sweep_points points = {motion.source, motion.target, star.link_points[i], star.link_points[j], vertex.point};
       const internal::Sweep_verdict verdict = internal::face_vertex_verdict(points, *counters_);
-      if (verdict.hits && !hit(Impact_feature::face_vertex, {star.link[i], star.link[j], vertex.index}, points, verdict))
+      if (verdict.hits && !hit(Impact_feature::face_vertex, Vertices{star.link[i], star.link[j], vertex.index}, points, verdict))
         return false;
     }
     return true;

@@ -10,7 +10,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// All boxes (1 - t) B + t T, 0 <= t <= 1, from the box B of a star at its start to the target T.
+/// All boxes (1 - t) B + t T, 0 <= t <= 1 or up to where only a part of the way counts, from the box B of a star at its start to
+/// the target T.
 ///
 /// It holds all that the star sweeps, for that is made of convex combinations of points of B with T. On long pushes it
 /// is far thinner than one box around all. The proof that no rounding loses a box is in doc/broad_phase.md.
@@ -27,7 +28,8 @@ public:
       restrict_time(i + 3, float_below(base.lower[i]), star.target[i] - base.lower[i], true);
       restrict_time(i, float_above(base.upper[i]), star.target[i] - base.upper[i], false);
     }
-    is_long_ = way > extent;
+    is_long_ = way * star.until > extent;
+    until_ = float_above(star.until);
   }
 
   /// Whether the way is longer than the star is wide.
@@ -36,12 +38,12 @@ public:
   /// Bit j is 0 only if no box of the cone meets box j of the node.
   ///
   /// For each axis (1 - t) B.lower + t T <= upper and (1 - t) B.upper + t T >= lower bound t from one side each; the
-  /// times that all six leave, and [0, 1], must not be empty.
+  /// times that all six leave, and [0, until], must not be empty.
   unsigned meeting(const Box_node& node) const {
     static constexpr int bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
     float first[8], last[8];
     for (int j = 0; j < 8; ++j)
-      first[j] = 0, last[j] = 1;
+      first[j] = 0, last[j] = until_;
     for (int k = 0; k < lasts_; ++k) {
       const Limit limit = last_[k];
       for (int j = 0; j < 8; ++j) {
@@ -76,6 +78,7 @@ private:
 
   std::array<Limit, 6> first_, last_;
   int firsts_ = 0, lasts_ = 0;
+  float until_ = 1;
   bool is_long_ = false;
 
   void restrict_time(int bound, float origin, double extent, bool is_upper) {
