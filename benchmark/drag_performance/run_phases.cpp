@@ -94,10 +94,12 @@ void fill_lists(const Mesh& mesh, const std::vector<Wanted_list>& wanted, Latenc
     }
     star.collect(mesh, one.drag->vertex);
     faces.clear();
-    if (one.region.lower[0] <= one.region.upper[0])
-      tree.query(one.region, faces);
-    else
-      tree.query(star.swept(one.source, one.target), faces);
+    Swept_star_3 swept = star.swept(one.source, one.target);
+    if (one.region.lower[0] <= one.region.upper[0]) {
+      swept.source = one.region.lower, swept.target = one.region.upper;
+      swept.is_box = true;
+    }
+    tree.query(swept, faces);
     times.measure([&] { list.assign(mesh, corners, star, faces, one.region); });
   }
 }

@@ -133,8 +133,8 @@ private:
   Star_impacts<Mesh> firsts_;
   std::vector<Limit> limits_;
 
-  /// How much larger than the swept star, in units of the star's largest extent, the region of a checklist is: of the first, which
-  /// has to be filled from memory not seen lately, and of those that follow in one grab.
+  /// How much larger than the motion, in extents of the link, the region of a checklist is: of the first, which has to be filled from
+  /// memory not seen lately, and of those that follow in one grab.
   static constexpr double first_margin = 0.125, region_margin = 0.5;
 
   /// Pairs cost as much as to decide a motion or two without them, so they are taken at the second motion of a grab, and with every
@@ -162,37 +162,37 @@ private:
     return covered;
   }
 
-  /// Longer than the star is wide.
+  /// Longer than the link is wide.
   bool is_long(const Coordinates& source, const Coordinates& target) const {
     double way = 0;
     for (int i = 0; i < 3; ++i)
       way = std::fmax(way, std::abs(target[i] - source[i]));
-    return way > extent(source);
+    return way > link_extent();
   }
 
-  double extent(const Coordinates& source) const {
-    Box_3 here(source);
+  double link_extent() const {
+    Box_3 link;
     for (const Coordinates& p : star_.link_points)
-      here.include(p);
+      link.include(p);
     double most = 0;
     for (int i = 0; i < 3; ++i)
-      most = std::fmax(most, here.upper[i] - here.lower[i]);
+      most = std::fmax(most, link.upper[i] - link.lower[i]);
     return most;
   }
 
   /// Makes the checklist complete for a motion that is not long. Those of one grab share a list.
   void look_around(const Coordinates& source, const Coordinates& target) {
-    const Box_3 box = star_.swept(source, target).box();
-    if (list_.region().contains(box))
+    Box_3 region = Box_3(source).include(target);
+    if (list_.region().contains(region))
       return;
-    const double margin = (list_.faces().empty() ? first_margin : region_margin) * extent(source);
-    Box_3 region = box;
+    const double margin = (list_.faces().empty() ? first_margin : region_margin) * link_extent();
     for (int i = 0; i < 3; ++i) {
       region.lower[i] -= margin;
       region.upper[i] += margin;
     }
-    candidates_.clear();
-    broad_phase_->query(region, candidates_);
+    Swept_star_3 anywhere = star_.swept(region.lower, region.upper);
+    anywhere.is_box = true;
+    look_at(anywhere);
     take_candidates(region);
   }
 
@@ -211,7 +211,7 @@ private:
       is_crowded_ = candidates_.size() > few_faces;
     }
     if (is_crowded_) {
-      const double way = internal::path_length(source, target), size = std::fmax(extent(source), way * least_part);
+      const double way = internal::path_length(source, target), size = std::fmax(link_extent(), way * least_part);
       part.until = 0.25;
       while (part.until > least_part && part.until * way > 2 * size)
         part.until /= 4;

@@ -18,6 +18,7 @@ struct Swept_star_3 {
   const Coordinates* link = nullptr; ///< the link's vertices in order around the star; link[i], link[i + 1] are an edge
   std::size_t valence = 0;           ///< 0 for a probe: then only the segment from source to target counts
   double until = 1;                  ///< only what is passed over up to this time counts; in (0, 1], 1 being the target
+  bool is_box = false;               ///< the centre may be anywhere in the box of source and target, not only straight between them
 
   /// A box around where the centre is: the smallest for the whole way; for a part of it wider by what rounding can do.
   Box_3 path() const {
