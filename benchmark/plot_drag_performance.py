@@ -43,7 +43,7 @@ def main(source, picture):
     sizes.set(xlabel="triangles", ylabel="µs a drag", title="whole drags: median; dotted: 99.9 %")
     sizes.legend(fontsize=8)
 
-    for k, structure in enumerate(["box tree", "Boost.Geometry rtree", "six lists", "brute force"]):
+    for k, structure in enumerate(["box tree", "Boost rtree", "six lists", "brute force"]):
         for workload, style in (("new vertex", "o-"), ("in a drag", "s--")):
             found = series(rows, structure, workload, 0.1, "stop")
             if found:

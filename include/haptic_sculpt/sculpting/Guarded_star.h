@@ -152,8 +152,9 @@ private:
       return true;
     if (star_.valence() == 0 || is_long(source, target))
       return false;
-    look_around(source, target);
-    if (++waited_ <= patience_)
+    const bool is_due = ++waited_ > patience_;
+    look_around(source, target, is_due ? region_margin / 2 * link_extent() : 0);
+    if (!is_due)
       return false;
     waited_ = 0;
     pairs_.assign(star_, list_, source, target);
@@ -180,10 +181,12 @@ private:
     return most;
   }
 
-  /// Makes the checklist complete for a motion that is not long. Those of one grab share a list.
-  void look_around(const Coordinates& source, const Coordinates& target) {
-    Box_3 region = Box_3(source).include(target);
-    if (list_.region().contains(region))
+  /// Makes the checklist complete for a motion that is not long, and `room` around it. Those of one grab share a list.
+  void look_around(const Coordinates& source, const Coordinates& target, double room = 0) {
+    Box_3 region = Box_3(source).include(target), with_room = region;
+    for (int i = 0; i < 3; ++i)
+      with_room.lower[i] -= room, with_room.upper[i] += room;
+    if (list_.region().contains(with_room))
       return;
     const double margin = (list_.faces().empty() ? first_margin : region_margin) * link_extent();
     for (int i = 0; i < 3; ++i) {

@@ -9,7 +9,7 @@ namespace haptic_sculpt {
 
 /// All three sweeps of a star against a checklist (PAPER B; completeness: doc/exact_sweeps.md).
 ///
-/// A pair is left out only when its boxes do not meet, which is decided exactly, or when it shares a vertex that makes
+/// A pair is left out only when its boxes, or those along the diagonals, do not meet, which is decided exactly, or when it shares a vertex that makes
 /// its meeting no collision: faces incident to the moving vertex, edges at the far end of the moving edge.
 template <class Mesh, class Counters = Filter_counters>
 class Narrow_phase {
@@ -54,6 +54,7 @@ public:
 
 private:
   using Vertices = std::array<Vertex_index, 3>;
+  using Diagonal_box = internal::Diagonal_box;
 
   Counters* counters_;
   internal::Near_candidates<Mesh> near_;
@@ -92,15 +93,22 @@ private:
   bool for_each_hit(const Motion& motion, const Hit& hit) {
     if (stands_still(motion))
       return true;
+    const Diagonal_box way(motion.source, motion.target);
     for (std::uint32_t f = 0; f < motion.list.faces().size(); ++f)
-      if (!vertex_on_face(motion, f, hit))
+      if (!vertex_on_face(motion, f, way, hit))
         return false;
     return motion.star.valence() == 0 ||
-           near_.for_each_group(motion.star, motion.list, motion.path, 0,
+           near_.for_each_group(motion.star, motion.list, motion.path, way, 0,
                                 [&](std::size_t first, std::size_t last, const auto& edges, const auto& vertices) {
-                                  for (std::size_t i = first; i < last; ++i)
-                                    if (!moving_edge(motion, i, edges, hit) || !moving_face(motion, i, vertices, hit))
+                                  for (std::size_t i = first; i < last; ++i) {
+                                    Diagonal_box swept = way;
+                                    swept.include(motion.star.link_points[i]);
+                                    if (!moving_edge(motion, i, edges, swept, hit))
                                       return false;
+                                    swept.include(motion.star.link_points[motion.star.next(i)]);
+                                    if (!moving_face(motion, i, vertices, swept, hit))
+                                      return false;
+                                  }
                                   return true;
                                 });
   }
@@ -109,9 +117,9 @@ private:
   bool for_each_hit(const Motion& motion, const Near_pairs<Mesh>& pairs, const Hit& hit) {
     return stands_still(motion) || pairs.for_each_near(motion.source, motion.target, [&](const typename Near_pairs<Mesh>::Pair& pair) {
       switch (pair.feature) {
-      case Impact_feature::vertex_face: return vertex_on_face(motion, pair.candidate, hit);
-      case Impact_feature::edge_edge: return moving_edge(motion, pair.spoke, One{pair.candidate}, hit);
-      default: return moving_face(motion, pair.spoke, One{pair.candidate}, hit);
+      case Impact_feature::vertex_face: return vertex_on_face(motion, pair.candidate, internal::No_box(), hit);
+      case Impact_feature::edge_edge: return moving_edge(motion, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
+      default: return moving_face(motion, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
       }
     });
   }
@@ -121,21 +129,23 @@ private:
 
   using One = std::array<std::uint32_t, 1>;
 
-  template <class Hit>
-  bool vertex_on_face(const Motion& motion, std::uint32_t f, const Hit& hit) const {
+  template <class Box, class Hit>
+  bool vertex_on_face(const Motion& motion, std::uint32_t f, const Box& way, const Hit& hit) const {
     const auto& face = motion.list.faces()[f];
     if (!do_meet(face.box, motion.path))
       return true;
     const auto& vertices = motion.list.vertices();
     const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
+    if (way.excludes(a.point, b.point, c.point))
+      return true;
     const internal::Sweep_points points = {motion.source, motion.target, a.point, b.point, c.point};
     const internal::Sweep_verdict verdict = internal::vertex_face_verdict(points, *counters_);
     return !verdict.hits || hit(Impact_feature::vertex_face, Vertices{a.index, b.index, c.index}, points, verdict);
   }
 
   /// The edge to link vertex i against these candidates.
-  template <class Positions, class Hit>
-  bool moving_edge(const Motion& motion, std::size_t i, const Positions& edges, const Hit& hit) const {
+  template <class Positions, class Box, class Hit>
+  bool moving_edge(const Motion& motion, std::size_t i, const Positions& edges, const Box& swept_diagonals, const Hit& hit) const {
     const auto& vertices = motion.list.vertices();
     const Vertex_index far_end = motion.star.link[i];
     const Coordinates& far_point = motion.star.link_points[i];
@@ -145,7 +155,7 @@ private:
       if (!do_meet(edge.box, swept))
         continue;
       const auto &a = vertices[edge.vertices[0]], &b = vertices[edge.vertices[1]];
-      if (a.index == far_end || b.index == far_end)
+      if (a.index == far_end || b.index == far_end || swept_diagonals.excludes(a.point, b.point))
         continue;
       // The smaller name first, whatever the list's order: what is told does not depend on the broad phase.
       const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
@@ -158,14 +168,15 @@ private:
   }
 
   /// Face i against these candidates.
-  template <class Positions, class Hit>
-  bool moving_face(const Motion& motion, std::size_t i, const Positions& vertices, const Hit& hit) const {
+  template <class Positions, class Box, class Hit>
+  bool moving_face(const Motion& motion, std::size_t i, const Positions& vertices, const Box& swept_diagonals, const Hit& hit) const {
     const Star<Mesh>& star = motion.star;
     const std::size_t j = star.next(i);
     const Box_3 swept = Box_3(motion.path).include(star.link_points[i]).include(star.link_points[j]);
     for (const std::uint32_t v : vertices) {
       const auto& vertex = motion.list.vertices()[v];
-      if (!contains(swept, vertex.point) || vertex.index == star.link[i] || vertex.index == star.link[j])
+      if (!contains(swept, vertex.point) || vertex.index == star.link[i] || vertex.index == star.link[j] ||
+          swept_diagonals.excludes(vertex.point))
         continue;
       const internal::Sweep_points points = {motion.source, motion.target, star.link_points[i], star.link_points[j], vertex.point};
       const internal::Sweep_verdict verdict = internal::face_vertex_verdict(points, *counters_);

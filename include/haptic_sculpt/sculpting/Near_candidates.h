@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_NEAR_CANDIDATES_H
 
 #include <haptic_sculpt/sculpting/Checklist.h>
+#include <haptic_sculpt/sculpting/Diagonal_box.h>
 
 #include <cstdint>
 #include <vector>
@@ -20,16 +21,19 @@ public:
   using Positions = std::vector<std::uint32_t>;
 
   /// Calls `leaf(first, last, edges, vertices)` for groups of faces of the star, those from link[first] to link[last], with positions in
-  /// the checklist: all whose boxes are nowhere more than `margin` (rounded) from a box around `moving` and these faces' link vertices.
-  /// Ends when it returns false, and returns whether it never did.
+  /// the checklist: all that may be no more than `margin` (rounded) from the hull of where the centre is, `moving` and `diagonals`, and
+  /// these faces' link vertices. Ends when it returns false, and returns whether it never did.
   template <class Leaf>
-  bool for_each_group(const Star<Mesh>& star, const Checklist<Mesh>& list, const Box_3& moving, double margin, const Leaf& leaf) {
-    return halve(Search{star, list, moving, margin}, 0, star.valence(), 0, leaf);
+  bool for_each_group(const Star<Mesh>& star, const Checklist<Mesh>& list, const Box_3& moving, const Diagonal_box& diagonals,
+                      double margin, const Leaf& leaf) {
+    return halve(Search{star, list, moving, diagonals, margin, star.valence() > usual_valence}, 0, star.valence(), 0, leaf);
   }
 
 private:
   /// So many faces are compared with the candidates one by one; more are halved first.
   static constexpr std::size_t few_faces = 3;
+  /// In stars of more faces than this candidates are compared along the diagonals too.
+  static constexpr std::size_t usual_valence = 12;
 
   struct Near {
     Positions edges, vertices;
@@ -38,7 +42,9 @@ private:
     const Star<Mesh>& star;
     const Checklist<Mesh>& list;
     const Box_3& moving;
+    const Diagonal_box& diagonals;
     double margin;
+    bool is_large;
   };
 
   std::vector<Near> near_; ///< by depth
@@ -48,9 +54,16 @@ private:
     if (near_.size() <= depth)
       near_.resize(depth + 1);
     Box_3 box = search.moving;
+    Diagonal_box diagonals = search.diagonals;
+    const auto include = [&](const Box_3::Coordinates& p) {
+      box.include(p);
+      if (search.is_large)
+        diagonals.include(p);
+    };
     for (std::size_t i = first; i < last; ++i)
-      box.include(search.star.link_points[i]);
-    box.include(search.star.link_points[search.star.next(last - 1)]);
+      include(search.star.link_points[i]);
+    include(search.star.link_points[search.star.next(last - 1)]);
+    diagonals.inflate(search.margin);
     if (search.margin > 0)
       for (int i = 0; i < 3; ++i)
         box.lower[i] -= search.margin, box.upper[i] += search.margin;
@@ -60,11 +73,12 @@ private:
     near.edges.clear();
     near.vertices.clear();
     const auto keep_edge = [&](std::uint32_t e) {
-      if (do_meet(edges[e].box, box))
+      if (do_meet(edges[e].box, box) &&
+          !(search.is_large && diagonals.excludes(vertices[edges[e].vertices[0]].point, vertices[edges[e].vertices[1]].point)))
         near.edges.push_back(e);
     };
     const auto keep_vertex = [&](std::uint32_t v) {
-      if (contains(box, vertices[v].point))
+      if (contains(box, vertices[v].point) && !(search.is_large && diagonals.excludes(vertices[v].point)))
         near.vertices.push_back(v);
     };
     if (depth == 0) {

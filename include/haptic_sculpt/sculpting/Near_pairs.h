@@ -77,7 +77,7 @@ public:
       return;
     faces(list);
     const bool are_few = near_.for_each_group(
-        star, list, Box_3(centre_), radius_,
+        star, list, Box_3(centre_), internal::Diagonal_box(centre_), radius_,
         [&](std::size_t first, std::size_t last, const auto& edge_positions, const auto& vertex_positions) {
           for (std::size_t i = first; i < last; ++i) {
             edges(star, list, i, edge_positions);
