@@ -120,7 +120,7 @@ void check(const char* name, const meshes::Triangle_list& list, double edge, con
   BOOST_TEST_MESSAGE(name << ", " << name_of(options.response_rule) << ": " << drags << " drags, " << blocked << " blocked, "
                           << with_contacts << " with contacts (" << many << " with very many), " << legs << " legs, " << warm << " allocations, " << warm_gmp << " of GMP");
   BOOST_TEST(warm == 0u);
-  BOOST_TEST(many < drags / 50);
+  BOOST_TEST(many < drags / 20);
   if (!is_extreme)
     BOOST_TEST(warm_gmp == 0u);
   BOOST_TEST(blocked > drags / 50);

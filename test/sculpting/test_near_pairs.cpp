@@ -79,7 +79,8 @@ BOOST_AUTO_TEST_CASE(near_pairs_give_what_all_pairs_give) {
     };
     Near_pairs<Mesh> pairs;
     const double step = std::ldexp(scale, -static_cast<int>(random() % 20));
-    pairs.assign(scene.star, scene.list, scene.centre, internal::advanced(scene.centre, step, direction()));
+    internal::Near_candidates<Mesh> memory;
+    pairs.assign(scene.star, scene.list, memory, scene.centre, internal::advanced(scene.centre, step, direction()));
     if (!pairs.cover(scene.centre, scene.centre))
       continue;
     ++balls;

@@ -129,7 +129,7 @@ private:
   Near_pairs<Mesh> pairs_;
   int patience_ = 1, waited_ = 0;
   bool is_crowded_ = false; ///< the last long motion passed over many faces
-  std::vector<typename Mesh::Face_index> candidates_;
+  std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
   Star_impacts<Mesh> firsts_;
   std::vector<Limit> limits_;
 
@@ -141,8 +141,8 @@ private:
   /// one that leaves the ball. Where they cannot be had, or are too many, they are tried again after twice as many motions.
   static constexpr int most_patience = 64;
 
-  /// So many faces are looked at at once. Of a long way that passes over more, first a part is looked at, as long as the star is wide,
-  /// then four times as much: most long pushes that pass over many are soon stopped.
+  /// So many faces are looked at at once. Of a long way that passes over more, first a part is looked at, about as long as the star is
+  /// wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many are soon stopped.
   static constexpr std::size_t few_faces = 192;
   static constexpr double least_part = 0x1p-10;
 
@@ -157,7 +157,7 @@ private:
     if (!is_due)
       return false;
     waited_ = 0;
-    pairs_.assign(star_, list_, source, target);
+    pairs_.assign(star_, list_, narrow_phase_.near_candidates(), source, target);
     const bool covered = pairs_.cover(source, target);
     patience_ = covered ? 0 : std::min(2 * patience_ + 1, most_patience);
     return covered;
@@ -209,22 +209,28 @@ private:
       is_enough(part);
       return;
     }
-    if (!is_crowded_) {
+    const bool has_looked = !is_crowded_;
+    if (has_looked) {
       look_at(part);
       is_crowded_ = candidates_.size() > few_faces;
     }
     if (is_crowded_) {
       const double way = internal::path_length(source, target), size = std::fmax(link_extent(), way * least_part);
+      std::swap(candidates_, whole_candidates_);
       part.until = 0.25;
       while (part.until > least_part && part.until * way > 2 * size)
-        part.until /= 4;
-      for (; part.until < 1; part.until *= 4) {
+        part.until /= 16;
+      for (; part.until < 1; part.until *= 16) {
         look_at(part);
         take_candidates();
         if (is_enough(part))
           return;
       }
-      look_at(part);
+      part.until = 1;
+      if (has_looked)
+        std::swap(candidates_, whole_candidates_);
+      else
+        look_at(part);
       is_crowded_ = candidates_.size() > few_faces;
     }
     take_candidates();

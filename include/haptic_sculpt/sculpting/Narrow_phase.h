@@ -52,6 +52,9 @@ public:
     std::sort(firsts.begin(), firsts.end());
   }
 
+  /// Working memory, to be shared.
+  internal::Near_candidates<Mesh>& near_candidates() { return near_; }
+
 private:
   using Vertices = std::array<Vertex_index, 3>;
   using Diagonal_box = internal::Diagonal_box;

@@ -26,14 +26,14 @@ public:
   template <class Leaf>
   bool for_each_group(const Star<Mesh>& star, const Checklist<Mesh>& list, const Box_3& moving, const Diagonal_box& diagonals,
                       double margin, const Leaf& leaf) {
-    return halve(Search{star, list, moving, diagonals, margin, star.valence() > usual_valence}, 0, star.valence(), 0, leaf);
+    return halve(Search{star, list, moving, diagonals, margin, star.valence() > usual_valence || list.edges().size() > usual_edges}, 0, star.valence(), 0, leaf);
   }
 
 private:
   /// So many faces are compared with the candidates one by one; more are halved first.
   static constexpr std::size_t few_faces = 3;
-  /// In stars of more faces than this candidates are compared along the diagonals too.
-  static constexpr std::size_t usual_valence = 12;
+  /// Where the star has more faces than this, or there are more edges, groups are compared along the diagonals too.
+  static constexpr std::size_t usual_valence = 12, usual_edges = 256;
 
   struct Near {
     Positions edges, vertices;
@@ -72,6 +72,8 @@ private:
     Near& near = near_[depth];
     near.edges.clear();
     near.vertices.clear();
+    near.edges.reserve(edges.size()); // whatever is near another time, nothing is allocated then
+    near.vertices.reserve(vertices.size());
     const auto keep_edge = [&](std::uint32_t e) {
       if (do_meet(edges[e].box, box) &&
           !(search.is_large && diagonals.excludes(vertices[edges[e].vertices[0]].point, vertices[edges[e].vertices[1]].point)))

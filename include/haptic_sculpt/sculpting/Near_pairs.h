@@ -27,6 +27,8 @@ public:
     std::uint32_t candidate; ///< which face, edge or vertex of the checklist
   };
 
+  Near_pairs() { pairs_.reserve(2 * most_pairs); }
+
   void clear() {
     square_ = -1;
     pairs_.clear();
@@ -51,7 +53,8 @@ public:
   /// Takes pairs around a place a little ahead on the way from source to target. Covers that motion afterwards, or nothing: where it
   /// is long, or there are many pairs, or sizes are extreme.
   /// \pre the list is complete in its region, which the motion does not leave. Cost: n log n, as a motion is decided.
-  void assign(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source, const Coordinates& target) {
+  void assign(const Star<Mesh>& star, const Checklist<Mesh>& list, internal::Near_candidates<Mesh>& near, const Coordinates& source,
+              const Coordinates& target) {
     clear();
     double extent = 0, around = 0;
     for (std::size_t i = 0; i < star.valence(); ++i) {
@@ -76,10 +79,10 @@ public:
     if (!(reach < largest_extent && farther(source, target) < r * r))
       return;
     faces(list);
-    const bool are_few = near_.for_each_group(
+    const bool are_few = near.for_each_group(
         star, list, Box_3(centre_), internal::Diagonal_box(centre_), radius_,
         [&](std::size_t first, std::size_t last, const auto& edge_positions, const auto& vertex_positions) {
-          for (std::size_t i = first; i < last; ++i) {
+          for (std::size_t i = first; i < last && pairs_.size() <= most_pairs; ++i) {
             edges(star, list, i, edge_positions);
             vertices(star, list, i, vertex_positions);
           }
@@ -112,7 +115,6 @@ private:
   double square_ = -1, nearest_ = -1; ///< the least of all squares
   double radius_ = 0, error_ = 0;
   std::vector<Pair> pairs_;
-  internal::Near_candidates<Mesh> near_;
 
   /// The square of the distance from the centre to the farther point.
   double farther(const Coordinates& p, const Coordinates& q) const {
