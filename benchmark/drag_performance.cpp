@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <iostream>
+#include <map>
 #if defined(__linux__)
 #include <sched.h>
 #endif
@@ -34,11 +35,33 @@ void print(const Json& row) {
   for (const char* key : {"median_ns", "mean_ns", "p99_ns", "p999_ns", "max_ns"})
     if (row.contains(key))
       std::cout << key << ' ' << std::lround(row[key].get<double>()) << "  ";
-  for (const char* key : {"blocked", "stop_error_max_clearances", "missed", "wrong_alarms", "tree_seconds", "sculptor_seconds_with_validation",
+  for (const char* key : {"blocked", "exact_signs_per_drag", "stop_error_max_clearances", "missed", "wrong_alarms", "tree_seconds", "sculptor_seconds_with_validation",
                           "tree_bytes_per_triangle", "sculptor_bytes_per_triangle", "per_drag"})
     if (row.contains(key))
       std::cout << key << ' ' << row[key] << "  ";
   std::cout << std::endl;
+}
+
+/// The slopes of log median over log valence, by least squares, from valence 16 on.
+Json fits_of_valences(const Json& rows) {
+  struct Sums {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Sums> all;
+  for (const Json& row : rows) {
+    if (!row.contains("valence") || row["valence"] < 16 || !row.contains("median_ns") || !(row["median_ns"] > 0))
+      continue;
+    Sums& sums = all[{row["mesh"], row["workload"]}];
+    const double x = std::log(row["valence"].get<double>()), y = std::log(row["median_ns"].get<double>());
+    sums.n += 1, sums.x += x, sums.y += y, sums.xx += x * x, sums.xy += x * y;
+  }
+  Json fits = Json::array();
+  for (const auto& [key, sums] : all)
+    if (sums.n > 1)
+      fits.push_back({{"mesh", key.first},
+                      {"workload", key.second},
+                      {"exponent", (sums.n * sums.xy - sums.x * sums.y) / (sums.n * sums.xx - sums.x * sums.x)}});
+  return fits;
 }
 
 /// Runs one part and prints what it has found.
@@ -67,7 +90,7 @@ int main(int argument_count, char** arguments) {
   app.add_option("--valences", valences, "of the apex of a fan; none below 3")->delimiter(',');
   app.add_option("--drags", effort.drags, "timed operations a workload")->check(CLI::PositiveNumber);
   app.add_option("--peer-drags", effort.peer_drags, "the same, at most, for other structures")->check(CLI::PositiveNumber);
-  app.add_option("--largest-peer", largest_peer, "other structures get no larger mesh");
+  app.add_option("--largest-peer", largest_peer, "other structures, and the phases, get no larger mesh");
   app.add_option("--core", core, "the core to stay on; -1: any");
   app.add_option("--parts", parts, "t: the box tree; p: its phases; o: other broad phases; v: valence; n: end states by CGAL");
   app.add_flag("--quick", quick, "small meshes and few drags: shows that everything runs");
@@ -83,7 +106,7 @@ int main(int argument_count, char** arguments) {
   for (const std::size_t triangles : sizes) {
     if (wanted('t'))
       run(rows, [&] { run_box_tree(rows, triangles, effort); });
-    if (wanted('p'))
+    if (wanted('p') && triangles <= largest_peer)
       run(phases, [&] { run_phases(phases, triangles, effort); });
     if (triangles > largest_peer)
       continue;
@@ -97,6 +120,9 @@ int main(int argument_count, char** arguments) {
   }
   if (wanted('v'))
     run(rows, [&] { run_valences(rows, valences, effort); });
+  const Json fits = fits_of_valences(rows);
+  for (const Json& fit : fits)
+    std::cout << fit.dump() << '\n';
   if (path.empty())
     return 0;
   std::ofstream file(path);
@@ -104,6 +130,7 @@ int main(int argument_count, char** arguments) {
                {"pinned_to_core", is_pinned ? Json(core) : Json(nullptr)},
                {"timer_resolution_ns", timer().resolution()},
                {"timer_overhead_ns", timer().overhead()},
+               {"valence_fits", fits},
                {"rows", rows},
                {"phases", phases}}
               .dump(1)

@@ -146,7 +146,7 @@ std::vector<Result> measure_all(const Query_timer& timer, const std::vector<Judg
 
 /// The share of queries of which some sign left each stage of our filter.
 nlohmann::json filter_shares(const std::vector<Judged_query>& queries) {
-  std::array<std::uint64_t, 4> reached{};
+  std::array<std::uint64_t, 5> reached{};
   for (const Judged_query& q : queries) {
     Filter_counters counters;
     const Swept_collision_traits_3<Kernel, Filter_counters> traits(&counters);
@@ -154,12 +154,13 @@ nlohmann::json filter_shares(const std::vector<Judged_query>& queries) {
     reached[0] += counters.permanent != 0;
     reached[1] += counters.integer_64 != 0;
     reached[2] += counters.integer_128 != 0;
-    reached[3] += counters.big_integer != 0;
+    reached[3] += counters.integer_256 != 0;
+    reached[4] += counters.big_integer != 0;
   }
   const auto share = [&](std::size_t stage) {
     return static_cast<double>(reached[stage]) / static_cast<double>(queries.size());
   };
-  return {{"permanent", share(0)}, {"integer_64", share(1)}, {"integer_128", share(2)}, {"big_integer", share(3)}};
+  return {{"permanent", share(0)}, {"integer_64", share(1)}, {"integer_128", share(2)}, {"integer_256", share(3)}, {"big_integer", share(4)}};
 }
 
 std::vector<Judged_query> judged_queries(const test::Sweep_population& population, std::size_t count,

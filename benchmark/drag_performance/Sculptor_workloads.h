@@ -35,10 +35,10 @@ public:
       const Vertex_index v = random.vertex(mesh_);
       const Point_3 target = to_point(internal::advanced(place(v), step * edge_, random.direction()));
       auto grab = grabs.measure([&] { return sculptor_.grab(v); });
-      const Result result = drags.measure([&] { return grab.drag_to(target); });
+      const Result result = timed_drag(grab, target, drags);
       releases.measure([&] { grab.release(); });
       firsts.add_nanoseconds(grabs.last() + drags.last());
-      errors.note(result, sculptor_);
+      errors.note(result, sculptor_, exact_);
       take_back();
     }
     add_row(rows, "new vertex", step, firsts, errors);
@@ -61,7 +61,7 @@ public:
         if (i == 0)
           grab.drag_to(target);
         else
-          errors.note(steps.measure([&] { return grab.drag_to(target); }), sculptor_);
+          errors.note(timed_drag(grab, target, steps), sculptor_, exact_);
       }
       take_back();
     }
@@ -82,11 +82,11 @@ public:
       for (int i = 0; i < 200 && !is_met; ++i) {
         const Point_3 target = to_point(internal::advanced(place(v), step * edge_, inwards));
         Latencies one;
-        const Result result = one.measure([&] { return grab.drag_to(target); });
+        const Result result = timed_drag(grab, target, one);
         is_met = !result.contacts.empty() || !result.reached;
         (is_met ? meetings : approaches).add_nanoseconds(one.last());
         if (is_met)
-          met.note(result, sculptor_);
+          met.note(result, sculptor_, exact_);
       }
       // Pressed in by half a step, and a step along.
       for (std::size_t i = 0; i < slides && is_met; ++i) {
@@ -94,7 +94,7 @@ public:
         const Vector across = internal::advanced(way.next(), 0, inwards);
         const Vector along = internal::normalized(internal::advanced(across, -internal::dot(across, inwards), inwards));
         const Point_3 target = to_point(internal::advanced(pressed, step * edge_, along));
-        held.note(after.measure([&] { return grab.drag_to(target); }), sculptor_);
+        held.note(timed_drag(grab, target, after), sculptor_, exact_);
       }
       take_back();
     }
@@ -113,7 +113,7 @@ public:
       const Point_3 target = to_point(internal::advanced(place(v), reach * edge_, random.direction()));
       Latencies grabbed;
       auto grab = grabbed.measure([&] { return sculptor_.grab(v); });
-      errors.note(drags.measure([&] { return grab.drag_to(target); }), sculptor_);
+      errors.note(timed_drag(grab, target, drags), sculptor_, exact_);
       whole.add_nanoseconds(grabbed.last() + drags.last());
       take_back();
     }
@@ -137,7 +137,7 @@ public:
         Vector target = internal::advanced(place(v), step * edge_, random.direction());
         target[axis] = place(v)[axis];
         (i == 0 ? first_errors : errors)
-            .note((i == 0 ? firsts : steps).measure([&] { return grab.drag_to(to_point(target)); }), sculptor_);
+            .note(timed_drag(grab, to_point(target), i == 0 ? firsts : steps), sculptor_, exact_);
       }
       take_back();
     }
@@ -155,12 +155,12 @@ public:
       auto grab = sculptor_.grab(v);
       for (std::size_t i = 0; i < 3; ++i) {
         const Point_3 target = to_point(internal::advanced(at, step, random.direction()));
-        (i == 0 ? firsts : steps).measure([&] { return grab.drag_to(target); });
+        timed_drag(grab, target, i == 0 ? firsts : steps);
       }
       take_back();
       auto again = sculptor_.grab(v);
       const Point_3 target(at[0] + 0.1 * (random.uniform() - 0.5), at[1] + 0.1 * (random.uniform() - 0.5), -2);
-      errors.note(pushes.measure([&] { return again.drag_to(target); }), sculptor_);
+      errors.note(timed_drag(again, target, pushes), sculptor_, exact_);
       take_back();
     }
     for (auto& [workload, times] : {std::pair<const char*, Latencies*>{"valence: first drag", &firsts},
@@ -173,11 +173,14 @@ public:
 private:
   /// Errors of stops, and how many drags were blocked.
   struct Errors {
-    std::size_t blocked = 0, legs = 0;
+    std::size_t drags = 0, blocked = 0, legs = 0;
+    std::uint64_t exact = 0; ///< signs that doubles could not decide
     Latencies stop_errors; ///< in clearances; of stops with one contact whose plane is determined
     std::size_t beyond_two = 0;
 
-    void note(const Result& result, const Sculptor_type& sculptor) {
+    void note(const Result& result, const Sculptor_type& sculptor, const std::uint64_t& exact_signs) {
+      ++drags;
+      exact += exact_signs;
       legs += static_cast<std::size_t>(result.legs);
       if (result.reached)
         return;
@@ -195,6 +198,19 @@ private:
   std::uint64_t seed_;
   Sculptor_type sculptor_;
   Response response_;
+  std::uint64_t exact_ = 0; ///< of the last timed drag
+
+  std::uint64_t exact_signs() const {
+    return sculptor_.filter_counters().failures() - sculptor_.filter_counters().permanent;
+  }
+
+  template <class Grab_type>
+  Result timed_drag(Grab_type& grab, const Point_3& target, Latencies& times) {
+    const std::uint64_t before = exact_signs();
+    Result result = times.measure([&] { return grab.drag_to(target); });
+    exact_ = exact_signs() - before;
+    return result;
+  }
 
   Vector place(Vertex_index v) const { return vertex_coordinates(mesh_, v); }
 
@@ -211,8 +227,11 @@ private:
                 {"step_edges", step},
                 {"response", name_of(response_)}};
     row.update(times.json());
-    row["blocked"] = errors.blocked;
-    row["mean_legs"] = times.size() > 0 ? static_cast<double>(errors.legs) / static_cast<double>(times.size()) : 0;
+    if (errors.drags > 0) {
+      row["blocked"] = errors.blocked;
+      row["mean_legs"] = static_cast<double>(errors.legs) / static_cast<double>(errors.drags);
+      row["exact_signs_per_drag"] = static_cast<double>(errors.exact) / static_cast<double>(errors.drags);
+    }
     if (errors.stop_errors.size() > 0) {
       const Json e = errors.stop_errors.json();
       row["stop_error_median_clearances"] = e["median_ns"];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the time of a drag goes. Nothing in the library is timed from within: the same motions are made by a whole Sculptor, by its
-// Guarded_star with the stop, and by its Guarded_star deciding only; the differences are the phases.
+// Guarded_star with the stop, and by its Guarded_star deciding only; the differences are the phases. Checklists are filled once more
+// by themselves, one star after the other, so that they find the memory as cold. Of a slide, the calls of its guard are timed.
+#include "drag_performance/Timed_guard.h"
 #include "drag_performance/Random_motions.h"
 #include "drag_performance/Timed_broad_phase.h"
 #include "drag_performance/run_structures.h"
@@ -71,9 +73,41 @@ Pass by_sculptor(const Workload_mesh& scene, const Drags& drags, const Is_counte
   return pass;
 }
 
+/// What a checklist was filled for.
+struct Wanted_list {
+  const Drag_of_steps* drag;
+  Vector source, target;
+  Box_3 region; ///< empty: for this motion alone
+  bool is_wanted;
+};
+
+void fill_lists(const Mesh& mesh, const std::vector<Wanted_list>& wanted, Latencies& times) {
+  Box_tree_broad_phase<Mesh> tree(mesh);
+  const Face_corners<Mesh> corners(mesh);
+  Star<Mesh> star;
+  Checklist<Mesh> list;
+  std::vector<Mesh::Face_index> faces;
+  for (const Wanted_list& one : wanted) {
+    if (!one.is_wanted) {
+      times.add_nanoseconds(0);
+      continue;
+    }
+    star.collect(mesh, one.drag->vertex);
+    faces.clear();
+    Swept_star_3 swept = star.swept(one.source, one.target);
+    if (one.region.lower[0] <= one.region.upper[0]) {
+      swept.source = one.region.lower, swept.target = one.region.upper;
+      swept.is_box = true;
+    }
+    tree.query(swept, faces);
+    times.measure([&] { list.assign(mesh, corners, star, faces, one.region); });
+  }
+}
+
 /// The same by a Guarded_star alone. \param with_stop false: only decides
+/// \param lists gets, for each step that counts, the time to fill its checklist; 0 where it was there
 template <class Is_counted>
-Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_counted& is_counted, bool with_stop) {
+Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_counted& is_counted, bool with_stop, Latencies* lists = nullptr) {
   Mesh mesh = scene.mesh;
   Timed broad_phase(mesh);
   const Face_corners<Mesh> corners(mesh);
@@ -82,6 +116,8 @@ Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_count
   Drag_result<Mesh> result;
   const double clearance = default_clearance(2);
   Latencies counted;
+  std::size_t looks = guard.looks();
+  std::vector<Wanted_list> wanted;
   for (const Drag_of_steps& drag : drags) {
     guard.star().collect(mesh, drag.vertex);
     guard.invalidate();
@@ -92,21 +128,29 @@ Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_count
         moved.measure([&] { guard.leg(at, drag.targets[i], clearance, 0, result); });
       else
         moved.measure([&] { guard.decide(at, drag.targets[i], 0); });
+      const bool has_looked = guard.looks() != looks;
+      looks = guard.looks();
       const bool blocked = guard.is_blocked() || !guard.is_free(at, drag.targets[i], 0);
       if (is_counted(i, blocked))
         counted.add_nanoseconds(moved.last());
+      if (lists != nullptr && is_counted(i, blocked))
+        wanted.push_back({&drag, at, drag.targets[i], guard.checklist().region(), has_looked});
+      looks = guard.looks();
       if (blocked)
         break;
       at = drag.targets[i];
     }
   }
+  if (lists != nullptr)
+    fill_lists(mesh, wanted, *lists);
   return counted;
 }
 
 template <class Is_counted>
 void add_phases(Json& phases, const Workload_mesh& scene, const char* workload, const Drags& drags, const Is_counted& is_counted) {
   Pass whole = by_sculptor(scene, drags, is_counted);
-  Latencies leg = by_star(scene, drags, is_counted, true), decision = by_star(scene, drags, is_counted, false);
+  Latencies lists;
+  Latencies leg = by_star(scene, drags, is_counted, true), decision = by_star(scene, drags, is_counted, false, &lists);
   const double grab = whole.grab.mean_of_most(), drag = whole.motion.mean_of_most(), broad = whole.asking.mean_of_most();
   phases.push_back({{"mesh", scene.name},
                     {"triangles", static_cast<std::size_t>(scene.mesh.number_of_faces())},
@@ -115,11 +159,70 @@ void add_phases(Json& phases, const Workload_mesh& scene, const char* workload, 
                     {"per_drag",
                      {{"grab_ns", grab},
                       {"broad_ns", broad},
-                      {"narrow_with_checklist_ns", std::max(0.0, decision.mean_of_most() - broad)},
+                      {"checklist_ns", lists.mean_of_most()},
+                      {"narrow_ns", std::max(0.0, decision.mean_of_most() - broad - lists.mean_of_most())},
                       {"stop_ns", std::max(0.0, leg.mean_of_most() - decision.mean_of_most())},
                       {"watch_and_history_ns", std::max(0.0, drag - leg.mean_of_most())},
                       {"update_at_release_ns", whole.updating.mean_of_most()},
                       {"drag_ns", drag}}}});
+}
+
+/// Slides: every vertex is pushed in until it is held, then dragged on along what holds it; only that is timed.
+void add_slide_phases(Json& phases, const Workload_mesh& scene, std::uint64_t seed, std::size_t count, std::size_t slides, double step) {
+  Mesh mesh = scene.mesh;
+  Timed broad_phase(mesh);
+  const Face_corners<Mesh> corners(mesh);
+  Filter_counters counters;
+  Guarded_star<Mesh, Timed> star(mesh, broad_phase, corners, counters);
+  Timed_guard<Guarded_star<Mesh, Timed>> guard(star);
+  Responses<Mesh> responses;
+  const double clearance = default_clearance(2);
+  Random_motions random(seed);
+  Latencies whole, asking, deciding, planes, calls;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vertex_index v = random.vertex(mesh);
+    const Vector inwards = internal::scaled(normal_at(mesh, v), -1);
+    Smooth_way way(random, random.direction());
+    star.star().collect(mesh, v);
+    star.invalidate();
+    responses.forget();
+    Vector at = vertex_coordinates(mesh, v);
+    bool is_met = false;
+    for (std::size_t i = 0; i < 100 + slides; ++i) {
+      const Vector across = way.next();
+      const Vector along = internal::normalized(internal::advanced(across, -internal::dot(across, inwards), inwards));
+      const Vector target = is_met ? internal::advanced(internal::advanced(at, 0.5 * step * scene.edge, inwards), step * scene.edge, along)
+                                   : internal::advanced(at, step * scene.edge, inwards);
+      Drag_result<Mesh> result;
+      Latencies one;
+      guard.reset();
+      Timed::asking() = 0;
+      at = one.measure([&] { return responses.move(Response::slide, guard, mesh, at, target, clearance, 2, 0, result); });
+      if (is_met) {
+        whole.add_nanoseconds(one.last());
+        asking.add_nanoseconds(Timed::asking());
+        deciding.add_nanoseconds(guard.deciding - Timed::asking());
+        planes.add_nanoseconds(guard.planes);
+        calls.add_nanoseconds(static_cast<double>(guard.motions));
+      }
+      if (!is_met && !result.contacts.empty())
+        is_met = true, i = 100;
+      if (!is_met && i == 99)
+        break;
+    }
+  }
+  const double rest = whole.mean_of_most() - asking.mean_of_most() - deciding.mean_of_most() - planes.mean_of_most();
+  phases.push_back({{"mesh", scene.name},
+                    {"triangles", static_cast<std::size_t>(scene.mesh.number_of_faces())},
+                    {"workload", "slide in contact, 0.1 edge"},
+                    {"count", whole.size()},
+                    {"motions_decided", calls.mean_of_most()},
+                    {"per_drag",
+                     {{"broad_ns", asking.mean_of_most()},
+                      {"narrow_ns", deciding.mean_of_most()},
+                      {"stop_ns", planes.mean_of_most()},
+                      {"response_ns", std::max(0.0, rest)},
+                      {"drag_ns", whole.mean_of_most()}}}});
 }
 
 } // namespace
@@ -134,6 +237,7 @@ void run_phases(Json& phases, std::size_t triangles, const Effort& effort) {
   add_phases(phases, torus, "in a drag, 0.01 edge", drags_of(torus, seed, effort.drags / 80, 100, 0.01, false), further);
   add_phases(phases, torus, "in a drag, 0.1 edge", drags_of(torus, seed, effort.drags / 40, 40, 0.1, false), further);
   add_phases(phases, shell, "the step that meets", drags_of(shell, seed, effort.drags / 40, 40, 0.1, true), blocked);
+  add_slide_phases(phases, shell, seed, effort.drags / 50, 20, 0.1);
   add_phases(phases, torus, "push of 100 edges", drags_of(torus, seed, effort.drags / 10, 1, 100, false), first);
 }
 

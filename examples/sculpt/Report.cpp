@@ -85,6 +85,7 @@ std::string report_of(const Run_result& result) {
   const Json filter = {{"permanent", result.filter.permanent},
                        {"integer_64", result.filter.integer_64},
                        {"integer_128", result.filter.integer_128},
+                       {"integer_256", result.filter.integer_256},
                        {"big_integer", result.filter.big_integer}};
   // Put together edit by edit: a tree of a million edits would take gigabytes.
   std::string text =

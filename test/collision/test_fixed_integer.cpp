@@ -69,9 +69,13 @@ BOOST_AUTO_TEST_CASE(fixed_integers_compute_as_gmp_does) {
     check_product<4, 2>(generator);
     check_product<3, 3>(generator);
     check_product<6, 6>(generator);
+    check_product<4, 4>(generator);
+    check_product<8, 4>(generator);
+    check_product<12, 12>(generator);
     check_sum<1>(generator);
     check_sum<3>(generator);
     check_sum<6>(generator);
+    check_sum<12>(generator);
   }
 }
 
@@ -103,5 +107,10 @@ BOOST_AUTO_TEST_CASE(conversion_fills_its_limbs_to_the_documented_spread) {
     const double two_limbs = sign * std::ldexp(std::nextafter(2.0, 0.0), two_limb_spread);
     BOOST_TEST((fraction(to_gmp(Integer_of_double<Fixed_integer<2>>::convert(two_limbs, -52)), 52) == mpq_class(two_limbs)));
     BOOST_TEST((fraction(to_gmp(Integer_of_double<Fixed_integer<2>>::convert(sign * least, -52)), 52) == mpq_class(sign * least)));
+    for (int shift = 0; shift <= four_limb_spread; ++shift)
+      for (const double x : {std::nextafter(2.0, 0.0), least, 1.0}) {
+        const double four_limbs = sign * std::ldexp(x, shift);
+        BOOST_TEST((fraction(to_gmp(Integer_of_double<Fixed_integer<4>>::convert(four_limbs, -52)), 52) == mpq_class(four_limbs)));
+      }
   }
 }

@@ -12,6 +12,8 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <boost/test/unit_test.hpp>
 
+#include <gmpxx.h>
+
 #include <cfenv>
 #include <cstdlib>
 #include <iostream>
@@ -138,7 +140,7 @@ struct Changing_mesh {
   Brute_force_broad_phase<Mesh> brute_force{mesh};
   Six_list_broad_phase<Mesh> six_lists{mesh};
   Box_tree_broad_phase<Mesh> tree{mesh};
-  std::size_t inserted = 0, removed = 0;
+  std::size_t inserted = 0, removed = 0, parts = 0;
 
   Changing_mesh(const Mesh& m, const Frame& f) : mesh(m), frame(f) {
     for (const Vertex_index v : mesh.vertices())
@@ -259,6 +261,41 @@ struct Changing_mesh {
     check_star(six_lists, star, swept);
     check_star(tree, star, swept);
   }
+  /// A part of a way, where its end is a point: swept up to there, asked as the beginning of a longer way.
+  void check_part(Swept_star_3 star, int halvings) {
+    const Swept_star_3 part = star;
+    star.until = std::ldexp(1.0, -halvings);
+    for (int i = 0; i < 3; ++i) {
+      star.target[i] = star.source[i] + std::ldexp(part.target[i] - star.source[i], halvings);
+      if (!std::isfinite(star.target[i]))
+        return;
+      const mpq_class way = mpq_class(part.target[i]) - mpq_class(star.source[i]);
+      if (mpq_class(star.target[i]) != mpq_class(star.source[i]) + way * (1 << halvings))
+        return;
+    }
+    ++parts;
+    const std::vector<Face_index> swept = swept_faces(mesh, part);
+    check_star(brute_force, star, swept);
+    check_star(six_lists, star, swept);
+    check_star(tree, star, swept);
+  }
+  /// The centre anywhere in a box: some ways in it.
+  void check_anywhere(Swept_star_3 star, Random& random) {
+    const Box_3 path = Box_3(star.source).include(star.target);
+    Swept_star_3 anywhere = star;
+    anywhere.is_box = true;
+    for (int k = 0; k < 3; ++k) {
+      for (Coordinates* p : {&star.source, &star.target})
+        for (int i = 0; i < 3; ++i) {
+          const double share = random() % 3 == 0 ? 0 : random() % 3 == 0 ? 1 : 0.5 * uniform(random) + 0.5;
+          (*p)[i] = std::fmin(path.upper[i], std::fmax(path.lower[i], (1 - share) * path.lower[i] + share * path.upper[i]));
+        }
+      const std::vector<Face_index> swept = swept_faces(mesh, star);
+      check_star(brute_force, anywhere, swept);
+      check_star(six_lists, anywhere, swept);
+      check_star(tree, anywhere, swept);
+    }
+  }
   void check(Random& random) {
     const Coordinates a = frame(random_point(random, 1.5)), b = frame(random_point(random, 1.5));
     Box_3 box(a);
@@ -279,6 +316,15 @@ struct Changing_mesh {
       t[random() % 3] = s[0];
     check_star(star.swept(s, t));
     check_star(star.swept(s, vertex_coordinates(mesh, random_vertex(random))));
+    check_part(star.swept(s, t), 1 + static_cast<int>(random() % 8));
+    check_anywhere(star.swept(s, t), random);
+    // A long edge far sideways: what it sweeps is a sheet.
+    const Coordinates tip = frame(random_point(random, 4));
+    check_star(star.swept(tip, t));
+    check_part(star.swept(tip, t), 1 + static_cast<int>(random() % 8));
+    for (int i = 0; i < 3; ++i)
+      t[i] = tip[i] + (t[i] - tip[i]) / 16;
+    check_anywhere(star.swept(tip, t), random);
     star.clear();
     check_star(star.swept(a, b));
   }
@@ -328,7 +374,7 @@ BOOST_AUTO_TEST_CASE(rounding_is_outward_and_tight_in_every_mode) {
 
 BOOST_AUTO_TEST_CASE(queries_answer_as_brute_force_does_while_the_mesh_changes) {
   Random random(seed());
-  std::size_t inserted = 0, removed = 0;
+  std::size_t inserted = 0, removed = 0, parts = 0;
   for (const Mesh& scene : scenes())
     for (const Frame& frame : frames) {
       Changing_mesh changing(scene, frame);
@@ -340,6 +386,7 @@ BOOST_AUTO_TEST_CASE(queries_answer_as_brute_force_does_while_the_mesh_changes) 
         changing.check(random);
       }
       changing.check_everything();
+      parts += changing.parts;
       inserted += changing.inserted;
       removed += changing.removed;
       Changing_mesh anew(changing.mesh, {1, 0}); // with garbage among its faces
@@ -348,6 +395,7 @@ BOOST_AUTO_TEST_CASE(queries_answer_as_brute_force_does_while_the_mesh_changes) 
       BOOST_TEST(anew.mesh.has_garbage());
     }
   BOOST_TEST(inserted > 1000u);
+  BOOST_TEST(parts > 100u);
   BOOST_TEST(removed > 1000u);
 }
 

@@ -48,7 +48,7 @@ private:
   const Sweep_points& p_;
   Counters& counters_;
   std::variant<std::monostate, Integer_points<Fixed_integer<1>>, Integer_points<Fixed_integer<2>>,
-               Integer_points<Big_integer>>
+               Integer_points<Fixed_integer<4>>, Integer_points<Big_integer>>
       integers_;
 
   template <class Integer>
@@ -68,6 +68,8 @@ private:
         convert<Fixed_integer<1>>(range.lowest);
       else if (range.spread() <= two_limb_spread)
         convert<Fixed_integer<2>>(range.lowest);
+      else if (range.spread() <= four_limb_spread)
+        convert<Fixed_integer<4>>(range.lowest);
       else
         convert<Big_integer>(range.lowest);
     }
@@ -78,9 +80,12 @@ private:
     case 2:
       counters_.count_integer_128();
       return sign(std::get<2>(integers_));
+    case 3:
+      counters_.count_integer_256();
+      return sign(std::get<3>(integers_));
     default:
       counters_.count_big_integer();
-      return sign(std::get<3>(integers_));
+      return sign(std::get<4>(integers_));
     }
   }
 };

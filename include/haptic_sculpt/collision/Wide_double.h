@@ -32,7 +32,7 @@ struct Wide_double {
     const bool negative = x.is_negative();
     if (negative)
       x = Fixed_integer<limbs>() - x;
-    double magnitude = 0; // at most 2^384: far from overflow
+    double magnitude = 0; // at most 2^768: far from overflow
     for (std::size_t i = limbs; i-- > 0;)
       magnitude = std::fma(magnitude, 0x1p64, static_cast<double>(x.limb[i]));
     *this = Wide_double(negative ? -magnitude : magnitude, 0);

@@ -6,8 +6,8 @@
 /// Doubles as integer multiples of one power of two: the exact stage behind the floating-point filters.
 ///
 /// Signs of determinants do not change when all coordinates are divided by one power of two, so a handful of doubles
-/// becomes a handful of integers. Doubles of like size need one 64-bit limb, doubles up to 2^71 apart two, and
-/// anything else GMP. See doc/exact_sweeps.md, "The integer stages".
+/// becomes a handful of integers. Doubles of like size need one 64-bit limb, doubles up to 2^71 apart two, up to 2^199
+/// apart (0 and what rounding makes of it) four, and anything else GMP, which allocates. See doc/exact_sweeps.md, "The integer stages".
 
 #include <haptic_sculpt/collision/Fixed_integer.h>
 
@@ -65,6 +65,9 @@ constexpr int one_limb_spread = 8;
 /// 53 + 71 = 124 bits a coordinate, 125 a difference: a 3x3 determinant stays below 2^378 < 2^383.
 constexpr int two_limb_spread = 71;
 
+/// 53 + 199 = 252 bits a coordinate, 253 a difference: a 3x3 determinant stays below 2^762 < 2^767.
+constexpr int four_limb_spread = 199;
+
 /// `x / 2^lowest` as an integer. \pre 0 <= exponent of x - lowest <= the spread that Integer has room for, or x = 0.
 template <class Integer>
 struct Integer_of_double;
@@ -86,6 +89,23 @@ struct Integer_of_double<Fixed_integer<2>> {
     const Double_limb high = split.mantissa < 0 ? ~Double_limb{0} << 64 : 0;
     const Double_limb shifted = (high | static_cast<std::uint64_t>(split.mantissa)) << (split.exponent - lowest);
     return {{static_cast<std::uint64_t>(shifted), static_cast<std::uint64_t>(shifted >> 64)}};
+  }
+};
+
+template <>
+struct Integer_of_double<Fixed_integer<4>> {
+  static Fixed_integer<4> convert(double x, int lowest) {
+    const Split_double split(x);
+    Fixed_integer<4> integer;
+    if (split.mantissa == 0)
+      return integer;
+    const auto shift = static_cast<unsigned>(split.exponent - lowest);
+    const Double_limb fill = split.mantissa < 0 ? ~Double_limb{0} : 0;
+    const Double_limb shifted = ((fill << 64) | static_cast<std::uint64_t>(split.mantissa)) << (shift % 64);
+    const std::size_t first = shift / 64;
+    for (std::size_t i = first; i < 4; ++i)
+      integer.limb[i] = static_cast<std::uint64_t>(i == first ? shifted : i == first + 1 ? shifted >> 64 : fill);
+    return integer;
   }
 };
 
@@ -122,6 +142,10 @@ auto with_exact_integers(const Exponent_range& range, Counters& counters, const 
   if (range.spread() <= two_limb_spread) {
     counters.count_integer_128();
     return function(Fixed_integer<2>());
+  }
+  if (range.spread() <= four_limb_spread) {
+    counters.count_integer_256();
+    return function(Fixed_integer<4>());
   }
   counters.count_big_integer();
   return function(Big_integer());

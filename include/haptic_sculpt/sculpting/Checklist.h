@@ -40,7 +40,7 @@ public:
   const std::vector<Edge>& edges() const { return edges_; }
   const std::vector<Face>& faces() const { return faces_; }
 
-  /// The list is complete for every swept star whose box lies in here.
+  /// The list is complete for every motion of the star's centre in here.
   const Box_3& region() const { return region_; }
 
   void clear() {
@@ -50,7 +50,7 @@ public:
     region_ = Box_3();
   }
 
-  /// Takes the candidate faces that are not incident to the star's centre; `region` is where they are complete.
+  /// Takes the candidate faces that are not incident to the star's centre; `region` is where the centre may be.
   /// \param corners_of gives a face's corners in the orientation of the mesh: Face_corners, or corners_in(mesh)
   /// Cost: linear in the number of candidates.
   template <class Corners_of>

@@ -5,6 +5,8 @@
 #include <haptic_sculpt/sculpting/Contact_3.h>
 #include <haptic_sculpt/sculpting/Response.h>
 
+#include <boost/container/small_vector.hpp>
+
 namespace haptic_sculpt {
 
 /// Why a drag ended.
@@ -25,10 +27,16 @@ inline const char* name_of(Drag_end end) {
 /// The outcome of `Grab::drag_to`. A blocked drag is a result like any other.
 template <class Mesh>
 struct Drag_result {
+  /// So many contacts are held without an allocation: all that a slide carries. A stop reports all that come exactly first; they are
+  /// more only where as many features meet in one point.
+  static constexpr std::size_t usual_contacts = 16;
+  /// Like a std::vector.
+  using Contacts = boost::container::small_vector<Contact_3<Mesh>, usual_contacts>;
+
   typename Mesh::Point position;             ///< where the vertex is now
   bool reached = false;                      ///< whether that is the target
   Drag_end end = Drag_end::reached;          ///< why the drag ended
-  std::vector<Contact_3<Mesh>> contacts;     ///< what holds it, in an order that depends on the elements only
+  Contacts contacts;                         ///< what holds it, in an order that depends on the elements only
   int legs = 0;                              ///< straight motions that were made, one after the other
   /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact is
   /// flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.

@@ -91,14 +91,14 @@ public:
       }
     };
     Star_motion motion(centre, target);
-    return runs_.for_each_run(star, list, motion,
+    return runs_.for_each_run(star, list, motion, 0,
                               [&](std::size_t first, std::size_t last, const Positions& edges, const Positions&) {
                                 for (std::size_t i = first; i < last && in_the_way.empty(); ++i)
                                   if (i != pivot && i != left && i != right)
                                     moving_edge(i, edges);
                                 return in_the_way.empty();
                               }) &&
-           runs_.for_each_run(star, list, motion,
+           runs_.for_each_run(star, list, motion, 0,
                               [&](std::size_t first, std::size_t last, const Positions&, const Positions& near) {
                                 for (std::size_t i = first; i < last && in_the_way.empty(); ++i)
                                   if (i != pivot && star.next(i) != pivot)

@@ -32,6 +32,9 @@ public:
   Visitor& visitor() { return changes_.visitor(); }
   const Edit_history& history() const { return history_; }
 
+  /// Many drags may follow: what they need for undo is allocated now.
+  void prepare_for_moves() { history_.make_room(); }
+
   /// A drag that has been made.
   void note_move(Vertex_index v, const Coordinates& before, const Coordinates& after) {
     history_.push({Edit_kind::move, names().name(v), before, after, {}});

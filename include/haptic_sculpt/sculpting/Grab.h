@@ -27,6 +27,8 @@ public:
   /// \post The mesh is embedded as before, exactly, and nothing was crossed on the way.
   /// \throw Non_finite_point, Unknown_vertex, Mesh_changed; the mesh is then as it was.
   /// Cost: the candidates near the star times its valence; a look at the broad phase when the star leaves its region.
+  /// Allocates nothing once it is warm: no list longer than any before, no more contacts than Drag_result::usual_contacts, at most
+  /// Edit_history::room moves since the grab, and no delta rule so nearly broken that it takes rational numbers to decide.
   Drag_result<Mesh> drag_to(const Point& target) { return sculptor_->drag(vertex(), target); }
 
   /// Lets go. The next drag begins without contacts.

@@ -3,7 +3,6 @@
 #define HAPTIC_SCULPT_SCULPTING_GUARDED_STAR_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
-#include <haptic_sculpt/sculpting/Free_ball.h>
 #include <haptic_sculpt/sculpting/Narrow_phase.h>
 #include <haptic_sculpt/sculpting/clearance.h>
 #include <haptic_sculpt/sculpting/delta_limit.h>
@@ -27,21 +26,26 @@ public:
   Star<Mesh>& star() { return star_; }
   const Star<Mesh>& star() const { return star_; }
   const Checklist<Mesh>& checklist() const { return list_; }
+  /// How often a checklist has been filled: it has changed when this has.
+  std::size_t looks() const { return looks_; }
 
   /// Forget the candidates: an element outside the star has changed.
   void invalidate() {
     list_.clear();
-    forget_ball();
+    pairs_.clear();
+    patience_ = 1, waited_ = 0;
+    is_crowded_ = false;
   }
 
   /// Finds what stops the motion: `firsts()` and the delta limits that come exactly first, or neither.
   void decide(const Coordinates& source, const Coordinates& target, double delta) {
-    if (is_in_free_ball(source, target))
-      firsts_.clear();
-    else {
-      look_around(source, target);
-      narrow_phase_.first_impacts(star_, list_, source, target, firsts_);
-    }
+    if (has_pairs(source, target))
+      narrow_phase_.first_impacts(star_, list_, pairs_, source, target, firsts_);
+    else
+      look_along(source, target, [&](const Swept_star_3& part) {
+        narrow_phase_.first_impacts_near(star_, list_, source, target, part.path(), firsts_);
+        return part.until < 1 && !firsts_.empty() && firsts_[0].impact().time().second <= part.until;
+      });
     find_delta_limits(source, target, delta);
     if (limits_.empty() || firsts_.empty())
       return;
@@ -58,10 +62,13 @@ public:
 
   /// Whether the closed way touches nothing and keeps the delta rule; exact.
   bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
-    if (is_in_free_ball(source, target))
-      return keeps_delta(source, target, delta);
-    look_around(source, target);
-    return narrow_phase_.is_free(star_, list_, source, target) && keeps_delta(source, target, delta);
+    bool free = true;
+    if (has_pairs(source, target))
+      free = narrow_phase_.is_free(star_, list_, pairs_, source, target);
+    else
+      look_along(source, target,
+                 [&](const Swept_star_3&) { return !(free = narrow_phase_.is_free(star_, list_, source, target)); });
+    return free && keeps_delta(source, target, delta);
   }
 
   /// One leg from source towards target: all the way if it is free, else proven up to a stop. Fills contacts and stop error.
@@ -118,70 +125,127 @@ private:
   Narrow_phase<Mesh, Filter_counters> narrow_phase_;
   Star<Mesh> star_;
   Checklist<Mesh> list_;
-  Free_ball<Mesh> ball_;
-  int motions_without_ball_ = 0, patience_ = 1;
-  std::vector<typename Mesh::Face_index> candidates_;
+  std::size_t looks_ = 0;
+  Near_pairs<Mesh> pairs_;
+  int patience_ = 1, waited_ = 0;
+  bool is_crowded_ = false; ///< the last long motion passed over many faces
+  std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
   Star_impacts<Mesh> firsts_;
   std::vector<Limit> limits_;
 
-  /// How much larger than the swept star, in units of the star's largest extent, the region of a checklist is.
-  static constexpr double region_margin = 0.5;
+  /// How much larger than the motion, in extents of the link, the region of a checklist is: of the first, which has to be filled from
+  /// memory not seen lately, and of those that follow in one grab.
+  static constexpr double first_margin = 0.125, region_margin = 0.5;
 
-  /// A ball costs as much as some motions without one: it is begun when the vertex stays near, and when one turns out smaller
-  /// than a step or two (in contact it is as small as the clearance) the next is begun after twice as many motions.
+  /// Pairs cost as much as to decide a motion or two without them, so they are taken at the second motion of a grab, and with every
+  /// one that leaves the ball. Where they cannot be had, or are too many, they are tried again after twice as many motions.
   static constexpr int most_patience = 64;
 
-  bool is_in_free_ball(const Coordinates& source, const Coordinates& target) {
-    if (ball_.contains(source, target)) {
-      patience_ = 1;
+  /// So many faces are looked at at once. Of a long way that passes over more, first a part is looked at, about as long as the star is
+  /// wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many are soon stopped.
+  static constexpr std::size_t few_faces = 192;
+  static constexpr double least_part = 0x1p-10;
+
+  /// Whether pairs cover the motion; takes them where it is worth while.
+  bool has_pairs(const Coordinates& source, const Coordinates& target) {
+    if (pairs_.cover(source, target))
       return true;
-    }
-    if (star_.valence() == 0 || !list_.region().contains(star_.swept(source, target).box()))
+    if (star_.valence() == 0 || is_long(source, target))
       return false;
-    if (ball_.is_unfinished())
-      ball_.go_on(star_, list_);
-    else if (++motions_without_ball_ > patience_) {
-      motions_without_ball_ = 0;
-      patience_ = std::min(2 * patience_, most_patience);
-      ball_.begin(star_, list_, source);
-    }
-    return false;
+    const bool is_due = ++waited_ > patience_;
+    look_around(source, target, is_due ? region_margin / 2 * link_extent() : 0);
+    if (!is_due)
+      return false;
+    waited_ = 0;
+    pairs_.assign(star_, list_, narrow_phase_.runs(), source, target);
+    const bool covered = pairs_.cover(source, target);
+    patience_ = covered ? 0 : std::min(2 * patience_ + 1, most_patience);
+    return covered;
   }
 
-  void forget_ball() {
-    ball_.clear();
-    motions_without_ball_ = 0;
-    patience_ = 1;
-  }
-
-  /// Makes the checklist complete for this motion. Short motions of one grab share a list.
-  void look_around(const Coordinates& source, const Coordinates& target) {
-    const Swept_star_3 swept = star_.swept(source, target);
-    const Box_3 box = swept.box();
-    if (list_.region().contains(box))
-      return;
-    forget_ball();
-    candidates_.clear();
-    Box_3 here(source);
-    for (const Coordinates& p : star_.link_points)
-      here.include(p);
-    double extent = 0, way = 0;
-    for (int i = 0; i < 3; ++i) {
-      extent = std::fmax(extent, here.upper[i] - here.lower[i]);
+  /// Longer than the link is wide.
+  bool is_long(const Coordinates& source, const Coordinates& target) const {
+    double way = 0;
+    for (int i = 0; i < 3; ++i)
       way = std::fmax(way, std::abs(target[i] - source[i]));
+    return way > link_extent();
+  }
+
+  double link_extent() const {
+    Box_3 link;
+    for (const Coordinates& p : star_.link_points)
+      link.include(p);
+    double most = 0;
+    for (int i = 0; i < 3; ++i)
+      most = std::fmax(most, link.upper[i] - link.lower[i]);
+    return most;
+  }
+
+  /// Makes the checklist complete for a motion that is not long, and `room` around it. Those of one grab share a list.
+  void look_around(const Coordinates& source, const Coordinates& target, double room = 0) {
+    Box_3 region = Box_3(source).include(target), with_room = region;
+    for (int i = 0; i < 3; ++i)
+      with_room.lower[i] -= room, with_room.upper[i] += room;
+    if (list_.region().contains(with_room))
+      return;
+    const double margin = (list_.faces().empty() ? first_margin : region_margin) * link_extent();
+    for (int i = 0; i < 3; ++i) {
+      region.lower[i] -= margin;
+      region.upper[i] += margin;
     }
-    if (way <= extent) {
-      Box_3 region = box;
-      for (int i = 0; i < 3; ++i) {
-        region.lower[i] -= region_margin * extent;
-        region.upper[i] += region_margin * extent;
+    Swept_star_3 anywhere = star_.swept(region.lower, region.upper);
+    anywhere.is_box = true;
+    look_at(anywhere);
+    take_candidates(region);
+  }
+
+  /// Makes the checklist complete for a motion, or for a part of it from the start, and calls `is_enough(part)`; for longer parts
+  /// until that is true, and at last for the whole.
+  template <class Is_enough>
+  void look_along(const Coordinates& source, const Coordinates& target, const Is_enough& is_enough) {
+    Swept_star_3 part = star_.swept(source, target);
+    if (!is_long(source, target)) {
+      look_around(source, target);
+      is_enough(part);
+      return;
+    }
+    const bool has_looked = !is_crowded_;
+    if (has_looked) {
+      look_at(part);
+      is_crowded_ = candidates_.size() > few_faces;
+    }
+    if (is_crowded_) {
+      const double way = internal::path_length(source, target), size = std::fmax(link_extent(), way * least_part);
+      std::swap(candidates_, whole_candidates_);
+      part.until = 0.25;
+      while (part.until > least_part && part.until * way > 2 * size)
+        part.until /= 16;
+      for (; part.until < 1; part.until *= 16) {
+        look_at(part);
+        take_candidates();
+        if (is_enough(part))
+          return;
       }
-      broad_phase_->query(region, candidates_);
-      list_.assign(*mesh_, *corners_of_, star_, candidates_, region);
-    } else { // for this motion alone: an empty region makes the next one ask again
-      broad_phase_->query(swept, candidates_);
-      list_.assign(*mesh_, *corners_of_, star_, candidates_, Box_3());
+      part.until = 1;
+      if (has_looked)
+        std::swap(candidates_, whole_candidates_);
+      else
+        look_at(part);
+      is_crowded_ = candidates_.size() > few_faces;
     }
+    take_candidates();
+    is_enough(part);
+  }
+
+  void look_at(const Swept_star_3& part) {
+    candidates_.clear();
+    broad_phase_->query(part, candidates_);
+  }
+  /// \param region empty for one motion alone: the next one asks again
+  void take_candidates(const Box_3& region = Box_3()) {
+    pairs_.clear();
+    list_.assign(*mesh_, *corners_of_, star_, candidates_, region);
+    ++looks_;
   }
 
   template <class Found>

@@ -21,8 +21,8 @@ public:
 /// A private copy of the points and counts of a mesh, against which changes by others are found.
 ///
 /// Comparing all points before every drag would cost more than the drag. So counts are compared every time, the star and
-/// the candidates of a drag whenever they are looked up, and `points_per_look` more points in turn: a mesh of up to that many
-/// vertices is compared whole at every grab. `check_all()` compares everything.
+/// the candidates of a drag whenever they are looked up and a few of them in turn at every drag, and at a grab `points_per_look` more
+/// points in turn: a mesh of up to that many vertices is compared whole then. `check_all()` compares everything.
 template <class Mesh>
 class Mesh_watch {
 public:

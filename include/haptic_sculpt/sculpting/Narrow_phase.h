@@ -2,15 +2,16 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
 #define HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
 
+#include <haptic_sculpt/sculpting/Near_pairs.h>
 #include <haptic_sculpt/sculpting/Star_impact.h>
-#include <haptic_sculpt/sculpting/Star_runs.h>
 
 namespace haptic_sculpt {
 
 /// All three sweeps of a star against a checklist (PAPER B; completeness: doc/exact_sweeps.md).
 ///
-/// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between its two, or when it
-/// shares a vertex that makes its meeting no collision: faces incident to the moving vertex, edges at the far end of the moving edge.
+/// A pair is left out only when its boxes, or those along the diagonals, do not meet, which is decided exactly, when a plane lies certainly
+/// between its two, when it cannot come first any more, or when it shares a vertex that makes
+/// its meeting no collision: faces incident to the moving vertex, edges at the far end of the moving edge.
 template <class Mesh, class Counters = Filter_counters>
 class Narrow_phase {
 public:
@@ -21,113 +22,182 @@ public:
 
   /// Whether nothing is touched on the closed way from source to target.
   bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source, const Coordinates& target) {
-    return for_each_hit(star, list, source, target,
-                        [&](Impact_feature, const std::array<Vertex_index, 3>&, const internal::Sweep_points&,
-                            const internal::Sweep_verdict&) { return enough; });
+    return for_each_hit({star, list, {source, target}}, Any());
+  }
+
+  /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
+  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs, const Coordinates& source,
+               const Coordinates& target) {
+    return for_each_hit({star, list, {source, target}}, pairs, Any());
   }
 
   /// Fills `firsts` with the impacts that come exactly first; leaves it empty when the way is free.
   void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
                      const Coordinates& target, Star_impacts<Mesh>& firsts) {
+    first_impacts_near(star, list, source, target, Box_3(source).include(target), firsts);
+  }
+
+  /// The same among the pairs that may meet while J is in the box `path`: what comes first while it is there comes first of all.
+  void first_impacts_near(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source, const Coordinates& target,
+                          const Box_3& path, Star_impacts<Mesh>& firsts) {
     firsts.clear();
-    for_each_hit(star, list, source, target,
-                 [&](Impact_feature feature, const std::array<Vertex_index, 3>& vertices,
-                     const internal::Sweep_points& points, const internal::Sweep_verdict& verdict) {
-                   const int order =
-                       firsts.empty() ? -1
-                                      : internal::compare_times(points, verdict, firsts[0].impact().coordinates(),
-                                                                firsts[0].impact().verdict(), *counters_);
-                   if (order < 0)
-                     firsts.clear();
-                   if (order <= 0)
-                     firsts.emplace_back(feature, vertices, points, verdict);
-                   return order < 0 ? internal::filtered_time(points, verdict).second : 1;
-                 });
+    for_each_hit({star, list, {source, target, path}}, Keep_first{firsts, *counters_});
     std::sort(firsts.begin(), firsts.end());
   }
 
+  /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
+  void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs, const Coordinates& source,
+                     const Coordinates& target, Star_impacts<Mesh>& firsts) {
+    firsts.clear();
+    for_each_hit({star, list, {source, target}}, pairs, Keep_first{firsts, *counters_});
+    std::sort(firsts.begin(), firsts.end());
+  }
+
+  /// Working memory, to be shared.
+  internal::Star_runs<Mesh>& runs() { return runs_; }
+
 private:
-  using Motion = internal::Star_motion;
-  using Positions = typename internal::Star_runs<Mesh>::Positions;
+  using Vertices = std::array<Vertex_index, 3>;
+  using Diagonal_box = internal::Diagonal_box;
 
   Counters* counters_;
   internal::Star_runs<Mesh> runs_;
 
-  /// What `hit` returns when nothing more is of interest.
+  /// One motion, and what is in its way.
+  struct Scene {
+    const Star<Mesh>& star;
+    const Checklist<Mesh>& list;
+    internal::Star_motion motion;
+  };
+
+  /// What is done with a hit, `hit(feature, vertices, points, verdict)`: it tells up to what fraction of the way hits are of interest from then on
+  /// (later ones may be told or not), or that it has enough.
   static constexpr double enough = -1;
 
-  /// Calls `hit(feature, vertices, points, verdict)` for every pair that meets. It returns the fraction of the way up to which hits are
-  /// still of interest, or `enough`; later ones may be told or not. Returns whether it never was enough.
-  template <class Hit>
-  bool for_each_hit(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
-                    const Coordinates& target, const Hit& hit) {
-    if (source == target && star.valence() != 0)
-      return true; // an embedded star that stands still touches nothing new
-    Motion motion(source, target);
-    const auto& vertices = list.vertices();
-    for (const auto& face : list.faces()) {
-      if (!do_meet(face.box, motion.path()))
-        continue;
-      const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
-      const internal::Sweep_points points = {source, target, a.point, b.point, c.point};
-      const internal::Sweep_verdict verdict = internal::vertex_face_verdict(points, *counters_);
-      if (verdict.hits && !goes_on(motion, hit(Impact_feature::vertex_face, {a.index, b.index, c.index}, points, verdict)))
-        return false;
+  struct Any {
+    double operator()(Impact_feature, const Vertices&, const internal::Sweep_points&, const internal::Sweep_verdict&) const { return enough; }
+  };
+  struct Keep_first {
+    Star_impacts<Mesh>& firsts;
+    Counters& counters;
+
+    double operator()(Impact_feature feature, const Vertices& vertices, const internal::Sweep_points& points,
+                      const internal::Sweep_verdict& verdict) const {
+      const int order = firsts.empty() ? -1
+                                       : internal::compare_times(points, verdict, firsts[0].impact().coordinates(),
+                                                                 firsts[0].impact().verdict(), counters);
+      if (order < 0)
+        firsts.clear();
+      if (order <= 0)
+        firsts.emplace_back(feature, vertices, points, verdict);
+      return order < 0 ? internal::filtered_time(points, verdict).second : 1;
     }
+  };
+
+  /// Tells of every pair that meets; returns whether no telling ended it.
+  template <class Hit>
+  bool for_each_hit(Scene scene, const Hit& hit) {
+    if (stands_still(scene))
+      return true;
+    const Star<Mesh>& star = scene.star;
+    const Diagonal_box way(scene.motion.source(), scene.motion.target());
+    for (std::uint32_t f = 0; f < scene.list.faces().size(); ++f)
+      if (!vertex_on_face(scene, f, way, hit))
+        return false;
     return star.valence() == 0 ||
-           runs_.for_each_run(star, list, motion,
-                              [&](std::size_t first, std::size_t last, const Positions& near_edges, const Positions& near_vertices) {
-                                for (std::size_t i = first; i < last; ++i)
-                                  if (!moving_edge(star, list, motion, i, near_edges, hit) ||
-                                      !moving_face(star, list, motion, i, near_vertices, hit))
+           runs_.for_each_run(star, scene.list, scene.motion, 0,
+                              [&](std::size_t first, std::size_t last, const auto& edges, const auto& vertices) {
+                                for (std::size_t i = first; i < last; ++i) {
+                                  Diagonal_box swept = way;
+                                  swept.include(star.link_points[i]);
+                                  if (!moving_edge(scene, i, edges, swept, hit))
                                     return false;
+                                  swept.include(star.link_points[star.next(i)]);
+                                  if (!moving_face(scene, i, vertices, swept, hit))
+                                    return false;
+                                }
                                 return true;
                               });
   }
 
-  static bool goes_on(Motion& motion, double until) {
-    motion.shorten(until);
+  template <class Hit>
+  bool for_each_hit(Scene scene, const Near_pairs<Mesh>& pairs, const Hit& hit) {
+    return stands_still(scene) || pairs.for_each_near(scene.motion.source(), scene.motion.target(), [&](const typename Near_pairs<Mesh>::Pair& pair) {
+      switch (pair.feature) {
+      case Impact_feature::vertex_face: return vertex_on_face(scene, pair.candidate, internal::No_box(), hit);
+      case Impact_feature::edge_edge: return moving_edge(scene, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
+      default: return moving_face(scene, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
+      }
+    });
+  }
+
+  /// An embedded star that stands still touches nothing new.
+  static bool stands_still(const Scene& scene) {
+    return scene.motion.source() == scene.motion.target() && scene.star.valence() != 0;
+  }
+
+  static bool goes_on(Scene& scene, double until) {
+    scene.motion.shorten(until);
     return until != enough;
   }
 
-  template <class Hit>
-  bool moving_edge(const Star<Mesh>& star, const Checklist<Mesh>& list, Motion& motion, std::size_t i, const Positions& edges,
-                   const Hit& hit) const {
-    const auto& vertices = list.vertices();
-    const Vertex_index far_end = star.link[i];
-    const Coordinates& far_point = star.link_points[i];
-    const Box_3 swept = Box_3(motion.path()).include(far_point);
+  using One = std::array<std::uint32_t, 1>;
+
+  template <class Box, class Hit>
+  bool vertex_on_face(Scene& scene, std::uint32_t f, const Box& way, const Hit& hit) const {
+    const auto& face = scene.list.faces()[f];
+    if (!do_meet(face.box, scene.motion.path()))
+      return true;
+    const auto& vertices = scene.list.vertices();
+    const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
+    if (way.excludes(a.point, b.point, c.point))
+      return true;
+    const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), a.point, b.point, c.point};
+    const internal::Sweep_verdict verdict = internal::vertex_face_verdict(points, *counters_);
+    return !verdict.hits ||
+           goes_on(scene, hit(Impact_feature::vertex_face, Vertices{a.index, b.index, c.index}, points, verdict));
+  }
+
+  /// The edge to link vertex i against these candidates.
+  template <class Positions, class Box, class Hit>
+  bool moving_edge(Scene& scene, std::size_t i, const Positions& edges, const Box& swept_diagonals, const Hit& hit) const {
+    const auto& vertices = scene.list.vertices();
+    const Vertex_index far_end = scene.star.link[i];
+    const Coordinates& far_point = scene.star.link_points[i];
+    const Box_3 swept = Box_3(scene.motion.path()).include(far_point);
     for (const std::uint32_t e : edges) {
-      const auto& edge = list.edges()[e];
+      const auto& edge = scene.list.edges()[e];
       if (!do_meet(edge.box, swept))
         continue;
       const auto &a = vertices[edge.vertices[0]], &b = vertices[edge.vertices[1]];
-      if (a.index == far_end || b.index == far_end)
+      if (a.index == far_end || b.index == far_end || swept_diagonals.excludes(a.point, b.point))
         continue;
       // The smaller name first, whatever the list's order: what is told does not depend on the broad phase.
       const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
-      const internal::Sweep_points points = {motion.source(), motion.target(), far_point, low.point, high.point};
+      const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point, high.point};
       const internal::Sweep_verdict verdict = internal::edge_edge_verdict(points, *counters_);
-      if (verdict.hits && !goes_on(motion, hit(Impact_feature::edge_edge, {far_end, low.index, high.index}, points, verdict)))
+      if (verdict.hits &&
+          !goes_on(scene, hit(Impact_feature::edge_edge, Vertices{far_end, low.index, high.index}, points, verdict)))
         return false;
     }
     return true;
   }
 
-  template <class Hit>
-  bool moving_face(const Star<Mesh>& star, const Checklist<Mesh>& list, Motion& motion, std::size_t i, const Positions& vertices,
-                   const Hit& hit) const {
+  /// Face i against these candidates.
+  template <class Positions, class Box, class Hit>
+  bool moving_face(Scene& scene, std::size_t i, const Positions& vertices, const Box& swept_diagonals, const Hit& hit) const {
+    const Star<Mesh>& star = scene.star;
     const std::size_t j = star.next(i);
-    const Box_3 swept = Box_3(motion.path()).include(star.link_points[i]).include(star.link_points[j]);
+    const Box_3 swept = Box_3(scene.motion.path()).include(star.link_points[i]).include(star.link_points[j]);
     for (const std::uint32_t v : vertices) {
-      const auto& vertex = list.vertices()[v];
-      if (!contains(swept, vertex.point) || vertex.index == star.link[i] || vertex.index == star.link[j])
+      const auto& vertex = scene.list.vertices()[v];
+      if (!contains(swept, vertex.point) || vertex.index == star.link[i] || vertex.index == star.link[j] ||
+          swept_diagonals.excludes(vertex.point))
         continue;
-      const internal::Sweep_points points = {motion.source(), motion.target(), star.link_points[i],
-                                               star.link_points[j], vertex.point};
+      const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i], star.link_points[j], vertex.point};
       const internal::Sweep_verdict verdict = internal::face_vertex_verdict(points, *counters_);
       if (verdict.hits &&
-          !goes_on(motion, hit(Impact_feature::face_vertex, {star.link[i], star.link[j], vertex.index}, points, verdict)))
+          !goes_on(scene, hit(Impact_feature::face_vertex, Vertices{star.link[i], star.link[j], vertex.index}, points, verdict)))
         return false;
     }
     return true;

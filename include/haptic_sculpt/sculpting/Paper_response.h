@@ -35,6 +35,7 @@ public:
       forget();
     place_ = source;
     result.end = Drag_end::leg_limit;
+    held_.clear();
     bool stands = false; // did not move in the turn before
     for (int legs = 0; legs < most_legs; ++legs) {
       const std::optional<Aim> aim = next_aim(guard, mesh, target, clearance);
@@ -43,14 +44,14 @@ public:
         break;
       }
       const Vector goal = aim && !aim->lifts_off ? aim->place : target;
-      Drag_result<Mesh> leg;
+      Drag_result<Mesh>& leg = leg_;
       const Coordinates end = guard.leg(place_, goal, clearance, delta, leg);
       result.legs += end != place_;
       const bool moved = end != place_;
       place_ = end;
       if (end == target) {
         forget();
-        result.contacts.clear();
+        held_.clear();
         result.end = Drag_end::reached;
         break;
       }
@@ -58,7 +59,7 @@ public:
         touched_ = aim->touched;
         continue;
       }
-      result.contacts = leg.contacts;
+      held_ = leg.contacts;
       result.stop_error = leg.stop_error;
       result.stop_error_along_path = leg.stop_error_along_path;
       touched_ = touched_by(leg);
@@ -68,6 +69,7 @@ public:
       }
       stands = !moved;
     }
+    result.contacts = held_;
     return place_;
   }
 
@@ -95,6 +97,8 @@ private:
 
   Touched touched_;
   Coordinates place_{};
+  Drag_result<Mesh> leg_;                      ///< of the last leg; kept to allocate no more
+  typename Drag_result<Mesh>::Contacts held_; ///< of the last leg that was stopped
 
   bool is_at(const Touched& touched, const Vector& place, double clearance) const {
     // A clearance is what separates stops of one place from each other.

@@ -15,6 +15,8 @@ class Responses {
 public:
   using Coordinates = internal::Coordinates;
 
+  Responses() { normals_.reserve(Drag_result<Mesh>::usual_contacts); }
+
   /// The vertex was let go: the next drag begins without contacts.
   void forget() {
     slide_.forget();

@@ -226,6 +226,10 @@ private:
   Vertex_index held_; ///< whose star guard_ has; invalid when none
   bool moved_ = false; ///< the broad phase has not been told yet where the held star is
   double largest_coordinate_ = 0;
+  std::size_t watched_look_ = 0, next_watched_ = 0;
+
+  /// So many candidates are compared with where they were left at every drag; a list that holds for long is seen whole soon.
+  static constexpr std::size_t candidates_per_drag = 4;
 
   static void check_options(const Sculptor_parameters& options) {
     if (options.clearance_length && !(*options.clearance_length > 0 && std::isfinite(*options.clearance_length)))
@@ -260,6 +264,7 @@ private:
       return;
     }
     release();
+    editor_.prepare_for_moves();
     watch_.check_some();
     guard_.star().collect(*mesh_, v);
     guard_.invalidate();
@@ -279,8 +284,7 @@ private:
     const internal::Coordinates end = s == t ? t
                                              : responses_.move(options_.response_rule, guard_, *mesh_, s, t, c, largest_of(s, t),
                                                                options_.delta_length, result);
-    for (const auto& candidate : guard_.checklist().vertices())
-      watch_.check(candidate.index);
+    watch_candidates();
     if (end != s) {
       mesh_->point(v) = Point(end[0], end[1], end[2]);
       watch_.remember(v);
@@ -308,6 +312,21 @@ private:
       }
     }
     return result;
+  }
+
+  /// All candidates where they have just been looked up, else some of them in turn. \throw Mesh_changed
+  void watch_candidates() {
+    const auto& candidates = guard_.checklist().vertices();
+    if (watched_look_ != guard_.looks()) {
+      watched_look_ = guard_.looks();
+      for (const auto& candidate : candidates)
+        watch_.check(candidate.index);
+    } else {
+      for (std::size_t left = std::min(candidates.size(), candidates_per_drag); left != 0; --left) {
+        next_watched_ = next_watched_ + 1 < candidates.size() ? next_watched_ + 1 : 0;
+        watch_.check(candidates[next_watched_].index);
+      }
+    }
   }
 
   static void finish(const internal::Coordinates& end, const internal::Coordinates& target, Result& result) {

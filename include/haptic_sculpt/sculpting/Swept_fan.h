@@ -29,8 +29,9 @@ public:
 
   /// \param way from the start of the motion to its end \param spokes ends of the spokes
   /// \param first,last the faces [first, last) of the star \param reach bounds the magnitude of all coordinates given, here and later
+  /// \param margin what is no farther than this (rounded) is not apart, either
   /// Cost: linear in the number of faces.
-  Swept_fan(const Vector& way, const std::vector<Vector>& spokes, std::size_t first, std::size_t last, double reach) {
+  Swept_fan(const Vector& way, const std::vector<Vector>& spokes, std::size_t first, std::size_t last, double reach, double margin = 0) {
     if (!(reach > least_reach && reach < largest_reach))
       return;
     const auto spoke = [&](std::size_t i) -> const Vector& { return spokes[i < spokes.size() ? i : 0]; };
@@ -44,7 +45,7 @@ public:
       double highest = std::fmax(0.0, product_sum(normals_[k], way));
       for (std::size_t i = first; i <= last; ++i)
         highest = std::fmax(highest, product_sum(normals_[k], spoke(i)));
-      levels_[k] = highest + rounding * reach;
+      levels_[k] = highest + rounding * reach + longest_normal * margin;
     }
   }
 
@@ -64,6 +65,9 @@ private:
 
   /// How far planes lean over or under the fan. Any value serves; 1 is neither flat nor steep.
   static constexpr double lean = 1;
+
+  /// Of the length: coordinates are at most 1 + lean.
+  static constexpr double longest_normal = 3.5;
 
   std::array<Vector, 4> normals_{};
   std::array<double, 4> levels_{}; // of normals 0: nothing is higher

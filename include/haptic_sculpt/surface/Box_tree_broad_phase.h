@@ -2,8 +2,8 @@
 #ifndef HAPTIC_SCULPT_SURFACE_BOX_TREE_BROAD_PHASE_H
 #define HAPTIC_SCULPT_SURFACE_BOX_TREE_BROAD_PHASE_H
 
-#include <haptic_sculpt/surface/Cone_of_boxes.h>
 #include <haptic_sculpt/surface/Growing_box_tree.h>
+#include <haptic_sculpt/surface/Star_filter.h>
 #include <haptic_sculpt/surface/face_box.h>
 #include <haptic_sculpt/surface/spatial_order.h>
 
@@ -32,16 +32,11 @@ public:
   }
 
   void query(const Swept_star_3& star, std::vector<Face_index>& faces) {
-    const internal::Cone_of_boxes cone(star);
-    if (!cone.is_long()) // then it is no thinner than a box, which costs less to ask
-      return query(star.box(), faces);
-    const internal::Float_box around = internal::Float_box::query(star.box());
-    descend(
-        [&](const Node& node) {
-          const unsigned mask = node.meeting(around);
-          return mask == 0 ? mask : mask & cone.meeting(node);
-        },
-        faces);
+    const internal::Star_filter filter(star);
+    if (filter.is_thin())
+      descend([&filter](const Node& node) { return filter.meeting(node); }, faces);
+    else // a box costs less to ask
+      descend([&filter](const Node& node) { return node.meeting(filter.box()); }, faces);
   }
 
   /// \pre each of the faces is known: it was there at the construction or has been inserted.

@@ -2,46 +2,45 @@
 #ifndef HAPTIC_SCULPT_SURFACE_CONE_OF_BOXES_H
 #define HAPTIC_SCULPT_SURFACE_CONE_OF_BOXES_H
 
+#include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/Box_node.h>
-#include <haptic_sculpt/surface/Swept_star_3.h>
 
 #include <cmath>
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// All boxes (1 - t) B + t T, 0 <= t <= 1, from the box B of a star at its start to the target T.
+/// All boxes (1 - t) A + t B, 0 <= t <= until, between two boxes: up to `until` = 1 the convex hull of both, and more.
 ///
-/// It holds all that the star sweeps, for that is made of convex combinations of points of B with T. On long pushes it
-/// is far thinner than one box around all. The proof that no rounding loses a box is in doc/broad_phase.md.
+/// Where the boxes are far apart it is far thinner than one box around them. The proof that no rounding loses a box is in
+/// doc/broad_phase.md.
 class Cone_of_boxes {
 public:
-  explicit Cone_of_boxes(const Swept_star_3& star) {
-    Box_3 base(star.source);
-    for (std::size_t i = 0; i < star.valence; ++i)
-      base.include(star.link[i]);
+  Cone_of_boxes() = default; ///< everything
+
+  Cone_of_boxes(const Box_3& a, const Box_3& b, double until) : until_(float_above(until)) {
     double extent = 0, way = 0;
     for (int i = 0; i < 3; ++i) {
-      extent = std::fmax(extent, base.upper[i] - base.lower[i]);
-      way = std::fmax(way, std::abs(star.target[i] - star.source[i]));
-      restrict_time(i + 3, float_below(base.lower[i]), star.target[i] - base.lower[i], true);
-      restrict_time(i, float_above(base.upper[i]), star.target[i] - base.upper[i], false);
+      extent = std::fmax(extent, std::fmax(a.upper[i] - a.lower[i], b.upper[i] - b.lower[i]));
+      way = std::fmax(way, std::fmax(std::abs(b.lower[i] - a.lower[i]), std::abs(b.upper[i] - a.upper[i])));
+      restrict_time(i + 3, float_below(a.lower[i]), b.lower[i] - a.lower[i], true);
+      restrict_time(i, float_above(a.upper[i]), b.upper[i] - a.upper[i], false);
     }
-    is_long_ = way > extent;
+    is_long_ = way * until > extent;
   }
 
-  /// Whether the way is longer than the star is wide.
+  /// Whether it is longer than the boxes are wide: else it is no thinner than a box around both.
   bool is_long() const { return is_long_; }
 
   /// Bit j is 0 only if no box of the cone meets box j of the node.
   ///
-  /// For each axis (1 - t) B.lower + t T <= upper and (1 - t) B.upper + t T >= lower bound t from one side each; the
-  /// times that all six leave, and [0, 1], must not be empty.
+  /// For each axis (1 - t) A.lower + t B.lower <= upper and (1 - t) A.upper + t B.upper >= lower bound t from one side each; the
+  /// times that all six leave, and [0, until], must not be empty.
   unsigned meeting(const Box_node& node) const {
     static constexpr int bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
     float first[8], last[8];
     for (int j = 0; j < 8; ++j)
-      first[j] = 0, last[j] = 1;
+      first[j] = 0, last[j] = until_;
     for (int k = 0; k < lasts_; ++k) {
       const Limit limit = last_[k];
       for (int j = 0; j < 8; ++j) {
@@ -76,6 +75,7 @@ private:
 
   std::array<Limit, 6> first_, last_;
   int firsts_ = 0, lasts_ = 0;
+  float until_ = 1;
   bool is_long_ = false;
 
   void restrict_time(int bound, float origin, double extent, bool is_upper) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_TIMED_GUARD_H
+#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_TIMED_GUARD_H
+
+#include "drag_performance/Latencies.h"
+
+#include <haptic_sculpt/sculpting/Guarded_star.h>
+
+namespace haptic_sculpt::benchmark {
+
+/// A guard with a stopwatch in front of it, for a response to ask.
+template <class Guard>
+class Timed_guard {
+public:
+  using Coordinates = typename Guard::Coordinates;
+
+  explicit Timed_guard(Guard& guard) : guard_(&guard) {}
+
+  double deciding = 0;
+  mutable double planes = 0; ///< nanoseconds since reset(): in deciding motions, in forming contact planes and times
+  std::size_t motions = 0;         ///< decided since reset()
+
+  void reset() { deciding = planes = 0, motions = 0; }
+
+  const auto& star() const { return guard_->star(); }
+
+  void decide(const Coordinates& source, const Coordinates& target, double delta) {
+    ++motions;
+    timed(deciding, [&] { guard_->decide(source, target, delta); });
+  }
+  bool is_blocked() const { return guard_->is_blocked(); }
+  bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
+    ++motions;
+    bool free = false;
+    timed(deciding, [&] { free = guard_->is_free(source, target, delta); });
+    return free;
+  }
+  template <class Found>
+  double for_each_first_contact(const Coordinates& source, const Coordinates& target, const Found& found) const {
+    double time = 0;
+    timed(planes, [&] { time = guard_->for_each_first_contact(source, target, found); });
+    return time;
+  }
+  template <class Result>
+  Coordinates leg(const Coordinates& source, const Coordinates& target, double clearance, double delta, Result& result) {
+    return guard_->leg(source, target, clearance, delta, result);
+  }
+
+private:
+  Guard* guard_;
+
+  template <class Operation>
+  static void timed(double& sum, const Operation& operation) {
+    const std::uint64_t start = Query_timer::now();
+    operation();
+    sum += timer().nanoseconds(start, Query_timer::now());
+  }
+};
+
+} // namespace haptic_sculpt::benchmark
+
+#endif
