@@ -13,20 +13,23 @@ namespace internal {
 
 /// Finds, for a few neighbouring faces of a star at a time, the edges and vertices of a checklist near them.
 ///
-/// The faces are halved until few are left, and each half is compared with what was near the whole: a star of a thousand faces, each
-/// near few candidates, costs n log n that way, not n^2. Keeps its memory.
+/// The faces are halved until few are left, and each half is compared with what was near the whole: a star of a
+/// thousand faces, each near few candidates, costs n log n that way, not n^2. Keeps its memory.
 template <class Mesh>
 class Near_candidates {
 public:
   using Positions = std::vector<std::uint32_t>;
 
-  /// Calls `leaf(first, last, edges, vertices)` for groups of faces of the star, those from link[first] to link[last], with positions in
-  /// the checklist: all that may be no more than `margin` (rounded) from the hull of where the centre is, `moving` and `diagonals`, and
-  /// these faces' link vertices. Ends when it returns false, and returns whether it never did.
+  /// Calls `leaf(first, last, edges, vertices)` for groups of faces of the star, those from link[first] to link[last],
+  /// with positions in the checklist: all that may be no more than `margin` (rounded) from the hull of where the centre
+  /// is, `moving` and `diagonals`, and these faces' link vertices. Ends when it returns false, and returns whether it
+  /// never did.
   template <class Leaf>
-  bool for_each_group(const Star<Mesh>& star, const Checklist<Mesh>& list, const Box_3& moving, const Diagonal_box& diagonals,
-                      double margin, const Leaf& leaf) {
-    return halve(Search{star, list, moving, diagonals, margin, star.valence() > usual_valence || list.edges().size() > usual_edges}, 0, star.valence(), 0, leaf);
+  bool for_each_group(const Star<Mesh>& star, const Checklist<Mesh>& list, const Box_3& moving,
+                      const Diagonal_box& diagonals, double margin, const Leaf& leaf) {
+    return halve(Search{star, list, moving, diagonals, margin,
+                        star.valence() > usual_valence || list.edges().size() > usual_edges},
+                 0, star.valence(), 0, leaf);
   }
 
 private:
@@ -67,16 +70,16 @@ private:
     if (search.margin > 0)
       for (int i = 0; i < 3; ++i)
         box.lower[i] -= search.margin, box.upper[i] += search.margin;
-    const auto &edges = search.list.edges();
-    const auto &vertices = search.list.vertices();
+    const auto& edges = search.list.edges();
+    const auto& vertices = search.list.vertices();
     Near& near = near_[depth];
     near.edges.clear();
     near.vertices.clear();
     near.edges.reserve(edges.size()); // whatever is near another time, nothing is allocated then
     near.vertices.reserve(vertices.size());
     const auto keep_edge = [&](std::uint32_t e) {
-      if (do_meet(edges[e].box, box) &&
-          !(search.is_large && diagonals.excludes(vertices[edges[e].vertices[0]].point, vertices[edges[e].vertices[1]].point)))
+      if (do_meet(edges[e].box, box) && !(search.is_large && diagonals.excludes(vertices[edges[e].vertices[0]].point,
+                                                                                vertices[edges[e].vertices[1]].point)))
         near.edges.push_back(e);
     };
     const auto keep_vertex = [&](std::uint32_t v) {
