@@ -18,7 +18,7 @@ BY_SIZE = [  # workload, step in edges, response, label
     ("slide in contact", 0.1, "slide", "slide in contact"),
     ("push", 100, "stop", "push of 100 edges"),
 ]
-PHASES = [("grab_ns", "grab"), ("broad_ns", "query"), ("checklist_ns", "checklist"), ("narrow_ns", "narrow"), ("stop_ns", "stop"),
+PHASES = [("grab_ns", "grab"), ("broad_ns", "query"), ("checklist_ns", "checklist"), ("narrow_ns", "narrow"), ("stop_ns", "stop, contact planes"), ("response_ns", "response"),
           ("watch_and_history_ns", "watch, history"), ("update_at_release_ns", "update at release")]
 
 
@@ -58,7 +58,7 @@ def main(source, picture):
 
     fits = results.get("valence_fits", [])
     for k, mesh in enumerate(("fan", "fan in a crowd")):
-        for workload, style in (("valence: in a drag", "o-"), ("valence: push through, stopped", "s--")):
+        for workload, style in (("valence: first drag", "o-"), ("valence: push through, stopped", "s--")):
             found = sorted((r for r in rows if r["workload"] == workload and r["mesh"] == mesh), key=lambda r: r["valence"])
             if not found:
                 continue

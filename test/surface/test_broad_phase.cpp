@@ -284,7 +284,7 @@ struct Changing_mesh {
     const Box_3 path = Box_3(star.source).include(star.target);
     Swept_star_3 anywhere = star;
     anywhere.is_box = true;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 2; ++k) {
       for (Coordinates* p : {&star.source, &star.target})
         for (int i = 0; i < 3; ++i) {
           const double share = random() % 3 == 0 ? 0 : random() % 3 == 0 ? 1 : 0.5 * uniform(random) + 0.5;
@@ -317,7 +317,6 @@ struct Changing_mesh {
     check_star(star.swept(s, t));
     check_star(star.swept(s, vertex_coordinates(mesh, random_vertex(random))));
     check_part(star.swept(s, t), 1 + static_cast<int>(random() % 8));
-    check_anywhere(star.swept(s, t), random);
     // A long edge far sideways: what it sweeps is a sheet.
     const Coordinates tip = frame(random_point(random, 4));
     check_star(star.swept(tip, t));

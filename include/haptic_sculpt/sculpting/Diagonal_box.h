@@ -8,11 +8,13 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Bounds of some points along the six diagonals (1, 1, 0), (1, -1, 0), ...: with an ordinary box a polytope of eighteen sides.
+/// Bounds of some points along the six diagonals (1, 1, 0), (1, -1, 0), ...: with an ordinary box a polytope of
+/// eighteen sides.
 ///
-/// Two faces that lean on each other like the sides of a roof are told apart by it, which boxes never do; in the star of a thousand
-/// faces every face leans on all others. A rounded sum grows with the exact one, in every rounding mode. So when all sums of one set
-/// are above all of another, rounded, they are, exactly; comparing the rounded ones decides nothing wrongly.
+/// Two faces that lean on each other like the sides of a roof are told apart by it, which boxes never do; in the star
+/// of a thousand faces every face leans on all others. A rounded sum grows with the exact one, in every rounding mode.
+/// So when all sums of one set are above all of another, rounded, they are, exactly; comparing the rounded ones decides
+/// nothing wrongly.
 struct Diagonal_box {
   using Coordinates = std::array<double, 3>;
   using Bounds = std::array<double, 6>;

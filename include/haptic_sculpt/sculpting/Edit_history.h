@@ -15,18 +15,20 @@ enum class Edit_kind : std::uint8_t { move, insert_on_face, insert_on_edge, remo
 /// One change of the mesh, in numbers of vertices that last: enough to make it and to take it back.
 struct Edit {
   Edit_kind kind;
-  std::size_t vertex;            ///< the vertex moved, created or removed
-  internal::Coordinates before;  ///< where it was: move, remove
-  internal::Coordinates after;   ///< where it is: move, insert
-  /// insert_on_face: the corners; insert_on_edge: the ends; remove: the link, beginning with the neighbour it went into.
+  std::size_t vertex;           ///< the vertex moved, created or removed
+  internal::Coordinates before; ///< where it was: move, remove
+  internal::Coordinates after;  ///< where it is: move, insert
+  /// insert_on_face: the corners; insert_on_edge: the ends; remove: the link, beginning with the neighbour it went
+  /// into.
   std::vector<std::size_t> around;
 };
 
-/// The changes made, and those taken back. Memory: constant per move and creation, the valence per removal; and the room.
+/// The changes made, and those taken back. Memory: constant per move and creation, the valence per removal; and the
+/// room.
 class Edit_history {
 public:
-  /// So many moves follow a `make_room()` without an allocation: a quarter of a minute of a hand that drags a thousand times a
-  /// second. Of moves beyond, one in so many allocates. 1.4 MB.
+  /// So many moves follow a `make_room()` without an allocation: a quarter of a minute of a hand that drags a thousand
+  /// times a second. Of moves beyond, one in so many allocates. 1.4 MB.
   static constexpr std::size_t room = std::size_t{1} << 14;
 
   /// To be called where time does not matter: before a drag begins.

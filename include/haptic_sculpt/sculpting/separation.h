@@ -3,10 +3,12 @@
 #define HAPTIC_SCULPT_SCULPTING_SEPARATION_H
 
 /// \file
-/// Lower bounds of distances by separating planes. Whatever direction n they have, min n . p over one set less max n . q over the other,
-/// over |n|, is no more than the distance of the two hulls. So n may be found by rounded numbers, degenerate cases and all.
+/// Lower bounds of distances by separating planes. Whatever direction n they have, min n . p over one set less max n .
+/// q over the other, over |n|, is no more than the distance of the two hulls. So n may be found by rounded numbers,
+/// degenerate cases and all.
 ///
-/// Sums of products are rounded as they come: std::fma() and std::fmax() are calls where the processor at hand is not asked for.
+/// Sums of products are rounded as they come: std::fma() and std::fmax() are calls where the processor at hand is not
+/// asked for.
 
 #include <haptic_sculpt/sculpting/vector_3.h>
 
@@ -16,7 +18,9 @@
 namespace haptic_sculpt {
 namespace internal {
 
-inline double quick_dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double quick_dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 inline Vector quick_cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -24,12 +28,18 @@ inline Vector quick_cross(const Vector& a, const Vector& b) {
 inline Vector quick_sum(const Vector& a, double factor, const Vector& b) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
-inline double larger(double a, double b) { return a > b ? a : b; }
-inline double smaller(double a, double b) { return a < b ? a : b; }
-inline double quick_magnitude(const Vector& a) { return larger(std::abs(a[0]), larger(std::abs(a[1]), std::abs(a[2]))); }
+inline double larger(double a, double b) {
+  return a > b ? a : b;
+}
+inline double smaller(double a, double b) {
+  return a < b ? a : b;
+}
+inline double quick_magnitude(const Vector& a) {
+  return larger(std::abs(a[0]), larger(std::abs(a[1]), std::abs(a[2])));
+}
 
-/// How far two sets of points are apart along n, at least, up to the roundings of the sums; 0 where that is not known. Where |n|, as a
-/// rule the distance itself, is no more than `least`, roundings are all of it.
+/// How far two sets of points are apart along n, at least, up to the roundings of the sums; 0 where that is not known.
+/// Where |n|, as a rule the distance itself, is no more than `least`, roundings are all of it.
 template <std::size_t N, std::size_t M>
 double separation(const std::array<Vector, N>& ps, const std::array<Vector, M>& qs, const Vector& n, double least) {
   const double norm = std::sqrt(quick_dot(n, n));
@@ -69,7 +79,8 @@ inline Vector nearest_to_origin(const std::array<Vector, 3>& t) {
 /// About the shortest vector from the second segment to the first.
 inline Vector between_segments(const std::array<Vector, 2>& p, const std::array<Vector, 2>& q) {
   const Vector d = minus(p[1], p[0]), e = minus(q[1], q[0]), r = minus(p[0], q[0]);
-  const double dd = quick_dot(d, d), ee = quick_dot(e, e), de = quick_dot(d, e), dr = quick_dot(d, r), er = quick_dot(e, r);
+  const double dd = quick_dot(d, d), ee = quick_dot(e, e), de = quick_dot(d, e), dr = quick_dot(d, r),
+               er = quick_dot(e, r);
   const double determinant = dd * ee - de * de;
   const auto clamped = [](double x) { return x > 0 ? x < 1 ? x : 1 : 0; };
   double s = determinant > 0 ? clamped((de * er - ee * dr) / determinant) : 0;

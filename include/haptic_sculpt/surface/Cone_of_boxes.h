@@ -12,8 +12,8 @@ namespace internal {
 
 /// All boxes (1 - t) A + t B, 0 <= t <= until, between two boxes: up to `until` = 1 the convex hull of both, and more.
 ///
-/// Where the boxes are far apart it is far thinner than one box around them. The proof that no rounding loses a box is in
-/// doc/broad_phase.md.
+/// Where the boxes are far apart it is far thinner than one box around them. The proof that no rounding loses a box is
+/// in doc/broad_phase.md.
 class Cone_of_boxes {
 public:
   Cone_of_boxes() = default; ///< everything
@@ -34,8 +34,8 @@ public:
 
   /// Bit j is 0 only if no box of the cone meets box j of the node.
   ///
-  /// For each axis (1 - t) A.lower + t B.lower <= upper and (1 - t) A.upper + t B.upper >= lower bound t from one side each; the
-  /// times that all six leave, and [0, until], must not be empty.
+  /// For each axis (1 - t) A.lower + t B.lower <= upper and (1 - t) A.upper + t B.upper >= lower bound t from one side
+  /// each; the times that all six leave, and [0, until], must not be empty.
   unsigned meeting(const Box_node& node) const {
     static constexpr int bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
     float first[8], last[8];

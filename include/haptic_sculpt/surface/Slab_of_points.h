@@ -8,8 +8,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// What lies between two parallel planes that have a swept star between them: a long edge that goes far sideways sweeps a sheet.
-/// The proof that no rounding loses a box is in doc/broad_phase.md.
+/// What lies between two parallel planes that have a swept star between them: a long edge that goes far sideways sweeps
+/// a sheet. The proof that no rounding loses a box is in doc/broad_phase.md.
 class Slab_of_points {
 public:
   /// About the plane of the source, the target and a point of the link.
@@ -59,7 +59,8 @@ public:
     float least[8] = {}, most[8] = {}, size[8] = {};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 8; ++j) {
-        const float a = (node.bounds[i][j] - origin_[i]) * normal_[i], b = (node.bounds[i + 3][j] - origin_[i]) * normal_[i];
+        const float a = (node.bounds[i][j] - origin_[i]) * normal_[i],
+                    b = (node.bounds[i + 3][j] - origin_[i]) * normal_[i];
         const float small = a < b ? a : b, large = a < b ? b : a;
         least[j] += small, most[j] += large;
         size[j] += std::abs(a) + std::abs(b);
@@ -74,7 +75,8 @@ public:
 
 private:
   static constexpr double least_size = 0x1p-200, largest_size = 0x1p+200;
-  static constexpr float least_error = 0x1p-120f; ///< more than products lose that underflow; far below any thickness there is
+  static constexpr float least_error =
+      0x1p-120f; ///< more than products lose that underflow; far below any thickness there is
 
   float origin_[3] = {}, normal_[3] = {}, low_ = 0, high_ = 0;
   bool is_thin_ = false;

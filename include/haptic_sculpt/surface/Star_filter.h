@@ -8,8 +8,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Which boxes of a node may meet what a star sweeps: those in the box around it, in the cone from its start to the target, in the
-/// cone from its link to where its centre is, and in the slab around all; where these are thin.
+/// Which boxes of a node may meet what a star sweeps: those in the box around it, in the cone from its start to the
+/// target, in the cone from its link to where its centre is, and in the slab around all; where these are thin.
 class Star_filter {
 public:
   explicit Star_filter(const Swept_star_3& star) {

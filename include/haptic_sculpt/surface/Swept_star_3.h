@@ -18,7 +18,7 @@ struct Swept_star_3 {
   const Coordinates* link = nullptr; ///< the link's vertices in order around the star; link[i], link[i + 1] are an edge
   std::size_t valence = 0;           ///< 0 for a probe: then only the segment from source to target counts
   double until = 1;                  ///< only what is passed over up to this time counts; in (0, 1], 1 being the target
-  bool is_box = false;               ///< the centre may be anywhere in the box of source and target, not only straight between them
+  bool is_box = false; ///< the centre may be anywhere in the box of source and target, not only straight between them
 
   /// A box around where the centre is: the smallest for the whole way; for a part of it wider by what rounding can do.
   Box_3 path() const {
@@ -28,7 +28,7 @@ struct Swept_star_3 {
     for (int i = 0; i < 3; ++i) {
       const double s = source[i], t = target[i], size = std::abs(s) + std::abs(t);
       const double p = s + until * (t - s), error = 0x1p-49 * size; // five roundings of 2^-53 of the size
-      const bool is_known = size > 0x1p-900; // denormal numbers round by more
+      const bool is_known = size > 0x1p-900;                        // denormal numbers round by more
       if (t < s)
         result.lower[i] = is_known && p - error > t ? p - error : t;
       else
