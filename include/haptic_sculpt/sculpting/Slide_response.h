@@ -24,7 +24,10 @@ public:
   static constexpr int most_trials = 64;
 
   /// The contacts no longer hold: the vertex was let go, or something else moved it.
-  void forget() { walk_.facets.clear(); }
+  void forget() {
+    walk_.facets.clear();
+    sought_ = false;
+  }
 
   /// Goes from source towards target. Returns where the vertex is then; every leg on the way there is proven free. Fills in
   /// contacts, legs, stop error and `end`.
@@ -53,6 +56,8 @@ private:
 
   Walk walk_, trial_;
   Facets seen_; ///< all that was met while a way out was sought
+  bool sought_ = false;
+  Vector sought_at_{}, sought_for_{}; ///< where no way out was found, and to which target
 
   /// Half-spaces forbid more than facets do: at a corner that is neither convex nor concave there may be a way on although the
   /// planes meet. Looks for one, and takes it if it brings the vertex nearer by more than what clearances can feign.
@@ -62,8 +67,12 @@ private:
     const double distance = internal::length(pull);
     if (walk_.facets.empty() || distance <= lengths.shortest_pull() || !is_near_border(lengths))
       return false;
-    const auto held = walk_.nearest(pull, lengths.clearance, lengths.resolution);
-    const auto without_clearance = walk_.nearest(pull, 0, lengths.resolution);
+    // A target is nearer by as much as it has moved at most: below what clearances can feign the answer is the same as before.
+    if (sought_ && internal::length(internal::minus(walk_.x, sought_at_)) <= lengths.settled() &&
+        internal::length(internal::minus(target, sought_for_)) <= 4 * lengths.clearance)
+      return false;
+    const auto held = walk_.nearest(pull, lengths);
+    const auto without_clearance = walk_.nearest(pull, 0, lengths.resolution, 2 * distance);
     const double gain = std::fmax(8 * lengths.clearance,
                                   without_clearance.exists ? 4 * internal::length(without_clearance.displacement) : 0);
     int trials = 0;
@@ -80,31 +89,39 @@ private:
       walk_ = trial_;
       return true;
     };
-    if (leave_contacts(held, target, brings_nearer))
+    const bool all_legs_were_left = walk_.legs + trial_legs <= most_legs;
+    if (leave_contacts(held, target, brings_nearer) || leave_walls(guard, target, lengths, brings_nearer) ||
+        follow_features(guard, pull, target, lengths, trials, brings_nearer)) {
+      sought_ = false;
       return true;
-    return follow_features(guard, pull, target, lengths, trials, brings_nearer);
+    }
+    sought_ = all_legs_were_left;
+    sought_at_ = walk_.x;
+    sought_for_ = target;
+    return false;
   }
 
-  /// Another facet forbids to go past a border where its normal is against the way by more than this: a thousandth of a radian,
-  /// to leave coplanar neighbours, which forbid nothing, on the other side of it.
-  static constexpr double least_slope = 0x1p-10;
+  /// Two faces form a convex edge, round which a way may lead, where one falls off from the other's plane by more than this:
+  /// a smaller angle, of 1e-12 radians, is none that a clearance or a rounded normal can tell from a seam.
+  static constexpr double least_slope = 0x1p-40;
 
-  /// Whether there may be a way past a border of some contact. At the inner edge of a concave corner there is none: the other
-  /// contact lies across it.
+  /// Whether there may be a way past a border of some contact. Where all contacts near one are faces and each goes over to another
+  /// of them, rising or flat, there is none: a concave edge or corner, all of which is known.
   bool is_near_border(const internal::Slide_lengths& lengths) const {
     for (const auto& facet : walk_.facets) {
       if (facet.is_wall())
         return true;
       for (int k = 0; k < facet.borders(); ++k)
-        if (facet.beyond_border(k, walk_.x) > -lengths.border() && !is_closed(facet.outward(k)))
+        if (facet.beyond_border(k, walk_.x) > -lengths.border() && !is_closed(facet, k))
           return true;
     }
     return false;
   }
 
-  bool is_closed(const Vector& way) const {
-    for (const auto& facet : walk_.facets)
-      if (!facet.is_wall() && internal::dot(facet.normal(), way) < -least_slope)
+  bool is_closed(const internal::Facet<Mesh>& facet, int border) const {
+    for (const auto& other : walk_.facets)
+      if (&other != &facet && facet.shares_border(border, other) &&
+          internal::dot(other.normal(), facet.outward(border)) < least_slope)
         return true;
     return false;
   }
@@ -115,12 +132,34 @@ private:
     const unsigned subsets = 1u << (held.exists ? held.number_active : 0);
     for (unsigned subset = 1; subset < subsets; ++subset) {
       trial_ = walk_;
-      for (int i = held.number_active - 1; i >= 0; --i)
-        if (subset >> i & 1)
-          trial_.facets.erase(trial_.facets.begin() + held.active[i]); // positions increase with i
+      trial_.forget([&](const auto& facet) {
+        for (int i = 0; i < held.number_active; ++i)
+          if ((subset >> i & 1) != 0 && Walk::is_alike(facet.normal(), walk_.facets[held.active[i]].normal()))
+            return true;
+        return false;
+      });
       if (brings_nearer(target))
         return true;
     }
+    return false;
+  }
+
+  /// A flat impact blocks the way in one plane only: tries both sides of that plane.
+  template <class Guard, class Brings_nearer>
+  bool leave_walls(Guard& guard, const Vector& target, const internal::Slide_lengths& lengths, const Brings_nearer& brings_nearer) {
+    for (const auto& facet : walk_.facets)
+      for (const double height : {4 * lengths.clearance, -4 * lengths.clearance}) {
+        if (!facet.is_wall() || walk_.legs >= most_legs)
+          break;
+        const Vector beside = internal::advanced(walk_.x, height, facet.normal_of_wall());
+        if (beside == walk_.x || !guard.is_free(walk_.x, beside, lengths.delta))
+          continue;
+        trial_.facets.clear();
+        trial_.x = beside;
+        trial_.legs = walk_.legs + 1;
+        if (brings_nearer(target))
+          return true;
+      }
     return false;
   }
 
@@ -188,7 +227,7 @@ private:
 
   void remember(const internal::Facet<Mesh>& facet) {
     for (const auto& other : seen_)
-      if (facet.is_wall() || is_same(other, facet.contact()))
+      if (facet.is_wall() || other.is_of(facet.contact()))
         return;
     if (seen_.size() < seen_.capacity())
       seen_.push_back(facet);
