@@ -22,6 +22,8 @@ public:
   static constexpr int trial_legs = 4;
   /// At most so many ways out of one place are tried.
   static constexpr int most_trials = 64;
+  /// A walk that has made so many legs begins to leap, every few legs.
+  static constexpr int legs_before_leaps = 8, legs_between_leaps = 4;
 
   /// The contacts no longer hold: the vertex was let go, or something else moved it.
   void forget() {
@@ -39,9 +41,20 @@ public:
       forget();
     walk_.begin(source);
     Walk_end end;
-    do
-      end = walk_.go(guard, target, lengths, most_legs);
-    while ((end == Walk_end::settled || end == Walk_end::stuck) && walk_.legs < most_legs && escape(guard, target, lengths));
+    Vector before = source;
+    int until = legs_before_leaps;
+    for (;;) {
+      end = walk_.go(guard, target, lengths, std::min(until, most_legs));
+      if (end == Walk_end::reached || walk_.legs >= most_legs)
+        break;
+      if (end == Walk_end::limit) {
+        if (until > legs_before_leaps)
+          leap(guard, before, target, lengths);
+        before = walk_.x;
+        until = walk_.legs + legs_between_leaps;
+      } else if (!escape(guard, target, lengths))
+        break;
+    }
     if (end != Walk_end::reached && walk_.legs >= most_legs)
       end = Walk_end::limit;
     walk_.forget([&](const auto& facet) { return facet.is_over(lengths.lifted()); });
@@ -91,7 +104,7 @@ private:
     };
     const bool all_legs_were_left = walk_.legs + trial_legs <= most_legs;
     if (leave_contacts(held, target, brings_nearer) || leave_walls(guard, target, lengths, brings_nearer) ||
-        follow_features(guard, pull, target, lengths, trials, brings_nearer)) {
+        follow_features(guard, pull, target, lengths, trials, brings_nearer) || look_about(guard, pull, target, lengths, gain, brings_nearer)) {
       sought_ = false;
       return true;
     }
@@ -211,14 +224,85 @@ private:
     return false;
   }
 
-  /// A free point a few clearances from the vertex along the mean normal of its contacts, or where it is.
+  /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many times as far, and
+  /// takes it if that, when J has come down, has brought it nearer than these did.
   template <class Guard>
-  Vector off_the_contacts(Guard& guard, const internal::Slide_lengths& lengths) const {
+  void leap(Guard& guard, const Vector& before, const Vector& target, const internal::Slide_lengths& lengths) {
+    const Vector way = internal::minus(walk_.x, before);
+    const double step = internal::length(way), distance = internal::length(internal::minus(target, walk_.x)),
+                 gained = internal::length(internal::minus(target, before)) - distance;
+    const Vector up = mean_normal();
+    for (const double times : {64.0, 16.0, 4.0})
+      for (const double slope : {0.25, 0.0625, 0.0}) {
+        if (times * step > distance || walk_.legs + 1 >= most_legs)
+          break;
+        const Vector end = internal::advanced(internal::advanced(walk_.x, times, way), slope * times * step, up);
+        if (!guard.is_free(walk_.x, end, lengths.delta))
+          continue;
+        trial_ = walk_;
+        trial_.facets.clear();
+        trial_.x = end;
+        ++trial_.legs;
+        trial_.go(guard, target, lengths, std::min(trial_.legs + legs_between_leaps - 1, most_legs));
+        if (internal::length(internal::minus(target, trial_.x)) < distance - std::fmax(gained, 0)) {
+          walk_ = trial_;
+          return;
+        }
+      }
+  }
+
+  /// The last way out, which takes nothing for granted: looks in many directions, near by and far, none of them along an axis.
+  template <class Guard, class Brings_nearer>
+  bool look_about(Guard& guard, const Vector& pull, const Vector& target, const internal::Slide_lengths& lengths, double gain,
+                  const Brings_nearer& brings_nearer) {
+    const double distance = internal::length(pull);
+    for (const Vector& direction : directions()) {
+      const double ahead = internal::dot(direction, pull);
+      if (ahead < 0)
+        continue;
+      for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted() * distance), ahead / 2}) {
+        const Vector end = internal::advanced(walk_.x, reach, direction);
+        if (walk_.legs >= most_legs || end == walk_.x || internal::length(internal::minus(target, end)) > distance + gain ||
+            !guard.is_free(walk_.x, end, lengths.delta))
+          continue;
+        trial_.facets.clear();
+        trial_.x = end;
+        trial_.legs = walk_.legs + 1;
+        if (brings_nearer(target))
+          return true;
+      }
+    }
+    return false;
+  }
+
+  /// Points spread evenly over the unit sphere, on a spiral.
+  static const std::array<Vector, 48>& directions() {
+    static const std::array<Vector, 48> all = [] {
+      std::array<Vector, 48> points;
+      const double golden_angle = 2.3999632297286533;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(points.size()), r = std::sqrt(1 - z * z),
+                     angle = golden_angle * static_cast<double>(i) + 0.5;
+        points[i] = {r * std::cos(angle), r * std::sin(angle), z};
+      }
+      return points;
+    }();
+    return all;
+  }
+
+  Vector mean_normal() const {
     Vector sum{};
     for (const auto& facet : walk_.facets)
       sum = internal::plus(sum, facet.normal());
+    return internal::normalized(sum);
+  }
+
+  /// A free point a few clearances from the vertex along the mean normal of its contacts, or where it is.
+  template <class Guard>
+  Vector off_the_contacts(Guard& guard, const internal::Slide_lengths& lengths) const {
+    const Vector up = mean_normal();
     for (const double height : {4.0, 1.0}) {
-      const Vector off = internal::advanced(walk_.x, height * lengths.clearance, internal::normalized(sum));
+      const Vector off = internal::advanced(walk_.x, height * lengths.clearance, up);
       if (off != walk_.x && guard.is_free(walk_.x, off, lengths.delta))
         return off;
     }

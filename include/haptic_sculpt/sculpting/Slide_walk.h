@@ -50,7 +50,7 @@ struct Slide_walk {
   /// More contacts than this at once are not carried; whoever matters is met again.
   static constexpr std::size_t most_facets = 32;
   /// Bounds the turns in which no leg is made: each of them learns of a contact or forgets one.
-  static constexpr int turns_per_leg = 4;
+  static constexpr int most_turns = 128;
   /// How often a place near a new contact is sought with growing clearance, and how often at all, as each may meet yet another
   /// contact, before the vertex steps back along its path.
   static constexpr int approaches = 6, most_tries = 24;
@@ -77,7 +77,7 @@ struct Slide_walk {
     leave_what_is_past(lengths);
     double least_distance = std::numeric_limits<double>::infinity(), last_gain = 0;
     int rests = 0, shrinking = 0;
-    for (int turn = 0; turn < turns_per_leg * most_legs; ++turn) {
+    for (int turn = 0; turn < most_turns; ++turn) {
       const Vector pull = minus(target, x);
       const double distance = length(pull);
       if (distance < least_distance - lengths.clearance) {
