@@ -244,7 +244,7 @@ private:
         trial_.x = end;
         ++trial_.legs;
         trial_.go(guard, target, lengths, std::min(trial_.legs + legs_between_leaps - 1, most_legs));
-        if (internal::length(internal::minus(target, trial_.x)) < distance - std::fmax(gained, 0)) {
+        if (internal::length(internal::minus(target, trial_.x)) < distance - std::fmax(gained, lengths.lifted())) {
           walk_ = trial_;
           return;
         }

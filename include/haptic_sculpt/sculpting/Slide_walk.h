@@ -57,7 +57,7 @@ struct Slide_walk {
 
   /// So often contacts are forgotten, because J is past them, where it rests: what is met again after that is kept, for it is met on
   /// the way to the target, far from where J is.
-  static constexpr int most_rests = 3;
+  static constexpr int most_rests = 2;
   /// So many times in a row an approach may bring less than half as near as the one before: a gap that closes.
   static constexpr int most_shrinking = 6;
 
@@ -86,7 +86,7 @@ struct Slide_walk {
       }
       const Nearest_permitted way = nearest(pull, lengths);
       const bool is_to_target = way.exists && way.number_active == 0;
-      const Vector y = is_to_target ? target : plus(x, scaled(way.displacement, stride(way)));
+      const Vector y = is_to_target ? target : plus(x, scaled(way.displacement, stride(way, lengths)));
       if (y == target && x == target)
         return Walk_end::reached;
       if (!way.exists || y == x || (!is_to_target && length(way.displacement) <= lengths.settled())) {
@@ -114,10 +114,14 @@ struct Slide_walk {
           return Walk_end::stuck;
         continue;
       }
+      // Where the faces round a vertex are one plane but for rounding, J would otherwise leave each of them for the next.
+      const bool is_short = length(minus(y, x)) <= lengths.border();
       step_to(y);
       if (is_to_target)
         return Walk_end::reached;
-      if (rests < most_rests)
+      if (is_short)
+        forget([&](const Facet<Mesh>& f) { return f.is_over(lengths.lifted()); });
+      else
         leave_what_is_past(lengths);
     }
     return legs >= most_legs ? Walk_end::limit : Walk_end::stuck;
@@ -233,10 +237,10 @@ private:
 
   /// How far along its way a leg goes. Round a finely cut convex surface every facet costs two legs, along it and down to the
   /// next; where J leaves the facet anyway, long walks take two facets at once. Below 2 each leg still brings J nearer.
-  double stride(const Nearest_permitted& way) const {
+  double stride(const Nearest_permitted& way, const Slide_lengths& lengths) const {
     constexpr int long_walk = 8;
     constexpr double far = 1.9;
-    const bool leaves = way.number_active == 1 && facets[way.active[0]].outside(plus(x, way.displacement)) > 0;
+    const bool leaves = way.number_active == 1 && facets[way.active[0]].outside(plus(x, way.displacement)) > lengths.border();
     return legs >= long_walk && leaves ? far : 1;
   }
 
