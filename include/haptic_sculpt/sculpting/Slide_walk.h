@@ -74,7 +74,7 @@ struct Slide_walk {
   /// Walks until it ends, or `most_legs` have been made.
   template <class Guard>
   Walk_end go(Guard& guard, const Vector& target, const Slide_lengths& lengths, int most_legs) {
-    leave_what_is_past(lengths);
+    leave_what_is_past(lengths, lengths.resolution);
     double least_distance = std::numeric_limits<double>::infinity(), last_gain = 0;
     int rests = 0, shrinking = 0;
     for (int turn = 0; turn < most_turns; ++turn) {
@@ -90,7 +90,7 @@ struct Slide_walk {
       if (y == target && x == target)
         return Walk_end::reached;
       if (!way.exists || y == x || (!is_to_target && length(way.displacement) <= lengths.settled())) {
-        if (rests < most_rests && (leave_what_is_past(lengths) || (distance <= lengths.shortest_pull() && meet_at(guard, target, lengths)))) {
+        if (rests < most_rests && (leave_what_is_past(lengths, lengths.clearance) || (distance <= lengths.shortest_pull() && meet_at(guard, target, lengths)))) {
           ++rests;
           continue;
         }
@@ -122,7 +122,7 @@ struct Slide_walk {
       if (is_short)
         forget([&](const Facet<Mesh>& f) { return f.is_over(lengths.lifted()); });
       else
-        leave_what_is_past(lengths);
+        leave_what_is_past(lengths, lengths.resolution);
     }
     return legs >= most_legs ? Walk_end::limit : Walk_end::stuck;
   }
@@ -223,11 +223,12 @@ private:
     return std::any_of(left_.begin(), left_.end(), [&](const Contact_3<Mesh>& before) { return Facet<Mesh>::is_same(before, contact); });
   }
 
-  bool leave_what_is_past(const Slide_lengths& lengths) {
+  /// \param beside how far past: at rest within a clearance of a border it makes no difference which of two facets holds J
+  bool leave_what_is_past(const Slide_lengths& lengths, double beside) {
     return forget([&](const Facet<Mesh>& f) {
       if (f.is_over(lengths.lifted()))
         return true;
-      if (!f.is_left(x, lengths.clearance, lengths.resolution, lengths.border()))
+      if (!f.is_left(x, lengths.clearance, beside, lengths.border()))
         return false;
       if (left_.size() < left_.capacity())
         left_.push_back(f.contact());
