@@ -23,7 +23,7 @@ public:
   /// At most so many ways out of one place are tried.
   static constexpr int most_trials = 64;
   /// A walk that has made so many legs begins to leap, every few legs.
-  static constexpr int legs_before_leaps = 8, legs_between_leaps = 4;
+  static constexpr int legs_before_leaps = 6, legs_between_leaps = 2;
 
   /// The contacts no longer hold: the vertex was let go, or something else moved it.
   void forget() {
@@ -251,16 +251,15 @@ private:
       }
   }
 
-  /// The last way out, which takes nothing for granted: looks in many directions, near by and far, none of them along an axis.
+  /// The last way out, which takes nothing for granted: looks in many directions, none of them along an axis, close by and less so.
   template <class Guard, class Brings_nearer>
   bool look_about(Guard& guard, const Vector& pull, const Vector& target, const internal::Slide_lengths& lengths, double gain,
                   const Brings_nearer& brings_nearer) {
     const double distance = internal::length(pull);
     for (const Vector& direction : directions()) {
-      const double ahead = internal::dot(direction, pull);
-      if (ahead < 0)
+      if (internal::dot(direction, pull) < 0)
         continue;
-      for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted() * distance), ahead / 2}) {
+      for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted() * distance)}) {
         const Vector end = internal::advanced(walk_.x, reach, direction);
         if (walk_.legs >= most_legs || end == walk_.x || internal::length(internal::minus(target, end)) > distance + gain ||
             !guard.is_free(walk_.x, end, lengths.delta))
