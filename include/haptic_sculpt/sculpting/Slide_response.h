@@ -24,6 +24,8 @@ public:
   static constexpr int most_trials = 64;
   /// A walk that has made so many legs begins to leap, every few legs.
   static constexpr int legs_before_leaps = 6, legs_between_leaps = 2;
+  /// Steps shorter than this part of the distance from the target turn round a corner; to repeat them leads nowhere.
+  static constexpr double least_step = 0x1p-16;
 
   /// The contacts no longer hold: the vertex was let go, or something else moved it.
   void forget() {
@@ -78,22 +80,27 @@ private:
   bool escape(Guard& guard, const Vector& target, const internal::Slide_lengths& lengths) {
     const Vector pull = internal::minus(target, walk_.x);
     const double distance = internal::length(pull);
-    if (walk_.facets.empty() || distance <= lengths.shortest_pull() || !is_near_border(lengths))
+    if (walk_.facets.empty() || distance <= lengths.shortest_pull())
       return false;
     // A target is nearer by as much as it has moved at most: below what clearances can feign the answer is the same as before.
     if (sought_ && internal::length(internal::minus(walk_.x, sought_at_)) <= lengths.settled() &&
         internal::length(internal::minus(target, sought_for_)) <= 4 * lengths.clearance)
       return false;
-    const auto held = walk_.nearest(pull, lengths);
-    const auto without_clearance = walk_.nearest(pull, 0, lengths.resolution, 2 * distance);
+    if (!may_lead_on(guard, lengths))
+      return false;
+    const auto held = walk_.nearest(pull, distance, lengths.clearance, lengths);
+    const auto without_clearance = walk_.nearest(pull, distance, 0, lengths);
     const double gain = std::fmax(8 * lengths.clearance,
                                   without_clearance.exists ? 4 * internal::length(without_clearance.displacement) : 0);
     int trials = 0;
     seen_ = walk_.facets;
     const auto brings_nearer = [&](const Vector& first_aim) {
       ++trials;
-      if (first_aim != target)
+      trial_.forget_progress();
+      if (first_aim != target) {
         trial_.go(guard, first_aim, lengths, std::min(trial_.legs + 1, most_legs)); // one leg: on from there it must not climb
+        trial_.forget_progress();
+      }
       trial_.go(guard, target, lengths, std::min(walk_.legs + trial_legs, most_legs));
       for (const auto& facet : trial_.facets)
         remember(facet);
@@ -104,7 +111,8 @@ private:
     };
     const bool all_legs_were_left = walk_.legs + trial_legs <= most_legs;
     if (leave_contacts(held, target, brings_nearer) || leave_walls(guard, target, lengths, brings_nearer) ||
-        follow_features(guard, pull, target, lengths, trials, brings_nearer) || look_about(guard, pull, target, lengths, gain, brings_nearer)) {
+        follow_features(guard, pull, target, lengths, trials, brings_nearer) ||
+        look_about(guard, pull, target, lengths, gain, brings_nearer)) {
       sought_ = false;
       return true;
     }
@@ -118,16 +126,60 @@ private:
   /// a smaller angle, of 1e-12 radians, is none that a clearance or a rounded normal can tell from a seam.
   static constexpr double least_slope = 0x1p-40;
 
+  /// The same for planes of contacts that do not share an edge: a thousandth of a radian.
+  static constexpr double least_rise = 0x1p-10;
+
   /// Whether there may be a way past a border of some contact. Where all contacts near one are faces and each goes over to another
-  /// of them, rising or flat, there is none: a concave edge or corner, all of which is known.
-  bool is_near_border(const internal::Slide_lengths& lengths) const {
+  /// of them, rising or flat, there is none: a concave edge or corner, all of which is known. Where other contacts rise across
+  /// all borders it is likely one, and looking beyond their planes tells.
+  template <class Guard>
+  bool may_lead_on(Guard& guard, const internal::Slide_lengths& lengths) const {
+    bool is_doubtful = false;
     for (const auto& facet : walk_.facets) {
       if (facet.is_wall())
         return true;
       for (int k = 0; k < facet.borders(); ++k)
-        if (facet.beyond_border(k, walk_.x) > -lengths.border() && !is_closed(facet, k))
-          return true;
+        if (facet.beyond_border(k, walk_.x) > -lengths.border() && !is_closed(facet, k)) {
+          if (!does_rise(facet.outward(k)))
+            return true;
+          is_doubtful = true;
+        }
     }
+    return is_doubtful && sees_beyond_a_contact(guard, lengths);
+  }
+
+  bool does_rise(const Vector& way) const {
+    for (const auto& facet : walk_.facets)
+      if (internal::dot(facet.normal(), way) < -least_rise)
+        return true;
+    return false;
+  }
+
+  /// Whether a place beyond the plane of a contact is free to be reached: along other contacts past its border, or in any of many
+  /// directions.
+  template <class Guard>
+  bool sees_beyond_a_contact(Guard& guard, const internal::Slide_lengths& lengths) const {
+    const auto is_free = [&](const Vector& direction) {
+      return guard.is_free(walk_.x, internal::advanced(walk_.x, lengths.lifted(), direction), lengths.delta);
+    };
+    for (const auto& facet : walk_.facets)
+      for (int k = 0; k < facet.borders(); ++k)
+        for (const auto& other : walk_.facets) {
+          const Vector& out = facet.outward(k);
+          if (&other == &facet || facet.beyond_border(k, walk_.x) <= -lengths.border())
+            continue;
+          const Vector along = internal::normalized(internal::advanced(out, -internal::dot(out, other.normal()), other.normal()));
+          if (internal::dot(facet.normal(), along) < -least_rise && is_free(along))
+            return true;
+        }
+    constexpr double beyond = -0.25; // by a clearance at least, over 8 clearances from one above it
+    for (const Vector& direction : directions())
+      for (const auto& facet : walk_.facets)
+        if (internal::dot(facet.normal(), direction) < beyond) {
+          if (is_free(direction))
+            return true;
+          break;
+        }
     return false;
   }
 
@@ -231,6 +283,8 @@ private:
     const Vector way = internal::minus(walk_.x, before);
     const double step = internal::length(way), distance = internal::length(internal::minus(target, walk_.x)),
                  gained = internal::length(internal::minus(target, before)) - distance;
+    if (step < least_step * distance)
+      return;
     const Vector up = mean_normal();
     for (const double times : {64.0, 16.0, 4.0})
       for (const double slope : {0.25, 0.0625, 0.0}) {
@@ -240,6 +294,7 @@ private:
         if (!guard.is_free(walk_.x, end, lengths.delta))
           continue;
         trial_ = walk_;
+        trial_.forget_progress();
         trial_.facets.clear();
         trial_.x = end;
         ++trial_.legs;
@@ -261,8 +316,8 @@ private:
         continue;
       for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted() * distance)}) {
         const Vector end = internal::advanced(walk_.x, reach, direction);
-        if (walk_.legs >= most_legs || end == walk_.x || internal::length(internal::minus(target, end)) > distance + gain ||
-            !guard.is_free(walk_.x, end, lengths.delta))
+        if (walk_.legs >= most_legs || end == walk_.x ||
+            internal::length(internal::minus(target, end)) > distance + gain || !guard.is_free(walk_.x, end, lengths.delta))
           continue;
         trial_.facets.clear();
         trial_.x = end;

@@ -55,8 +55,8 @@ struct Slide_walk {
   /// contact, before the vertex steps back along its path.
   static constexpr int approaches = 6, most_tries = 24;
 
-  /// So often contacts are forgotten, because J is past them, where it rests: what is met again after that is kept, for it is met on
-  /// the way to the target, far from where J is.
+  /// So often contacts are forgotten, because J is past them, where it rests or comes no nearer: what is met again after that is
+  /// kept, for it is met on the way to the target, far from where J is.
   static constexpr int most_rests = 2;
   /// So many times in a row an approach may bring less than half as near as the one before: a gap that closes.
   static constexpr int most_shrinking = 6;
@@ -75,26 +75,27 @@ struct Slide_walk {
   template <class Guard>
   Walk_end go(Guard& guard, const Vector& target, const Slide_lengths& lengths, int most_legs) {
     leave_what_is_past(lengths, lengths.resolution);
-    double least_distance = std::numeric_limits<double>::infinity(), last_gain = 0;
-    int rests = 0, shrinking = 0;
     for (int turn = 0; turn < most_turns; ++turn) {
       const Vector pull = minus(target, x);
       const double distance = length(pull);
-      if (distance < least_distance - lengths.clearance) {
-        least_distance = distance;
-        rests = 0;
+      const bool is_nearer = distance < least_distance_ - lengths.clearance;
+      if (is_nearer) {
+        least_distance_ = distance;
+        rests_ = 0;
       }
-      const Nearest_permitted way = nearest(pull, lengths);
+      const Nearest_permitted way = nearest(pull, distance, lengths.clearance, lengths);
       const bool is_to_target = way.exists && way.number_active == 0;
-      const Vector y = is_to_target ? target : plus(x, scaled(way.displacement, stride(way, lengths)));
+      const Vector y = is_to_target ? target : plus(x, way.displacement);
       if (y == target && x == target)
         return Walk_end::reached;
       if (!way.exists || y == x || (!is_to_target && length(way.displacement) <= lengths.settled())) {
-        if (rests < most_rests && (leave_what_is_past(lengths, lengths.clearance) || (distance <= lengths.shortest_pull() && meet_at(guard, target, lengths)))) {
-          ++rests;
-          continue;
-        }
-        return Walk_end::settled;
+        if (rests_ >= most_rests)
+          return Walk_end::settled;
+        ++rests_;
+        if (!leave_what_is_past(lengths, lengths.clearance) &&
+            (distance > lengths.shortest_pull() || !meet_at(guard, target, lengths)))
+          return Walk_end::settled;
+        continue;
       }
       if (legs >= most_legs)
         return Walk_end::limit;
@@ -106,41 +107,38 @@ struct Slide_walk {
         if (legs == legs_before)
           continue;
         // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last one.
-        forget([&](const Facet<Mesh>& f) { return f.is_over(lengths.lifted()); });
+        forget_what_is_over(lengths);
         const double gain = distance - length(minus(target, x));
-        shrinking = gain < last_gain / 2 ? shrinking + 1 : 0;
-        last_gain = gain;
-        if (shrinking >= most_shrinking)
+        shrinking_ = gain < last_gain_ / 2 ? shrinking_ + 1 : 0;
+        last_gain_ = gain;
+        if (shrinking_ >= most_shrinking)
           return Walk_end::stuck;
         continue;
       }
       // Where the faces round a vertex are one plane but for rounding, J would otherwise leave each of them for the next.
-      const bool is_short = length(minus(y, x)) <= lengths.border();
+      const bool is_short = largest_magnitude(minus(y, x)) <= lengths.border();
       step_to(y);
       if (is_to_target)
         return Walk_end::reached;
-      if (is_short)
-        forget([&](const Facet<Mesh>& f) { return f.is_over(lengths.lifted()); });
-      else
-        leave_what_is_past(lengths, lengths.resolution);
+      if (is_short || rests_ >= most_rests)
+        forget_what_is_over(lengths);
+      else if (leave_what_is_past(lengths, lengths.resolution) && !is_nearer)
+        ++rests_; // to and fro over an edge
     }
     return legs >= most_legs ? Walk_end::limit : Walk_end::stuck;
   }
 
   /// Where the contacts let J go from x, when it wants to go by `pull`, keeping a clearance from all; in a gap too narrow for
   /// that, or too acute, a half or a quarter of it, and at last coming no nearer to any than it is.
-  Nearest_permitted nearest(const Vector& pull, const Slide_lengths& lengths) const {
-    return nearest(pull, lengths.clearance, lengths.resolution, length(pull) + lengths.retreat());
-  }
-
-  /// \param most_left a length: the place is not farther from where J wants to go
-  Nearest_permitted nearest(const Vector& pull, double clearance, double slack, double most_left) const {
-    const double slack_there = slack + rounding_of_normals * length(pull);
+  /// \param distance the length of `pull`
+  Nearest_permitted nearest(const Vector& pull, double distance, double clearance, const Slide_lengths& lengths) const {
+    const double slack = lengths.resolution, slack_there = slack + rounding_of_normals * distance;
     Half_spaces spaces;
     boost::container::static_vector<std::size_t, most_facets> facet_of;
     for (std::size_t i = 0; i < facets.size(); ++i) {
       const Half_space space = {facets[i].normal(), clearance - facets[i].height()};
-      const auto same = std::find_if(spaces.begin(), spaces.end(), [&](const Half_space& other) { return is_alike(other.normal, space.normal); });
+      const auto same = std::find_if(spaces.begin(), spaces.end(),
+                                     [&](const Half_space& other) { return is_alike(other.normal, space.normal); });
       if (same == spaces.end()) {
         spaces.push_back(space);
         facet_of.push_back(i);
@@ -157,7 +155,7 @@ struct Slide_walk {
       for (Half_space& space : spaces)
         space.least -= less;
       seek();
-      if (found.exists && (found.number_active < 2 || length(minus(pull, found.displacement)) <= most_left))
+      if (found.exists && (found.number_active < 2 || length(minus(pull, found.displacement)) <= distance + lengths.retreat()))
         return found;
     }
     for (Half_space& space : spaces)
@@ -213,11 +211,28 @@ struct Slide_walk {
   void begin(const Vector& source) {
     legs = 0;
     left_.clear();
+    forget_progress();
     place(source);
   }
 
+  /// Another target, or another way to it.
+  void forget_progress() {
+    least_distance_ = std::numeric_limits<double>::infinity();
+    last_gain_ = 0;
+    rests_ = shrinking_ = 0;
+  }
+
 private:
+  /// Round a corner that is flat to within some clearances J would leave and meet the same contacts again and again.
+  void forget_what_is_over(const Slide_lengths& lengths) {
+    const double lifted = rests_ < most_rests ? lengths.lifted() : lengths.retreat();
+    forget([lifted](const Facet<Mesh>& f) { return f.is_over(lifted); });
+  }
+
   boost::container::static_vector<Contact_3<Mesh>, most_facets> left_; ///< contacts gone past in this drag
+  double least_distance_ = std::numeric_limits<double>::infinity();    ///< from the target, so far
+  double last_gain_ = 0;                                               ///< of the last approach
+  int rests_ = 0, shrinking_ = 0;
 
   bool has_left(const Contact_3<Mesh>& contact) const {
     return std::any_of(left_.begin(), left_.end(), [&](const Contact_3<Mesh>& before) { return Facet<Mesh>::is_same(before, contact); });
@@ -234,15 +249,6 @@ private:
         left_.push_back(f.contact());
       return true;
     });
-  }
-
-  /// How far along its way a leg goes. Round a finely cut convex surface every facet costs two legs, along it and down to the
-  /// next; where J leaves the facet anyway, long walks take two facets at once. Below 2 each leg still brings J nearer.
-  double stride(const Nearest_permitted& way, const Slide_lengths& lengths) const {
-    constexpr int long_walk = 8;
-    constexpr double far = 1.9;
-    const bool leaves = way.number_active == 1 && facets[way.active[0]].outside(plus(x, way.displacement)) > lengths.border();
-    return legs >= long_walk && leaves ? far : 1;
   }
 
   void step_to(const Vector& place_reached) {
@@ -278,7 +284,8 @@ private:
       return false;
     boost::container::static_vector<Contact_3<Mesh>, most_facets> met;
     guard.for_each_first_contact(x, target, [&](const Contact_3<Mesh>& contact, double) {
-      if (contact.kind == Contact_kind::vertex_face && !contact.is_flat && met.size() < met.capacity() && !knows(contact) && !has_left(contact))
+      const bool is_face = contact.kind == Contact_kind::vertex_face && !contact.is_flat;
+      if (is_face && met.size() < met.capacity() && !knows(contact) && !has_left(contact))
         met.push_back(contact);
     });
     for (const Contact_3<Mesh>& contact : met)
@@ -295,11 +302,11 @@ private:
     const double time = meet_first(guard, y, lengths.delta, steepest, any_new);
     const Vector to_impact = scaled(minus(y, x), time);
     bool met = any_new;
-    const double farthest = length(minus(target, x)) + lengths.retreat();
+    const double way_there = length(to_impact), farthest = length(minus(target, x)) + lengths.retreat();
     double clearance = lengths.clearance;
     int tries = 0;
     for (int attempt = 0; attempt < approaches && tries < most_tries; ++tries) {
-      const Nearest_permitted near = nearest(to_impact, clearance, lengths.resolution, length(to_impact) + lengths.retreat());
+      const Nearest_permitted near = nearest(to_impact, way_there, clearance, lengths);
       const Vector z = plus(x, near.displacement);
       if (!near.exists || z == x || length(minus(target, z)) > farthest)
         break;
