@@ -131,19 +131,19 @@ private:
 
   /// Whether there may be a way past a border of some contact. Where all contacts near one are faces and each goes over to another
   /// of them, rising or flat, there is none: a concave edge or corner, all of which is known. Where other contacts rise across
-  /// all borders it is likely one, and looking beyond their planes tells.
+  /// all borders, and J is near no corner, it is likely one, and looking beyond their planes tells.
   template <class Guard>
   bool may_lead_on(Guard& guard, const internal::Slide_lengths& lengths) const {
     bool is_doubtful = false;
     for (const auto& facet : walk_.facets) {
       if (facet.is_wall())
         return true;
+      int open = 0;
       for (int k = 0; k < facet.borders(); ++k)
-        if (facet.beyond_border(k, walk_.x) > -lengths.border() && !is_closed(facet, k)) {
-          if (!does_rise(facet.outward(k)))
+        if (facet.beyond_border(k, walk_.x) > -lengths.border() && !is_closed(facet, k))
+          if (!does_rise(facet.outward(k)) || ++open > 1)
             return true;
-          is_doubtful = true;
-        }
+      is_doubtful = is_doubtful || open > 0;
     }
     return is_doubtful && sees_beyond_a_contact(guard, lengths);
   }

@@ -58,7 +58,7 @@ struct Slide_walk {
   /// So often contacts are forgotten, because J is past them, where it rests or comes no nearer: what is met again after that is
   /// kept, for it is met on the way to the target, far from where J is.
   static constexpr int most_rests = 2;
-  /// So many times in a row an approach may bring less than half as near as the one before: a gap that closes.
+  /// So many times in a row an approach in a narrow gap may bring less than half as near as the one before: a gap that closes.
   static constexpr int most_shrinking = 6;
 
   /// One unit in the last place of a unit vector, and how much alike two normals are that differ by rounding alone.
@@ -109,7 +109,7 @@ struct Slide_walk {
         // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last one.
         forget_what_is_over(lengths);
         const double gain = distance - length(minus(target, x));
-        shrinking_ = gain < last_gain_ / 2 ? shrinking_ + 1 : 0;
+        shrinking_ = way.is_squeezed && gain < last_gain_ / 2 ? shrinking_ + 1 : 0;
         last_gain_ = gain;
         if (shrinking_ >= most_shrinking)
           return Walk_end::stuck;
@@ -155,12 +155,14 @@ struct Slide_walk {
       for (Half_space& space : spaces)
         space.least -= less;
       seek();
+      found.is_squeezed = less > 0;
       if (found.exists && (found.number_active < 2 || length(minus(pull, found.displacement)) <= distance + lengths.retreat()))
         return found;
     }
     for (Half_space& space : spaces)
       space.least = std::fmin(space.least, 0);
     seek();
+    found.is_squeezed = true;
     return found;
   }
 
@@ -238,12 +240,13 @@ private:
     return std::any_of(left_.begin(), left_.end(), [&](const Contact_3<Mesh>& before) { return Facet<Mesh>::is_same(before, contact); });
   }
 
-  /// \param beside how far past: at rest within a clearance of a border it makes no difference which of two facets holds J
+  /// \param beside how far past a face: at rest within a clearance of a seam it makes no difference which of two holds J
   bool leave_what_is_past(const Slide_lengths& lengths, double beside) {
     return forget([&](const Facet<Mesh>& f) {
       if (f.is_over(lengths.lifted()))
         return true;
-      if (!f.is_left(x, lengths.clearance, beside, lengths.border()))
+      const double past = f.contact().kind == Contact_kind::vertex_face ? beside : lengths.resolution;
+      if (!f.is_left(x, lengths.clearance, past, lengths.border()))
         return false;
       if (left_.size() < left_.capacity())
         left_.push_back(f.contact());
