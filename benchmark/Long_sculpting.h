@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_BENCHMARK_LONG_SCULPTING_H
 #define HAPTIC_SCULPT_BENCHMARK_LONG_SCULPTING_H
 
+#include "sculpting/Recording_guard.h"
 #include "sculpting/local_minimum.h"
 
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@ namespace haptic_sculpt::benchmark {
 struct Long_tally {
   std::size_t drags = 0, reached = 0, held = 0, at_leg_limit = 0, without_progress = 0, edits_asked = 0, edits_done = 0;
   std::size_t validations = 0, invalid = 0, minima_asked = 0, minima_missed = 0, contradictions = 0;
+  std::size_t legs_checked = 0, legs_crossing = 0, ways_unproven = 0;
   std::vector<std::size_t> legs = std::vector<std::size_t>(33);
   double nanoseconds = 0;
 
@@ -30,6 +32,9 @@ struct Long_tally {
             {"minima_asked", minima_asked},
             {"minima_missed", minima_missed},
             {"contradictions", contradictions},
+            {"legs_checked", legs_checked},
+            {"legs_crossing", legs_crossing},
+            {"ways_unproven", ways_unproven},
             {"legs", legs},
             {"mean_ns", drags > 0 ? nanoseconds / static_cast<double>(drags) : 0}};
   }
@@ -103,6 +108,8 @@ private:
 
   template <class Grab>
   void drag(Grab& grab, Vertex_index v, const Point_3& to, bool check) {
+    if (check)
+      check_legs(v, to);
     const auto begin = std::chrono::steady_clock::now();
     const auto r = grab.drag_to(to);
     tally_.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
@@ -119,6 +126,31 @@ private:
         ++tally_.minima_asked;
         tally_.minima_missed += minimum.random_gain > 0 || minimum.kkt_residual > 1e-9;
       }
+    }
+  }
+
+  /// The same drag once more, without moving the vertex: each of its legs is asked of the oracle of the sweeps, of all pairs.
+  void check_legs(Vertex_index v, const Point_3& to) {
+    const std::array<double, 3> s = vertex_coordinates(mesh_, v), t = {to.x(), to.y(), to.z()};
+    if (s == t)
+      return;
+    double largest = internal::largest_magnitude(t);
+    for (const Vertex_index w : mesh_.vertices())
+      largest = std::fmax(largest, internal::largest_magnitude(vertex_coordinates(mesh_, w)));
+    Box_tree_broad_phase<Mesh> broad_phase(mesh_);
+    const Face_corners<Mesh> corners(mesh_);
+    Filter_counters counters;
+    test::Recording_guard<Mesh> guard(mesh_, broad_phase, corners, counters);
+    guard.star().collect(mesh_, v);
+    Responses<Mesh> responses;
+    Drag_result<Mesh> result;
+    const auto end = responses.move(Response::slide, guard, mesh_, s, t, sculptor_.clearance(to), largest, 0, result);
+    const auto legs = guard.way(s, end);
+    tally_.ways_unproven += end != s && legs.empty();
+    const test::Surroundings around(mesh_, v);
+    for (const auto& [from, on] : legs) {
+      ++tally_.legs_checked;
+      tally_.legs_crossing += !around.is_free_by_oracle(Point_3(from[0], from[1], from[2]), Point_3(on[0], on[1], on[2]));
     }
   }
 

@@ -186,7 +186,7 @@ Exit run(const Options& options) {
       row.update(tally.json());
       rows.push_back(row);
       std::cout << row.dump() << '\n' << std::flush;
-      if (tally.invalid > 0)
+      if (tally.invalid + tally.legs_crossing + tally.ways_unproven > 0)
         exit = not_embedded;
       else if (tally.contradictions > 0 && exit == all_kept)
         exit = contradiction;
@@ -207,7 +207,7 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Drags with each response: distance left to the target, share of ends at a local minimum, time.\n"
                "With --sculpt, slides over the meshes of a folder for long, with creations, removals, undo and redo in between.\n"
-               "Exit: 0 all kept, 2 usage or a file that cannot be read, 10 a mesh is no longer embedded, 11 more than 0.1 % of "
+               "Exit: 0 all kept, 2 usage or a file that cannot be read, 10 a mesh is no longer embedded or a leg crosses something, 11 more than 0.1 % of "
                "the checked slides are at no minimum, 12 a result contradicts itself.");
   app.add_option("--meshes", options.folder, "Folder of meshes, beside the generated scenes")->check(CLI::ExistingDirectory);
   app.add_option("--drags", options.drags, "Drags in each scene and with each response for the chart; 0: no chart")->capture_default_str();

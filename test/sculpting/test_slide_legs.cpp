@@ -3,11 +3,10 @@
 #include "Random_scene.h"
 
 #include "oracle/embedding_oracle.h"
+#include "sculpting/Recording_guard.h"
 #include "sculpting/Slide_faults.h"
 
 #include <boost/test/unit_test.hpp>
-
-#include <set>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -16,46 +15,6 @@ namespace {
 
 using Coordinates = std::array<double, 3>;
 using Broad_phase = Box_tree_broad_phase<Mesh>;
-
-/// A guard that notes which motions it has found free: the legs of a walk are among them.
-class Recording_guard : public Guarded_star<Mesh, Broad_phase> {
-public:
-  using Guarded_star<Mesh, Broad_phase>::Guarded_star;
-
-  void decide(const Coordinates& source, const Coordinates& target, double delta) {
-    Guarded_star::decide(source, target, delta);
-    if (!is_blocked())
-      free_.emplace(source, target);
-  }
-  bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
-    const bool free = Guarded_star::is_free(source, target, delta);
-    if (free)
-      free_.emplace(source, target);
-    return free;
-  }
-
-  /// The legs of a way from source to target through free motions only, or none: then the vertex has gone where nothing was proven.
-  std::vector<std::pair<Coordinates, Coordinates>> way(const Coordinates& source, const Coordinates& target) const {
-    std::map<Coordinates, Coordinates> came_from;
-    std::vector<Coordinates> open = {source};
-    while (!open.empty() && came_from.count(target) == 0) {
-      const Coordinates x = open.back();
-      open.pop_back();
-      for (auto i = free_.lower_bound({x, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}}); i != free_.end() && i->first == x; ++i)
-        if (i->second != source && came_from.emplace(i->second, x).second)
-          open.push_back(i->second);
-    }
-    std::vector<std::pair<Coordinates, Coordinates>> legs;
-    if (came_from.count(target) != 0)
-      for (Coordinates x = target; x != source; x = came_from.at(x))
-        legs.emplace_back(came_from.at(x), x);
-    return legs;
-  }
-  void clear() { free_.clear(); }
-
-private:
-  std::set<std::pair<Coordinates, Coordinates>> free_;
-};
 
 oracle::Mesh_list to_oracle(const meshes::Triangle_list& list) {
   oracle::Mesh_list result;
@@ -92,7 +51,7 @@ BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
     Broad_phase broad_phase(mesh);
     const Face_corners<Mesh> corners(mesh);
     Filter_counters counters;
-    Recording_guard guard(mesh, broad_phase, corners, counters);
+    Recording_guard<Mesh> guard(mesh, broad_phase, corners, counters);
     guard.star().collect(mesh, v);
     Responses<Mesh> responses;
     for (int i = 0; i < 5; ++i, ++done) {

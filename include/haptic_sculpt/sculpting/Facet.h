@@ -88,9 +88,26 @@ public:
 
   void set_delta(double delta) { delta_ = delta; }
 
-  friend bool is_same(const Facet& a, const Contact_3<Mesh>& b) {
-    return !a.is_wall() && a.contact_.kind == b.kind && a.contact_.vertices == b.vertices && a.contact_.side == b.side;
+  /// Whether border i of a face is also one of another: then J that goes past it goes over to the other.
+  bool shares_border(int i, const Facet& other) const {
+    if (contact_.kind != Contact_kind::vertex_face || other.contact_.kind != Contact_kind::vertex_face)
+      return false;
+    const auto& theirs = other.contact_.vertices;
+    const auto has = [&](const auto v) { return theirs[0] == v || theirs[1] == v || theirs[2] == v; };
+    return has(contact_.vertices[static_cast<std::size_t>(i)]) && has(contact_.vertices[static_cast<std::size_t>((i + 1) % 3)]);
   }
+
+  /// The normal of the plane in which a flat impact happened, of length 1; 0 where all is on one line.
+  Vector normal_of_wall() const {
+    const auto& [a, b, c] = contact_.plane;
+    return normalized(cross(normalized(minus(b, a)), normalized(minus(c, a))));
+  }
+
+  /// The same features, met from the same side.
+  static bool is_same(const Contact_3<Mesh>& a, const Contact_3<Mesh>& b) {
+    return a.kind == b.kind && a.vertices == b.vertices && a.side == b.side;
+  }
+  bool is_of(const Contact_3<Mesh>& contact) const { return !is_wall() && is_same(contact_, contact); }
 
 private:
   Contact_3<Mesh> contact_;

@@ -22,9 +22,16 @@ public:
   static constexpr int trial_legs = 4;
   /// At most so many ways out of one place are tried.
   static constexpr int most_trials = 64;
+  /// A walk that has made so many legs begins to leap, every few legs.
+  static constexpr int legs_before_leaps = 6, legs_between_leaps = 2;
+  /// Steps shorter than this part of the distance from the target turn round a corner; to repeat them leads nowhere.
+  static constexpr double least_step = 0x1p-16;
 
   /// The contacts no longer hold: the vertex was let go, or something else moved it.
-  void forget() { walk_.facets.clear(); }
+  void forget() {
+    walk_.facets.clear();
+    sought_ = false;
+  }
 
   /// Goes from source towards target. Returns where the vertex is then; every leg on the way there is proven free. Fills in
   /// contacts, legs, stop error and `end`.
@@ -36,9 +43,20 @@ public:
       forget();
     walk_.begin(source);
     Walk_end end;
-    do
-      end = walk_.go(guard, target, lengths, most_legs);
-    while ((end == Walk_end::settled || end == Walk_end::stuck) && walk_.legs < most_legs && escape(guard, target, lengths));
+    Vector before = source;
+    int until = legs_before_leaps;
+    for (;;) {
+      end = walk_.go(guard, target, lengths, std::min(until, most_legs));
+      if (end == Walk_end::reached || walk_.legs >= most_legs)
+        break;
+      if (end == Walk_end::limit) {
+        if (until > legs_before_leaps)
+          leap(guard, before, target, lengths);
+        before = walk_.x;
+        until = walk_.legs + legs_between_leaps;
+      } else if (!escape(guard, target, lengths))
+        break;
+    }
     if (end != Walk_end::reached && walk_.legs >= most_legs)
       end = Walk_end::limit;
     walk_.forget([&](const auto& facet) { return facet.is_over(lengths.lifted()); });
@@ -53,6 +71,8 @@ private:
 
   Walk walk_, trial_;
   Facets seen_; ///< all that was met while a way out was sought
+  bool sought_ = false;
+  Vector sought_at_{}, sought_for_{}; ///< where no way out was found, and to which target
 
   /// Half-spaces forbid more than facets do: at a corner that is neither convex nor concave there may be a way on although the
   /// planes meet. Looks for one, and takes it if it brings the vertex nearer by more than what clearances can feign.
@@ -60,18 +80,27 @@ private:
   bool escape(Guard& guard, const Vector& target, const internal::Slide_lengths& lengths) {
     const Vector pull = internal::minus(target, walk_.x);
     const double distance = internal::length(pull);
-    if (walk_.facets.empty() || distance <= lengths.shortest_pull() || !is_near_border(lengths))
+    if (walk_.facets.empty() || distance <= lengths.shortest_pull())
       return false;
-    const auto held = walk_.nearest(pull, lengths.clearance, lengths.resolution);
-    const auto without_clearance = walk_.nearest(pull, 0, lengths.resolution);
+    // A target is nearer by as much as it has moved at most: below what clearances can feign the answer is the same as before.
+    if (sought_ && internal::length(internal::minus(walk_.x, sought_at_)) <= lengths.settled() &&
+        internal::length(internal::minus(target, sought_for_)) <= 4 * lengths.clearance)
+      return false;
+    if (!may_lead_on(guard, lengths))
+      return false;
+    const auto held = walk_.nearest(pull, distance, lengths.clearance, lengths);
+    const auto without_clearance = walk_.nearest(pull, distance, 0, lengths);
     const double gain = std::fmax(8 * lengths.clearance,
                                   without_clearance.exists ? 4 * internal::length(without_clearance.displacement) : 0);
     int trials = 0;
     seen_ = walk_.facets;
     const auto brings_nearer = [&](const Vector& first_aim) {
       ++trials;
-      if (first_aim != target)
+      trial_.forget_progress();
+      if (first_aim != target) {
         trial_.go(guard, first_aim, lengths, std::min(trial_.legs + 1, most_legs)); // one leg: on from there it must not climb
+        trial_.forget_progress();
+      }
       trial_.go(guard, target, lengths, std::min(walk_.legs + trial_legs, most_legs));
       for (const auto& facet : trial_.facets)
         remember(facet);
@@ -80,31 +109,84 @@ private:
       walk_ = trial_;
       return true;
     };
-    if (leave_contacts(held, target, brings_nearer))
+    const bool all_legs_were_left = walk_.legs + trial_legs <= most_legs;
+    if (leave_contacts(held, target, brings_nearer) || leave_walls(guard, target, lengths, brings_nearer) ||
+        follow_features(guard, pull, target, lengths, trials, brings_nearer) ||
+        look_about(guard, pull, target, lengths, gain, brings_nearer)) {
+      sought_ = false;
       return true;
-    return follow_features(guard, pull, target, lengths, trials, brings_nearer);
-  }
-
-  /// Another facet forbids to go past a border where its normal is against the way by more than this: a thousandth of a radian,
-  /// to leave coplanar neighbours, which forbid nothing, on the other side of it.
-  static constexpr double least_slope = 0x1p-10;
-
-  /// Whether there may be a way past a border of some contact. At the inner edge of a concave corner there is none: the other
-  /// contact lies across it.
-  bool is_near_border(const internal::Slide_lengths& lengths) const {
-    for (const auto& facet : walk_.facets) {
-      if (facet.is_wall())
-        return true;
-      for (int k = 0; k < facet.borders(); ++k)
-        if (facet.beyond_border(k, walk_.x) > -lengths.border() && !is_closed(facet.outward(k)))
-          return true;
     }
+    sought_ = all_legs_were_left;
+    sought_at_ = walk_.x;
+    sought_for_ = target;
     return false;
   }
 
-  bool is_closed(const Vector& way) const {
+  /// Two faces form a convex edge, round which a way may lead, where one falls off from the other's plane by more than this:
+  /// a smaller angle, of 1e-12 radians, is none that a clearance or a rounded normal can tell from a seam.
+  static constexpr double least_slope = 0x1p-40;
+
+  /// The same for planes of contacts that do not share an edge: a thousandth of a radian.
+  static constexpr double least_rise = 0x1p-10;
+
+  /// Whether there may be a way past a border of some contact. Where all contacts near one are faces and each goes over to another
+  /// of them, rising or flat, there is none: a concave edge or corner, all of which is known. Where other contacts rise across
+  /// all borders, and J is near no corner, it is likely one, and looking beyond their planes tells.
+  template <class Guard>
+  bool may_lead_on(Guard& guard, const internal::Slide_lengths& lengths) const {
+    bool is_doubtful = false;
+    for (const auto& facet : walk_.facets) {
+      if (facet.is_wall())
+        return true;
+      int open = 0;
+      for (int k = 0; k < facet.borders(); ++k)
+        if (facet.beyond_border(k, walk_.x) > -lengths.border() && !is_closed(facet, k))
+          if (!does_rise(facet.outward(k)) || ++open > 1)
+            return true;
+      is_doubtful = is_doubtful || open > 0;
+    }
+    return is_doubtful && sees_beyond_a_contact(guard, lengths);
+  }
+
+  bool does_rise(const Vector& way) const {
     for (const auto& facet : walk_.facets)
-      if (!facet.is_wall() && internal::dot(facet.normal(), way) < -least_slope)
+      if (internal::dot(facet.normal(), way) < -least_rise)
+        return true;
+    return false;
+  }
+
+  /// Whether a place beyond the plane of a contact is free to be reached: along other contacts past its border, or in any of many
+  /// directions.
+  template <class Guard>
+  bool sees_beyond_a_contact(Guard& guard, const internal::Slide_lengths& lengths) const {
+    const auto is_free = [&](const Vector& direction) {
+      return guard.is_free(walk_.x, internal::advanced(walk_.x, lengths.lifted(), direction), lengths.delta);
+    };
+    for (const auto& facet : walk_.facets)
+      for (int k = 0; k < facet.borders(); ++k)
+        for (const auto& other : walk_.facets) {
+          const Vector& out = facet.outward(k);
+          if (&other == &facet || facet.beyond_border(k, walk_.x) <= -lengths.border())
+            continue;
+          const Vector along = internal::normalized(internal::advanced(out, -internal::dot(out, other.normal()), other.normal()));
+          if (internal::dot(facet.normal(), along) < -least_rise && is_free(along))
+            return true;
+        }
+    constexpr double beyond = -0.25; // by a clearance at least, over 8 clearances from one above it
+    for (const Vector& direction : directions())
+      for (const auto& facet : walk_.facets)
+        if (internal::dot(facet.normal(), direction) < beyond) {
+          if (is_free(direction))
+            return true;
+          break;
+        }
+    return false;
+  }
+
+  bool is_closed(const internal::Facet<Mesh>& facet, int border) const {
+    for (const auto& other : walk_.facets)
+      if (&other != &facet && facet.shares_border(border, other) &&
+          internal::dot(other.normal(), facet.outward(border)) < least_slope)
         return true;
     return false;
   }
@@ -115,12 +197,34 @@ private:
     const unsigned subsets = 1u << (held.exists ? held.number_active : 0);
     for (unsigned subset = 1; subset < subsets; ++subset) {
       trial_ = walk_;
-      for (int i = held.number_active - 1; i >= 0; --i)
-        if (subset >> i & 1)
-          trial_.facets.erase(trial_.facets.begin() + held.active[i]); // positions increase with i
+      trial_.forget([&](const auto& facet) {
+        for (int i = 0; i < held.number_active; ++i)
+          if ((subset >> i & 1) != 0 && Walk::is_alike(facet.normal(), walk_.facets[held.active[i]].normal()))
+            return true;
+        return false;
+      });
       if (brings_nearer(target))
         return true;
     }
+    return false;
+  }
+
+  /// A flat impact blocks the way in one plane only: tries both sides of that plane.
+  template <class Guard, class Brings_nearer>
+  bool leave_walls(Guard& guard, const Vector& target, const internal::Slide_lengths& lengths, const Brings_nearer& brings_nearer) {
+    for (const auto& facet : walk_.facets)
+      for (const double height : {4 * lengths.clearance, -4 * lengths.clearance}) {
+        if (!facet.is_wall() || walk_.legs >= most_legs)
+          break;
+        const Vector beside = internal::advanced(walk_.x, height, facet.normal_of_wall());
+        if (beside == walk_.x || !guard.is_free(walk_.x, beside, lengths.delta))
+          continue;
+        trial_.facets.clear();
+        trial_.x = beside;
+        trial_.legs = walk_.legs + 1;
+        if (brings_nearer(target))
+          return true;
+      }
     return false;
   }
 
@@ -172,14 +276,87 @@ private:
     return false;
   }
 
-  /// A free point a few clearances from the vertex along the mean normal of its contacts, or where it is.
+  /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many times as far, and
+  /// takes it if that, when J has come down, has brought it nearer than these did.
   template <class Guard>
-  Vector off_the_contacts(Guard& guard, const internal::Slide_lengths& lengths) const {
+  void leap(Guard& guard, const Vector& before, const Vector& target, const internal::Slide_lengths& lengths) {
+    const Vector way = internal::minus(walk_.x, before);
+    const double step = internal::length(way), distance = internal::length(internal::minus(target, walk_.x)),
+                 gained = internal::length(internal::minus(target, before)) - distance;
+    if (step < least_step * distance)
+      return;
+    const Vector up = mean_normal();
+    for (const double times : {64.0, 16.0, 4.0})
+      for (const double slope : {0.25, 0.0625, 0.0}) {
+        if (times * step > distance || walk_.legs + 1 >= most_legs)
+          break;
+        const Vector end = internal::advanced(internal::advanced(walk_.x, times, way), slope * times * step, up);
+        if (!guard.is_free(walk_.x, end, lengths.delta))
+          continue;
+        trial_ = walk_;
+        trial_.forget_progress();
+        trial_.facets.clear();
+        trial_.x = end;
+        ++trial_.legs;
+        trial_.go(guard, target, lengths, std::min(trial_.legs + legs_between_leaps - 1, most_legs));
+        if (internal::length(internal::minus(target, trial_.x)) < distance - std::fmax(gained, lengths.lifted())) {
+          walk_ = trial_;
+          return;
+        }
+      }
+  }
+
+  /// The last way out, which takes nothing for granted: looks in many directions, none of them along an axis, close by and less so.
+  template <class Guard, class Brings_nearer>
+  bool look_about(Guard& guard, const Vector& pull, const Vector& target, const internal::Slide_lengths& lengths, double gain,
+                  const Brings_nearer& brings_nearer) {
+    const double distance = internal::length(pull);
+    for (const Vector& direction : directions()) {
+      if (internal::dot(direction, pull) < 0)
+        continue;
+      for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted() * distance)}) {
+        const Vector end = internal::advanced(walk_.x, reach, direction);
+        if (walk_.legs >= most_legs || end == walk_.x ||
+            internal::length(internal::minus(target, end)) > distance + gain || !guard.is_free(walk_.x, end, lengths.delta))
+          continue;
+        trial_.facets.clear();
+        trial_.x = end;
+        trial_.legs = walk_.legs + 1;
+        if (brings_nearer(target))
+          return true;
+      }
+    }
+    return false;
+  }
+
+  /// Points spread evenly over the unit sphere, on a spiral.
+  static const std::array<Vector, 48>& directions() {
+    static const std::array<Vector, 48> all = [] {
+      std::array<Vector, 48> points;
+      const double golden_angle = 2.3999632297286533;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(points.size()), r = std::sqrt(1 - z * z),
+                     angle = golden_angle * static_cast<double>(i) + 0.5;
+        points[i] = {r * std::cos(angle), r * std::sin(angle), z};
+      }
+      return points;
+    }();
+    return all;
+  }
+
+  Vector mean_normal() const {
     Vector sum{};
     for (const auto& facet : walk_.facets)
       sum = internal::plus(sum, facet.normal());
+    return internal::normalized(sum);
+  }
+
+  /// A free point a few clearances from the vertex along the mean normal of its contacts, or where it is.
+  template <class Guard>
+  Vector off_the_contacts(Guard& guard, const internal::Slide_lengths& lengths) const {
+    const Vector up = mean_normal();
     for (const double height : {4.0, 1.0}) {
-      const Vector off = internal::advanced(walk_.x, height * lengths.clearance, internal::normalized(sum));
+      const Vector off = internal::advanced(walk_.x, height * lengths.clearance, up);
       if (off != walk_.x && guard.is_free(walk_.x, off, lengths.delta))
         return off;
     }
@@ -188,7 +365,7 @@ private:
 
   void remember(const internal::Facet<Mesh>& facet) {
     for (const auto& other : seen_)
-      if (facet.is_wall() || is_same(other, facet.contact()))
+      if (facet.is_wall() || other.is_of(facet.contact()))
         return;
     if (seen_.size() < seen_.capacity())
       seen_.push_back(facet);

@@ -28,6 +28,9 @@ struct Slide_lengths {
   double settled() const { return 2 * resolution; }
   /// A pull no longer than this says nothing about its direction.
   double shortest_pull() const { return 16 * clearance; }
+  /// To be a clearance off two planes J may have to go back from its target by a clearance over the sine of half their angle. No
+  /// farther than this: in a gap more acute than a hundredth of a radian less than a clearance is kept.
+  double retreat() const { return 128 * clearance; }
 };
 
 /// How a walk ended.
@@ -45,15 +48,21 @@ enum class Walk_end : std::uint8_t {
 template <class Mesh>
 struct Slide_walk {
   /// More contacts than this at once are not carried; whoever matters is met again.
-  static constexpr std::size_t most_facets = 16;
+  static constexpr std::size_t most_facets = 32;
   /// Bounds the turns in which no leg is made: each of them learns of a contact or forgets one.
-  static constexpr int turns_per_leg = 4;
+  static constexpr int most_turns = 128;
   /// How often a place near a new contact is sought with growing clearance, and how often at all, as each may meet yet another
   /// contact, before the vertex steps back along its path.
   static constexpr int approaches = 6, most_tries = 24;
 
-  /// One unit in the last place of a unit vector.
-  static constexpr double rounding_of_normals = 0x1p-52;
+  /// So often contacts are forgotten, because J is past them, where it rests or comes no nearer: what is met again after that is
+  /// kept, for it is met on the way to the target, far from where J is.
+  static constexpr int most_rests = 2;
+  /// So many times in a row an approach in a narrow gap may bring less than half as near as the one before: a gap that closes.
+  static constexpr int most_shrinking = 6;
+
+  /// One unit in the last place of a unit vector, and how much alike two normals are that differ by rounding alone.
+  static constexpr double rounding_of_normals = 0x1p-52, alike = 2 * rounding_of_normals;
 
   using Facets = boost::container::static_vector<Facet<Mesh>, most_facets>;
   using Half_spaces = boost::container::static_vector<Half_space, most_facets>;
@@ -65,55 +74,101 @@ struct Slide_walk {
   /// Walks until it ends, or `most_legs` have been made.
   template <class Guard>
   Walk_end go(Guard& guard, const Vector& target, const Slide_lengths& lengths, int most_legs) {
-    leave_what_is_past(lengths);
-    for (int turn = 0; turn < turns_per_leg * most_legs; ++turn) {
-      const Nearest_permitted way = nearest(minus(target, x), lengths.clearance, lengths.resolution);
+    leave_what_is_past(lengths, lengths.resolution);
+    for (int turn = 0; turn < most_turns; ++turn) {
+      const Vector pull = minus(target, x);
+      const double distance = length(pull);
+      const bool is_nearer = distance < least_distance_ - lengths.clearance;
+      if (is_nearer) {
+        least_distance_ = distance;
+        rests_ = 0;
+      }
+      const Nearest_permitted way = nearest(pull, distance, lengths.clearance, lengths);
       const bool is_to_target = way.exists && way.number_active == 0;
-      const Vector y = is_to_target ? target : plus(x, scaled(way.displacement, stride(way)));
+      const Vector y = is_to_target ? target : plus(x, way.displacement);
       if (y == target && x == target)
         return Walk_end::reached;
       if (!way.exists || y == x || (!is_to_target && length(way.displacement) <= lengths.settled())) {
-        if (leave_what_is_past(lengths))
-          continue;
-        return Walk_end::settled;
+        if (rests_ >= most_rests)
+          return Walk_end::settled;
+        ++rests_;
+        if (!leave_what_is_past(lengths, lengths.clearance) &&
+            (distance > lengths.shortest_pull() || !meet_at(guard, target, lengths)))
+          return Walk_end::settled;
+        continue;
       }
       if (legs >= most_legs)
         return Walk_end::limit;
       guard.decide(x, y, lengths.delta);
       if (guard.is_blocked()) {
         const int legs_before = legs;
-        if (!approach(guard, y, lengths))
+        if (!approach(guard, y, target, lengths))
           return Walk_end::stuck;
+        if (legs == legs_before)
+          continue;
         // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last one.
-        if (legs != legs_before)
-          forget([&](const Facet<Mesh>& f) { return f.is_over(lengths.lifted()); });
+        forget_what_is_over(lengths);
+        const double gain = distance - length(minus(target, x));
+        shrinking_ = way.is_squeezed && gain < last_gain_ / 2 ? shrinking_ + 1 : 0;
+        last_gain_ = gain;
+        if (shrinking_ >= most_shrinking)
+          return Walk_end::stuck;
         continue;
       }
+      // Where the faces round a vertex are one plane but for rounding, J would otherwise leave each of them for the next.
+      const bool is_short = largest_magnitude(minus(y, x)) <= lengths.border();
       step_to(y);
       if (is_to_target)
         return Walk_end::reached;
-      leave_what_is_past(lengths);
+      if (is_short || rests_ >= most_rests)
+        forget_what_is_over(lengths);
+      else if (leave_what_is_past(lengths, lengths.resolution) && !is_nearer)
+        ++rests_; // to and fro over an edge
     }
-    return Walk_end::limit;
+    return legs >= most_legs ? Walk_end::limit : Walk_end::stuck;
   }
 
-  /// Where the contacts let J go from x, when it wants to go by `pull`, keeping `clearance` from all; in a gap too narrow for
-  /// that a half or a quarter of it, and at last coming no nearer to any than it is.
-  Nearest_permitted nearest(const Vector& pull, double clearance, double slack) const {
-    const double slack_there = slack + rounding_of_normals * length(pull);
+  /// Where the contacts let J go from x, when it wants to go by `pull`, keeping a clearance from all; in a gap too narrow for
+  /// that, or too acute, a half or a quarter of it, and at last coming no nearer to any than it is.
+  /// \param distance the length of `pull`
+  Nearest_permitted nearest(const Vector& pull, double distance, double clearance, const Slide_lengths& lengths) const {
+    const double slack = lengths.resolution, slack_there = slack + rounding_of_normals * distance;
     Half_spaces spaces;
+    boost::container::static_vector<std::size_t, most_facets> facet_of;
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+      const Half_space space = {facets[i].normal(), clearance - facets[i].height()};
+      const auto same = std::find_if(spaces.begin(), spaces.end(),
+                                     [&](const Half_space& other) { return is_alike(other.normal, space.normal); });
+      if (same == spaces.end()) {
+        spaces.push_back(space);
+        facet_of.push_back(i);
+      } else
+        same->least = std::fmax(same->least, space.least);
+    }
     Nearest_permitted found;
-    for (const double kept : {clearance, clearance / 2, clearance / 4}) {
-      spaces.clear();
-      for (const Facet<Mesh>& f : facets)
-        spaces.push_back({f.normal(), kept - f.height()});
+    const auto seek = [&] {
       found = nearest_permitted(pull, spaces, slack, slack_there);
-      if (found.exists)
+      for (int i = 0; i < found.number_active; ++i)
+        found.active[i] = facet_of[found.active[i]];
+    };
+    for (const double less : {0.0, clearance / 2, clearance / 4}) {
+      for (Half_space& space : spaces)
+        space.least -= less;
+      seek();
+      found.is_squeezed = less > 0;
+      if (found.exists && (found.number_active < 2 || length(minus(pull, found.displacement)) <= distance + lengths.retreat()))
         return found;
     }
     for (Half_space& space : spaces)
       space.least = std::fmin(space.least, 0);
-    return nearest_permitted(pull, spaces, slack, slack_there);
+    seek();
+    found.is_squeezed = true;
+    return found;
+  }
+
+  /// Whether two normals differ by rounding alone.
+  static bool is_alike(const Vector& a, const Vector& b) {
+    return std::abs(a[0] - b[0]) <= alike && std::abs(a[1] - b[1]) <= alike && std::abs(a[2] - b[2]) <= alike;
   }
 
   /// J is at x; contacts are measured from there.
@@ -125,7 +180,7 @@ struct Slide_walk {
 
   bool knows(const Contact_3<Mesh>& contact) const {
     for (const Facet<Mesh>& f : facets)
-      if (is_same(f, contact))
+      if (f.is_of(contact))
         return true;
     return false;
   }
@@ -140,9 +195,8 @@ struct Slide_walk {
       }));
     facets.emplace_back(contact, where);
     facets.back().set_delta(delta);
-    for (const Contact_3<Mesh>& before : left_)
-      if (is_same(facets.back(), before))
-        facets.back().hold_on();
+    if (has_left(contact))
+      facets.back().hold_on();
     facets.back().measure(x);
     return true;
   }
@@ -159,31 +213,45 @@ struct Slide_walk {
   void begin(const Vector& source) {
     legs = 0;
     left_.clear();
+    forget_progress();
     place(source);
   }
 
-private:
-  boost::container::static_vector<Contact_3<Mesh>, most_facets> left_; ///< contacts gone past in this drag
+  /// Another target, or another way to it.
+  void forget_progress() {
+    least_distance_ = std::numeric_limits<double>::infinity();
+    last_gain_ = 0;
+    rests_ = shrinking_ = 0;
+  }
 
-  bool leave_what_is_past(const Slide_lengths& lengths) {
+private:
+  /// Round a corner that is flat to within some clearances J would leave and meet the same contacts again and again.
+  void forget_what_is_over(const Slide_lengths& lengths) {
+    const double lifted = rests_ < most_rests ? lengths.lifted() : lengths.retreat();
+    forget([lifted](const Facet<Mesh>& f) { return f.is_over(lifted); });
+  }
+
+  boost::container::static_vector<Contact_3<Mesh>, most_facets> left_; ///< contacts gone past in this drag
+  double least_distance_ = std::numeric_limits<double>::infinity();    ///< from the target, so far
+  double last_gain_ = 0;                                               ///< of the last approach
+  int rests_ = 0, shrinking_ = 0;
+
+  bool has_left(const Contact_3<Mesh>& contact) const {
+    return std::any_of(left_.begin(), left_.end(), [&](const Contact_3<Mesh>& before) { return Facet<Mesh>::is_same(before, contact); });
+  }
+
+  /// \param beside how far past a face: at rest within a clearance of a seam it makes no difference which of two holds J
+  bool leave_what_is_past(const Slide_lengths& lengths, double beside) {
     return forget([&](const Facet<Mesh>& f) {
       if (f.is_over(lengths.lifted()))
         return true;
-      if (!f.is_left(x, lengths.clearance, lengths.resolution, lengths.border()))
+      const double past = f.contact().kind == Contact_kind::vertex_face ? beside : lengths.resolution;
+      if (!f.is_left(x, lengths.clearance, past, lengths.border()))
         return false;
       if (left_.size() < left_.capacity())
         left_.push_back(f.contact());
       return true;
     });
-  }
-
-  /// How far along its way a leg goes. Round a finely cut convex surface every facet costs two legs, along it and down to the
-  /// next; where J leaves the facet anyway, long walks take two facets at once. Below 2 each leg still brings J nearer.
-  double stride(const Nearest_permitted& way) const {
-    constexpr int long_walk = 8;
-    constexpr double far = 1.9;
-    const bool leaves = way.number_active == 1 && facets[way.active[0]].outside(plus(x, way.displacement)) > 0;
-    return legs >= long_walk && leaves ? far : 1;
   }
 
   void step_to(const Vector& place_reached) {
@@ -210,21 +278,40 @@ private:
     return time;
   }
 
+  /// J rests within some clearances of its target: takes in all the faces that meet there, so that c is kept from each of them,
+  /// of which those J is not over are left again. Returns whether there were any new ones.
+  template <class Guard>
+  bool meet_at(Guard& guard, const Vector& target, const Slide_lengths& lengths) {
+    guard.decide(x, target, lengths.delta);
+    if (!guard.is_blocked())
+      return false;
+    boost::container::static_vector<Contact_3<Mesh>, most_facets> met;
+    guard.for_each_first_contact(x, target, [&](const Contact_3<Mesh>& contact, double) {
+      const bool is_face = contact.kind == Contact_kind::vertex_face && !contact.is_flat;
+      if (is_face && met.size() < met.capacity() && !knows(contact) && !has_left(contact))
+        met.push_back(contact);
+    });
+    for (const Contact_3<Mesh>& contact : met)
+      meet(contact, x, lengths.delta);
+    return !met.empty();
+  }
+
   /// The way from x to y has just been found blocked: goes to the free point nearest to the impact that is c off all contacts,
   /// the new one included. Returns whether anything was gained, in place or in knowledge.
   template <class Guard>
-  bool approach(Guard& guard, const Vector& y, const Slide_lengths& lengths) {
+  bool approach(Guard& guard, const Vector& y, const Vector& target, const Slide_lengths& lengths) {
     double steepest = 0;
     bool any_new = false;
     const double time = meet_first(guard, y, lengths.delta, steepest, any_new);
     const Vector to_impact = scaled(minus(y, x), time);
     bool met = any_new;
+    const double way_there = length(to_impact), farthest = length(minus(target, x)) + lengths.retreat();
     double clearance = lengths.clearance;
     int tries = 0;
     for (int attempt = 0; attempt < approaches && tries < most_tries; ++tries) {
-      const Nearest_permitted near = nearest(to_impact, clearance, lengths.resolution);
+      const Nearest_permitted near = nearest(to_impact, way_there, clearance, lengths);
       const Vector z = plus(x, near.displacement);
-      if (!near.exists || z == x)
+      if (!near.exists || z == x || length(minus(target, z)) > farthest)
         break;
       guard.decide(x, z, lengths.delta);
       if (!guard.is_blocked()) {

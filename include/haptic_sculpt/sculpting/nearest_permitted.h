@@ -21,6 +21,7 @@ struct Nearest_permitted {
   Vector displacement{};
   std::array<std::size_t, 3> active{}; ///< the first `number_active` are positions in the list of half-spaces
   int number_active = 0;
+  bool is_squeezed = false; ///< less than the wanted distance is kept, for lack of room; for the caller to set
 };
 
 namespace nearest_permitted_detail {
@@ -49,7 +50,7 @@ Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spa
     for (const Half_space& space : spaces)
       if (!(dot(space.normal, d) >= space.least - (number > 0 ? slack_there : slack)))
         return false;
-    result = {true, d, active, number};
+    result = {true, d, active, number, false};
     return true;
   };
   if (accept(wanted, {}, 0))

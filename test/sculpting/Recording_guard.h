@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_RECORDING_GUARD_H
+#define HAPTIC_SCULPT_TEST_RECORDING_GUARD_H
+
+#include <haptic_sculpt/sculpting.h>
+
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace haptic_sculpt::test {
+
+/// A guard that notes which motions it has found free: the legs of a walk are among them.
+template <class Mesh>
+class Recording_guard : public Guarded_star<Mesh, Box_tree_broad_phase<Mesh>> {
+public:
+  using Base = Guarded_star<Mesh, Box_tree_broad_phase<Mesh>>;
+  using Coordinates = typename Base::Coordinates;
+  using Base::Base;
+
+  void decide(const Coordinates& source, const Coordinates& target, double delta) {
+    Base::decide(source, target, delta);
+    if (!this->is_blocked())
+      free_.emplace(source, target);
+  }
+  bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
+    const bool free = Base::is_free(source, target, delta);
+    if (free)
+      free_.emplace(source, target);
+    return free;
+  }
+
+  /// The legs of a way from source to target through free motions only, or none: then the vertex has gone where nothing was proven.
+  std::vector<std::pair<Coordinates, Coordinates>> way(const Coordinates& source, const Coordinates& target) const {
+    std::map<Coordinates, Coordinates> came_from;
+    std::vector<Coordinates> open = {source};
+    while (!open.empty() && came_from.count(target) == 0) {
+      const Coordinates x = open.back();
+      open.pop_back();
+      for (auto i = free_.lower_bound({x, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}}); i != free_.end() && i->first == x; ++i)
+        if (i->second != source && came_from.emplace(i->second, x).second)
+          open.push_back(i->second);
+    }
+    std::vector<std::pair<Coordinates, Coordinates>> legs;
+    if (came_from.count(target) != 0)
+      for (Coordinates x = target; x != source; x = came_from.at(x))
+        legs.emplace_back(came_from.at(x), x);
+    return legs;
+  }
+  void clear() { free_.clear(); }
+
+private:
+  std::set<std::pair<Coordinates, Coordinates>> free_;
+};
+
+} // namespace haptic_sculpt::test
+
+#endif
