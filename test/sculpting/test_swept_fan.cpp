@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a fan says is apart, the exact sweeps find apart: on small grids, a few units in the last place beside the fan, at any scale, for flat
-// fans, vanishing motions and repeated points. And it says so often enough to be of use.
+// What a fan says is apart, the exact sweeps find apart: on small grids, a few units in the last place beside the fan,
+// at any scale, for flat fans, vanishing motions and repeated points. And it says so often enough to be of use.
 #include "Random_scene.h"
 
 #include <haptic_sculpt/collision.h>
@@ -27,7 +27,8 @@ struct Drawn_fan {
     offset = random() % 2 == 0 ? 0 : scale * 1e3;
     const bool is_flat = random() % 4 == 0, stands = random() % 8 == 0;
     source = place(0.1 * number(random), 0.1 * number(random), is_flat ? 0 : 1);
-    target = stands ? source : place(0.3 * number(random), 0.3 * number(random), is_flat ? 0 : 1 + 0.5 * number(random));
+    target =
+        stands ? source : place(0.3 * number(random), 0.3 * number(random), is_flat ? 0 : 1 + 0.5 * number(random));
     const double turn = random() % 2 == 0 ? 1 : -1, first = 6 * number(random), opening = 0.3 * (1.1 + number(random));
     for (int i = 0; i <= faces; ++i)
       link.push_back(beside(first + turn * opening * i / faces));
@@ -35,7 +36,9 @@ struct Drawn_fan {
       link.back() = link.front();
   }
 
-  Coordinates place(double x, double y, double z) const { return {offset + scale * x, offset + scale * y, offset + scale * z}; }
+  Coordinates place(double x, double y, double z) const {
+    return {offset + scale * x, offset + scale * y, offset + scale * z};
+  }
   Coordinates beside(double angle) const { return place(std::cos(angle), std::sin(angle), 0.1 * std::cos(3 * angle)); }
 
   /// A point of the link moved by a few units in the last place, one near its plane, or any.
@@ -45,8 +48,10 @@ struct Drawn_fan {
     if (random() % 4 == 0)
       p = source;
     switch (random() % 4) {
-    case 0: return place(number(random), number(random), number(random));
-    case 1: return p;
+    case 0:
+      return place(number(random), number(random), number(random));
+    case 1:
+      return p;
     case 2:
       for (double& x : p)
         x = std::nextafter(x, x + scale * number(random));
@@ -59,7 +64,9 @@ struct Drawn_fan {
   }
 };
 
-Point_3 point(const Coordinates& p) { return Point_3(p[0], p[1], p[2]); }
+Point_3 point(const Coordinates& p) {
+  return Point_3(p[0], p[1], p[2]);
+}
 
 } // namespace
 

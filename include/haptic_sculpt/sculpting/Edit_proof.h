@@ -50,7 +50,8 @@ public:
   /// Whether a vertex lies in the closed tetrahedron of a triangle and a point.
   bool contains(const Corners<Mesh>& base, const Coordinates& apex, const Coordinates& vertex) const {
     return do_meet(Box_3(vertex), box(base).include(apex)) &&
-           face_vertex_verdict(Sweep_points{base[0].point, apex, base[1].point, base[2].point, vertex}, *counters_).hits;
+           face_vertex_verdict(Sweep_points{base[0].point, apex, base[1].point, base[2].point, vertex}, *counters_)
+               .hits;
   }
 
   /// The sweeps of a star's centre into its neighbour `link[pivot]`, for the collapse that follows (RULES 3): true when
@@ -72,7 +73,8 @@ public:
       for (const std::uint32_t e : edges) {
         const auto& edge = list.edges()[e];
         const auto &a = vertices[edge.vertices[0]], &b = vertices[edge.vertices[1]];
-        if (!do_meet(edge.box, swept) || a.index == apex || b.index == apex || a.index == star.link[i] || b.index == star.link[i])
+        if (!do_meet(edge.box, swept) || a.index == apex || b.index == apex || a.index == star.link[i] ||
+            b.index == star.link[i])
           continue;
         if (edge_edge_verdict(Sweep_points{centre, target, star.link_points[i], a.point, b.point}, *counters_).hits)
           note({std::min(a.index, b.index), std::max(a.index, b.index)});
@@ -85,7 +87,8 @@ public:
         if (!haptic_sculpt::contains(swept, vertex.point) || vertex.index == apex || vertex.index == star.link[i] ||
             vertex.index == star.link[j])
           continue;
-        if (face_vertex_verdict(Sweep_points{centre, target, star.link_points[i], star.link_points[j], vertex.point}, *counters_)
+        if (face_vertex_verdict(Sweep_points{centre, target, star.link_points[i], star.link_points[j], vertex.point},
+                                *counters_)
                 .hits)
           note({vertex.index});
       }

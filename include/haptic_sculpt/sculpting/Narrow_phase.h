@@ -9,9 +9,9 @@ namespace haptic_sculpt {
 
 /// All three sweeps of a star against a checklist (PAPER B; completeness: doc/exact_sweeps.md).
 ///
-/// A pair is left out only when its boxes, or those along the diagonals, do not meet, which is decided exactly, when a plane lies certainly
-/// between its two, when it cannot come first any more, or when it shares a vertex that makes
-/// its meeting no collision: faces incident to the moving vertex, edges at the far end of the moving edge.
+/// A pair is left out only when its boxes, or those along the diagonals, do not meet, which is decided exactly, when a
+/// plane lies certainly between its two, when it cannot come first any more, or when it shares a vertex that makes its
+/// meeting no collision: faces incident to the moving vertex, edges at the far end of the moving edge.
 template <class Mesh, class Counters = Filter_counters>
 class Narrow_phase {
 public:
@@ -21,13 +21,14 @@ public:
   explicit Narrow_phase(Counters& counters) : counters_(&counters) {}
 
   /// Whether nothing is touched on the closed way from source to target.
-  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source, const Coordinates& target) {
+  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
+               const Coordinates& target) {
     return for_each_hit({star, list, {source, target}}, Any());
   }
 
   /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
-  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs, const Coordinates& source,
-               const Coordinates& target) {
+  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs,
+               const Coordinates& source, const Coordinates& target) {
     return for_each_hit({star, list, {source, target}}, pairs, Any());
   }
 
@@ -37,17 +38,18 @@ public:
     first_impacts_near(star, list, source, target, Box_3(source).include(target), firsts);
   }
 
-  /// The same among the pairs that may meet while J is in the box `path`: what comes first while it is there comes first of all.
-  void first_impacts_near(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source, const Coordinates& target,
-                          const Box_3& path, Star_impacts<Mesh>& firsts) {
+  /// The same among the pairs that may meet while J is in the box `path`: what comes first while it is there comes
+  /// first of all.
+  void first_impacts_near(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
+                          const Coordinates& target, const Box_3& path, Star_impacts<Mesh>& firsts) {
     firsts.clear();
     for_each_hit({star, list, {source, target, path}}, Keep_first{firsts, *counters_});
     std::sort(firsts.begin(), firsts.end());
   }
 
   /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
-  void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs, const Coordinates& source,
-                     const Coordinates& target, Star_impacts<Mesh>& firsts) {
+  void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs,
+                     const Coordinates& source, const Coordinates& target, Star_impacts<Mesh>& firsts) {
     firsts.clear();
     for_each_hit({star, list, {source, target}}, pairs, Keep_first{firsts, *counters_});
     std::sort(firsts.begin(), firsts.end());
@@ -70,12 +72,15 @@ private:
     internal::Star_motion motion;
   };
 
-  /// What is done with a hit, `hit(feature, vertices, points, verdict)`: it tells up to what fraction of the way hits are of interest from then on
-  /// (later ones may be told or not), or that it has enough.
+  /// What is done with a hit, `hit(feature, vertices, points, verdict)`: it tells up to what fraction of the way hits
+  /// are of interest from then on (later ones may be told or not), or that it has enough.
   static constexpr double enough = -1;
 
   struct Any {
-    double operator()(Impact_feature, const Vertices&, const internal::Sweep_points&, const internal::Sweep_verdict&) const { return enough; }
+    double operator()(Impact_feature, const Vertices&, const internal::Sweep_points&,
+                      const internal::Sweep_verdict&) const {
+      return enough;
+    }
   };
   struct Keep_first {
     Star_impacts<Mesh>& firsts;
@@ -122,13 +127,18 @@ private:
 
   template <class Hit>
   bool for_each_hit(Scene scene, const Near_pairs<Mesh>& pairs, const Hit& hit) {
-    return stands_still(scene) || pairs.for_each_near(scene.motion.source(), scene.motion.target(), [&](const typename Near_pairs<Mesh>::Pair& pair) {
-      switch (pair.feature) {
-      case Impact_feature::vertex_face: return vertex_on_face(scene, pair.candidate, internal::No_box(), hit);
-      case Impact_feature::edge_edge: return moving_edge(scene, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
-      default: return moving_face(scene, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
-      }
-    });
+    return stands_still(scene) ||
+           pairs.for_each_near(scene.motion.source(), scene.motion.target(),
+                               [&](const typename Near_pairs<Mesh>::Pair& pair) {
+                                 switch (pair.feature) {
+                                 case Impact_feature::vertex_face:
+                                   return vertex_on_face(scene, pair.candidate, internal::No_box(), hit);
+                                 case Impact_feature::edge_edge:
+                                   return moving_edge(scene, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
+                                 default:
+                                   return moving_face(scene, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
+                                 }
+                               });
   }
 
   /// An embedded star that stands still touches nothing new.
@@ -160,7 +170,8 @@ private:
 
   /// The edge to link vertex i against these candidates.
   template <class Positions, class Box, class Hit>
-  bool moving_edge(Scene& scene, std::size_t i, const Positions& edges, const Box& swept_diagonals, const Hit& hit) const {
+  bool moving_edge(Scene& scene, std::size_t i, const Positions& edges, const Box& swept_diagonals,
+                   const Hit& hit) const {
     const auto& vertices = scene.list.vertices();
     const Vertex_index far_end = scene.star.link[i];
     const Coordinates& far_point = scene.star.link_points[i];
@@ -174,7 +185,8 @@ private:
         continue;
       // The smaller name first, whatever the list's order: what is told does not depend on the broad phase.
       const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
-      const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point, high.point};
+      const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point,
+                                             high.point};
       const internal::Sweep_verdict verdict = internal::edge_edge_verdict(points, *counters_);
       if (verdict.hits &&
           !goes_on(scene, hit(Impact_feature::edge_edge, Vertices{far_end, low.index, high.index}, points, verdict)))
@@ -185,7 +197,8 @@ private:
 
   /// Face i against these candidates.
   template <class Positions, class Box, class Hit>
-  bool moving_face(Scene& scene, std::size_t i, const Positions& vertices, const Box& swept_diagonals, const Hit& hit) const {
+  bool moving_face(Scene& scene, std::size_t i, const Positions& vertices, const Box& swept_diagonals,
+                   const Hit& hit) const {
     const Star<Mesh>& star = scene.star;
     const std::size_t j = star.next(i);
     const Box_3 swept = Box_3(scene.motion.path()).include(star.link_points[i]).include(star.link_points[j]);
@@ -194,10 +207,11 @@ private:
       if (!contains(swept, vertex.point) || vertex.index == star.link[i] || vertex.index == star.link[j] ||
           swept_diagonals.excludes(vertex.point))
         continue;
-      const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i], star.link_points[j], vertex.point};
+      const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i],
+                                             star.link_points[j], vertex.point};
       const internal::Sweep_verdict verdict = internal::face_vertex_verdict(points, *counters_);
-      if (verdict.hits &&
-          !goes_on(scene, hit(Impact_feature::face_vertex, Vertices{star.link[i], star.link[j], vertex.index}, points, verdict)))
+      if (verdict.hits && !goes_on(scene, hit(Impact_feature::face_vertex,
+                                              Vertices{star.link[i], star.link[j], vertex.index}, points, verdict)))
         return false;
     }
     return true;

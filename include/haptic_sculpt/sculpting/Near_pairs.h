@@ -8,12 +8,14 @@
 
 namespace haptic_sculpt {
 
-/// The free ball: how far apart the features of a star and those of its checklist are with the moving vertex J in one place, the
-/// centre. A motion of J between two points nowhere farther than r from there can make only pairs touch that are at most r apart.
+/// The free ball: how far apart the features of a star and those of its checklist are with the moving vertex J in one
+/// place, the centre. A motion of J between two points nowhere farther than r from there can make only pairs touch that
+/// are at most r apart.
 ///
-/// A point of the star is (1 - t) J + t B with B fixed on the link, so it is nowhere farther from where it was than J is. Distances are
-/// bounded from below by separating planes, with all roundings taken off; so what is left out is proven free, not guessed. Near a
-/// contact a few pairs are left to be swept, elsewhere none. (doc/performance.md, with the proof)
+/// A point of the star is (1 - t) J + t B with B fixed on the link, so it is nowhere farther from where it was than J
+/// is. Distances are bounded from below by separating planes, with all roundings taken off; so what is left out is
+/// proven free, not guessed. Near a contact a few pairs are left to be swept, elsewhere none. (doc/performance.md, with
+/// the proof)
 template <class Mesh>
 class Near_pairs {
 public:
@@ -37,8 +39,8 @@ public:
   /// Whether the straight motion between these points is covered. The ball is convex: both ends in it suffice.
   bool cover(const Coordinates& p, const Coordinates& q) const { return farther(p, q) < square_; }
 
-  /// Calls `function(pair)` for all pairs that may touch in this motion, until it returns false; returns whether it never did.
-  /// \pre cover(p, q)
+  /// Calls `function(pair)` for all pairs that may touch in this motion, until it returns false; returns whether it
+  /// never did. \pre cover(p, q)
   template <class Function>
   bool for_each_near(const Coordinates& p, const Coordinates& q, const Function& function) const {
     const double square = farther(p, q);
@@ -50,11 +52,11 @@ public:
     return true;
   }
 
-  /// Takes pairs around a place a little ahead on the way from source to target. Covers that motion afterwards, or nothing: where it
-  /// is long, or there are many pairs, or sizes are extreme.
-  /// \pre the list is complete in its region, which the motion does not leave. Cost: n log n, as a motion is decided.
-  void assign(const Star<Mesh>& star, const Checklist<Mesh>& list, internal::Star_runs<Mesh>& runs, const Coordinates& source,
-              const Coordinates& target) {
+  /// Takes pairs around a place a little ahead on the way from source to target. Covers that motion afterwards, or
+  /// nothing: where it is long, or there are many pairs, or sizes are extreme. \pre the list is complete in its region,
+  /// which the motion does not leave. Cost: n log n, as a motion is decided.
+  void assign(const Star<Mesh>& star, const Checklist<Mesh>& list, internal::Star_runs<Mesh>& runs,
+              const Coordinates& source, const Coordinates& target) {
     clear();
     double extent = 0, around = 0;
     for (std::size_t i = 0; i < star.valence(); ++i) {
@@ -69,7 +71,8 @@ public:
       return;
     centre_ = internal::quick_sum(source, internal::larger(0.5, ahead * radius_ / length), way);
     for (int i = 0; i < 3; ++i) // the link stays; only J can leave the region
-      radius_ = internal::smaller(radius_, internal::smaller(centre_[i] - list.region().lower[i], list.region().upper[i] - centre_[i]));
+      radius_ = internal::smaller(
+          radius_, internal::smaller(centre_[i] - list.region().lower[i], list.region().upper[i] - centre_[i]));
     // What stands still may reach far beyond the star: products with it round by as much more.
     double reach = extent;
     for (const auto& vertex : list.vertices())
@@ -102,12 +105,14 @@ private:
 
   /// 2^-40: a thousand times what the some twenty roundings of a bound or a comparison, each of 2^-53, can make.
   static constexpr double rounding = 0x1p-40;
-  /// Stars smaller or surroundings larger than these, whose squares of squares might leave the range of doubles, get no pairs.
+  /// Stars smaller or surroundings larger than these, whose squares of squares might leave the range of doubles, get no
+  /// pairs.
   static constexpr double least_extent = 0x1p-200, largest_extent = 0x1p+200;
-  /// The radius, in the smaller of the star's extent and the mean edge of its link: where faces are about equilateral, what is not
-  /// next to the star is 0.87 away, so nothing at all is near in a smooth region.
+  /// The radius, in the smaller of the star's extent and the mean edge of its link: where faces are about equilateral,
+  /// what is not next to the star is 0.87 away, so nothing at all is near in a smooth region.
   static constexpr double widest = 0.75;
-  /// The centre is so many radii ahead, for a hand goes on in its direction; motions longer than `longest` radii are not worth it.
+  /// The centre is so many radii ahead, for a hand goes on in its direction; motions longer than `longest` radii are
+  /// not worth it.
   static constexpr double ahead = 0.3, longest = 0.5;
   /// With more pairs than this (the surroundings are much finer than the star), to sweep by boxes costs less.
   static constexpr std::size_t most_pairs = 1024;
@@ -153,7 +158,8 @@ private:
         continue;
       const std::array<Vector, 3> t = {local(v[face.vertices[0]].point), local(v[face.vertices[1]].point),
                                        local(v[face.vertices[2]].point)};
-      keep(internal::separation(std::array<Vector, 1>{Vector{}}, t, internal::scaled(internal::nearest_to_origin(t), -1), error_),
+      keep(internal::separation(std::array<Vector, 1>{Vector{}}, t,
+                                internal::scaled(internal::nearest_to_origin(t), -1), error_),
            Impact_feature::vertex_face, 0, f);
     }
   }
@@ -170,7 +176,8 @@ private:
       if (a.index == star.link[i] || b.index == star.link[i])
         continue;
       const std::array<Vector, 2> still = {local(a.point), local(b.point)};
-      keep(internal::separation(moving, still, internal::between_segments(moving, still), error_), Impact_feature::edge_edge, i, e);
+      keep(internal::separation(moving, still, internal::between_segments(moving, still), error_),
+           Impact_feature::edge_edge, i, e);
     }
   }
 

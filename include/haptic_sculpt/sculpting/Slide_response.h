@@ -329,17 +329,21 @@ private:
     return false;
   }
 
-  /// Points spread evenly over the unit sphere, on a spiral.
+  /// (1, 2, 3) with all orders and signs, of length 1: about evenly spread over the sphere, and the same bits everywhere.
   static const std::array<Vector, 48>& directions() {
     static const std::array<Vector, 48> all = [] {
-      std::array<Vector, 48> points;
-      const double golden_angle = 2.3999632297286533;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(points.size()), r = std::sqrt(1 - z * z),
-                     angle = golden_angle * static_cast<double>(i) + 0.5;
-        points[i] = {r * std::cos(angle), r * std::sin(angle), z};
-      }
-      return points;
+      std::array<Vector, 48> vectors;
+      std::size_t number = 0;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          for (int signs = 0; signs < 8 && i != j; ++signs) {
+            Vector v{};
+            v[i] = 1, v[j] = 2, v[3 - i - j] = 3;
+            for (int k = 0; k < 3; ++k)
+              v[k] = (signs >> k & 1) != 0 ? -v[k] : v[k];
+            vectors[number++] = internal::normalized(v);
+          }
+      return vectors;
     }();
     return all;
   }

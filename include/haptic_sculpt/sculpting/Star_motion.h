@@ -16,10 +16,10 @@ public:
   using Coordinates = std::array<double, 3>;
 
   Star_motion(const Coordinates& source, const Coordinates& target)
-    : Star_motion(source, target, Box_3(source).include(target)) {}
+      : Star_motion(source, target, Box_3(source).include(target)) {}
   /// \param path holds the way as far as it is of interest
   Star_motion(const Coordinates& source, const Coordinates& target, const Box_3& path)
-    : source_(source), target_(target), path_(path) {}
+      : source_(source), target_(target), path_(path) {}
 
   const Coordinates& source() const { return source_; }
   const Coordinates& target() const { return target_; }

@@ -12,20 +12,23 @@ namespace internal {
 
 /// Goes through the faces of a star in runs of a few, each with the candidates that are near it.
 ///
-/// The star is halved again and again, and each half keeps those of the whole's candidates that its box meets and, where there are many, that are
-/// not apart from it along a diagonal; or, where it is a narrow part of a star of many neighbours, that no plane parts from it. So a star of a
-/// thousand faces, each near few candidates, costs n log n, not n^2. Keeps its memory, to allocate no more.
+/// The star is halved again and again, and each half keeps those of the whole's candidates that its box meets and,
+/// where there are many, that are not apart from it along a diagonal; or, where it is a narrow part of a star of many
+/// neighbours, that no plane parts from it. So a star of a thousand faces, each near few candidates, costs n log n, not
+/// n^2. Keeps its memory, to allocate no more.
 template <class Mesh>
 class Star_runs {
 public:
   using Coordinates = std::array<double, 3>;
   using Positions = std::vector<std::uint32_t>;
 
-  /// Calls `visit(first, last, edges, vertices)` for runs [first, last) of faces, in their order, until it returns false; returns whether
-  /// it never did. `edges` and `vertices` are positions in the list: all but those that certainly are not touched by the run's faces
-  /// in the part of the motion that is of interest, or are then farther than `margin` (rounded) from them. The visitor may shorten the motion.
+  /// Calls `visit(first, last, edges, vertices)` for runs [first, last) of faces, in their order, until it returns
+  /// false; returns whether it never did. `edges` and `vertices` are positions in the list: all but those that
+  /// certainly are not touched by the run's faces in the part of the motion that is of interest, or are then farther
+  /// than `margin` (rounded) from them. The visitor may shorten the motion.
   template <class Visit>
-  bool for_each_run(const Star<Mesh>& star, const Checklist<Mesh>& list, Star_motion& motion, double margin, const Visit& visit) {
+  bool for_each_run(const Star<Mesh>& star, const Checklist<Mesh>& list, Star_motion& motion, double margin,
+                    const Visit& visit) {
     place(star, list, motion);
     const bool is_large = star.valence() > usual_valence || list.edges().size() > usual_edges;
     return halve({star, list, motion, margin, is_large}, 0, star.valence(), 0, visit);
@@ -43,12 +46,14 @@ private:
     bool is_large;
   };
 
-  std::vector<Near> near_;               ///< by how often the star has been halved
-  std::vector<Vector> spokes_, places_;  ///< of a star of many neighbours: link and candidate vertices, from where the motion starts
-  double reach_ = 0;                     ///< of their coordinates; 0 where there are none
+  std::vector<Near> near_; ///< by how often the star has been halved
+  std::vector<Vector> spokes_,
+      places_;       ///< of a star of many neighbours: link and candidate vertices, from where the motion starts
+  double reach_ = 0; ///< of their coordinates; 0 where there are none
 
-  static constexpr std::size_t few_faces = 3;             ///< no more are a run
-  static constexpr std::size_t few_faces_of_a_wedge = 8;  ///< the same where planes are tried, too, which cost more than boxes
+  static constexpr std::size_t few_faces = 3; ///< no more are a run
+  static constexpr std::size_t few_faces_of_a_wedge =
+      8; ///< the same where planes are tried, too, which cost more than boxes
   /// Stars of more neighbours than this are worth planes between their parts and the candidates.
   static constexpr std::size_t many_neighbours = 16;
   /// Where the star has more faces than this, or there are more edges, diagonals are compared.
@@ -59,10 +64,11 @@ private:
     if (near_.size() <= depth)
       near_.resize(depth + 1);
     const Star<Mesh>& star = scene.star;
-    const auto &all_edges = scene.list.edges();
-    const auto &all_vertices = scene.list.vertices();
+    const auto& all_edges = scene.list.edges();
+    const auto& all_vertices = scene.list.vertices();
     // All of a star, or half of it, is no wedge that planes at its ends could part from anything.
-    const bool is_wedge = reach_ > 0 && 4 * (last - first) <= star.valence(), has_diagonals = scene.is_large && !is_wedge;
+    const bool is_wedge = reach_ > 0 && 4 * (last - first) <= star.valence(),
+               has_diagonals = scene.is_large && !is_wedge;
     Box_3 box = scene.motion.path();
     Diagonal_box diagonals(scene.motion.source(), scene.motion.target());
     for (std::size_t i = first; i <= last; ++i) {
@@ -76,7 +82,8 @@ private:
       for (int i = 0; i < 3; ++i)
         box.lower[i] -= scene.margin, box.upper[i] += scene.margin;
     }
-    const Swept_fan fan = is_wedge ? Swept_fan(scene.motion.way(), spokes_, first, last, reach_, scene.margin) : Swept_fan();
+    const Swept_fan fan =
+        is_wedge ? Swept_fan(scene.motion.way(), spokes_, first, last, reach_, scene.margin) : Swept_fan();
     Near& near = near_[depth];
     near.edges.clear();
     near.vertices.clear();

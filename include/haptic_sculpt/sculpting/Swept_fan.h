@@ -14,24 +14,27 @@ namespace internal {
 
 /// What some consecutive faces of a star sweep over, to tell fast what is certainly apart from it.
 ///
-/// Boxes cannot part the faces of a star from each other's surroundings: all of them hold the vertex in the middle. Planes can that
-/// stand at the first and the last spoke of the fan. Whatever direction n a plane has, a set with n . q > max n . p over the fan's corners
-/// is apart from it; roundings of both sides are taken off. So nothing is decided here that is not certain.
+/// Boxes cannot part the faces of a star from each other's surroundings: all of them hold the vertex in the middle.
+/// Planes can that stand at the first and the last spoke of the fan. Whatever direction n a plane has, a set with n . q
+/// > max n . p over the fan's corners is apart from it; roundings of both sides are taken off. So nothing is decided
+/// here that is not certain.
 ///
 /// Points are given relative to the start of the motion, rounded once.
 class Swept_fan {
 public:
-  /// Motions in whose surroundings coordinates reach less or more than this get no planes: products might leave the range of doubles.
+  /// Motions in whose surroundings coordinates reach less or more than this get no planes: products might leave the
+  /// range of doubles.
   static constexpr double least_reach = 0x1p-200, largest_reach = 0x1p+200;
 
   /// No plane: nothing is known to be apart.
   Swept_fan() = default;
 
   /// \param way from the start of the motion to its end \param spokes ends of the spokes
-  /// \param first,last the faces [first, last) of the star \param reach bounds the magnitude of all coordinates given, here and later
-  /// \param margin what is no farther than this (rounded) is not apart, either
-  /// Cost: linear in the number of faces.
-  Swept_fan(const Vector& way, const std::vector<Vector>& spokes, std::size_t first, std::size_t last, double reach, double margin = 0) {
+  /// \param first,last the faces [first, last) of the star \param reach bounds the magnitude of all coordinates given,
+  /// here and later \param margin what is no farther than this (rounded) is not apart, either Cost: linear in the
+  /// number of faces.
+  Swept_fan(const Vector& way, const std::vector<Vector>& spokes, std::size_t first, std::size_t last, double reach,
+            double margin = 0) {
     if (!(reach > least_reach && reach < largest_reach))
       return;
     const auto spoke = [&](std::size_t i) -> const Vector& { return spokes[i < spokes.size() ? i : 0]; };
@@ -59,8 +62,8 @@ public:
   }
 
 private:
-  /// 2^-45: more than ten times what two sums of three products with a direction, whose coordinates are at most 1 + lean, and a
-  /// difference rounded once can be wrong together.
+  /// 2^-45: more than ten times what two sums of three products with a direction, whose coordinates are at most 1 +
+  /// lean, and a difference rounded once can be wrong together.
   static constexpr double rounding = 0x1p-45;
 
   /// How far planes lean over or under the fan. Any value serves; 1 is neither flat nor steep.
@@ -72,8 +75,8 @@ private:
   std::array<Vector, 4> normals_{};
   std::array<double, 4> levels_{}; // of normals 0: nothing is higher
 
-  /// Two planes through the end of the first or last spoke, with both ends of the way below: one leans under the fan, one over it.
-  /// \param turn 1: the fan lies counterclockwise of the spoke about `up`; -1: clockwise
+  /// Two planes through the end of the first or last spoke, with both ends of the way below: one leans under the fan,
+  /// one over it. \param turn 1: the fan lies counterclockwise of the spoke about `up`; -1: clockwise
   void planes_at(const Vector& spoke, const Vector& way, const Vector& up, double turn, std::size_t k) {
     Vector upright = scaled(product(spoke, up), turn);
     if (product_sum(upright, way) > 0)
@@ -101,7 +104,8 @@ private:
     return square > 0 ? advanced_plainly(a, -product_sum(a, b) / square, b) : a;
   }
 
-  // Not fused, which calls a function where the machine has no such instruction: what is fast counts here, and both are within the bound.
+  // Not fused, which calls a function where the machine has no such instruction: what is fast counts here, and both are
+  // within the bound.
   static double product_sum(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   static Vector product(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
