@@ -186,7 +186,9 @@ BOOST_AUTO_TEST_CASE(seams_between_coplanar_triangles_are_not_felt) {
           if (distance > 4 * c)
             apart.add(std::string("plate, ") + name_of(mover), meshes[1], on_cut.vertex(), source, target, c,
                       std::to_string(distance / c) + " c apart, drag " + std::to_string(i));
-          if (b.legs > a.legs + 3)
+          // Turned in space, a plate of many vertices is a plane but for an ulp of each; a clearance of a few ulp feels that.
+          const bool is_plane = along_axes || length > 0;
+          if (b.legs > a.legs + (is_plane ? 3 : 8))
             many_legs.add(std::string("plate, ") + name_of(mover), meshes[1], on_cut.vertex(), source, target, c,
                           std::to_string(b.legs) + " legs, not " + std::to_string(a.legs));
           if (b.legs > a.legs)
