@@ -228,7 +228,7 @@ BOOST_AUTO_TEST_CASE(jacobian_and_its_derivative_against_differences) {
       const auto motion = device_motion(parameters, *pose, rate);
       const auto start = forward_kinematics(fine, vector_as<Long>(theta));
       const Long h = 2e-5L; // fourth-order differences: truncation about h^4
-      Device_matrix<Long> difference, rate_difference = Device_matrix<Long>::Zero();
+      Device_matrix<Long> difference = Device_matrix<Long>::Zero();
       Eigen::Matrix<Long, 6, 3> jacobian_difference = Eigen::Matrix<Long, 6, 3>::Zero();
       for (int joint = 0; joint < 3; ++joint) {
         Device_vector<Long> column = Device_vector<Long>::Zero();
