@@ -61,6 +61,9 @@ struct Slide_walk {
   /// So many times in a row an approach in a narrow gap may bring less than half as near as the one before: a gap that closes.
   static constexpr int most_shrinking = 6;
 
+  /// After so many legs none is made that is short and only takes J off a contact just met: the next one, farther, does that as well.
+  static constexpr int legs_before_thrift = 8;
+
   /// One unit in the last place of a unit vector, and how much alike two normals are that differ by rounding alone.
   static constexpr double rounding_of_normals = 0x1p-52, alike = 2 * rounding_of_normals;
 
@@ -315,7 +318,9 @@ private:
         break;
       guard.decide(x, z, lengths.delta);
       if (!guard.is_blocked()) {
-        step_to(z);
+        const bool is_short = largest_magnitude(minus(z, x)) <= lengths.border();
+        if (!(met && is_short && legs >= legs_before_thrift && facets.size() < most_facets))
+          step_to(z);
         return true;
       }
       bool new_here = false;
