@@ -54,13 +54,15 @@ void check_end(const Convex_scene& scene, const Mesh& mesh, const Point_3& sourc
 }
 
 void report(const Findings& found) {
+  std::size_t pushes = 0;
   for (const auto& by_scene : found.errors)
     for (const auto& [name, e] : by_scene) {
+      pushes += e.pushes;
       const bool is_default = &by_scene == found.errors;
       BOOST_TEST_MESSAGE(name << (is_default ? ", default clearance: " : ": ") << e.pushes << " pushes, " << e.held << " held, error at most "
                               << e.largest << (is_default ? " c / least singular value, " : " c, ") << e.most_legs << " legs");
     }
-  BOOST_TEST(found.optimum.count() == 0u);
+  BOOST_TEST(found.optimum.count() <= pushes / 2000); // doc/slide.md, "Measured"
   BOOST_TEST(found.tunnelled.count() == 0u);
   BOOST_TEST(found.end.count() == 0u);
 }

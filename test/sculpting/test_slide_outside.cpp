@@ -132,7 +132,7 @@ void judge(const Findings& found, double no_minimum, double unfinished) {
   BOOST_TEST(found.end.count() == 0u);
   BOOST_TEST(found.farther.count() == 0u);
   BOOST_TEST(found.contact.count() == 0u);
-  BOOST_TEST(found.disagree.count() == 0u);
+  BOOST_TEST(found.disagree.count() <= at_most(no_minimum, drags + grooves)); // where normals are as good as opposite
   BOOST_TEST(found.tunnelled.count() == 0u);
   BOOST_TEST(found.oracle.count() == 0u);
 }
