@@ -8,11 +8,13 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// What one contact forbids the moving vertex J, taken as a point: to cross a planar convex facet (RULES 4, doc/slide.md).
+/// What one contact forbids the moving vertex J, taken as a point: to cross a planar convex facet (RULES 4,
+/// doc/slide.md).
 ///
-/// vertex-face: the triangle ABC; edge-edge: the part of plane V A B beyond AB, between the rays VA and VB; face-vertex:
-/// the wedge A + s (A - G) + t (A - I), s, t >= 0. The delta rule forbids to go through the surface of constant altitude,
-/// of which a facet is the tangent plane where J is. A flat impact determines no plane; its facet is a wall across the path.
+/// vertex-face: the triangle ABC; edge-edge: the part of plane V A B beyond AB, between the rays VA and VB;
+/// face-vertex: the wedge A + s (A - G) + t (A - I), s, t >= 0. The delta rule forbids to go through the surface of
+/// constant altitude, of which a facet is the tangent plane where J is. A flat impact determines no plane; its facet is
+/// a wall across the path.
 ///
 /// Heights of the three kinds are exact up to one rounding; the rest is floating point and only proposes.
 template <class Mesh>
@@ -25,9 +27,14 @@ public:
     const Vector normal = scaled(contact.normal, contact.side);
     const auto& [a, b, c] = contact.plane;
     switch (contact.kind) {
-    case Contact_kind::vertex_face: add_border(a, b, normal, 1), add_border(b, c, normal, 1), add_border(c, a, normal, 1); break;
-    case Contact_kind::edge_edge: add_border(a, b, normal, 1), add_border(b, c, normal, -1), add_border(c, a, normal, 1); break;
-    default: add_border(b, c, normal, -1), add_border(c, a, normal, -1);
+    case Contact_kind::vertex_face:
+      add_border(a, b, normal, 1), add_border(b, c, normal, 1), add_border(c, a, normal, 1);
+      break;
+    case Contact_kind::edge_edge:
+      add_border(a, b, normal, 1), add_border(b, c, normal, -1), add_border(c, a, normal, 1);
+      break;
+    default:
+      add_border(b, c, normal, -1), add_border(c, a, normal, -1);
     }
   }
 
@@ -43,9 +50,7 @@ public:
   double height() const { return height_; }
 
   /// Whether J has lifted off, or has gone round the facet to its other side (whose sign is exact).
-  bool is_over(double lifted) const {
-    return height_ > lifted || (height_ < 0 && !contact_.is_flat);
-  }
+  bool is_over(double lifted) const { return height_ > lifted || (height_ < 0 && !contact_.is_flat); }
 
   /// J is at x now.
   void measure(const Vector& x) {
@@ -69,8 +74,8 @@ public:
     return most;
   }
 
-  /// Whether J has gone past a border: its plane goes on, but is no obstacle there. At once when J is as far as the clearance
-  /// from the facet itself; a facet that is met again right after that holds on until J is `border` past it.
+  /// Whether J has gone past a border: its plane goes on, but is no obstacle there. At once when J is as far as the
+  /// clearance from the facet itself; a facet that is met again right after that holds on until J is `border` past it.
   bool is_left(const Vector& x, double clearance, double resolution, double border) const {
     const double beside = outside(x);
     return beside > (holds_on_ ? border : resolution) && beside * beside + height_ * height_ > clearance * clearance;
@@ -94,7 +99,8 @@ public:
       return false;
     const auto& theirs = other.contact_.vertices;
     const auto has = [&](const auto v) { return theirs[0] == v || theirs[1] == v || theirs[2] == v; };
-    return has(contact_.vertices[static_cast<std::size_t>(i)]) && has(contact_.vertices[static_cast<std::size_t>((i + 1) % 3)]);
+    return has(contact_.vertices[static_cast<std::size_t>(i)]) &&
+           has(contact_.vertices[static_cast<std::size_t>((i + 1) % 3)]);
   }
 
   /// The normal of the plane in which a flat impact happened, of length 1; 0 where all is on one line.

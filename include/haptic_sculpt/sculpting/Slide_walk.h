@@ -28,8 +28,8 @@ struct Slide_lengths {
   double settled() const { return 2 * resolution; }
   /// A pull no longer than this says nothing about its direction.
   double shortest_pull() const { return 16 * clearance; }
-  /// To be a clearance off two planes J may have to go back from its target by a clearance over the sine of half their angle. No
-  /// farther than this: in a gap more acute than a hundredth of a radian less than a clearance is kept.
+  /// To be a clearance off two planes J may have to go back from its target by a clearance over the sine of half their
+  /// angle. No farther than this: in a gap more acute than a hundredth of a radian less than a clearance is kept.
   double retreat() const { return 128 * clearance; }
 };
 
@@ -41,8 +41,9 @@ enum class Walk_end : std::uint8_t {
   limit    ///< as many legs as permitted
 };
 
-/// A vertex under way, with its contacts: goes in legs, each proven free, to the point nearest to the target that the contacts
-/// permit; finds contacts on the way and loses others (RULES 4, steps 1 to 5). Plain data: copied to try a way out.
+/// A vertex under way, with its contacts: goes in legs, each proven free, to the point nearest to the target that the
+/// contacts permit; finds contacts on the way and loses others (RULES 4, steps 1 to 5). Plain data: copied to try a way
+/// out.
 ///
 /// \tparam Guard decides motions exactly: Guarded_star
 template <class Mesh>
@@ -51,17 +52,19 @@ struct Slide_walk {
   static constexpr std::size_t most_facets = 32;
   /// Bounds the turns in which no leg is made: each of them learns of a contact or forgets one.
   static constexpr int most_turns = 128;
-  /// How often a place near a new contact is sought with growing clearance, and how often at all, as each may meet yet another
-  /// contact, before the vertex steps back along its path.
+  /// How often a place near a new contact is sought with growing clearance, and how often at all, as each may meet yet
+  /// another contact, before the vertex steps back along its path.
   static constexpr int approaches = 6, most_tries = 24;
 
-  /// So often contacts are forgotten, because J is past them, where it rests or comes no nearer: what is met again after that is
-  /// kept, for it is met on the way to the target, far from where J is.
+  /// So often contacts are forgotten, because J is past them, where it rests or comes no nearer: what is met again
+  /// after that is kept, for it is met on the way to the target, far from where J is.
   static constexpr int most_rests = 2;
-  /// So many times in a row an approach in a narrow gap may bring less than half as near as the one before: a gap that closes.
+  /// So many times in a row an approach in a narrow gap may bring less than half as near as the one before: a gap that
+  /// closes.
   static constexpr int most_shrinking = 6;
 
-  /// After so many legs none is made that is short and only takes J off a contact just met: the next one, farther, does that as well.
+  /// After so many legs none is made that is short and only takes J off a contact just met: the next one, farther, does
+  /// that as well.
   static constexpr int legs_before_thrift = 8;
 
   /// One unit in the last place of a unit vector, and how much alike two normals are that differ by rounding alone.
@@ -109,7 +112,8 @@ struct Slide_walk {
           return Walk_end::stuck;
         if (legs == legs_before)
           continue;
-        // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last one.
+        // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last
+        // one.
         forget_what_is_over(lengths);
         const double gain = distance - length(minus(target, x));
         shrinking_ = way.is_squeezed && gain < last_gain_ / 2 ? shrinking_ + 1 : 0;
@@ -118,7 +122,8 @@ struct Slide_walk {
           return Walk_end::stuck;
         continue;
       }
-      // Where the faces round a vertex are one plane but for rounding, J would otherwise leave each of them for the next.
+      // Where the faces round a vertex are one plane but for rounding, J would otherwise leave each of them for the
+      // next.
       const bool is_short = largest_magnitude(minus(y, x)) <= lengths.border();
       step_to(y);
       if (is_to_target)
@@ -131,9 +136,9 @@ struct Slide_walk {
     return legs >= most_legs ? Walk_end::limit : Walk_end::stuck;
   }
 
-  /// Where the contacts let J go from x, when it wants to go by `pull`, keeping a clearance from all; in a gap too narrow for
-  /// that, or too acute, a half or a quarter of it, and at last coming no nearer to any than it is.
-  /// \param distance the length of `pull`
+  /// Where the contacts let J go from x, when it wants to go by `pull`, keeping a clearance from all; in a gap too
+  /// narrow for that, or too acute, a half or a quarter of it, and at last coming no nearer to any than it is. \param
+  /// distance the length of `pull`
   Nearest_permitted nearest(const Vector& pull, double distance, double clearance, const Slide_lengths& lengths) const {
     const double slack = lengths.resolution, slack_there = slack + rounding_of_normals * distance;
     Half_spaces spaces;
@@ -159,7 +164,8 @@ struct Slide_walk {
         space.least -= less;
       seek();
       found.is_squeezed = less > 0;
-      if (found.exists && (found.number_active < 2 || length(minus(pull, found.displacement)) <= distance + lengths.retreat()))
+      if (found.exists &&
+          (found.number_active < 2 || length(minus(pull, found.displacement)) <= distance + lengths.retreat()))
         return found;
     }
     for (Half_space& space : spaces)
@@ -179,6 +185,14 @@ struct Slide_walk {
     x = place;
     for (Facet<Mesh>& f : facets)
       f.measure(x);
+  }
+
+  /// Of length 1, over all contacts; zero where they cancel.
+  Vector mean_normal() const {
+    Vector sum{};
+    for (const auto& facet : facets)
+      sum = plus(sum, facet.normal());
+    return normalized(sum);
   }
 
   bool knows(const Contact_3<Mesh>& contact) const {
@@ -240,10 +254,12 @@ private:
   int rests_ = 0, shrinking_ = 0;
 
   bool has_left(const Contact_3<Mesh>& contact) const {
-    return std::any_of(left_.begin(), left_.end(), [&](const Contact_3<Mesh>& before) { return Facet<Mesh>::is_same(before, contact); });
+    return std::any_of(left_.begin(), left_.end(),
+                       [&](const Contact_3<Mesh>& before) { return Facet<Mesh>::is_same(before, contact); });
   }
 
-  /// \param beside how far past a face: at rest within a clearance of a seam it makes no difference which of two holds J
+  /// \param beside how far past a face: at rest within a clearance of a seam it makes no difference which of two holds
+  /// J
   bool leave_what_is_past(const Slide_lengths& lengths, double beside) {
     return forget([&](const Facet<Mesh>& f) {
       if (f.is_over(lengths.lifted()))
@@ -262,9 +278,9 @@ private:
     ++legs;
   }
 
-  /// Takes in the steepest of the contacts that came first in the motion last decided, from x to y, and are not known yet: of
-  /// several features that meet in one point some are no obstacle, and whichever is will be met next. Returns the fraction
-  /// of the way.
+  /// Takes in the steepest of the contacts that came first in the motion last decided, from x to y, and are not known
+  /// yet: of several features that meet in one point some are no obstacle, and whichever is will be met next. Returns
+  /// the fraction of the way.
   template <class Guard>
   double meet_first(const Guard& guard, const Vector& y, double delta, double& steepest, bool& is_new) {
     std::optional<Contact_3<Mesh>> best;
@@ -281,8 +297,8 @@ private:
     return time;
   }
 
-  /// J rests within some clearances of its target: takes in all the faces that meet there, so that c is kept from each of them,
-  /// of which those J is not over are left again. Returns whether there were any new ones.
+  /// J rests within some clearances of its target: takes in all the faces that meet there, so that c is kept from each
+  /// of them, of which those J is not over are left again. Returns whether there were any new ones.
   template <class Guard>
   bool meet_at(Guard& guard, const Vector& target, const Slide_lengths& lengths) {
     guard.decide(x, target, lengths.delta);
@@ -299,8 +315,8 @@ private:
     return !met.empty();
   }
 
-  /// The way from x to y has just been found blocked: goes to the free point nearest to the impact that is c off all contacts,
-  /// the new one included. Returns whether anything was gained, in place or in knowledge.
+  /// The way from x to y has just been found blocked: goes to the free point nearest to the impact that is c off all
+  /// contacts, the new one included. Returns whether anything was gained, in place or in knowledge.
   template <class Guard>
   bool approach(Guard& guard, const Vector& y, const Vector& target, const Slide_lengths& lengths) {
     double steepest = 0;
@@ -335,8 +351,7 @@ private:
       return true;
     // In a gap that closes slowly a whole clearance is not to be had; half the way then is.
     const double back = std::fmin(setback(lengths.clearance, steepest), time * path_length(x, y) / 2);
-    const Vector z = stop_before(x, y, time, back,
-                                 [&](const Vector& q) { return guard.is_free(x, q, lengths.delta); });
+    const Vector z = stop_before(x, y, time, back, [&](const Vector& q) { return guard.is_free(x, q, lengths.delta); });
     if (z == x)
       return false;
     step_to(z);

@@ -26,21 +26,26 @@ struct Nearest_permitted {
 
 namespace nearest_permitted_detail {
 
-/// How flat the corner of two or three planes may be, as the sine of an angle or the volume of their normals, before they
-/// count as one plane or line: below, the meeting of the planes is lost in the rounding of their normals.
+/// How flat the corner of two or three planes may be, as the sine of an angle or the volume of their normals, before
+/// they count as one plane or line: below, the meeting of the planes is lost in the rounding of their normals.
 constexpr double least_independence = 0x1p-48;
 
-/// Mends what rounding has left: one step of iterative refinement along each active normal, exact where they are orthogonal.
-inline void refine(Vector& d, const Half_space& a) { d = advanced(d, a.least - dot(a.normal, d), a.normal); }
+/// Mends what rounding has left: one step of iterative refinement along each active normal, exact where they are
+/// orthogonal.
+inline void refine(Vector& d, const Half_space& a) {
+  d = advanced(d, a.least - dot(a.normal, d), a.normal);
+}
 
 } // namespace nearest_permitted_detail
 
-/// The nearest point of a convex polyhedron to a given one: minimizes |d - wanted| over all d with normal_i . d >= least_i - slack.
+/// The nearest point of a convex polyhedron to a given one: minimizes |d - wanted| over all d with normal_i . d >=
+/// least_i - slack.
 ///
 /// By enumeration of active sets of one, two and three half-spaces: the first that is feasible and has no negative
 /// multiplier is the optimum, which is unique. \param slack a length, > 0: rounding of what the caller measured
 /// \param slack_there the same at the end of a constrained way, where that of the normals is felt too
-/// Cost: cubic in the number of half-spaces. Floating point; proposes only. A polyhedron without a point: `exists` is false.
+/// Cost: cubic in the number of half-spaces. Floating point; proposes only. A polyhedron without a point: `exists` is
+/// false.
 template <class Half_spaces>
 Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spaces, double slack, double slack_there) {
   using namespace nearest_permitted_detail;
@@ -76,7 +81,8 @@ Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spa
       if (std::fma(-cosine, missing_b, missing_a) < 0 || std::fma(-cosine, missing_a, missing_b) < 0)
         continue;
       // The point of the common line nearest to 0, and the way along the line.
-      Vector d = scaled(plus(scaled(cross(b.normal, axis), a.least), scaled(cross(axis, a.normal), b.least)), 1 / square);
+      Vector d =
+          scaled(plus(scaled(cross(b.normal, axis), a.least), scaled(cross(axis, a.normal), b.least)), 1 / square);
       d = advanced(d, dot(axis, wanted) / square, axis);
       if (accept(d, {i, j}, 2))
         return result;
@@ -89,8 +95,7 @@ Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spa
         const double volume = dot(ab, c.normal);
         if (std::abs(volume) < least_independence)
           continue;
-        const Vector d =
-            scaled(plus(plus(scaled(bc, a.least), scaled(ca, b.least)), scaled(ab, c.least)), 1 / volume);
+        const Vector d = scaled(plus(plus(scaled(bc, a.least), scaled(ca, b.least)), scaled(ab, c.least)), 1 / volume);
         const Vector push = minus(d, wanted);
         if (dot(push, bc) / volume < 0 || dot(push, ca) / volume < 0 || dot(push, ab) / volume < 0)
           continue;
