@@ -34,6 +34,12 @@ struct Drawn_fan {
       link.push_back(beside(first + turn * opening * i / faces));
     if (faces > 1 && random() % 8 == 0)
       link.back() = link.front();
+    if (offset == 0 && random() % 8 == 0) { // a spoke whose reciprocal is not a number
+      source = {0, 0, 0};
+      Coordinates& end = link[random() % link.size()];
+      for (double& x : end)
+        x = std::ldexp(number(random), -1040);
+    }
   }
 
   Coordinates place(double x, double y, double z) const {

@@ -63,7 +63,7 @@ public:
     const Vertex_index apex = star.link[pivot];
     const Coordinates& target = star.link_points[pivot];
     const auto& vertices = list.vertices();
-    // The least of all, so that what is told does not depend on the order of the list.
+    // The least that the first spoke or face in the way meets, so that what is told does not depend on the order of the list.
     const auto note = [&](std::vector<Vertex_index> found) {
       if (in_the_way.empty() || found < in_the_way)
         in_the_way = std::move(found);

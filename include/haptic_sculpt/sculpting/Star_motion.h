@@ -36,8 +36,8 @@ public:
       return;
     until_ = time;
     for (int i = 0; i < 3; ++i) {
-      // The product and the two sums round by less than 4 units of the larger of the two ends.
-      const double slack = 0x1p-50 * (std::abs(source_[i]) + std::abs(target_[i])) + std::numeric_limits<double>::min();
+      // The product and the two sums round by less than 2^-50 of both ends together, in any rounding mode.
+      const double slack = 0x1p-49 * (std::abs(source_[i]) + std::abs(target_[i])) + std::numeric_limits<double>::min();
       const double end = source_[i] + until_ * (target_[i] - source_[i]);
       // An end that is no number shortens nothing.
       if (target_[i] > source_[i])

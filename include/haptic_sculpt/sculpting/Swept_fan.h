@@ -113,9 +113,11 @@ private:
   static Vector advanced_plainly(const Vector& a, double factor, const Vector& b) {
     return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
   }
+  /// Largest coordinate 1; zero, a plane that parts nothing, for what is so small that its reciprocal is not a number.
   static Vector of_size_one(const Vector& a) {
+    constexpr double least_size = 0x1p-1000;
     const double size = largest_magnitude(a);
-    return size > 0 ? scaled(a, 1 / size) : Vector{};
+    return size > least_size ? scaled(a, 1 / size) : Vector{};
   }
 };
 
