@@ -156,13 +156,15 @@ void check_queries(std::uint64_t seed) {
     found.clear();
     broad_phase.query(swept.swept(source, target), found);
     unique = {found.begin(), found.end()};
-    if (i % 30 == 0)
-      for (const auto f : mesh.faces()) {
-        Checklist<Mesh> list;
-        list.assign(mesh, Face_corners<Mesh>(mesh), swept, {f}, Box_3());
-        No_filter_counters uncounted;
-        missed += !Narrow_phase<Mesh, No_filter_counters>(uncounted).is_free(swept, list, source, target) && unique.count(f) == 0;
-      }
+    const auto is_free_of = [&](const std::vector<Mesh::Face_index>& faces) {
+      Checklist<Mesh> list;
+      list.assign(mesh, Face_corners<Mesh>(mesh), swept, faces, Box_3());
+      No_filter_counters uncounted;
+      return Narrow_phase<Mesh, No_filter_counters>(uncounted).is_free(swept, list, source, target);
+    };
+    if (i % 30 == 0 && is_free_of({})) // the star does not meet its own link's vertices, which are in every list
+      for (const auto f : mesh.faces())
+        missed += !is_free_of({f}) && unique.count(f) == 0;
   }
   BOOST_TEST(missed == 0u);
   BOOST_TEST(twice == 0u);

@@ -102,8 +102,8 @@ BOOST_AUTO_TEST_CASE(what_a_fan_says_is_apart_is_apart) {
         hits = hits || is_hit(edge_sweep, drawn.link[f], p, q);
       for (int f = 0; f < faces; ++f)
         p_hits = p_hits || is_hit(face_sweep, drawn.link[f], drawn.link[f + 1], p);
-      const bool is_edge_apart = fan.is_apart(minus(p, drawn.source), minus(q, drawn.source));
-      const bool is_point_apart = fan.is_apart(minus(p, drawn.source));
+      const bool is_edge_apart = (fan.sides_of(minus(p, drawn.source)) & fan.sides_of(minus(q, drawn.source))) != 0;
+      const bool is_point_apart = fan.sides_of(minus(p, drawn.source)) != 0;
       asked += 2, apart += is_edge_apart + is_point_apart, really += !hits + !p_hits;
       wrong += (is_edge_apart && hits) + (is_point_apart && p_hits);
     }

@@ -68,51 +68,46 @@ public:
       if (in_the_way.empty() || found < in_the_way)
         in_the_way = std::move(found);
     };
-    const auto moving_edge = [&](std::size_t i, const Positions& edges) {
+    const auto moving_edge = [&](std::size_t i, const auto& run) {
       const Box_3 swept = Box_3(centre).include(target).include(star.link_points[i]);
-      for (const std::uint32_t e : edges) {
+      run.for_each_edge_near(i, [&](std::uint32_t e) {
         const auto& edge = list.edges()[e];
-        const auto &a = vertices[edge.vertices[0]], &b = vertices[edge.vertices[1]];
-        if (!do_meet(edge.box, swept) || a.index == apex || b.index == apex || a.index == star.link[i] ||
-            b.index == star.link[i])
-          continue;
-        if (edge_edge_verdict(Sweep_points{centre, target, star.link_points[i], a.point, b.point}, *counters_).hits)
+        const auto &a = vertices[edge[0]], &b = vertices[edge[1]];
+        if (a.index != apex && b.index != apex &&
+            do_meet(list.box(edge), swept) &&
+            edge_edge_verdict(Sweep_points{centre, target, star.link_points[i], a.point, b.point}, *counters_).hits)
           note({std::min(a.index, b.index), std::max(a.index, b.index)});
-      }
+      });
     };
-    const auto moving_face = [&](std::size_t i, std::size_t j, const Positions& near) {
+    const auto moving_face = [&](std::size_t i, std::size_t j, const auto& run) {
       const Box_3 swept = Box_3(centre).include(target).include(star.link_points[i]).include(star.link_points[j]);
-      for (const std::uint32_t v : near) {
+      run.for_each_vertex_near(i, [&](std::uint32_t v) {
         const auto& vertex = vertices[v];
-        if (!haptic_sculpt::contains(swept, vertex.point) || vertex.index == apex || vertex.index == star.link[i] ||
-            vertex.index == star.link[j])
-          continue;
-        if (face_vertex_verdict(Sweep_points{centre, target, star.link_points[i], star.link_points[j], vertex.point},
+        if (vertex.index != apex &&
+            haptic_sculpt::contains(swept, vertex.point) &&
+            face_vertex_verdict(Sweep_points{centre, target, star.link_points[i], star.link_points[j], vertex.point},
                                 *counters_)
                 .hits)
           note({vertex.index});
-      }
+      });
     };
     Star_motion motion(centre, target);
     return runs_.for_each_run(star, list, motion, 0,
-                              [&](std::size_t first, std::size_t last, const Positions& edges, const Positions&) {
-                                for (std::size_t i = first; i < last && in_the_way.empty(); ++i)
+                              [&](const auto& run) {
+                                for (std::size_t i = run.first; i < run.last && in_the_way.empty(); ++i)
                                   if (i != pivot && i != left && i != right)
-                                    moving_edge(i, edges);
+                                    moving_edge(i, run);
                                 return in_the_way.empty();
                               }) &&
-           runs_.for_each_run(star, list, motion, 0,
-                              [&](std::size_t first, std::size_t last, const Positions&, const Positions& near) {
-                                for (std::size_t i = first; i < last && in_the_way.empty(); ++i)
-                                  if (i != pivot && star.next(i) != pivot)
-                                    moving_face(i, star.next(i), near);
-                                return in_the_way.empty();
-                              });
+           runs_.for_each_run(star, list, motion, 0, [&](const auto& run) {
+             for (std::size_t i = run.first; i < run.last && in_the_way.empty(); ++i)
+               if (i != pivot && star.next(i) != pivot)
+                 moving_face(i, star.next(i), run);
+             return in_the_way.empty();
+           });
   }
 
 private:
-  using Positions = typename Star_runs<Mesh>::Positions;
-
   Counters* counters_;
   Star_runs<Mesh> runs_;
 

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_GUARDED_STAR_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
+#include <haptic_sculpt/sculpting/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/Narrow_phase.h>
 #include <haptic_sculpt/sculpting/clearance.h>
 #include <haptic_sculpt/sculpting/delta_limit.h>
@@ -20,8 +21,11 @@ public:
   using Coordinates = internal::Coordinates;
   using Vertex_index = typename Mesh::Vertex_index;
 
-  Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), counters_(&counters), narrow_phase_(counters) {}
+  /// \param watch is asked to fetch its copies of the candidates, where it is given
+  Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters,
+               const Mesh_watch<Mesh>* watch = nullptr)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), watch_(watch), counters_(&counters),
+      narrow_phase_(counters) {}
 
   Star<Mesh>& star() { return star_; }
   const Star<Mesh>& star() const { return star_; }
@@ -121,6 +125,7 @@ private:
   const Mesh* mesh_;
   Broad_phase* broad_phase_;
   const Face_corners<Mesh>* corners_of_;
+  const Mesh_watch<Mesh>* watch_;
   Filter_counters* counters_;
   Narrow_phase<Mesh, Filter_counters> narrow_phase_;
   Star<Mesh> star_;
@@ -244,7 +249,10 @@ private:
   /// \param region empty for one motion alone: the next one asks again
   void take_candidates(const Box_3& region = Box_3()) {
     pairs_.clear();
-    list_.assign(*mesh_, *corners_of_, star_, candidates_, region);
+    list_.assign(*mesh_, *corners_of_, star_, candidates_, region, [this](Vertex_index v) {
+      if (watch_ != nullptr)
+        watch_->prefetch(v);
+    });
     ++looks_;
   }
 

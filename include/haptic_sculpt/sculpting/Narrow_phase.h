@@ -9,9 +9,9 @@ namespace haptic_sculpt {
 
 /// All three sweeps of a star against a checklist (PAPER B; completeness: doc/exact_sweeps.md).
 ///
-/// A pair is left out only when its boxes, or those along the diagonals, do not meet, which is decided exactly, when a
-/// plane lies certainly between its two, when it cannot come first any more, or when it shares a vertex that makes its
-/// meeting no collision: faces incident to the moving vertex, edges at the far end of the moving edge.
+/// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between its
+/// two, when it cannot come first any more, or when it shares a vertex that makes its meeting no collision: faces
+/// incident to the moving vertex, edges at the far end of the moving edge.
 template <class Mesh, class Counters = Filter_counters>
 class Narrow_phase {
 public:
@@ -60,7 +60,6 @@ public:
 
 private:
   using Vertices = std::array<Vertex_index, 3>;
-  using Diagonal_box = internal::Diagonal_box;
 
   Counters* counters_;
   internal::Star_runs<Mesh> runs_;
@@ -104,25 +103,19 @@ private:
   bool for_each_hit(Scene scene, const Hit& hit) {
     if (stands_still(scene))
       return true;
-    const Star<Mesh>& star = scene.star;
-    const Diagonal_box way(scene.motion.source(), scene.motion.target());
-    for (std::uint32_t f = 0; f < scene.list.faces().size(); ++f)
-      if (!vertex_on_face(scene, f, way, hit))
-        return false;
-    return star.valence() == 0 ||
-           runs_.for_each_run(star, scene.list, scene.motion, 0,
-                              [&](std::size_t first, std::size_t last, const auto& edges, const auto& vertices) {
-                                for (std::size_t i = first; i < last; ++i) {
-                                  Diagonal_box swept = way;
-                                  swept.include(star.link_points[i]);
-                                  if (!moving_edge(scene, i, edges, swept, hit))
-                                    return false;
-                                  swept.include(star.link_points[star.next(i)]);
-                                  if (!moving_face(scene, i, vertices, swept, hit))
-                                    return false;
-                                }
-                                return true;
-                              });
+    const auto vertex = [&](std::uint32_t f) { return vertex_on_face(scene, f, hit); };
+    if (scene.star.valence() == 0 || scene.star.valence() > internal::Separating_planes::most_faces)
+      for (std::uint32_t f = 0; f < scene.list.faces().size(); ++f)
+        if (!vertex(f))
+          return false;
+    return scene.star.valence() == 0 ||
+           runs_.for_each_run(scene.star, scene.list, scene.motion, 0, [&](const auto& run) {
+             return (!run.is_whole || run.for_each_face(vertex)) &&
+                    run.for_each_edge_pair(
+                        [&](std::size_t i, std::uint32_t e) { return moving_edge(scene, i, e, hit); }) &&
+                    run.for_each_vertex_pair(
+                        [&](std::size_t i, std::uint32_t v) { return moving_face(scene, i, v, hit); });
+           });
   }
 
   template <class Hit>
@@ -132,11 +125,11 @@ private:
                                [&](const typename Near_pairs<Mesh>::Pair& pair) {
                                  switch (pair.feature) {
                                  case Impact_feature::vertex_face:
-                                   return vertex_on_face(scene, pair.candidate, internal::No_box(), hit);
+                                   return vertex_on_face(scene, pair.candidate, hit);
                                  case Impact_feature::edge_edge:
-                                   return moving_edge(scene, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
+                                   return moving_edge(scene, pair.spoke, pair.candidate, hit);
                                  default:
-                                   return moving_face(scene, pair.spoke, One{pair.candidate}, internal::No_box(), hit);
+                                   return moving_face(scene, pair.spoke, pair.candidate, hit);
                                  }
                                });
   }
@@ -151,70 +144,51 @@ private:
     return until != enough;
   }
 
-  using One = std::array<std::uint32_t, 1>;
-
-  template <class Box, class Hit>
-  bool vertex_on_face(Scene& scene, std::uint32_t f, const Box& way, const Hit& hit) const {
+  template <class Hit>
+  bool vertex_on_face(Scene& scene, std::uint32_t f, const Hit& hit) const {
     const auto& face = scene.list.faces()[f];
-    if (!do_meet(face.box, scene.motion.path()))
+    if (!do_meet(scene.list.box(face), scene.motion.path()))
       return true;
     const auto& vertices = scene.list.vertices();
     const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
-    if (way.excludes(a.point, b.point, c.point))
-      return true;
     const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), a.point, b.point, c.point};
     const internal::Sweep_verdict verdict = internal::vertex_face_verdict(points, *counters_);
     return !verdict.hits ||
            goes_on(scene, hit(Impact_feature::vertex_face, Vertices{a.index, b.index, c.index}, points, verdict));
   }
 
-  /// The edge to link vertex i against these candidates.
-  template <class Positions, class Box, class Hit>
-  bool moving_edge(Scene& scene, std::size_t i, const Positions& edges, const Box& swept_diagonals,
-                   const Hit& hit) const {
+  /// The edge to link vertex i against a candidate.
+  template <class Hit>
+  bool moving_edge(Scene& scene, std::size_t i, std::uint32_t e, const Hit& hit) const {
+    const auto& edge = scene.list.edges()[e];
     const auto& vertices = scene.list.vertices();
     const Vertex_index far_end = scene.star.link[i];
     const Coordinates& far_point = scene.star.link_points[i];
-    const Box_3 swept = Box_3(scene.motion.path()).include(far_point);
-    for (const std::uint32_t e : edges) {
-      const auto& edge = scene.list.edges()[e];
-      if (!do_meet(edge.box, swept))
-        continue;
-      const auto &a = vertices[edge.vertices[0]], &b = vertices[edge.vertices[1]];
-      if (a.index == far_end || b.index == far_end || swept_diagonals.excludes(a.point, b.point))
-        continue;
-      // The smaller name first, whatever the list's order: what is told does not depend on the broad phase.
-      const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
-      const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point,
-                                             high.point};
-      const internal::Sweep_verdict verdict = internal::edge_edge_verdict(points, *counters_);
-      if (verdict.hits &&
-          !goes_on(scene, hit(Impact_feature::edge_edge, Vertices{far_end, low.index, high.index}, points, verdict)))
-        return false;
-    }
-    return true;
+    const auto &a = vertices[edge[0]], &b = vertices[edge[1]];
+    if (!do_meet(scene.list.box(edge), Box_3(scene.motion.path()).include(far_point)))
+      return true;
+    // The smaller name first, whatever the list's order: what is told does not depend on the broad phase.
+    const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
+    const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point,
+                                           high.point};
+    const internal::Sweep_verdict verdict = internal::edge_edge_verdict(points, *counters_);
+    return !verdict.hits ||
+           goes_on(scene, hit(Impact_feature::edge_edge, Vertices{far_end, low.index, high.index}, points, verdict));
   }
 
-  /// Face i against these candidates.
-  template <class Positions, class Box, class Hit>
-  bool moving_face(Scene& scene, std::size_t i, const Positions& vertices, const Box& swept_diagonals,
-                   const Hit& hit) const {
+  /// Face i against a candidate.
+  template <class Hit>
+  bool moving_face(Scene& scene, std::size_t i, std::uint32_t v, const Hit& hit) const {
     const Star<Mesh>& star = scene.star;
     const std::size_t j = star.next(i);
-    const Box_3 swept = Box_3(scene.motion.path()).include(star.link_points[i]).include(star.link_points[j]);
-    for (const std::uint32_t v : vertices) {
-      const auto& vertex = scene.list.vertices()[v];
-      if (!contains(swept, vertex.point) || vertex.index == star.link[i] || vertex.index == star.link[j] ||
-          swept_diagonals.excludes(vertex.point))
-        continue;
-      const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i],
-                                             star.link_points[j], vertex.point};
-      const internal::Sweep_verdict verdict = internal::face_vertex_verdict(points, *counters_);
-      if (verdict.hits && !goes_on(scene, hit(Impact_feature::face_vertex,
-                                              Vertices{star.link[i], star.link[j], vertex.index}, points, verdict)))
-        return false;
-    }
-    return true;
+    const auto& vertex = scene.list.vertices()[v];
+    if (!contains(Box_3(scene.motion.path()).include(star.link_points[i]).include(star.link_points[j]), vertex.point))
+      return true;
+    const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i],
+                                           star.link_points[j], vertex.point};
+    const internal::Sweep_verdict verdict = internal::face_vertex_verdict(points, *counters_);
+    return !verdict.hits || goes_on(scene, hit(Impact_feature::face_vertex,
+                                               Vertices{star.link[i], star.link[j], vertex.index}, points, verdict));
   }
 };
 

@@ -83,16 +83,12 @@ public:
       return;
     faces(list);
     internal::Star_motion at_centre(centre_, centre_);
-    const bool are_few = runs.for_each_run(
-        star, list, at_centre, radius_,
-        [&](std::size_t first, std::size_t last, const auto& edge_positions, const auto& vertex_positions) {
-          for (std::size_t i = first; i < last && pairs_.size() <= most_pairs; ++i) {
-            edges(star, list, i, edge_positions);
-            vertices(star, list, i, vertex_positions);
-          }
-          return pairs_.size() <= most_pairs;
-        });
-    if (!are_few)
+    const auto are_few = [&] { return pairs_.size() <= most_pairs; };
+    runs.for_each_run(star, list, at_centre, radius_, [&](const auto& run) {
+      return run.for_each_edge_pair([&](std::size_t i, std::uint32_t e) { return edge(star, list, i, e), are_few(); }) &&
+             run.for_each_vertex_pair([&](std::size_t i, std::uint32_t v) { return vertex(star, list, i, v), are_few(); });
+    });
+    if (!are_few())
       return clear();
     square_ = r * r;
     nearest_ = square_;
@@ -155,7 +151,7 @@ private:
     const auto& v = list.vertices();
     for (std::size_t f = 0; f < list.faces().size(); ++f) {
       const auto& face = list.faces()[f];
-      if (are_far(face.box, here))
+      if (are_far(list.box(face), here))
         continue;
       const std::array<Vector, 3> t = {local(v[face.vertices[0]].point), local(v[face.vertices[1]].point),
                                        local(v[face.vertices[2]].point)};
@@ -165,37 +161,26 @@ private:
     }
   }
 
-  template <class Positions>
-  void edges(const Star<Mesh>& star, const Checklist<Mesh>& list, std::size_t i, const Positions& positions) {
-    const Box_3 box = Box_3(centre_).include(star.link_points[i]);
-    const std::array<Vector, 2> moving = {Vector{}, local(star.link_points[i])};
-    for (const std::uint32_t e : positions) {
-      const auto& edge = list.edges()[e];
-      if (are_far(edge.box, box))
-        continue;
-      const auto &a = list.vertices()[edge.vertices[0]], &b = list.vertices()[edge.vertices[1]];
-      if (a.index == star.link[i] || b.index == star.link[i])
-        continue;
-      const std::array<Vector, 2> still = {local(a.point), local(b.point)};
-      keep(internal::separation(moving, still, internal::between_segments(moving, still), error_),
-           Impact_feature::edge_edge, i, e);
-    }
+  void edge(const Star<Mesh>& star, const Checklist<Mesh>& list, std::size_t i, std::uint32_t e) {
+    const auto& edge = list.edges()[e];
+    const auto &a = list.vertices()[edge[0]], &b = list.vertices()[edge[1]];
+    if (are_far(list.box(edge), Box_3(centre_).include(star.link_points[i])))
+      return;
+    const std::array<Vector, 2> moving = {Vector{}, local(star.link_points[i])}, still = {local(a.point), local(b.point)};
+    keep(internal::separation(moving, still, internal::between_segments(moving, still), error_),
+         Impact_feature::edge_edge, i, e);
   }
 
-  template <class Positions>
-  void vertices(const Star<Mesh>& star, const Checklist<Mesh>& list, std::size_t i, const Positions& positions) {
+  void vertex(const Star<Mesh>& star, const Checklist<Mesh>& list, std::size_t i, std::uint32_t v) {
     const std::size_t j = star.next(i);
-    const Box_3 box = Box_3(centre_).include(star.link_points[i]).include(star.link_points[j]);
-    for (const std::uint32_t k : positions) {
-      const auto& vertex = list.vertices()[k];
-      if (are_far(Box_3(vertex.point), box) || vertex.index == star.link[i] || vertex.index == star.link[j])
-        continue;
-      const Vector p = local(vertex.point);
-      const std::array<Vector, 3> face = {internal::minus(Vector{}, p), internal::minus(local(star.link_points[i]), p),
-                                          internal::minus(local(star.link_points[j]), p)};
-      keep(internal::separation(face, std::array<Vector, 1>{Vector{}}, internal::nearest_to_origin(face), error_),
-           Impact_feature::face_vertex, i, k);
-    }
+    const auto& vertex = list.vertices()[v];
+    if (are_far(Box_3(vertex.point), Box_3(centre_).include(star.link_points[i]).include(star.link_points[j])))
+      return;
+    const Vector p = local(vertex.point);
+    const std::array<Vector, 3> face = {internal::minus(Vector{}, p), internal::minus(local(star.link_points[i]), p),
+                                        internal::minus(local(star.link_points[j]), p)};
+    keep(internal::separation(face, std::array<Vector, 1>{Vector{}}, internal::nearest_to_origin(face), error_),
+         Impact_feature::face_vertex, i, v);
   }
 };
 

@@ -60,8 +60,8 @@ public:
   /// obey the delta rule; Invalid_parameter. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
     : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), corners_(mesh),
-      editor_(mesh, broad_phase_, corners_, counters_, std::move(visitor)), guard_(mesh, broad_phase_, corners_, counters_),
-      probe_guard_(mesh, broad_phase_, corners_, counters_) {
+      editor_(mesh, broad_phase_, corners_, counters_, std::move(visitor)), guard_(mesh, broad_phase_, corners_, counters_, &watch_),
+      probe_guard_(mesh, broad_phase_, corners_, counters_, &watch_) {
     for (const Vertex_index v : mesh.vertices())
       largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(vertex_coordinates(mesh, v)));
   }
@@ -265,12 +265,12 @@ private:
     }
     release();
     editor_.prepare_for_moves();
-    watch_.check_some();
     guard_.star().collect(*mesh_, v);
     guard_.invalidate();
     watch_.check(v);
     for (const Vertex_index neighbour : guard_.star().link)
       watch_.check(neighbour);
+    watch_.check_some();
     held_ = v;
   }
 

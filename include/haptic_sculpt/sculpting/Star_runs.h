@@ -3,129 +3,266 @@
 #define HAPTIC_SCULPT_SCULPTING_STAR_RUNS_H
 
 #include <haptic_sculpt/sculpting/Checklist.h>
-#include <haptic_sculpt/sculpting/Diagonal_box.h>
+#include <haptic_sculpt/sculpting/Separating_planes.h>
 #include <haptic_sculpt/sculpting/Star_motion.h>
-#include <haptic_sculpt/sculpting/Swept_fan.h>
+#include <haptic_sculpt/surface/bits.h>
 
 namespace haptic_sculpt {
 namespace internal {
 
 /// Goes through the faces of a star in runs of a few, each with the candidates that are near it.
 ///
-/// The star is halved again and again, and each half keeps those of the whole's candidates that its box meets and,
-/// where there are many, that are not apart from it along a diagonal; or, where it is a narrow part of a star of many
-/// neighbours, that no plane parts from it. So a star of a thousand faces, each near few candidates, costs n log n, not
-/// n^2. Keeps its memory, to allocate no more.
+/// A star of usual valence is one run. A larger one is halved again and again, and each half keeps those of the whole's
+/// candidates that its box meets and, where it is a narrow part, that no plane parts from it. So a star of a thousand
+/// faces, each near few candidates, costs n log n, not n^2. Keeps its memory, to allocate no more.
 template <class Mesh>
 class Star_runs {
 public:
   using Coordinates = std::array<double, 3>;
   using Positions = std::vector<std::uint32_t>;
+  using Sides = Separating_planes::Sides;
 
-  /// Calls `visit(first, last, edges, vertices)` for runs [first, last) of faces, in their order, until it returns
-  /// false; returns whether it never did. `edges` and `vertices` are positions in the list: all but those that
-  /// certainly are not touched by the run's faces in the part of the motion that is of interest, or are then farther
-  /// than `margin` (rounded) from them. The visitor may shorten the motion.
+  /// Faces [first, last) of a star and the candidates near them: pairs of a moving and a still feature that may touch,
+  /// and do not share a vertex.
+  class Run {
+  public:
+    std::size_t first, last;
+    bool is_whole; ///< these are all faces of the star
+
+    /// Calls `visit(spoke, edge)` for all pairs of a moving edge, by its place in the link, and a candidate, by its
+    /// position in the list, until it returns false; returns whether it never did.
+    template <class Visit>
+    bool for_each_edge_pair(const Visit& visit) const {
+      for (const std::uint32_t e : *edges_) {
+        const Sides sides = sides_of(e);
+        if ((sides & beyond_all_) != 0)
+          continue;
+        unsigned spokes = 0;
+        for (std::size_t k = 0; k < last - first; ++k)
+          spokes |= ((sides & planes_->beyond_edge(first + k)) == 0 ? 1u : 0u) << k;
+        const auto& [a, b] = list_->edges()[e];
+        for (spokes &= ~(spoke_to(a) | spoke_to(b)); spokes != 0; spokes &= spokes - 1)
+          if (!visit(first + lowest_bit(spokes), e))
+            return false;
+      }
+      return true;
+    }
+    /// The same for `visit(face, vertex)`, pairs of a moving face and a candidate vertex.
+    template <class Visit>
+    bool for_each_vertex_pair(const Visit& visit) const {
+      for (const std::uint32_t v : *vertices_) {
+        const Sides sides = (*sides_)[v];
+        if ((sides & beyond_all_) != 0)
+          continue;
+        unsigned faces = 0;
+        for (std::size_t k = 0; k < last - first; ++k)
+          faces |= ((sides & planes_->beyond_face(first + k)) == 0 ? 1u : 0u) << k;
+        for (faces &= ~faces_at(v); faces != 0; faces &= faces - 1)
+          if (!visit(first + lowest_bit(faces), v))
+            return false;
+      }
+      return true;
+    }
+    /// The same for `visit(candidate)`, faces that the moving vertex may touch. \pre is_whole
+    template <class Visit>
+    bool for_each_face(const Visit& visit) const {
+      const auto& faces = list_->faces();
+      for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        const auto& [a, b, c] = faces[f].vertices;
+        if (((*sides_)[a] & (*sides_)[b] & (*sides_)[c] & planes_->beyond_vertex()) == 0 && !visit(f))
+          return false;
+      }
+      return true;
+    }
+
+    /// Calls `visit(edge)` for the candidates that the moving edge i may touch.
+    template <class Visit>
+    void for_each_edge_near(std::size_t i, const Visit& visit) const {
+      for (const std::uint32_t e : *edges_)
+        if ((sides_of(e) & planes_->beyond_edge(i)) == 0 && list_->edges()[e][0] != i && list_->edges()[e][1] != i)
+          visit(e);
+    }
+    /// Calls `visit(vertex)` for the candidates that the moving face i may touch.
+    template <class Visit>
+    void for_each_vertex_near(std::size_t i, const Visit& visit) const {
+      for (const std::uint32_t v : *vertices_)
+        if (((*sides_)[v] & planes_->beyond_face(i)) == 0 && (faces_at(v) >> (i - first) & 1) == 0)
+          visit(v);
+    }
+
+  private:
+    friend class Star_runs;
+    const Checklist<Mesh>* list_;
+    const Positions *edges_, *vertices_;
+    const std::vector<Sides>* sides_;
+    const Separating_planes* planes_;
+    Sides beyond_all_;
+    std::size_t valence_;
+
+    Sides sides_of(std::uint32_t e) const {
+      const auto& [a, b] = list_->edges()[e];
+      return (*sides_)[a] & (*sides_)[b];
+    }
+
+    // The first vertices of a list are those of the link, in its order.
+    /// The bit of the spoke that ends in this vertex, if any.
+    unsigned spoke_to(std::size_t v) const { return v >= first && v < last ? 1u << (v - first) : 0; }
+    /// The bits of the faces that have this vertex.
+    unsigned faces_at(std::size_t v) const {
+      const std::size_t before = v != 0 ? v - 1 : valence_ - 1;
+      return v < valence_ ? spoke_to(v) | spoke_to(before) : 0;
+    }
+  };
+
+  /// Calls `visit(run)` until it returns false; returns whether it never did. In no run are pairs that certainly do not
+  /// touch in the part of the motion that is of interest, and are then farther than `margin` (rounded) from each other;
+  /// of those that may, none is left out. The visitor may shorten the motion.
   template <class Visit>
   bool for_each_run(const Star<Mesh>& star, const Checklist<Mesh>& list, Star_motion& motion, double margin,
                     const Visit& visit) {
     place(star, list, motion);
-    const bool is_large = star.valence() > usual_valence || list.edges().size() > usual_edges;
-    return halve({star, list, motion, margin, is_large}, 0, star.valence(), 0, visit);
+    if (near_.empty())
+      near_.resize(1);
+    Near& all = near_[0];
+    count_up(all.edges, list.edges().size());
+    count_up(all.vertices, list.vertices().size());
+    const Scene scene{star, list, motion, margin};
+    if (star.valence() <= Separating_planes::most_faces)
+      return visit(run(scene, 0, star.valence(), all));
+    all.corners = all.vertices;
+    sides_.assign(list.vertices().size(), 0);
+    return halve(scene, 0, star.valence(), 1, visit);
   }
 
 private:
   struct Near {
     Positions edges, vertices;
+    Positions corners; ///< the vertices, and those of the edges
   };
   struct Scene {
     const Star<Mesh>& star;
     const Checklist<Mesh>& list;
     Star_motion& motion;
     double margin;
-    bool is_large;
   };
 
   std::vector<Near> near_; ///< by how often the star has been halved
-  std::vector<Vector> spokes_,
-      places_;       ///< of a star of many neighbours: link and candidate vertices, from where the motion starts
-  double reach_ = 0; ///< of their coordinates; 0 where there are none
+  std::vector<Vector> spokes_;
+  Places places_; ///< of link and candidate vertices, from where the motion starts
+  double reach_ = 0; ///< of their coordinates
+  std::vector<Sides> sides_; ///< of the candidate vertices
+  Places near_places_;       ///< those near a run of a large star
+  std::vector<Sides> near_sides_;
+  Separating_planes planes_;
+  std::vector<std::uint32_t> seen_; ///< when a candidate vertex was taken last
+  std::uint32_t round_ = 0;
 
-  static constexpr std::size_t few_faces = 3; ///< no more are a run
-  static constexpr std::size_t few_faces_of_a_wedge =
-      8; ///< the same where planes are tried, too, which cost more than boxes
-  /// Stars of more neighbours than this are worth planes between their parts and the candidates.
-  static constexpr std::size_t many_neighbours = 16;
-  /// Where the star has more faces than this, or there are more edges, diagonals are compared.
-  static constexpr std::size_t usual_valence = 12, usual_edges = 256;
+  /// Of a large star so many faces are a run.
+  static constexpr std::size_t few_faces = 8;
+
+  Run run(const Scene& scene, std::size_t first, std::size_t last, const Near& near) {
+    planes_.assign(scene.motion.way(), spokes_, first, last, reach_, scene.margin, box_of(scene, first, last));
+    if (last - first == scene.star.valence()) {
+      planes_.sides_of(places_, sides_);
+    } else {
+      near_places_.clear();
+      for (const std::uint32_t v : near.corners)
+        near_places_.push_back({places_.of[0][v], places_.of[1][v], places_.of[2][v]});
+      planes_.sides_of(near_places_, near_sides_);
+      for (std::size_t k = 0; k < near.corners.size(); ++k)
+        sides_[near.corners[k]] = near_sides_[k];
+    }
+    Run result;
+    result.first = first, result.last = last;
+    result.valence_ = scene.star.valence();
+    result.is_whole = last - first == result.valence_;
+    result.list_ = &scene.list;
+    result.edges_ = &near.edges, result.vertices_ = &near.vertices;
+    result.sides_ = &sides_, result.planes_ = &planes_;
+    result.beyond_all_ = ~Sides{0};
+    for (std::size_t i = first; i < last; ++i)
+      result.beyond_all_ &= planes_.beyond_edge(i) & planes_.beyond_face(i);
+    return result;
+  }
 
   template <class Visit>
   bool halve(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth, const Visit& visit) {
-    if (near_.size() <= depth)
-      near_.resize(depth + 1);
-    const Star<Mesh>& star = scene.star;
-    const auto& all_edges = scene.list.edges();
-    const auto& all_vertices = scene.list.vertices();
-    // All of a star, or half of it, is no wedge that planes at its ends could part from anything.
-    const bool is_wedge = reach_ > 0 && 4 * (last - first) <= star.valence(),
-               has_diagonals = scene.is_large && !is_wedge;
-    Box_3 box = scene.motion.path();
-    Diagonal_box diagonals(scene.motion.source(), scene.motion.target());
-    for (std::size_t i = first; i <= last; ++i) {
-      const Coordinates& p = star.link_points[i < star.valence() ? i : 0];
-      box.include(p);
-      if (has_diagonals)
-        diagonals.include(p);
+    keep_near(scene, first, last, depth);
+    if (last - first <= few_faces) {
+      return visit(run(scene, first, last, near_[depth]));
     }
-    if (scene.margin > 0) {
-      diagonals.inflate(scene.margin);
-      for (int i = 0; i < 3; ++i)
-        box.lower[i] -= scene.margin, box.upper[i] += scene.margin;
-    }
-    const Swept_fan fan =
-        is_wedge ? Swept_fan(scene.motion.way(), spokes_, first, last, reach_, scene.margin) : Swept_fan();
-    Near& near = near_[depth];
-    near.edges.clear();
-    near.vertices.clear();
-    near.edges.reserve(all_edges.size()); // whatever is near another time, nothing is allocated then
-    near.vertices.reserve(all_vertices.size());
-    const auto keep_edge = [&](std::uint32_t e) {
-      const auto& [a, b] = all_edges[e].vertices;
-      if (do_meet(all_edges[e].box, box) && !(is_wedge && fan.is_apart(places_[a], places_[b])) &&
-          !(has_diagonals && diagonals.excludes(all_vertices[a].point, all_vertices[b].point)))
-        near.edges.push_back(e);
-    };
-    const auto keep_vertex = [&](std::uint32_t v) {
-      if (contains(box, all_vertices[v].point) && !(is_wedge && fan.is_apart(places_[v])) &&
-          !(has_diagonals && diagonals.excludes(all_vertices[v].point)))
-        near.vertices.push_back(v);
-    };
-    if (depth == 0) {
-      for (std::uint32_t e = 0; e < all_edges.size(); ++e)
-        keep_edge(e);
-      for (std::uint32_t v = 0; v < all_vertices.size(); ++v)
-        keep_vertex(v);
-    } else {
-      for (const std::uint32_t e : near_[depth - 1].edges)
-        keep_edge(e);
-      for (const std::uint32_t v : near_[depth - 1].vertices)
-        keep_vertex(v);
-    }
-    if (last - first <= (is_wedge ? few_faces_of_a_wedge : few_faces))
-      return visit(first, last, near.edges, near.vertices);
     const std::size_t middle = first + (last - first) / 2;
     return halve(scene, first, middle, depth + 1, visit) && halve(scene, middle, last, depth + 1, visit);
   }
 
-  /// Fills spokes_ and places_ for a star of many neighbours.
+  /// Those of the candidates kept at the depth before that are near these faces.
+  void keep_near(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth) {
+    if (near_.size() <= depth)
+      near_.resize(depth + 1);
+    const auto& edges = scene.list.edges();
+    const Near& from = near_[depth - 1];
+    Near& near = near_[depth];
+    // Whatever is near another time, nothing is allocated then.
+    near.edges.reserve(edges.size()), near.edges.clear();
+    near.vertices.reserve(places_.size()), near.vertices.clear();
+    near.corners.reserve(places_.size()), near.corners.clear();
+    const Box_3 box = box_of(scene, first, last);
+    // All of a star, or half of it, is no wedge that planes at its ends could part from anything.
+    const Swept_fan fan = 4 * (last - first) <= scene.star.valence()
+                              ? Swept_fan(scene.motion.way(), spokes_, first, last, reach_, scene.margin)
+                              : Swept_fan();
+    for (const std::uint32_t v : from.corners) {
+      const Vector p = {places_.of[0][v], places_.of[1][v], places_.of[2][v]};
+      unsigned sides = fan.sides_of(p);
+      for (int i = 0; i < 3; ++i)
+        sides |= (p[i] > box.upper[i] ? 16u : 0u) << 2 * i | (p[i] < box.lower[i] ? 32u : 0u) << 2 * i;
+      sides_[v] = sides;
+    }
+    seen_.resize(std::max(seen_.size(), places_.size()));
+    ++round_;
+    const auto take = [&](std::uint32_t v) {
+      if (seen_[v] != round_)
+        near.corners.push_back(v);
+      seen_[v] = round_;
+    };
+    for (const std::uint32_t e : from.edges)
+      if ((sides_[edges[e][0]] & sides_[edges[e][1]]) == 0) {
+        near.edges.push_back(e);
+        take(edges[e][0]), take(edges[e][1]);
+      }
+    for (const std::uint32_t v : from.vertices)
+      if (sides_[v] == 0) {
+        near.vertices.push_back(v);
+        take(v);
+      }
+  }
+
+  /// Around what these faces sweep over, in coordinates from the start of the motion. Rounded like those of the
+  /// candidates, so comparisons with them lose nothing: differences grow with what is subtracted from, in any rounding
+  /// mode.
+  Box_3 box_of(const Scene& scene, std::size_t first, std::size_t last) const {
+    Box_3 box = scene.motion.path();
+    for (std::size_t i = first; i <= last; ++i)
+      box.include(scene.star.link_points[i < scene.star.valence() ? i : 0]);
+    const Coordinates& start = scene.motion.source();
+    for (int i = 0; i < 3; ++i) {
+      box.lower[i] = box.lower[i] - scene.margin - start[i];
+      box.upper[i] = box.upper[i] + scene.margin - start[i];
+    }
+    return box;
+  }
+
+  static void count_up(Positions& positions, std::size_t size) {
+    positions.resize(size);
+    for (std::size_t i = 0; i < size; ++i)
+      positions[i] = static_cast<std::uint32_t>(i);
+  }
+
   void place(const Star<Mesh>& star, const Checklist<Mesh>& list, const Star_motion& motion) {
-    reach_ = 0;
-    if (star.valence() <= many_neighbours)
-      return;
-    reach_ = largest_magnitude(minus(motion.target(), motion.source()));
+    reach_ = quick_magnitude(minus(motion.target(), motion.source()));
     const auto from_source = [&](const Coordinates& p) {
       const Vector place = minus(p, motion.source());
-      reach_ = std::fmax(reach_, largest_magnitude(place));
+      reach_ = larger(reach_, quick_magnitude(place));
       return place;
     };
     spokes_.clear();

@@ -38,6 +38,13 @@ inline double quick_magnitude(const Vector& a) {
   return larger(std::abs(a[0]), larger(std::abs(a[1]), std::abs(a[2])));
 }
 
+/// Largest coordinate 1; zero for what is so small that its reciprocal is not a number.
+inline Vector of_size_one(const Vector& a) {
+  constexpr double least_size = 0x1p-1000;
+  const double size = quick_magnitude(a);
+  return size > least_size ? scaled(a, 1 / size) : Vector{};
+}
+
 /// How far two sets of points are apart along n, at least, up to the roundings of the sums; 0 where that is not known.
 /// Where |n|, as a rule the distance itself, is no more than `least`, roundings are all of it.
 template <std::size_t N, std::size_t M>
