@@ -158,8 +158,9 @@ private:
     if (star_.valence() == 0 || is_long(source, target))
       return false;
     const bool is_due = ++waited_ > patience_;
+    const std::size_t looks = looks_;
     look_around(source, target, is_due ? region_margin / 2 * link_extent() : 0);
-    if (!is_due)
+    if (!is_due || looks_ != looks) // not both in one motion: it would be the slowest of all
       return false;
     waited_ = 0;
     pairs_.assign(star_, list_, narrow_phase_.runs(), source, target);
