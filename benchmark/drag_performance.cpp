@@ -36,7 +36,8 @@ void print(const Json& row) {
     if (row.contains(key))
       std::cout << key << ' ' << std::lround(row[key].get<double>()) << "  ";
   for (const char* key : {"blocked", "exact_signs_per_drag", "stop_error_max_clearances", "missed", "wrong_alarms", "tree_seconds", "sculptor_seconds_with_validation",
-                          "tree_bytes_per_triangle", "sculptor_bytes_per_triangle", "per_drag"})
+                          "tree_bytes_per_triangle", "sculptor_bytes_per_triangle", "per_drag", "ns_a_line_when_each_tells_the_next",
+                          "ns_a_line_when_all_are_known", "reads_in_a_row", "lines_in_all", "floor_ns"})
     if (row.contains(key))
       std::cout << key << ' ' << row[key] << "  ";
   std::cout << std::endl;
@@ -77,7 +78,7 @@ void run(Json& rows, const Run& part) {
 
 int main(int argument_count, char** arguments) {
   CLI::App app("What a drag costs against the size of the mesh and the valence, beside other structures in the same run");
-  std::string path, parts = "tpovn";
+  std::string path, parts = "tpmovn";
   std::vector<std::size_t> sizes = {1000, 10000, 100000, 1000000, 5000000};
   std::vector<std::size_t> valences = {3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 1000};
   Effort effort;
@@ -92,7 +93,7 @@ int main(int argument_count, char** arguments) {
   app.add_option("--peer-drags", effort.peer_drags, "the same, at most, for other structures")->check(CLI::PositiveNumber);
   app.add_option("--largest-peer", largest_peer, "other structures, and the phases, get no larger mesh");
   app.add_option("--core", core, "the core to stay on; -1: any");
-  app.add_option("--parts", parts, "t: the box tree; p: its phases; o: other broad phases; v: valence; n: end states by CGAL");
+  app.add_option("--parts", parts, "t: the box tree; p: its phases; m: memory, the floor of a new vertex; o: other broad phases; v: valence; n: end states by CGAL");
   app.add_flag("--quick", quick, "small meshes and few drags: shows that everything runs");
   CLI11_PARSE(app, argument_count, arguments);
   if (quick) {
@@ -111,6 +112,8 @@ int main(int argument_count, char** arguments) {
       run(phases, [&] { run_phases(phases, triangles, effort); });
     if (triangles > largest_peer)
       continue;
+    if (wanted('m'))
+      run(rows, [&] { run_memory(rows, triangles, effort); });
     if (wanted('o')) {
       run(rows, [&] { run_brute_force(rows, triangles, effort); });
       run(rows, [&] { run_six_lists(rows, triangles, effort); });

@@ -32,6 +32,9 @@ void run_brute_force(Json& rows, std::size_t triangles, const Effort& effort);
 void run_six_lists(Json& rows, std::size_t triangles, const Effort& effort);
 void run_rtree(Json& rows, std::size_t triangles, const Effort& effort);
 
+/// What memory costs here, and how many cache lines a new vertex needs.
+void run_memory(Json& rows, std::size_t triangles, const Effort& effort);
+
 /// CGAL's AABB_tree and does_self_intersect after a move.
 void run_end_states(Json& rows, std::size_t triangles, const Effort& effort);
 

@@ -89,6 +89,7 @@ BOOST_AUTO_TEST_CASE(what_a_fan_says_is_apart_is_apart) {
     double reach = 4 * drawn.scale;
     for (const Coordinates& p : drawn.link)
       spokes.push_back(minus(p, drawn.source));
+    const Box_3 everywhere = Box_3({-1e300, -1e300, -1e300}).include({1e300, 1e300, 1e300});
     const internal::Swept_fan fan(minus(drawn.target, drawn.source), spokes, 0, static_cast<std::size_t>(faces), reach);
     for (int i = 0; i < 10; ++i) {
       const Coordinates p = drawn.draw_still(random), q = drawn.draw_still(random);
@@ -102,8 +103,12 @@ BOOST_AUTO_TEST_CASE(what_a_fan_says_is_apart_is_apart) {
         hits = hits || is_hit(edge_sweep, drawn.link[f], p, q);
       for (int f = 0; f < faces; ++f)
         p_hits = p_hits || is_hit(face_sweep, drawn.link[f], drawn.link[f + 1], p);
-      const bool is_edge_apart = (fan.sides_of(minus(p, drawn.source)) & fan.sides_of(minus(q, drawn.source))) != 0;
-      const bool is_point_apart = fan.sides_of(minus(p, drawn.source)) != 0;
+      internal::Places places;
+      places.push_back(minus(p, drawn.source));
+      places.push_back(minus(q, drawn.source));
+      places.compare(everywhere);
+      fan.compare(places);
+      const bool is_edge_apart = (places.sides(0) & places.sides(1)) != 0, is_point_apart = places.sides(0) != 0;
       asked += 2, apart += is_edge_apart + is_point_apart, really += !hits + !p_hits;
       wrong += (is_edge_apart && hits) + (is_point_apart && p_hits);
     }

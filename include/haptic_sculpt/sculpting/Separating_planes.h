@@ -10,21 +10,6 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Coordinates of points, one array for each of the three.
-struct Places {
-  std::array<std::vector<double>, 3> of;
-
-  std::size_t size() const { return of[0].size(); }
-  void clear() {
-    for (auto& coordinates : of)
-      coordinates.clear();
-  }
-  void push_back(const Vector& p) {
-    for (int i = 0; i < 3; ++i)
-      of[i].push_back(p[i]);
-  }
-};
-
 /// Planes about some consecutive faces of a star, which part many pairs of a moving and a still feature at once.
 ///
 /// For each plane it is told of every still point on which side of what moves it certainly lies, if on any: 64 sides of a
@@ -37,7 +22,7 @@ struct Places {
 class Separating_planes {
 public:
   /// Which sides of planes: two bits a plane.
-  using Sides = std::uint64_t;
+  using Sides = Places::Sides;
 
   /// So many faces, with as many spokes or one more, and the box have sides that fit in a number.
   static constexpr std::size_t most_faces = 14;
@@ -87,7 +72,7 @@ public:
       const double height_of_way = quick_dot(n, way);
       const double low = smaller(smaller(0, height_of_way), smaller(heights[at], heights[other])),
                    high = larger(larger(0, height_of_way), larger(heights[at], heights[other]));
-      const Sides below = Sides{1} << (box_bits + 2 * k), above = below << 1;
+      const Sides below = side_below(k), above = below << 1;
       for (std::size_t j = 0; j < ends; ++j)
         edges_[j] |= (heights[j] >= low ? below : 0) | (heights[j] <= high ? above : 0);
       normals_[k] = n;
@@ -99,23 +84,11 @@ public:
       vertex_ |= edges_[j]; // each plane has on both of its sides what it is about
   }
 
-  /// The sides of all points. \param sides as many as points
-  void sides_of(const Places& points, std::vector<Sides>& sides) const {
-    const std::size_t n = points.size();
-    sides.resize(n);
-    const double *x = points.of[0].data(), *y = points.of[1].data(), *z = points.of[2].data();
-    Sides* const to = sides.data();
-    for (std::size_t v = 0; v < n; ++v)
-      to[v] = (x[v] > box_.upper[0] ? 1 : 0) | (x[v] < box_.lower[0] ? 2 : 0) | (y[v] > box_.upper[1] ? 4 : 0) |
-              (y[v] < box_.lower[1] ? 8 : 0) | (z[v] > box_.upper[2] ? 16 : 0) | (z[v] < box_.lower[2] ? 32 : 0);
-    for (std::size_t k = 0; k < size_; ++k) {
-      const double a = normals_[k][0], b = normals_[k][1], c = normals_[k][2], low = lows_[k], high = highs_[k];
-      const Sides below = Sides{1} << (box_bits + 2 * k), above = below << 1;
-      for (std::size_t v = 0; v < n; ++v) {
-        const double height = a * x[v] + b * y[v] + c * z[v];
-        to[v] |= (height < low ? below : 0) | (height > high ? above : 0);
-      }
-    }
+  /// Finds the sides of all points.
+  void compare(Places& points) const {
+    points.compare(box_);
+    for (std::size_t k = 0; k < size_; ++k)
+      points.compare(normals_[k], lows_[k], side_below(k), highs_[k], side_below(k) << 1);
   }
 
   /// The sides that lie beyond what the moving vertex, the edge to link vertex i, and face i sweep over.
@@ -129,6 +102,7 @@ public:
 private:
   static constexpr int box_bits = 6;
   static constexpr Sides box_sides = (Sides{1} << box_bits) - 1;
+  static constexpr Sides side_below(std::size_t k) { return Sides{1} << (box_bits + 2 * k); }
   /// As in Swept_fan; directions have coordinates of at most 1.
   static constexpr double rounding = 0x1p-45, longest_normal = 2;
 

@@ -19,9 +19,21 @@ template <class Mesh>
 class Star_runs {
 public:
   using Coordinates = std::array<double, 3>;
-  using Positions = std::vector<std::uint32_t>;
-  using Sides = Separating_planes::Sides;
+  using Sides = Places::Sides;
 
+private:
+  struct Edge {
+    std::array<std::uint32_t, 2> ends; ///< which of the places
+    std::uint32_t position;            ///< in the checklist
+  };
+  /// Candidates that are near some faces.
+  struct Near {
+    std::vector<Edge> edges;
+    Places places;
+    std::vector<std::uint32_t> positions; ///< of the places' vertices, in the checklist
+  };
+
+public:
   /// Faces [first, last) of a star and the candidates near them: pairs of a moving and a still feature that may touch,
   /// and do not share a vertex.
   class Run {
@@ -33,16 +45,16 @@ public:
     /// position in the list, until it returns false; returns whether it never did.
     template <class Visit>
     bool for_each_edge_pair(const Visit& visit) const {
-      for (const std::uint32_t e : *edges_) {
-        const Sides sides = sides_of(e);
+      for (const Edge& edge : near_->edges) {
+        const Sides sides = sides_of(edge);
         if ((sides & beyond_all_) != 0)
           continue;
         unsigned spokes = 0;
-        for (std::size_t k = 0; k < last - first; ++k)
-          spokes |= ((sides & planes_->beyond_edge(first + k)) == 0 ? 1u : 0u) << k;
-        const auto& [a, b] = list_->edges()[e];
-        for (spokes &= ~(spoke_to(a) | spoke_to(b)); spokes != 0; spokes &= spokes - 1)
-          if (!visit(first + lowest_bit(spokes), e))
+        for (std::size_t i = first; i < last; ++i)
+          spokes |= ((sides & planes_->beyond_edge(i)) == 0 ? 1u : 0u) << (i - first);
+        spokes &= ~(spoke_to(near_->positions[edge.ends[0]]) | spoke_to(near_->positions[edge.ends[1]]));
+        for (; spokes != 0; spokes &= spokes - 1)
+          if (!visit(first + lowest_bit(spokes), edge.position))
             return false;
       }
       return true;
@@ -50,13 +62,14 @@ public:
     /// The same for `visit(face, vertex)`, pairs of a moving face and a candidate vertex.
     template <class Visit>
     bool for_each_vertex_pair(const Visit& visit) const {
-      for (const std::uint32_t v : *vertices_) {
-        const Sides sides = (*sides_)[v];
+      for (std::size_t k = 0; k < near_->positions.size(); ++k) {
+        const Sides sides = near_->places.sides(k);
         if ((sides & beyond_all_) != 0)
           continue;
+        const std::uint32_t v = near_->positions[k];
         unsigned faces = 0;
-        for (std::size_t k = 0; k < last - first; ++k)
-          faces |= ((sides & planes_->beyond_face(first + k)) == 0 ? 1u : 0u) << k;
+        for (std::size_t i = first; i < last; ++i)
+          faces |= ((sides & planes_->beyond_face(i)) == 0 ? 1u : 0u) << (i - first);
         for (faces &= ~faces_at(v); faces != 0; faces &= faces - 1)
           if (!visit(first + lowest_bit(faces), v))
             return false;
@@ -69,7 +82,8 @@ public:
       const auto& faces = list_->faces();
       for (std::uint32_t f = 0; f < faces.size(); ++f) {
         const auto& [a, b, c] = faces[f].vertices;
-        if (((*sides_)[a] & (*sides_)[b] & (*sides_)[c] & planes_->beyond_vertex()) == 0 && !visit(f))
+        const Places& places = near_->places; // of all vertices of the list, in its order
+        if ((places.sides(a) & places.sides(b) & places.sides(c) & planes_->beyond_vertex()) == 0 && !visit(f))
           return false;
       }
       return true;
@@ -78,30 +92,30 @@ public:
     /// Calls `visit(edge)` for the candidates that the moving edge i may touch.
     template <class Visit>
     void for_each_edge_near(std::size_t i, const Visit& visit) const {
-      for (const std::uint32_t e : *edges_)
-        if ((sides_of(e) & planes_->beyond_edge(i)) == 0 && list_->edges()[e][0] != i && list_->edges()[e][1] != i)
-          visit(e);
+      for (const Edge& edge : near_->edges)
+        if ((sides_of(edge) & planes_->beyond_edge(i)) == 0 && near_->positions[edge.ends[0]] != i &&
+            near_->positions[edge.ends[1]] != i)
+          visit(edge.position);
     }
     /// Calls `visit(vertex)` for the candidates that the moving face i may touch.
     template <class Visit>
     void for_each_vertex_near(std::size_t i, const Visit& visit) const {
-      for (const std::uint32_t v : *vertices_)
-        if (((*sides_)[v] & planes_->beyond_face(i)) == 0 && (faces_at(v) >> (i - first) & 1) == 0)
-          visit(v);
+      for (std::size_t k = 0; k < near_->positions.size(); ++k)
+        if ((near_->places.sides(k) & planes_->beyond_face(i)) == 0 &&
+            (faces_at(near_->positions[k]) >> (i - first) & 1) == 0)
+          visit(near_->positions[k]);
     }
 
   private:
     friend class Star_runs;
     const Checklist<Mesh>* list_;
-    const Positions *edges_, *vertices_;
-    const std::vector<Sides>* sides_;
+    const Near* near_;
     const Separating_planes* planes_;
     Sides beyond_all_;
     std::size_t valence_;
 
-    Sides sides_of(std::uint32_t e) const {
-      const auto& [a, b] = list_->edges()[e];
-      return (*sides_)[a] & (*sides_)[b];
+    Sides sides_of(const Edge& edge) const {
+      return near_->places.sides(edge.ends[0]) & near_->places.sides(edge.ends[1]);
     }
 
     // The first vertices of a list are those of the link, in its order.
@@ -121,24 +135,12 @@ public:
   bool for_each_run(const Star<Mesh>& star, const Checklist<Mesh>& list, Star_motion& motion, double margin,
                     const Visit& visit) {
     place(star, list, motion);
-    if (near_.empty())
-      near_.resize(1);
-    Near& all = near_[0];
-    count_up(all.edges, list.edges().size());
-    count_up(all.vertices, list.vertices().size());
     const Scene scene{star, list, motion, margin};
-    if (star.valence() <= Separating_planes::most_faces)
-      return visit(run(scene, 0, star.valence(), all));
-    all.corners = all.vertices;
-    sides_.assign(list.vertices().size(), 0);
-    return halve(scene, 0, star.valence(), 1, visit);
+    return star.valence() <= Separating_planes::most_faces ? visit(run(scene, 0, star.valence(), near_[0]))
+                                                           : halve(scene, 0, star.valence(), 0, visit);
   }
 
 private:
-  struct Near {
-    Positions edges, vertices;
-    Positions corners; ///< the vertices, and those of the edges
-  };
   struct Scene {
     const Star<Mesh>& star;
     const Checklist<Mesh>& list;
@@ -146,39 +148,28 @@ private:
     double margin;
   };
 
-  std::vector<Near> near_; ///< by how often the star has been halved
-  std::vector<Vector> spokes_;
-  Places places_; ///< of link and candidate vertices, from where the motion starts
-  double reach_ = 0; ///< of their coordinates
-  std::vector<Sides> sides_; ///< of the candidate vertices
-  Places near_places_;       ///< those near a run of a large star
-  std::vector<Sides> near_sides_;
+  std::vector<Near> near_ = std::vector<Near>(1); ///< by how often the star has been halved
+  std::vector<Vector> spokes_;                    ///< from where the motion starts, like all places
+  double reach_ = 0;                              ///< of the coordinates of spokes and places
   Separating_planes planes_;
-  std::vector<std::uint32_t> seen_; ///< when a candidate vertex was taken last
+  struct Copy {
+    std::uint32_t round = 0, place = 0;
+  };
+  std::vector<Copy> copies_; ///< when a place was copied last, and where to
   std::uint32_t round_ = 0;
 
   /// Of a large star so many faces are a run.
   static constexpr std::size_t few_faces = 8;
 
-  Run run(const Scene& scene, std::size_t first, std::size_t last, const Near& near) {
+  Run run(const Scene& scene, std::size_t first, std::size_t last, Near& near) {
     planes_.assign(scene.motion.way(), spokes_, first, last, reach_, scene.margin, box_of(scene, first, last));
-    if (last - first == scene.star.valence()) {
-      planes_.sides_of(places_, sides_);
-    } else {
-      near_places_.clear();
-      for (const std::uint32_t v : near.corners)
-        near_places_.push_back({places_.of[0][v], places_.of[1][v], places_.of[2][v]});
-      planes_.sides_of(near_places_, near_sides_);
-      for (std::size_t k = 0; k < near.corners.size(); ++k)
-        sides_[near.corners[k]] = near_sides_[k];
-    }
+    planes_.compare(near.places);
     Run result;
     result.first = first, result.last = last;
     result.valence_ = scene.star.valence();
     result.is_whole = last - first == result.valence_;
     result.list_ = &scene.list;
-    result.edges_ = &near.edges, result.vertices_ = &near.vertices;
-    result.sides_ = &sides_, result.planes_ = &planes_;
+    result.near_ = &near, result.planes_ = &planes_;
     result.beyond_all_ = ~Sides{0};
     for (std::size_t i = first; i < last; ++i)
       result.beyond_all_ &= planes_.beyond_edge(i) & planes_.beyond_face(i);
@@ -187,54 +178,61 @@ private:
 
   template <class Visit>
   bool halve(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth, const Visit& visit) {
-    keep_near(scene, first, last, depth);
-    if (last - first <= few_faces) {
+    if (last - first <= few_faces)
       return visit(run(scene, first, last, near_[depth]));
-    }
     const std::size_t middle = first + (last - first) / 2;
-    return halve(scene, first, middle, depth + 1, visit) && halve(scene, middle, last, depth + 1, visit);
+    if (!is_wedge(scene, last - middle))
+      return halve(scene, first, middle, depth, visit) && halve(scene, middle, last, depth, visit);
+    // What is beyond the other end of a half of a wedge has been left out before.
+    const bool was_wedge = depth > 0;
+    keep_near(scene, first, middle, depth, {!was_wedge, true});
+    if (!halve(scene, first, middle, depth + 1, visit))
+      return false;
+    keep_near(scene, middle, last, depth, {true, !was_wedge});
+    return halve(scene, middle, last, depth + 1, visit);
   }
 
-  /// Those of the candidates kept at the depth before that are near these faces.
-  void keep_near(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth) {
-    if (near_.size() <= depth)
-      near_.resize(depth + 1);
-    const auto& edges = scene.list.edges();
-    const Near& from = near_[depth - 1];
-    Near& near = near_[depth];
-    // Whatever is near another time, nothing is allocated then.
-    near.edges.reserve(edges.size()), near.edges.clear();
-    near.vertices.reserve(places_.size()), near.vertices.clear();
-    near.corners.reserve(places_.size()), near.corners.clear();
-    const Box_3 box = box_of(scene, first, last);
-    // All of a star, or half of it, is no wedge that planes at its ends could part from anything.
-    const Swept_fan fan = 4 * (last - first) <= scene.star.valence()
-                              ? Swept_fan(scene.motion.way(), spokes_, first, last, reach_, scene.margin)
-                              : Swept_fan();
-    for (const std::uint32_t v : from.corners) {
-      const Vector p = {places_.of[0][v], places_.of[1][v], places_.of[2][v]};
-      unsigned sides = fan.sides_of(p);
-      for (int i = 0; i < 3; ++i)
-        sides |= (p[i] > box.upper[i] ? 16u : 0u) << 2 * i | (p[i] < box.lower[i] ? 32u : 0u) << 2 * i;
-      sides_[v] = sides;
+  /// Half of a star is no wedge: hardly anything is apart from it.
+  static bool is_wedge(const Scene& scene, std::size_t faces) { return 4 * faces <= scene.star.valence() + 3; }
+
+  /// Copies those of the candidates kept at this depth that are near these faces to the next.
+  /// \param ends whether to look for those beyond the first and the last spoke
+  void keep_near(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth, std::array<bool, 2> ends) {
+    if (near_.size() <= depth + 1)
+      near_.resize(depth + 2);
+    Near &from = near_[depth], &near = near_[depth + 1];
+    from.places.compare(box_of(scene, first, last));
+    Swept_fan(scene.motion.way(), spokes_, first, last, reach_, scene.margin, ends).compare(from.places);
+    // Whatever is near another time, nothing is allocated then. Each edge is written behind the last one, and counted if
+    // it is near: no branch, which would be a guess.
+    near.edges.resize(from.edges.size());
+    std::size_t count = 0;
+    for (const Edge& edge : from.edges) {
+      near.edges[count] = edge;
+      count += (from.places.sides(edge.ends[0]) & from.places.sides(edge.ends[1])) == 0;
     }
-    seen_.resize(std::max(seen_.size(), places_.size()));
-    ++round_;
-    const auto take = [&](std::uint32_t v) {
-      if (seen_[v] != round_)
-        near.corners.push_back(v);
-      seen_[v] = round_;
+    near.edges.resize(count);
+    near.places.reserve(from.places.size()), near.positions.reserve(from.places.size());
+    near.places.clear(), near.positions.clear();
+    if (copies_.size() < from.places.size() || ++round_ == 0) {
+      copies_.assign(std::max(copies_.size(), from.places.size()), Copy{});
+      round_ = 1;
+    }
+    const auto copied = [&](std::uint32_t place) {
+      Copy& copy = copies_[place];
+      if (copy.round != round_) {
+        copy = {round_, static_cast<std::uint32_t>(near.positions.size())};
+        near.places.push_back(from.places[place]);
+        near.positions.push_back(from.positions[place]);
+      }
+      return copy.place;
     };
-    for (const std::uint32_t e : from.edges)
-      if ((sides_[edges[e][0]] & sides_[edges[e][1]]) == 0) {
-        near.edges.push_back(e);
-        take(edges[e][0]), take(edges[e][1]);
-      }
-    for (const std::uint32_t v : from.vertices)
-      if (sides_[v] == 0) {
-        near.vertices.push_back(v);
-        take(v);
-      }
+    for (Edge& edge : near.edges)
+      edge.ends = {copied(edge.ends[0]), copied(edge.ends[1])};
+    // As a rule a vertex that is near is an end of edges that are; but a list may have vertices without edges.
+    for (std::uint32_t place = 0; place < from.places.size(); ++place)
+      if (from.places.sides(place) == 0)
+        copied(place);
   }
 
   /// Around what these faces sweep over, in coordinates from the start of the motion. Rounded like those of the
@@ -252,12 +250,6 @@ private:
     return box;
   }
 
-  static void count_up(Positions& positions, std::size_t size) {
-    positions.resize(size);
-    for (std::size_t i = 0; i < size; ++i)
-      positions[i] = static_cast<std::uint32_t>(i);
-  }
-
   void place(const Star<Mesh>& star, const Checklist<Mesh>& list, const Star_motion& motion) {
     reach_ = quick_magnitude(minus(motion.target(), motion.source()));
     const auto from_source = [&](const Coordinates& p) {
@@ -268,9 +260,16 @@ private:
     spokes_.clear();
     for (const Coordinates& p : star.link_points)
       spokes_.push_back(from_source(p));
-    places_.clear();
-    for (const auto& vertex : list.vertices())
-      places_.push_back(from_source(vertex.point));
+    Near& all = near_[0];
+    all.places.clear();
+    all.positions.resize(list.vertices().size());
+    for (std::size_t v = 0; v < all.positions.size(); ++v) {
+      all.places.push_back(from_source(list.vertices()[v].point));
+      all.positions[v] = static_cast<std::uint32_t>(v);
+    }
+    all.edges.resize(list.edges().size());
+    for (std::size_t e = 0; e < all.edges.size(); ++e)
+      all.edges[e] = {list.edges()[e], static_cast<std::uint32_t>(e)};
   }
 };
 

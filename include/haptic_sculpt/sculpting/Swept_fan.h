@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_SWEPT_FAN_H
 #define HAPTIC_SCULPT_SCULPTING_SWEPT_FAN_H
 
+#include <haptic_sculpt/sculpting/Places.h>
 #include <haptic_sculpt/sculpting/separation.h>
 
 #include <cstddef>
@@ -29,10 +30,11 @@ public:
 
   /// \param way from the start of the motion to its end \param spokes ends of the spokes
   /// \param first,last the faces [first, last) of the star \param reach bounds the magnitude of all coordinates given,
-  /// here and later \param margin what is no farther than this (rounded) is not apart, either Cost: linear in the
-  /// number of faces.
+  /// here and later \param margin what is no farther than this (rounded) is not apart, either
+  /// \param ends whether there are planes at the first and at the last spoke
+  /// Cost: linear in the number of faces.
   Swept_fan(const Vector& way, const std::vector<Vector>& spokes, std::size_t first, std::size_t last, double reach,
-            double margin = 0) {
+            double margin = 0, std::array<bool, 2> ends = {true, true}) {
     if (!(reach > least_reach && reach < largest_reach))
       return;
     const auto spoke = [&](std::size_t i) -> const Vector& { return spokes[i < spokes.size() ? i : 0]; };
@@ -40,29 +42,25 @@ public:
     for (std::size_t i = first; i < last; ++i)
       up = plus(up, quick_cross(spoke(i), spoke(i + 1)));
     up = of_size_one(up);
-    planes_at(spoke(first), way, up, 1, 0);
-    planes_at(spoke(last), way, up, -1, 2);
-    for (int k = 0; k < planes; ++k) {
-      double highest = larger(0.0, height(k, way));
+    if (ends[0])
+      planes_at(spoke(first), way, up, 1);
+    if (ends[1])
+      planes_at(spoke(last), way, up, -1);
+    for (std::size_t k = 0; k < size_; ++k) {
+      double highest = larger(0.0, quick_dot(normals_[k], way));
       for (std::size_t i = first; i <= last; ++i)
-        highest = larger(highest, height(k, spoke(i)));
+        highest = larger(highest, quick_dot(normals_[k], spoke(i)));
       levels_[k] = highest + rounding * reach + longest_normal * margin;
     }
   }
 
-  /// On the far side of which planes the point certainly lies, a bit each. All points of a set on the far side of one
-  /// plane: the set, and its hull, is certainly apart from the fan.
-  unsigned sides_of(const Vector& p) const {
-    double heights[planes];
-    for (int k = 0; k < planes; ++k)
-      heights[k] = height(k, p);
-    unsigned sides = 0;
-    for (int k = 0; k < planes; ++k)
-      sides |= (heights[k] > levels_[k] ? 1u : 0u) << k;
-    return sides;
+  /// Adds to the sides of the points on the far side of which planes they certainly lie. All points of a set on the far
+  /// side of one plane: the set, and its hull, is certainly apart from the fan.
+  /// \pre compare() with a box was called for these points
+  void compare(Places& points) const {
+    for (std::size_t k = 0; k < size_; ++k)
+      points.compare(normals_[k], levels_[k], Places::Sides{1} << (first_side + k));
   }
-
-  static constexpr int planes = 4;
 
 private:
   /// 2^-45: more than ten times what two sums of three products with a direction, whose coordinates are at most 1 +
@@ -75,26 +73,21 @@ private:
   /// Of the length: coordinates are at most 1 + lean.
   static constexpr double longest_normal = 3.5;
 
-  double normals_[3][planes] = {}; ///< by coordinate, so that compilers take several planes at a time
-  double levels_[planes] = {};     ///< of normals 0: nothing is higher
+  static constexpr std::size_t first_side = 6; ///< behind those of a box
 
-  double height(int k, const Vector& p) const {
-    return normals_[0][k] * p[0] + normals_[1][k] * p[1] + normals_[2][k] * p[2];
-  }
+  std::size_t size_ = 0;
+  std::array<Vector, 4> normals_;
+  std::array<double, 4> levels_; ///< of normals 0: nothing is higher
 
   /// Two planes through the end of the first or last spoke, with both ends of the way below: one leans under the fan,
   /// one over it. \param turn 1: the fan lies counterclockwise of the spoke about `up`; -1: clockwise
-  void planes_at(const Vector& spoke, const Vector& way, const Vector& up, double turn, int k) {
+  void planes_at(const Vector& spoke, const Vector& way, const Vector& up, double turn) {
     Vector upright = scaled(quick_cross(spoke, up), turn);
     if (quick_dot(upright, way) > 0)
       upright = scaled(quick_cross(minus(spoke, way), up), turn);
     upright = of_size_one(upright);
-    for (const double side : {-1.0, 1.0}) {
-      const Vector n = quick_sum(upright, lean, of_size_one(leaning(spoke, way, up, side)));
-      for (int i = 0; i < 3; ++i)
-        normals_[i][k] = n[i];
-      ++k;
-    }
+    for (const double side : {-1.0, 1.0})
+      normals_[size_++] = quick_sum(upright, lean, of_size_one(leaning(spoke, way, up, side)));
   }
 
   /// About `side * up`, turned so that neither end of the way is higher than the spoke's.
