@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_SLIDE_RESPONSE_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
+#include <haptic_sculpt/sculpting/Unmet_planes.h>
 #include <haptic_sculpt/sculpting/Way_out.h>
 
 namespace haptic_sculpt {
@@ -29,6 +30,7 @@ public:
   void forget() {
     walk_.facets.clear();
     way_out_.forget();
+    unmet_planes_.forget();
   }
 
   /// Goes from source towards target. Returns where the vertex is then; every leg on the way there is proven free.
@@ -40,6 +42,7 @@ public:
     if (walk_.x != source)
       forget();
     walk_.begin(source);
+    unmet_planes_.begin();
     Walk_end end;
     Vector before = source;
     int until = legs_before_leaps;
@@ -52,7 +55,8 @@ public:
           leap(guard, before, target, lengths);
         before = walk_.x;
         until = walk_.legs + legs_between_leaps;
-      } else if (!way_out_.take(walk_, guard, target, lengths, most_legs))
+      } else if (!unmet_planes_.take(walk_, guard, target, lengths) &&
+                 !way_out_.take(walk_, guard, target, lengths, most_legs))
         break;
     }
     if (end != Walk_end::reached && walk_.legs >= most_legs)
@@ -67,6 +71,7 @@ private:
   using Walk = internal::Slide_walk<Mesh>;
 
   Walk walk_, trial_;
+  internal::Unmet_planes<Mesh> unmet_planes_;
   internal::Way_out<Mesh> way_out_;
 
   /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many

@@ -98,8 +98,7 @@ struct Slide_walk {
         if (rests_ >= most_rests)
           return Walk_end::settled;
         ++rests_;
-        if (!leave_what_is_past(lengths, lengths.clearance) &&
-            (distance > lengths.shortest_pull() || !meet_at(guard, target, lengths)))
+        if (!leave_what_is_past(lengths, lengths.clearance))
           return Walk_end::settled;
         continue;
       }
@@ -218,6 +217,29 @@ struct Slide_walk {
     return true;
   }
 
+  /// J rests: takes in all the faces that come first in the motion last decided, from x to y. Returns whether there were
+  /// any new ones. \pre guard.is_blocked()
+  template <class Guard>
+  bool meet_faces(const Guard& guard, const Vector& y, double delta) {
+    boost::container::static_vector<Contact_3<Mesh>, most_facets> met;
+    guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double) {
+      const bool is_face = contact.kind == Contact_kind::vertex_face && !contact.is_flat;
+      if (is_face && met.size() < met.capacity() && !knows(contact))
+        met.push_back(contact);
+    });
+    for (const Contact_3<Mesh>& contact : met)
+      meet(contact, x, delta);
+    return !met.empty();
+  }
+
+  /// J rests: edges and faces of the star may hold it, because they were left and met again, where it is not over their
+  /// facets. Lets them go, for by now more is known. Returns whether there were any.
+  bool let_go(const Slide_lengths& lengths) {
+    return forget([&](const Facet<Mesh>& f) {
+      return f.contact().kind != Contact_kind::vertex_face && f.is_past(x, lengths.clearance, lengths.resolution);
+    });
+  }
+
   template <class Predicate>
   bool forget(const Predicate& is_over) {
     const auto kept = std::remove_if(facets.begin(), facets.end(), is_over);
@@ -229,10 +251,12 @@ struct Slide_walk {
   /// A new drag begins: what was left in the last one may be met and left again.
   void begin(const Vector& source) {
     legs = 0;
-    left_.clear();
+    forget_what_was_left();
     forget_progress();
     place(source);
   }
+
+  void forget_what_was_left() { left_.clear(); }
 
   /// Another target, or another way to it.
   void forget_progress() {
@@ -295,24 +319,6 @@ private:
     });
     is_new = best && meet(*best, point_of_path(x, y, time), delta);
     return time;
-  }
-
-  /// J rests within some clearances of its target: takes in all the faces that meet there, so that c is kept from each
-  /// of them, of which those J is not over are left again. Returns whether there were any new ones.
-  template <class Guard>
-  bool meet_at(Guard& guard, const Vector& target, const Slide_lengths& lengths) {
-    guard.decide(x, target, lengths.delta);
-    if (!guard.is_blocked())
-      return false;
-    boost::container::static_vector<Contact_3<Mesh>, most_facets> met;
-    guard.for_each_first_contact(x, target, [&](const Contact_3<Mesh>& contact, double) {
-      const bool is_face = contact.kind == Contact_kind::vertex_face && !contact.is_flat;
-      if (is_face && met.size() < met.capacity() && !knows(contact) && !has_left(contact))
-        met.push_back(contact);
-    });
-    for (const Contact_3<Mesh>& contact : met)
-      meet(contact, x, lengths.delta);
-    return !met.empty();
   }
 
   /// The way from x to y has just been found blocked: goes to the free point nearest to the impact that is c off all
