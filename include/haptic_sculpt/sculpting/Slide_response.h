@@ -18,9 +18,10 @@ public:
   using Coordinates = internal::Coordinates;
   using Vector = internal::Vector;
 
-  /// One drag makes at most so many legs. Rough terrain leaves 0.6 % of drags unfinished with 16 and none with 32
-  /// (RULES 4).
-  static constexpr int most_legs = 32;
+  /// One drag makes at most so many legs.
+  static constexpr int most_legs = internal::Slide_path::most_legs;
+  /// So often a path that has come to as many is made anew with fewer.
+  static constexpr int most_shortenings = 8;
   /// A walk that has made so many legs begins to leap, every few legs.
   static constexpr int legs_before_leaps = 6, legs_between_leaps = 2;
   /// Steps shorter than this part of the distance from the target turn round a corner; to repeat them leads nowhere.
@@ -45,21 +46,27 @@ public:
     unmet_planes_.begin();
     Walk_end end;
     Vector before = source;
-    int until = legs_before_leaps;
+    int until = legs_before_leaps, shortenings = 0;
     for (;;) {
       end = walk_.go(guard, target, lengths, std::min(until, most_legs));
-      if (end == Walk_end::reached || walk_.legs >= most_legs)
+      if (end == Walk_end::reached)
+        break;
+      if (walk_.legs() + internal::Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
+        ++shortenings;
+        walk_.path.shorten(target, [&](const Vector& a, const Vector& b) { return guard.is_free(a, b, lengths.delta); });
+      }
+      if (walk_.legs() >= most_legs)
         break;
       if (end == Walk_end::limit) {
         if (until > legs_before_leaps)
           leap(guard, before, target, lengths);
         before = walk_.x;
-        until = walk_.legs + legs_between_leaps;
+        until = walk_.legs() + legs_between_leaps;
       } else if (!unmet_planes_.take(walk_, guard, target, lengths) &&
                  !way_out_.take(walk_, guard, target, lengths, most_legs))
         break;
     }
-    if (end != Walk_end::reached && walk_.legs >= most_legs)
+    if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
     walk_.forget([&](const auto& facet) { return facet.is_over(lengths.lifted()); });
     report(end, source, result);
@@ -86,7 +93,7 @@ private:
     const Vector up = walk_.mean_normal();
     for (const double times : {64.0, 16.0, 4.0})
       for (const double slope : {0.25, 0.0625, 0.0}) {
-        if (times * step > distance || walk_.legs + 1 >= most_legs)
+        if (times * step > distance || walk_.legs() + 1 >= most_legs)
           break;
         const Vector end = internal::advanced(internal::advanced(walk_.x, times, way), slope * times * step, up);
         if (!guard.is_free(walk_.x, end, lengths.delta))
@@ -94,9 +101,8 @@ private:
         trial_ = walk_;
         trial_.forget_progress();
         trial_.facets.clear();
-        trial_.x = end;
-        ++trial_.legs;
-        trial_.go(guard, target, lengths, std::min(trial_.legs + legs_between_leaps - 1, most_legs));
+        trial_.step_to(end);
+        trial_.go(guard, target, lengths, std::min(trial_.legs() + legs_between_leaps - 1, most_legs));
         if (internal::length(internal::minus(target, trial_.x)) < distance - std::fmax(gained, lengths.lifted())) {
           walk_ = trial_;
           return;
@@ -106,7 +112,7 @@ private:
 
   void report(internal::Walk_end end, const Vector& source, Drag_result<Mesh>& result) const {
     using internal::Walk_end;
-    result.legs = walk_.legs;
+    result.legs = walk_.legs();
     result.end = end == Walk_end::reached                      ? Drag_end::reached
                  : end == Walk_end::limit                      ? Drag_end::leg_limit
                  : end == Walk_end::stuck && walk_.x == source ? Drag_end::no_progress

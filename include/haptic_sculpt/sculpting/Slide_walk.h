@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_SLIDE_WALK_H
 
 #include <haptic_sculpt/sculpting/Facet.h>
+#include <haptic_sculpt/sculpting/Slide_path.h>
 #include <haptic_sculpt/sculpting/nearest_permitted.h>
 #include <haptic_sculpt/sculpting/stop.h>
 
@@ -75,7 +76,9 @@ struct Slide_walk {
 
   Vector x{};
   Facets facets;
-  int legs = 0; ///< made
+  Slide_path path; ///< made so far, ends at x
+
+  int legs() const { return path.legs(); }
 
   /// Walks until it ends, or `most_legs` have been made.
   template <class Guard>
@@ -102,14 +105,14 @@ struct Slide_walk {
           return Walk_end::settled;
         continue;
       }
-      if (legs >= most_legs)
+      if (legs() >= most_legs)
         return Walk_end::limit;
       guard.decide(x, y, lengths.delta);
       if (guard.is_blocked()) {
-        const int legs_before = legs;
+        const int legs_before = legs();
         if (!approach(guard, y, target, lengths))
           return Walk_end::stuck;
-        if (legs == legs_before)
+        if (legs() == legs_before)
           continue;
         // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last
         // one.
@@ -132,7 +135,7 @@ struct Slide_walk {
       else if (leave_what_is_past(lengths, lengths.resolution) && !is_nearer)
         ++rests_; // to and fro over an edge
     }
-    return legs >= most_legs ? Walk_end::limit : Walk_end::stuck;
+    return legs() >= most_legs ? Walk_end::limit : Walk_end::stuck;
   }
 
   /// Where the contacts let J go from x, when it wants to go by `pull`, keeping a clearance from all; in a gap too
@@ -177,6 +180,19 @@ struct Slide_walk {
   /// Whether two normals differ by rounding alone.
   static bool is_alike(const Vector& a, const Vector& b) {
     return std::abs(a[0] - b[0]) <= alike && std::abs(a[1] - b[1]) <= alike && std::abs(a[2] - b[2]) <= alike;
+  }
+
+  /// Makes a leg. \pre it is free, and legs() < Slide_path::most_legs
+  void step_to(const Vector& place_reached) {
+    place(place_reached);
+    path.add(place_reached);
+  }
+
+  /// Goes to where another walk is, without its contacts.
+  void begin_at(const Slide_walk& other) {
+    facets.clear();
+    x = other.x;
+    path = other.path;
   }
 
   /// J is at x; contacts are measured from there.
@@ -250,7 +266,7 @@ struct Slide_walk {
 
   /// A new drag begins: what was left in the last one may be met and left again.
   void begin(const Vector& source) {
-    legs = 0;
+    path = Slide_path(source);
     forget_what_was_left();
     forget_progress();
     place(source);
@@ -297,11 +313,6 @@ private:
     });
   }
 
-  void step_to(const Vector& place_reached) {
-    place(place_reached);
-    ++legs;
-  }
-
   /// Takes in the steepest of the contacts that came first in the motion last decided, from x to y, and are not known
   /// yet: of several features that meet in one point some are no obstacle, and whichever is will be met next. Returns
   /// the fraction of the way.
@@ -341,7 +352,7 @@ private:
       guard.decide(x, z, lengths.delta);
       if (!guard.is_blocked()) {
         const bool is_short = largest_magnitude(minus(z, x)) <= lengths.border();
-        if (!(met && is_short && legs >= legs_before_thrift && facets.size() < most_facets))
+        if (!(met && is_short && legs() >= legs_before_thrift && facets.size() < most_facets))
           step_to(z);
         return true;
       }

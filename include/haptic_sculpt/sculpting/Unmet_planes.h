@@ -32,7 +32,7 @@ public:
     const Vector pull = minus(target, walk.x);
     const bool is_near = length(pull) <= lengths.shortest_pull();
     bool any = false;
-    if (looks_ < most_looks && (is_near || walk.legs == 0) && !has_looked(walk.x, target, is_near, lengths)) {
+    if (looks_ < most_looks && (is_near || walk.legs() == 0) && !has_looked(walk.x, target, is_near, lengths)) {
       ++looks_;
       walk.forget_what_was_left(); // of what J left it may be over some
       if (is_near)
