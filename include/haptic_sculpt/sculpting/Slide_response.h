@@ -45,19 +45,31 @@ public:
     walk_.begin(source);
     unmet_planes_.begin();
     Walk_end end;
-    Vector before = source;
+    Vector before = source, at_last_shortening = source;
     int until = legs_before_leaps, shortenings = 0;
     for (;;) {
       end = walk_.go(guard, target, lengths, std::min(until, most_legs));
       if (end == Walk_end::reached)
         break;
+      bool creeps = false;
       if (walk_.legs() + internal::Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
         ++shortenings;
         walk_.path.shorten(target, [&](const Vector& a, const Vector& b) { return guard.is_free(a, b, lengths.delta); });
+        if (leap_far(guard, at_last_shortening, target, lengths))
+          until = 0;
+        else
+          creeps = end == Walk_end::limit && internal::length(internal::minus(target, at_last_shortening)) -
+                                                     internal::length(internal::minus(target, walk_.x)) <
+                                                 lengths.lifted();
+        at_last_shortening = walk_.x;
       }
       if (walk_.legs() >= most_legs)
         break;
-      if (end == Walk_end::limit) {
+      if (creeps) {
+        end = Walk_end::stuck;
+        if (!way_out_.take(walk_, guard, target, lengths, most_legs))
+          break;
+      } else if (end == Walk_end::limit) {
         if (until > legs_before_leaps)
           leap(guard, before, target, lengths);
         before = walk_.x;
@@ -108,6 +120,36 @@ private:
           return;
         }
       }
+  }
+
+  /// Where not even short leaps have led on: tries flights as far as the target is, and shorter, along the tangent and as
+  /// J went, rising more or less, each ended by what it hits, and takes what brings J nearest. Returns whether any did by
+  /// more than clearances feign.
+  template <class Guard>
+  bool leap_far(Guard& guard, const Vector& before, const Vector& target, const internal::Slide_lengths& lengths) {
+    using namespace internal;
+    const Vector pull = minus(target, walk_.x), up = walk_.mean_normal();
+    const double distance = length(pull);
+    const Walk start = walk_;
+    double nearest = distance - lengths.lifted();
+    for (const Vector& way : {advanced(pull, -dot(pull, up), up), minus(start.x, before)})
+      for (const double part : {1.0, 0x1p-2, 0x1p-4, 0x1p-6, 0x1p-8})
+        for (const double slope : {1.0, 0x1p-2, 0x1p-4, 0.0}) {
+          if (start.legs() + 2 > most_legs)
+            return false;
+          trial_.begin_at(start);
+          const Vector end = advanced(advanced(start.x, part * distance, normalized(way)), slope * part * distance, up);
+          for (const Vector& aim : {end, target}) {
+            trial_.forget_progress();
+            trial_.go(guard, aim, lengths, trial_.legs() + 1);
+          }
+          const double left = length(minus(target, trial_.x));
+          if (left < nearest) {
+            nearest = left;
+            walk_ = trial_;
+          }
+        }
+    return walk_.x != start.x;
   }
 
   void report(internal::Walk_end end, const Vector& source, Drag_result<Mesh>& result) const {
