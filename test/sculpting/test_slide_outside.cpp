@@ -110,9 +110,9 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
 }
 
 /// Prints what was found, and fails where a promise was broken.
-/// Of 10,000 drags one may end at no minimum, in grooves of needles ten, and one more in all, for short runs.
-void judge(const Findings& found) {
-  constexpr double no_minimum = 1e-4;
+/// \param no_minimum the share of drags that may end at no minimum (ten times as many in grooves of needles), beside one of each;
+/// doc/slide.md, "Measured"
+void judge(const Findings& found, double no_minimum) {
   std::size_t drags = 0, failed = 0, grooves = 0, failed_in_grooves = 0, most_legs = 0;
   for (const auto& [name, e] : found.by_scene) {
     BOOST_TEST_MESSAGE(name << ": " << e.drags << " drags, " << e.held << " held, " << e.at_limit << " unfinished, " << e.no_minimum << " at no minimum, " << e.along_facets
@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(every_end_is_a_local_minimum) {
       drag_and_check(scene, clearance, drags_per_scene, random, found, response_under_test());
       done += drags_per_scene;
     }
-  judge(found);
+  judge(found, 1e-4);
 }
 
 BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
       drag_and_check(scene, random() % 2 == 0 ? 0 : 1e-9 * scene.size, drags_per_scene, random, found, response_under_test());
       done += drags_per_scene;
     }
-  judge(found); // fans of a thousand slivers are among them
+  judge(found, 3e-4); // fans of a thousand slivers are among them
 }
 
 BOOST_AUTO_TEST_CASE(the_check_knows_an_end_that_is_none) {
