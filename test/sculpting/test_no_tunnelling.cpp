@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every verdict and time of a moving star against an independent decision: all pairs of faces at every critical time and
 // between any two, in integers (oracle/embedding_oracle.h).
-#include "Random_scene.h"
+#include "sculpting/embedding_oracle_input.h"
 
-#include "oracle/embedding_oracle.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -11,15 +10,6 @@ using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
 
 namespace {
-
-oracle::Mesh_list to_oracle(const meshes::Triangle_list& list) {
-  oracle::Mesh_list result;
-  for (const Point_3& p : list.points)
-    result.points.push_back({p.x(), p.y(), p.z()});
-  for (const auto& f : list.faces)
-    result.faces.push_back({static_cast<int>(f[0]), static_cast<int>(f[1]), static_cast<int>(f[2])});
-  return result;
-}
 
 /// On the grid, on another vertex, in the middle of two, or just beyond.
 Point_3 random_target(Random& random, const meshes::Triangle_list& list, int size) {

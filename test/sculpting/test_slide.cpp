@@ -16,7 +16,7 @@ constexpr double clearances[] = {default_length, 1e-11, 1e-9, 1e-6};
 
 struct Errors {
   double largest = 0; ///< in c; by default in c / least singular value
-  std::size_t pushes = 0, held = 0, most_legs = 0;
+  std::size_t pushes = 0, held = 0, reached_beside = 0, most_legs = 0;
 };
 
 struct Findings {
@@ -41,9 +41,12 @@ void check_end(const Convex_scene& scene, const Mesh& mesh, const Point_3& sourc
   if (r.reached != (r.position == target) || r.end != (r.reached ? Drag_end::reached : Drag_end::held))
     if (r.position != source || r.end != Drag_end::no_progress) // it may be where it has to be
       fault(found.end, "neither reached nor held");
-  // A target closer to a plane than the clearance may be reached, for its way may be free.
-  if (r.reached && is_beyond_no_plane(scene, target))
+  // Clearance is kept from what is in the way. Where J reaches a target beyond no plane nothing was, though planes may be nearer
+  // to it than a clearance: a drag that ends at its target has no error. Counted apart.
+  if (r.reached && is_beyond_no_plane(scene, target)) {
+    errors.reached_beside += !Offset_half_spaces(scene.half_spaces, c).contains(rational(target));
     return;
+  }
   const Optimum_check check(scene, r.position, target, c, is_default);
   errors.largest = std::fmax(errors.largest, check.error / c * (is_default ? check.least_singular_value : 1));
   if (!check.is_right) {
@@ -54,15 +57,14 @@ void check_end(const Convex_scene& scene, const Mesh& mesh, const Point_3& sourc
 }
 
 void report(const Findings& found) {
-  std::size_t pushes = 0;
   for (const auto& by_scene : found.errors)
     for (const auto& [name, e] : by_scene) {
-      pushes += e.pushes;
       const bool is_default = &by_scene == found.errors;
-      BOOST_TEST_MESSAGE(name << (is_default ? ", default clearance: " : ": ") << e.pushes << " pushes, " << e.held << " held, error at most "
+      BOOST_TEST_MESSAGE(name << (is_default ? ", default clearance: " : ": ") << e.pushes << " pushes, " << e.held << " held, " << e.reached_beside
+                              << " reached less than a clearance from a plane, error at most "
                               << e.largest << (is_default ? " c / least singular value, " : " c, ") << e.most_legs << " legs");
     }
-  BOOST_TEST(found.optimum.count() <= pushes / 2000); // doc/slide.md, "Measured"
+  BOOST_TEST(found.optimum.count() == 0u);
   BOOST_TEST(found.tunnelled.count() == 0u);
   BOOST_TEST(found.end.count() == 0u);
 }

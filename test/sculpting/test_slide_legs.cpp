@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // No leg of a slide crosses anything: every leg against the independent decision of all pairs of faces at all times.
-#include "Random_scene.h"
-
-#include "oracle/embedding_oracle.h"
 #include "sculpting/Recording_guard.h"
 #include "sculpting/Slide_faults.h"
+#include "sculpting/embedding_oracle_input.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -15,15 +13,6 @@ namespace {
 
 using Coordinates = std::array<double, 3>;
 using Broad_phase = Box_tree_broad_phase<Mesh>;
-
-oracle::Mesh_list to_oracle(const meshes::Triangle_list& list) {
-  oracle::Mesh_list result;
-  for (const Point_3& p : list.points)
-    result.points.push_back({p.x(), p.y(), p.z()});
-  for (const auto& f : list.faces)
-    result.faces.push_back({static_cast<int>(f[0]), static_cast<int>(f[1]), static_cast<int>(f[2])});
-  return result;
-}
 
 Point_3 target_of_hand(Random& random, const meshes::Triangle_list& list, int size) {
   const auto vertex = [&] { return list.points[random() % list.points.size()]; };

@@ -110,9 +110,9 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
 }
 
 /// Prints what was found, and fails where a promise was broken.
-/// \param no_minimum,unfinished the shares of drags that may end at no minimum (ten times as many in grooves of needles) and at the leg
-/// limit, beside one of each; doc/slide.md, "Measured"
-void judge(const Findings& found, double no_minimum, double unfinished) {
+/// \param no_minimum the share of drags that may end at no minimum (ten times as many in grooves of needles), beside one of each;
+/// doc/slide.md, "Measured"
+void judge(const Findings& found, double no_minimum) {
   std::size_t drags = 0, failed = 0, grooves = 0, failed_in_grooves = 0, most_legs = 0;
   for (const auto& [name, e] : found.by_scene) {
     BOOST_TEST_MESSAGE(name << ": " << e.drags << " drags, " << e.held << " held, " << e.at_limit << " unfinished, " << e.no_minimum << " at no minimum, " << e.along_facets
@@ -128,7 +128,7 @@ void judge(const Findings& found, double no_minimum, double unfinished) {
   BOOST_TEST(failed <= at_most(no_minimum, drags));
   BOOST_TEST(failed_in_grooves <= at_most(10 * no_minimum, grooves));
   BOOST_TEST(most_legs <= 32u);
-  BOOST_TEST(found.limit.count() <= at_most(unfinished, drags + grooves));
+  BOOST_TEST(found.limit.count() == 0u);
   BOOST_TEST(found.end.count() == 0u);
   BOOST_TEST(found.farther.count() == 0u);
   BOOST_TEST(found.contact.count() == 0u);
@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(every_end_is_a_local_minimum) {
       drag_and_check(scene, clearance, drags_per_scene, random, found, response_under_test());
       done += drags_per_scene;
     }
-  judge(found, 1e-4, 3e-4);
+  judge(found, 1e-4);
 }
 
 BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
       drag_and_check(scene, random() % 2 == 0 ? 0 : 1e-9 * scene.size, drags_per_scene, random, found, response_under_test());
       done += drags_per_scene;
     }
-  judge(found, 1e-3, 1e-2); // fans of a thousand slivers are among them
+  judge(found, 3e-4); // fans of a thousand slivers are among them
 }
 
 BOOST_AUTO_TEST_CASE(the_check_knows_an_end_that_is_none) {

@@ -77,8 +77,12 @@ public:
   /// Whether J has gone past a border: its plane goes on, but is no obstacle there. At once when J is as far as the
   /// clearance from the facet itself; a facet that is met again right after that holds on until J is `border` past it.
   bool is_left(const Vector& x, double clearance, double resolution, double border) const {
+    return is_past(x, clearance, holds_on_ ? border : resolution);
+  }
+  /// The same for one that does not hold on.
+  bool is_past(const Vector& x, double clearance, double resolution) const {
     const double beside = outside(x);
-    return beside > (holds_on_ ? border : resolution) && beside * beside + height_ * height_ > clearance * clearance;
+    return beside > resolution && beside * beside + height_ * height_ > clearance * clearance;
   }
 
   void hold_on() { holds_on_ = true; }

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_SLIDE_RESPONSE_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
+#include <haptic_sculpt/sculpting/Unmet_planes.h>
 #include <haptic_sculpt/sculpting/Way_out.h>
 
 namespace haptic_sculpt {
@@ -17,9 +18,10 @@ public:
   using Coordinates = internal::Coordinates;
   using Vector = internal::Vector;
 
-  /// One drag makes at most so many legs. Rough terrain leaves 0.6 % of drags unfinished with 16 and none with 32
-  /// (RULES 4).
-  static constexpr int most_legs = 32;
+  /// One drag makes at most so many legs.
+  static constexpr int most_legs = internal::Slide_path::most_legs;
+  /// So often a path that has come to as many is made anew with fewer.
+  static constexpr int most_shortenings = 8;
   /// A walk that has made so many legs begins to leap, every few legs.
   static constexpr int legs_before_leaps = 6, legs_between_leaps = 2;
   /// Steps shorter than this part of the distance from the target turn round a corner; to repeat them leads nowhere.
@@ -29,6 +31,7 @@ public:
   void forget() {
     walk_.facets.clear();
     way_out_.forget();
+    unmet_planes_.forget();
   }
 
   /// Goes from source towards target. Returns where the vertex is then; every leg on the way there is proven free.
@@ -40,22 +43,42 @@ public:
     if (walk_.x != source)
       forget();
     walk_.begin(source);
+    unmet_planes_.begin();
     Walk_end end;
-    Vector before = source;
-    int until = legs_before_leaps;
+    Vector before = source, at_last_shortening = source;
+    int until = legs_before_leaps, shortenings = 0;
     for (;;) {
       end = walk_.go(guard, target, lengths, std::min(until, most_legs));
-      if (end == Walk_end::reached || walk_.legs >= most_legs)
+      if (end == Walk_end::reached)
         break;
-      if (end == Walk_end::limit) {
+      bool creeps = false;
+      if (walk_.legs() + internal::Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
+        ++shortenings;
+        walk_.path.shorten(target, [&](const Vector& a, const Vector& b) { return guard.is_free(a, b, lengths.delta); });
+        if (leap_far(guard, at_last_shortening, target, lengths))
+          until = 0;
+        else
+          creeps = end == Walk_end::limit && internal::length(internal::minus(target, at_last_shortening)) -
+                                                     internal::length(internal::minus(target, walk_.x)) <
+                                                 lengths.lifted();
+        at_last_shortening = walk_.x;
+      }
+      if (walk_.legs() >= most_legs)
+        break;
+      if (creeps) {
+        end = Walk_end::stuck;
+        if (!way_out_.take(walk_, guard, target, lengths, most_legs))
+          break;
+      } else if (end == Walk_end::limit) {
         if (until > legs_before_leaps)
           leap(guard, before, target, lengths);
         before = walk_.x;
-        until = walk_.legs + legs_between_leaps;
-      } else if (!way_out_.take(walk_, guard, target, lengths, most_legs))
+        until = walk_.legs() + legs_between_leaps;
+      } else if (!unmet_planes_.take(walk_, guard, target, lengths) &&
+                 !way_out_.take(walk_, guard, target, lengths, most_legs))
         break;
     }
-    if (end != Walk_end::reached && walk_.legs >= most_legs)
+    if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
     walk_.forget([&](const auto& facet) { return facet.is_over(lengths.lifted()); });
     report(end, source, result);
@@ -67,6 +90,7 @@ private:
   using Walk = internal::Slide_walk<Mesh>;
 
   Walk walk_, trial_;
+  internal::Unmet_planes<Mesh> unmet_planes_;
   internal::Way_out<Mesh> way_out_;
 
   /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many
@@ -81,7 +105,7 @@ private:
     const Vector up = walk_.mean_normal();
     for (const double times : {64.0, 16.0, 4.0})
       for (const double slope : {0.25, 0.0625, 0.0}) {
-        if (times * step > distance || walk_.legs + 1 >= most_legs)
+        if (times * step > distance || walk_.legs() + 1 >= most_legs)
           break;
         const Vector end = internal::advanced(internal::advanced(walk_.x, times, way), slope * times * step, up);
         if (!guard.is_free(walk_.x, end, lengths.delta))
@@ -89,9 +113,8 @@ private:
         trial_ = walk_;
         trial_.forget_progress();
         trial_.facets.clear();
-        trial_.x = end;
-        ++trial_.legs;
-        trial_.go(guard, target, lengths, std::min(trial_.legs + legs_between_leaps - 1, most_legs));
+        trial_.step_to(end);
+        trial_.go(guard, target, lengths, std::min(trial_.legs() + legs_between_leaps - 1, most_legs));
         if (internal::length(internal::minus(target, trial_.x)) < distance - std::fmax(gained, lengths.lifted())) {
           walk_ = trial_;
           return;
@@ -99,9 +122,39 @@ private:
       }
   }
 
+  /// Where not even short leaps have led on: tries flights as far as the target is, and shorter, along the tangent and as
+  /// J went, rising more or less, each ended by what it hits, and takes what brings J nearest. Returns whether any did by
+  /// more than clearances feign.
+  template <class Guard>
+  bool leap_far(Guard& guard, const Vector& before, const Vector& target, const internal::Slide_lengths& lengths) {
+    using namespace internal;
+    const Vector pull = minus(target, walk_.x), up = walk_.mean_normal();
+    const double distance = length(pull);
+    const Walk start = walk_;
+    double nearest = distance - lengths.lifted();
+    for (const Vector& way : {advanced(pull, -dot(pull, up), up), minus(start.x, before)})
+      for (const double part : {1.0, 0x1p-2, 0x1p-4, 0x1p-6, 0x1p-8})
+        for (const double slope : {1.0, 0x1p-2, 0x1p-4, 0.0}) {
+          if (start.legs() + 2 > most_legs)
+            return false;
+          trial_.begin_at(start);
+          const Vector end = advanced(advanced(start.x, part * distance, normalized(way)), slope * part * distance, up);
+          for (const Vector& aim : {end, target}) {
+            trial_.forget_progress();
+            trial_.go(guard, aim, lengths, trial_.legs() + 1);
+          }
+          const double left = length(minus(target, trial_.x));
+          if (left < nearest) {
+            nearest = left;
+            walk_ = trial_;
+          }
+        }
+    return walk_.x != start.x;
+  }
+
   void report(internal::Walk_end end, const Vector& source, Drag_result<Mesh>& result) const {
     using internal::Walk_end;
-    result.legs = walk_.legs;
+    result.legs = walk_.legs();
     result.end = end == Walk_end::reached                      ? Drag_end::reached
                  : end == Walk_end::limit                      ? Drag_end::leg_limit
                  : end == Walk_end::stuck && walk_.x == source ? Drag_end::no_progress

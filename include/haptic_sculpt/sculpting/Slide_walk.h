@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_SLIDE_WALK_H
 
 #include <haptic_sculpt/sculpting/Facet.h>
+#include <haptic_sculpt/sculpting/Slide_path.h>
 #include <haptic_sculpt/sculpting/nearest_permitted.h>
 #include <haptic_sculpt/sculpting/stop.h>
 
@@ -75,7 +76,9 @@ struct Slide_walk {
 
   Vector x{};
   Facets facets;
-  int legs = 0; ///< made
+  Slide_path path; ///< made so far, ends at x
+
+  int legs() const { return path.legs(); }
 
   /// Walks until it ends, or `most_legs` have been made.
   template <class Guard>
@@ -98,19 +101,18 @@ struct Slide_walk {
         if (rests_ >= most_rests)
           return Walk_end::settled;
         ++rests_;
-        if (!leave_what_is_past(lengths, lengths.clearance) &&
-            (distance > lengths.shortest_pull() || !meet_at(guard, target, lengths)))
+        if (!leave_what_is_past(lengths, lengths.clearance))
           return Walk_end::settled;
         continue;
       }
-      if (legs >= most_legs)
+      if (legs() >= most_legs)
         return Walk_end::limit;
       guard.decide(x, y, lengths.delta);
       if (guard.is_blocked()) {
-        const int legs_before = legs;
+        const int legs_before = legs();
         if (!approach(guard, y, target, lengths))
           return Walk_end::stuck;
-        if (legs == legs_before)
+        if (legs() == legs_before)
           continue;
         // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last
         // one.
@@ -133,7 +135,7 @@ struct Slide_walk {
       else if (leave_what_is_past(lengths, lengths.resolution) && !is_nearer)
         ++rests_; // to and fro over an edge
     }
-    return legs >= most_legs ? Walk_end::limit : Walk_end::stuck;
+    return legs() >= most_legs ? Walk_end::limit : Walk_end::stuck;
   }
 
   /// Where the contacts let J go from x, when it wants to go by `pull`, keeping a clearance from all; in a gap too
@@ -180,6 +182,19 @@ struct Slide_walk {
     return std::abs(a[0] - b[0]) <= alike && std::abs(a[1] - b[1]) <= alike && std::abs(a[2] - b[2]) <= alike;
   }
 
+  /// Makes a leg. \pre it is free, and legs() < Slide_path::most_legs
+  void step_to(const Vector& place_reached) {
+    place(place_reached);
+    path.add(place_reached);
+  }
+
+  /// Goes to where another walk is, without its contacts.
+  void begin_at(const Slide_walk& other) {
+    facets.clear();
+    x = other.x;
+    path = other.path;
+  }
+
   /// J is at x; contacts are measured from there.
   void place(const Vector& place) {
     x = place;
@@ -218,6 +233,29 @@ struct Slide_walk {
     return true;
   }
 
+  /// J rests: takes in all the faces that come first in the motion last decided, from x to y. Returns whether there were
+  /// any new ones. \pre guard.is_blocked()
+  template <class Guard>
+  bool meet_faces(const Guard& guard, const Vector& y, double delta) {
+    boost::container::static_vector<Contact_3<Mesh>, most_facets> met;
+    guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double) {
+      const bool is_face = contact.kind == Contact_kind::vertex_face && !contact.is_flat;
+      if (is_face && met.size() < met.capacity() && !knows(contact))
+        met.push_back(contact);
+    });
+    for (const Contact_3<Mesh>& contact : met)
+      meet(contact, x, delta);
+    return !met.empty();
+  }
+
+  /// J rests: edges and faces of the star may hold it, because they were left and met again, where it is not over their
+  /// facets. Lets them go, for by now more is known. Returns whether there were any.
+  bool let_go(const Slide_lengths& lengths) {
+    return forget([&](const Facet<Mesh>& f) {
+      return f.contact().kind != Contact_kind::vertex_face && f.is_past(x, lengths.clearance, lengths.resolution);
+    });
+  }
+
   template <class Predicate>
   bool forget(const Predicate& is_over) {
     const auto kept = std::remove_if(facets.begin(), facets.end(), is_over);
@@ -228,11 +266,13 @@ struct Slide_walk {
 
   /// A new drag begins: what was left in the last one may be met and left again.
   void begin(const Vector& source) {
-    legs = 0;
-    left_.clear();
+    path = Slide_path(source);
+    forget_what_was_left();
     forget_progress();
     place(source);
   }
+
+  void forget_what_was_left() { left_.clear(); }
 
   /// Another target, or another way to it.
   void forget_progress() {
@@ -273,11 +313,6 @@ private:
     });
   }
 
-  void step_to(const Vector& place_reached) {
-    place(place_reached);
-    ++legs;
-  }
-
   /// Takes in the steepest of the contacts that came first in the motion last decided, from x to y, and are not known
   /// yet: of several features that meet in one point some are no obstacle, and whichever is will be met next. Returns
   /// the fraction of the way.
@@ -295,24 +330,6 @@ private:
     });
     is_new = best && meet(*best, point_of_path(x, y, time), delta);
     return time;
-  }
-
-  /// J rests within some clearances of its target: takes in all the faces that meet there, so that c is kept from each
-  /// of them, of which those J is not over are left again. Returns whether there were any new ones.
-  template <class Guard>
-  bool meet_at(Guard& guard, const Vector& target, const Slide_lengths& lengths) {
-    guard.decide(x, target, lengths.delta);
-    if (!guard.is_blocked())
-      return false;
-    boost::container::static_vector<Contact_3<Mesh>, most_facets> met;
-    guard.for_each_first_contact(x, target, [&](const Contact_3<Mesh>& contact, double) {
-      const bool is_face = contact.kind == Contact_kind::vertex_face && !contact.is_flat;
-      if (is_face && met.size() < met.capacity() && !knows(contact) && !has_left(contact))
-        met.push_back(contact);
-    });
-    for (const Contact_3<Mesh>& contact : met)
-      meet(contact, x, lengths.delta);
-    return !met.empty();
   }
 
   /// The way from x to y has just been found blocked: goes to the free point nearest to the impact that is c off all
@@ -335,7 +352,7 @@ private:
       guard.decide(x, z, lengths.delta);
       if (!guard.is_blocked()) {
         const bool is_short = largest_magnitude(minus(z, x)) <= lengths.border();
-        if (!(met && is_short && legs >= legs_before_thrift && facets.size() < most_facets))
+        if (!(met && is_short && legs() >= legs_before_thrift && facets.size() < most_facets))
           step_to(z);
         return true;
       }

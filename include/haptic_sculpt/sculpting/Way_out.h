@@ -49,10 +49,10 @@ public:
       trial_.forget_progress();
       if (first_aim != target) {
         trial_.go(guard, first_aim, lengths,
-                  std::min(trial_.legs + 1, most_legs_)); // one leg: on from there it must not climb
+                  std::min(trial_.legs() + 1, most_legs_)); // one leg: on from there it must not climb
         trial_.forget_progress();
       }
-      trial_.go(guard, target, lengths, std::min(walk_->legs + trial_legs, most_legs_));
+      trial_.go(guard, target, lengths, std::min(walk_->legs() + trial_legs, most_legs_));
       for (const auto& facet : trial_.facets)
         remember(facet);
       if (length(minus(target, trial_.x)) >= distance - gain)
@@ -60,7 +60,7 @@ public:
       *walk_ = trial_;
       return true;
     };
-    const bool all_legs_were_left = walk_->legs + trial_legs <= most_legs;
+    const bool all_legs_were_left = walk_->legs() + trial_legs <= most_legs;
     if (leave_contacts(held, target, brings_nearer) || leave_walls(guard, target, lengths, brings_nearer) ||
         follow_features(guard, pull, target, lengths, trials, brings_nearer) ||
         look_about(guard, pull, target, lengths, gain, brings_nearer)) {
@@ -175,14 +175,13 @@ private:
                    const Brings_nearer& brings_nearer) {
     for (const auto& facet : walk_->facets)
       for (const double height : {4 * lengths.clearance, -4 * lengths.clearance}) {
-        if (!facet.is_wall() || walk_->legs >= most_legs_)
+        if (!facet.is_wall() || walk_->legs() >= most_legs_)
           break;
         const Vector beside = advanced(walk_->x, height, facet.normal_of_wall());
         if (beside == walk_->x || !guard.is_free(walk_->x, beside, lengths.delta))
           continue;
-        trial_.facets.clear();
-        trial_.x = beside;
-        trial_.legs = walk_->legs + 1;
+        trial_.begin_at(*walk_);
+        trial_.step_to(beside);
         if (brings_nearer(target))
           return true;
       }
@@ -196,11 +195,9 @@ private:
     const Vector lifted = off_the_contacts(guard, lengths);
     const double beside = lengths.border() / 4;
     const auto start = [&] {
-      trial_.facets.clear();
-      trial_.legs = walk_->legs;
-      trial_.x = walk_->x;
-      if (lifted != walk_->x && trial_.legs < most_legs_)
-        trial_.x = lifted, ++trial_.legs;
+      trial_.begin_at(*walk_);
+      if (lifted != walk_->x && trial_.legs() < most_legs_)
+        trial_.step_to(lifted);
     };
     // seen_ grows on the way.
     for (std::size_t i = 0; i < seen_.size() && trials < most_trials; ++i) {
@@ -215,8 +212,8 @@ private:
         // Past the border, where it may be only a clearance to free space.
         start();
         const Vector past = advanced(trial_.x, beside, seen_[i].outward(k));
-        if (trial_.legs < most_legs_ && guard.is_free(trial_.x, past, lengths.delta)) {
-          trial_.x = past, ++trial_.legs;
+        if (trial_.legs() < most_legs_ && guard.is_free(trial_.x, past, lengths.delta)) {
+          trial_.step_to(past);
           if (brings_nearer(target))
             return true;
         }
@@ -248,12 +245,11 @@ private:
         continue;
       for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted() * distance)}) {
         const Vector end = advanced(walk_->x, reach, direction);
-        if (walk_->legs >= most_legs_ || end == walk_->x || length(minus(target, end)) > distance + gain ||
+        if (walk_->legs() >= most_legs_ || end == walk_->x || length(minus(target, end)) > distance + gain ||
             !guard.is_free(walk_->x, end, lengths.delta))
           continue;
-        trial_.facets.clear();
-        trial_.x = end;
-        trial_.legs = walk_->legs + 1;
+        trial_.begin_at(*walk_);
+        trial_.step_to(end);
         if (brings_nearer(target))
           return true;
       }

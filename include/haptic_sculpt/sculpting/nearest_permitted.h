@@ -30,8 +30,8 @@ namespace nearest_permitted_detail {
 /// they count as one plane or line: below, the meeting of the planes is lost in the rounding of their normals.
 constexpr double least_independence = 0x1p-48;
 
-/// Mends what rounding has left: one step of iterative refinement along each active normal, exact where they are
-/// orthogonal.
+/// Mends what rounding has left, by a step of iterative refinement: where planes are all but parallel, all of the digits
+/// of their meeting may be lost at first.
 inline void refine(Vector& d, const Half_space& a) {
   d = advanced(d, a.least - dot(a.normal, d), a.normal);
 }
@@ -84,6 +84,9 @@ Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spa
       Vector d =
           scaled(plus(scaled(cross(b.normal, axis), a.least), scaled(cross(axis, a.normal), b.least)), 1 / square);
       d = advanced(d, dot(axis, wanted) / square, axis);
+      d = advanced(d, 1 / square,
+                   plus(scaled(cross(b.normal, axis), a.least - dot(a.normal, d)),
+                        scaled(cross(axis, a.normal), b.least - dot(b.normal, d))));
       if (accept(d, {i, j}, 2))
         return result;
     }
@@ -95,7 +98,10 @@ Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spa
         const double volume = dot(ab, c.normal);
         if (std::abs(volume) < least_independence)
           continue;
-        const Vector d = scaled(plus(plus(scaled(bc, a.least), scaled(ca, b.least)), scaled(ab, c.least)), 1 / volume);
+        Vector d = scaled(plus(plus(scaled(bc, a.least), scaled(ca, b.least)), scaled(ab, c.least)), 1 / volume);
+        d = advanced(d, 1 / volume,
+                     plus(plus(scaled(bc, a.least - dot(a.normal, d)), scaled(ca, b.least - dot(b.normal, d))),
+                          scaled(ab, c.least - dot(c.normal, d))));
         const Vector push = minus(d, wanted);
         if (dot(push, bc) / volume < 0 || dot(push, ca) / volume < 0 || dot(push, ab) / volume < 0)
           continue;
