@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What planes about a star say is apart, the exact sweeps find apart: at any scale, by units in the last place, in every
+// rounding mode. And where such planes leave pairs out, impacts, near pairs and collapses are those of all pairs in plain loops.
+#include "all_pairs.h"
+#include "drawn_stars.h"
+
+#include <haptic_sculpt/sculpting/Separating_planes.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cfenv>
+#include <numeric>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+using internal::Coordinates;
+using internal::minus;
+using internal::Sweep_points;
+using internal::Sweep_verdict;
+using Sides = internal::Separating_planes::Sides;
+
+/// Rounds in one of the four ways until it goes.
+class Rounding {
+public:
+  explicit Rounding(std::size_t way) {
+    static constexpr int ways[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+    std::fesetround(ways[way % 4]);
+  }
+  Rounding(const Rounding&) = delete;
+  Rounding& operator=(const Rounding&) = delete;
+  ~Rounding() { std::fesetround(FE_TONEAREST); }
+};
+
+int draw_exponent(Random& random) {
+  switch (random() % 8) {
+  case 0:
+    return 0;
+  case 1: // nearly or quite beyond where there are planes
+    return (random() % 2 == 0 ? 1 : -1) * (180 + static_cast<int>(random() % 120));
+  case 2: // where products and differences lose what is left of them
+    return random() % 4 == 0 ? 960 : -960 - static_cast<int>(random() % 110);
+  default:
+    return static_cast<int>(random() % 381) - 190;
+  }
+}
+
+double draw_offset(Random& random) {
+  static constexpr double offsets[] = {0, 0, 0, 3, 1024, 0x1p+20, 0x1p+40};
+  return offsets[random() % 7];
+}
+
+/// Planes about some faces of a star, made as for a motion, and the points around them.
+struct Planes_and_points {
+  Drawn_star drawn;
+  std::size_t first, last;
+  double margin, until;
+  std::vector<Coordinates> points;
+  internal::Separating_planes planes;
+  std::vector<Sides> sides;
+
+  Planes_and_points(Random& random, std::size_t valence, int exponent)
+    : drawn(random, valence, exponent, draw_offset(random)), first(0), last(valence) {
+    constexpr std::size_t most = internal::Separating_planes::most_faces;
+    if (valence > most || random() % 2 == 0) { // often up to the end, where the last spoke is the first of the link
+      const std::size_t faces = 1 + random() % std::min(valence - 1, most);
+      first = random() % 3 == 0 ? valence - faces : random() % (valence - faces + 1);
+      last = first + faces;
+    }
+    margin = random() % 4 == 0 ? drawn.size() * std::ldexp(1.0, -static_cast<int>(random() % 30)) : 0;
+    until = random() % 4 == 0 ? std::uniform_real_distribution<double>(0, 1)(random) : 1;
+    for (int i = 0; i < 24; ++i)
+      points.push_back(drawn.draw_still(random));
+    const Rounding rounding(random() % 8 < 4 ? 0 : random());
+    internal::Star_motion motion(drawn.source, drawn.target);
+    motion.shorten(until);
+    double reach = internal::quick_magnitude(minus(drawn.target, drawn.source));
+    const auto local = [&](const Coordinates& p) {
+      const Coordinates place = minus(p, drawn.source);
+      reach = internal::larger(reach, internal::quick_magnitude(place));
+      return place;
+    };
+    std::vector<internal::Vector> spokes;
+    for (const Coordinates& p : drawn.link)
+      spokes.push_back(local(p));
+    internal::Places places;
+    for (const Coordinates& p : points)
+      places.push_back(local(p));
+    Box_3 box = motion.path();
+    for (std::size_t i = first; i <= last; ++i)
+      box.include(drawn.link[i % valence]);
+    for (int i = 0; i < 3; ++i) {
+      box.lower[i] = box.lower[i] - margin - drawn.source[i];
+      box.upper[i] = box.upper[i] + margin - drawn.source[i];
+    }
+    planes.assign(motion.way(), spokes, first, last, reach, margin, box);
+    planes.sides_of(places, sides);
+  }
+
+  const Coordinates& link(std::size_t i) const { return drawn.link[i % drawn.link.size()]; }
+
+  /// Whether the sweep meets in the part of the way that is of interest.
+  template <class Verdict_of>
+  bool meets(const Verdict_of& verdict_of, const Sweep_points& points) const {
+    No_filter_counters uncounted;
+    const Sweep_verdict verdict = verdict_of(points, uncounted);
+    return verdict.hits && (until == 1 || internal::exact_time(points, verdict) <= mpq_class(until));
+  }
+
+  /// Whether it meets, or would if what stands still, the last points, were anywhere nearer by about the margin.
+  template <class Verdict_of>
+  bool meets_within_margin(Random& random, const Verdict_of& verdict_of, const Sweep_points& points, int still) const {
+    if (meets(verdict_of, points))
+      return true;
+    if (margin == 0)
+      return false;
+    std::uniform_real_distribution<double> number(0, 1);
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      // From some point of the still to some point of the moving, which is often at its border.
+      internal::Vector way{};
+      const double t = number(random);
+      const Coordinates &from = points[5 - 1 - random() % still], &to = points[random() % (5 - still)],
+                        &other = points[random() % (5 - still)];
+      for (int i = 0; i < 3; ++i)
+        way[i] = to[i] + t * (other[i] - to[i]) - from[i];
+      const double length = internal::length(way), shift = std::min(1.0, 0.9999999 * margin / length);
+      if (!(length > 0) || drawn.size() * 0x1p+20 < internal::largest_magnitude(from))
+        continue; // far from the origin roundings are larger than what is taken off here
+      Sweep_points moved = points;
+      for (int k = 5 - still; k < 5; ++k)
+        for (int i = 0; i < 3; ++i)
+          moved[k][i] += shift * way[i];
+      if (meets(verdict_of, moved))
+        return true;
+    }
+    return false;
+  }
+};
+
+/// Counts what is asked, said to be apart, and wrong.
+struct Count {
+  std::size_t asked = 0, apart = 0, wrong = 0;
+
+  template <class Meets>
+  void note(bool is_apart, const Meets& meets) {
+    ++asked, apart += is_apart, wrong += is_apart && meets();
+  }
+  friend std::ostream& operator<<(std::ostream& out, const Count& count) {
+    return out << count.asked << " asked, " << count.apart << " said to be apart, " << count.wrong << " wrong";
+  }
+};
+
+void check(Random& random, const Planes_and_points& scene, Count& vertex, Count& edge, Count& face) {
+  const auto on = [](const auto& p, auto& c) { return internal::vertex_face_verdict(p, c); };
+  const auto of_edges = [](const auto& p, auto& c) { return internal::edge_edge_verdict(p, c); };
+  const auto of_faces = [](const auto& p, auto& c) { return internal::face_vertex_verdict(p, c); };
+  const auto& [source, target] = std::tie(scene.drawn.source, scene.drawn.target);
+  const auto& points = scene.points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::size_t a = k, b = random() % points.size(), c = random() % points.size();
+    if (scene.last - scene.first == scene.drawn.link.size())
+      vertex.note((scene.sides[a] & scene.sides[b] & scene.sides[c] & scene.planes.beyond_vertex()) != 0, [&] {
+        return scene.meets_within_margin(random, on, {source, target, points[a], points[b], points[c]}, 3);
+      });
+    for (std::size_t i = scene.first; i < scene.last; ++i) {
+      edge.note((scene.sides[a] & scene.sides[b] & scene.planes.beyond_edge(i)) != 0, [&] {
+        return scene.meets_within_margin(random, of_edges, {source, target, scene.link(i), points[a], points[b]}, 2);
+      });
+      face.note((scene.sides[a] & scene.planes.beyond_face(i)) != 0, [&] {
+        return scene.meets_within_margin(random, of_faces, {source, target, scene.link(i), scene.link(i + 1), points[a]}, 1);
+      });
+    }
+  }
+}
+
+Box_3 everywhere() {
+  return Box_3(Coordinates{-1e300, -1e300, -1e300}).include(Coordinates{1e300, 1e300, 1e300});
+}
+
+/// A star among triangles that need not be a mesh: any three of drawn points and of the link's vertices.
+struct Soup {
+  Mesh mesh;
+  Star<Mesh> star;
+  Coordinates source, target;
+  std::vector<std::array<Vertex_index, 3>> triangles;
+
+  Soup(Random& random, const Drawn_star& drawn, std::size_t number_of_triangles, double size_of_most)
+    : source(drawn.source), target(drawn.target) {
+    const auto add = [&](const Coordinates& p) { return mesh.add_vertex(Point_3(p[0], p[1], p[2])); };
+    star.centre = add(source);
+    // The names are not in the link's order.
+    std::vector<std::size_t> order(drawn.link.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), random);
+    star.link.resize(order.size());
+    for (const std::size_t i : order)
+      star.link[i] = add(drawn.link[i]);
+    star.link_points = drawn.link;
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::vector<Vertex_index> others;
+    const auto draw = [&](const Coordinates& about) {
+      if (random() % 6 == 0)
+        return star.link[random() % star.link.size()];
+      if (!others.empty() && random() % 3 == 0)
+        return others[random() % others.size()];
+      Coordinates p = drawn.draw_still(random);
+      if (random() % 4 != 0)
+        for (int i = 0; i < 3; ++i)
+          p[i] = about[i] + size_of_most * drawn.size() * number(random);
+      others.push_back(add(p));
+      return others.back();
+    };
+    while (triangles.size() < number_of_triangles) {
+      const Coordinates about = drawn.draw_still(random);
+      Vertex_index a = draw(about), b = draw(about), c = draw(about);
+      if (random() % 8 == 0) { // a needle through the star with both ends far from it, along something in it
+        const double far = std::ldexp(1.0, static_cast<int>(random() % 45));
+        const Coordinates from = random() % 2 == 0 ? drawn.source : drawn.link[random() % drawn.link.size()],
+                          to = random() % 2 == 0 ? drawn.target : drawn.link[random() % drawn.link.size()];
+        const internal::Vector along = internal::scaled(minus(to, from), far);
+        a = add(internal::plus(from, along)), b = add(minus(from, along));
+      }
+      if (a != b && b != c && c != a && (number_of_triangles > 100 || is_wanted(random, {a, b, c})))
+        triangles.push_back({a, b, c});
+      else
+        --number_of_triangles;
+    }
+  }
+
+  void fill(Checklist<Mesh>& list) const {
+    std::vector<Mesh::Face_index> faces;
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+      faces.emplace_back(static_cast<Mesh::size_type>(k));
+    list.assign(mesh, [this](auto f) { return triangles[f]; }, star, faces, everywhere());
+  }
+
+private:
+  /// Few of those that are in the way from the start, not all that come later: impacts are to be at all times, and none often.
+  bool is_wanted(Random& random, const std::array<Vertex_index, 3>& triangle) const {
+    const std::size_t chance = random() % 16;
+    if (chance == 0)
+      return true;
+    bool meets = false, meets_at_start = false;
+    All_pairs(mesh, star, {triangle})
+        .for_each_hit(source, target, [&](Impact_feature, const std::array<Vertex_index, 3>&, const Sweep_points& points, const Sweep_verdict& verdict) {
+          meets = true;
+          meets_at_start = meets_at_start || internal::filtered_time(points, verdict).first <= 0;
+        });
+    return !meets_at_start && (!meets || chance > 8);
+  }
+};
+
+std::size_t draw_valence(Random& random) {
+  static constexpr std::size_t special[] = {3, 4, 13, 14, 15, 16, 17, 32, 33, 40};
+  return random() % 3 == 0 ? special[random() % 10] : 3 + random() % 12;
+}
+
+/// Working memory is shared by all scenes, as in a long session.
+struct Session {
+  Filter_counters counters;
+  Checklist<Mesh> list;
+  Narrow_phase<Mesh> narrow{counters};
+  internal::Edit_proof<Mesh, Filter_counters> proof{counters};
+  Star_impacts<Mesh> found;
+  std::size_t motions = 0, blocked = 0, several = 0, late = 0, collapses = 0, refused = 0, balls = 0, covered = 0, met = 0, wrong = 0;
+
+  void check_motion(const All_pairs& all, const Coordinates& source, const Coordinates& target,
+                    std::size_t rounding) {
+    const Star_impacts<Mesh> expected = all.first_impacts(source, target);
+    bool is_free;
+    {
+      const Rounding in_this_mode(rounding);
+      narrow.first_impacts(all.star, list, source, target, found);
+      is_free = narrow.is_free(all.star, list, source, target);
+    }
+    ++motions, blocked += !expected.empty(), several += expected.size() > 1;
+    late += !expected.empty() && expected[0].impact().time().second > 0;
+    wrong += !same(found, expected) || is_free != expected.empty();
+  }
+
+  /// A part of the way is looked at first: what comes first in it is told.
+  void check_part(const All_pairs& all, const Coordinates& source, const Coordinates& target,
+                  double until) {
+    Swept_star_3 part = all.star.swept(source, target);
+    part.until = until;
+    const Star_impacts<Mesh> expected = all.first_impacts(source, target);
+    narrow.first_impacts_near(all.star, list, source, target, part.path(), found);
+    if (!expected.empty() && internal::exact_time(expected[0].impact().coordinates(), expected[0].impact().verdict()) <= mpq_class(until))
+      wrong += !same(found, expected);
+  }
+
+  void check_collapse(const All_pairs& all, const Coordinates& centre, std::size_t pivot) {
+    const std::vector<Vertex_index> expected = all.in_the_way(centre, pivot);
+    std::vector<Vertex_index> in_the_way;
+    const bool is_free = proof.can_collapse(all.star, list, centre, pivot, in_the_way);
+    ++collapses, refused += !expected.empty();
+    wrong += is_free != expected.empty() || in_the_way != expected;
+  }
+
+  void check_ball(Random& random, const All_pairs& all, const Coordinates& source, double size) {
+    std::uniform_real_distribution<double> number(-1, 1);
+    const auto away = [&](double distance) {
+      const double x = number(random), y = number(random), z = number(random);
+      return internal::advanced(source, distance, {x, y, z});
+    };
+    Near_pairs<Mesh> pairs;
+    pairs.assign(all.star, list, narrow.runs(), source, away(std::ldexp(size, -4 - static_cast<int>(random() % 12))));
+    if (!pairs.cover(source, source))
+      return;
+    ++balls;
+    for (int i = 0; i < 6; ++i) {
+      Coordinates target = away(size);
+      while (!pairs.cover(source, target))
+        target = internal::advanced(source, 0.7, minus(target, source));
+      const Star_impacts<Mesh> expected = all.first_impacts(source, target);
+      narrow.first_impacts(all.star, list, pairs, source, target, found);
+      ++covered, met += !expected.empty();
+      wrong += !same(found, expected) || narrow.is_free(all.star, list, pairs, source, target) != expected.empty();
+    }
+  }
+
+  friend std::ostream& operator<<(std::ostream& out, const Session& s) {
+    return out << s.motions << " motions, " << s.blocked << " blocked, " << s.several << " of them by several, " << s.late
+               << " later than the start; " << s.balls
+               << " balls, " << s.covered << " motions in them, " << s.met << " blocked; " << s.collapses << " collapses, "
+               << s.refused << " refused; " << s.wrong << " wrong";
+  }
+};
+
+/// A name for a private member: access is not checked where templates are instantiated explicitly.
+template <class Tag, typename Tag::Type member>
+struct Opened {
+  friend typename Tag::Type opened(Tag) { return member; }
+};
+struct Round_of_runs {
+  using Type = std::uint32_t internal::Star_runs<Mesh>::*;
+  friend Type opened(Round_of_runs);
+};
+template struct Opened<Round_of_runs, &internal::Star_runs<Mesh>::round_>;
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(what_planes_about_spokes_say_is_apart_is_apart) {
+  Random random(seed_from_environment(91));
+  const std::size_t stars = count_from_environment("HAPTIC_SCULPT_STARS", 7000);
+  Count vertex, edge, face;
+  for (std::size_t k = 0; k < stars; ++k) {
+    const Planes_and_points scene(random, 3 + random() % 14, draw_exponent(random));
+    check(random, scene, vertex, edge, face);
+  }
+  BOOST_TEST_MESSAGE("vertex: " << vertex << "; edges: " << edge << "; faces: " << face);
+  for (const Count& count : {vertex, edge, face}) {
+    BOOST_TEST(count.wrong == 0u);
+    BOOST_TEST(count.apart * 4 > count.asked);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(impacts_in_soups_are_those_of_all_pairs) {
+  Random random(seed_from_environment(92));
+  const std::size_t scenes = count_from_environment("HAPTIC_SCULPT_SOUPS", 3000);
+  Session session;
+  for (std::size_t k = 0; k < scenes; ++k) {
+    const bool is_large = k % 256 == 255;
+    const std::size_t valence = is_large ? 300 + random() % 701 : draw_valence(random);
+    const Drawn_star drawn(random, valence, draw_exponent(random), draw_offset(random));
+    const std::size_t triangles = is_large ? random() % 40 : k % 64 == 0 ? 200 + random() % 200 : random() % 10;
+    Soup soup(random, drawn, triangles, std::ldexp(1.0, 1 - static_cast<int>(random() % 12)));
+    if (random() % 16 == 0)
+      soup.star.clear(); // a probe
+    soup.fill(session.list);
+    const All_pairs all(soup.mesh, soup.star, soup.triangles);
+    BOOST_TEST(all.are_in(session.list));
+    session.check_motion(all, soup.source, soup.target, random() % 8 < 4 ? 0 : random());
+    session.check_part(all, soup.source, soup.target, std::ldexp(1.0, -static_cast<int>(random() % 8)));
+    session.check_ball(random, all, soup.source, drawn.size());
+    if (!is_large && soup.star.valence() != 0)
+      session.check_collapse(all, soup.source, random() % valence);
+  }
+  BOOST_TEST_MESSAGE(session);
+  BOOST_TEST(session.wrong == 0u);
+  BOOST_TEST(session.blocked > session.motions / 10);
+  BOOST_TEST(session.late > session.motions / 10);
+  BOOST_TEST(session.blocked < session.motions * 9 / 10);
+  BOOST_TEST(session.met > session.covered / 20);
+  BOOST_TEST(session.refused > session.collapses / 20);
+  BOOST_TEST(session.refused < session.collapses * 19 / 20);
+}
+
+// Some hours of dragging a vertex of valence 1000.
+BOOST_AUTO_TEST_CASE(runs_outlast_the_numbers_of_their_rounds) {
+  Random random(seed_from_environment(94));
+  std::size_t wrong = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const Drawn_star drawn(random, 15 + random() % 26, 0, 0);
+    const Soup soup(random, drawn, 1 + random() % 3, 0.5);
+    Session session;
+    session.narrow.runs().*opened(Round_of_runs()) = 0xffffffffu - random() % 16;
+    soup.fill(session.list);
+    session.check_motion(All_pairs(soup.mesh, soup.star, soup.triangles), soup.source, soup.target, 0);
+    wrong += session.wrong;
+  }
+  BOOST_TEST(wrong == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(impacts_in_meshes_are_those_of_all_pairs) {
+  Random random(seed_from_environment(93));
+  const std::size_t motions = count_from_environment("HAPTIC_SCULPT_MESH_MOTIONS", 400);
+  std::vector<meshes::Triangle_list> lists = {meshes::bumpy_sphere(2, 0.3), meshes::torus(12, 6), meshes::box(3),
+                                              meshes::sliver_stack(6, 0x1p-20), meshes::bipyramid(15, 0.5),
+                                              meshes::bipyramid(33, 0.01), meshes::bipyramid(300, 1)};
+  Session session;
+  for (std::size_t k = 0; k < motions; ++k) {
+    const std::size_t which = random() % (k % 16 == 0 ? lists.size() : lists.size() - 1);
+    const Mesh mesh = meshes::to_mesh(lists[which]);
+    std::vector<std::array<Vertex_index, 3>> triangles;
+    std::vector<Mesh::Face_index> faces(mesh.faces().begin(), mesh.faces().end());
+    for (const auto f : faces)
+      triangles.push_back(corners_of_face(mesh, f));
+    const std::size_t n = mesh.number_of_vertices();
+    Star<Mesh> star;
+    // the last vertices of a bipyramid are its apices
+    star.collect(mesh, Vertex_index(static_cast<Mesh::size_type>(random() % 2 == 0 ? n - 1 : random() % n)));
+    Checklist<Mesh>& list = session.list;
+    list.assign(mesh, [&](auto f) { return triangles[f]; }, star, faces, everywhere());
+    const All_pairs all(mesh, star, triangles);
+    BOOST_TEST(all.are_in(list));
+    std::uniform_real_distribution<double> number(-1, 1);
+    const Coordinates source = vertex_coordinates(mesh, star.centre);
+    const double x = number(random), y = number(random), z = number(random);
+    const Coordinates target =
+        random() % 4 == 0
+            ? vertex_coordinates(mesh, Vertex_index(static_cast<Mesh::size_type>(random() % n)))
+            : internal::advanced(source, std::ldexp(4, -static_cast<int>(random() % 8)), {x, y, z});
+    session.check_motion(all, source, target, random() % 4);
+    session.check_part(all, source, target, std::ldexp(1.0, -static_cast<int>(random() % 4)));
+    session.check_ball(random, all, source, 0.25);
+    session.check_collapse(all, source, random() % star.valence());
+  }
+  BOOST_TEST_MESSAGE(session);
+  BOOST_TEST(session.wrong == 0u);
+  BOOST_TEST(session.blocked > session.motions / 10);
+  BOOST_TEST(session.refused > 0u);
+}
