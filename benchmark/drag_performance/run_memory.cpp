@@ -5,6 +5,7 @@
 
 #include <haptic_sculpt/surface/spatial_order.h>
 
+#include <iostream>
 #include <numeric>
 #include <set>
 
@@ -44,8 +45,8 @@ std::pair<double, double> nanoseconds_a_line(std::size_t bytes, std::uint64_t se
     for (std::size_t k = 0; k < reads; ++k)
       sum += lines[order[order.size() - 1 - k]].next;
   });
-  static volatile std::uint32_t sink;
-  sink = at + sum; // else the compiler leaves the loops out
+  if (at + sum == 1) // as good as never; without it the compiler leaves the loops out
+    std::cout << std::flush;
   return {dependent.last() / static_cast<double>(reads), independent.last() / static_cast<double>(reads)};
 }
 

@@ -96,7 +96,9 @@ struct Planes_and_points {
       box.upper[i] = box.upper[i] + margin - drawn.source[i];
     }
     planes.assign(motion.way(), spokes, first, last, reach, margin, box);
-    planes.sides_of(places, sides);
+    planes.compare(places);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      sides.push_back(places.sides(k));
   }
 
   const Coordinates& link(std::size_t i) const { return drawn.link[i % drawn.link.size()]; }
