@@ -299,13 +299,22 @@ def killed_at_random_moments(folder):
     path = f"{folder}/long.script"
     with open(path, "w") as file:
         file.writelines(script)
-    cut, least, most = 0, len(script), 0
+    cut, least, most, attempts = 0, len(script), 0, 0
+    start = time.monotonic()
+    check(run(mesh, "--script", path, "--log", f"{folder}/whole.log").returncode == 0, "not killed")
+    takes = time.monotonic() - start
     for kill in range(kills):
         log = f"{folder}/killed{kill}.log"
-        process = subprocess.Popen([SCULPT, mesh, "--script", path, "--log", log], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(rng.uniform(0.02, 0.5))
-        process.kill()
-        check(process.wait() == -9, "killed before its end")
+        while True:  # until it was not faster than expected
+            process = subprocess.Popen([SCULPT, mesh, "--script", path, "--log", log], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(rng.uniform(0.05, 0.9) * takes)
+            process.kill()
+            attempts += 1
+            if process.wait() == -9 or attempts >= 3 * kills + 10:
+                break
+            os.remove(log)
+            takes *= 0.8
+        check(process.returncode == -9, "killed before its end")
         left = open(log).read() if os.path.exists(log) else ""
         whole = left[:left.rfind("\n") + 1]
         cut += whole != left

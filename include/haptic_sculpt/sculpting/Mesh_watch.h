@@ -79,6 +79,12 @@ public:
       next_ = next_ + 1 < n ? next_ + 1 : 0;
       check(Vertex_index(static_cast<typename Vertex_index::size_type>(next_)));
     }
+    if (n > few_points) { // else the next look would wait for memory, several times in a row
+      const std::size_t first = next_ + points_per_look < n ? next_ + 1 : 0;
+      const Vertex_index v(static_cast<typename Vertex_index::size_type>(first));
+      internal::prefetch(&points_[first], points_per_look * sizeof(Coordinates));
+      internal::prefetch(&mesh_->point(v), points_per_look * sizeof(Coordinates));
+    }
   }
 
   void check_all() const {
