@@ -141,7 +141,7 @@ private:
     const Face_corners<Mesh> corners(mesh_);
     Filter_counters counters;
     test::Recording_guard<Mesh> guard(mesh_, broad_phase, corners, counters);
-    guard.star().collect(mesh_, v);
+    guard.collect(v);
     Responses<Mesh> responses;
     Drag_result<Mesh> result;
     const auto end = responses.move(Response::slide, guard, mesh_, s, t, sculptor_.clearance(to), largest, 0, result);

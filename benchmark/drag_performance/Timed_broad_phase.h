@@ -22,6 +22,8 @@ public:
     tree_.query(query, faces);
     asking() += timer().nanoseconds(start, Query_timer::now());
   }
+  void fetch_ahead(const Box_3& box) { tree_.fetch_ahead(box); }
+  void fetch_on() { tree_.fetch_on(); }
   template <class Faces>
   void faces_moved(const Faces& faces) {
     const std::uint64_t start = Query_timer::now();

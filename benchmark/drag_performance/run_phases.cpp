@@ -119,8 +119,7 @@ Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_count
   std::size_t looks = guard.looks();
   std::vector<Wanted_list> wanted;
   for (const Drag_of_steps& drag : drags) {
-    guard.star().collect(mesh, drag.vertex);
-    guard.invalidate();
+    guard.collect(drag.vertex);
     Vector at = vertex_coordinates(mesh, drag.vertex);
     for (std::size_t i = 0; i < drag.targets.size(); ++i) {
       Latencies moved;
@@ -183,8 +182,7 @@ void add_slide_phases(Json& phases, const Workload_mesh& scene, std::uint64_t se
     const Vertex_index v = random.vertex(mesh);
     const Vector inwards = internal::scaled(normal_at(mesh, v), -1);
     Smooth_way way(random, random.direction());
-    star.star().collect(mesh, v);
-    star.invalidate();
+    star.collect(v);
     responses.forget();
     Vector at = vertex_coordinates(mesh, v);
     bool is_met = false;

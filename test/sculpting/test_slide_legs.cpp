@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
     const Face_corners<Mesh> corners(mesh);
     Filter_counters counters;
     Recording_guard<Mesh> guard(mesh, broad_phase, corners, counters);
-    guard.star().collect(mesh, v);
+    guard.collect(v);
     Responses<Mesh> responses;
     for (int i = 0; i < 5; ++i, ++done) {
       const Point_3 target = target_of_hand(random, list, size);

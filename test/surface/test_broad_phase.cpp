@@ -480,6 +480,43 @@ BOOST_AUTO_TEST_CASE(a_long_push_asks_for_few_faces) {
   BOOST_TEST(found.size() * 20 < in_box.size());
 }
 
+BOOST_AUTO_TEST_CASE(fetching_ahead_changes_no_answer) {
+  Mesh mesh = meshes::to_mesh(meshes::torus(320, 160)); // smaller trees are taken to be in cache
+  Random random(seed());
+  Box_tree_broad_phase<Mesh> tree(mesh), asked_ahead(mesh);
+  std::vector<Face_index> expected, found;
+  const auto random_box = [&] {
+    const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
+    Box_3 box(vertex_coordinates(mesh, v));
+    const double size = std::ldexp(1.0, -static_cast<int>(random() % 12)); // of few faces, or of nearly all
+    for (int i = 0; i < 3; ++i)
+      box.lower[i] -= size * std::abs(uniform(random)), box.upper[i] += size * std::abs(uniform(random));
+    return box;
+  };
+  for (int k = 0; k < 300; ++k) {
+    const Box_3 box = random_box();
+    if (random() % 4 != 0)
+      asked_ahead.fetch_ahead(random() % 2 == 0 ? box : random_box());
+    for (std::size_t steps = random() % 6; steps != 0; --steps) {
+      if (random() % 4 == 0) { // what was fetched may have changed
+        const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
+        const Point_3 p = mesh.point(v);
+        mesh.point(v) = Point_3(p.x() + 0.1 * uniform(random), p.y(), p.z());
+        const auto around = mesh.faces_around_target(mesh.halfedge(v));
+        const std::vector<Face_index> faces(around.begin(), around.end());
+        tree.faces_moved(faces);
+        asked_ahead.faces_moved(faces);
+      }
+      asked_ahead.fetch_on();
+    }
+    expected.clear(), found.clear();
+    tree.query(box, expected);
+    asked_ahead.query(box, found);
+    BOOST_REQUIRE(!expected.empty());
+    BOOST_REQUIRE(sorted(found) == sorted(expected));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(neither_queries_nor_moves_allocate) {
   Mesh mesh = meshes::to_mesh(meshes::torus(60, 30));
   Random random(seed());

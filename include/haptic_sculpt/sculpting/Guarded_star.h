@@ -9,6 +9,7 @@
 #include <haptic_sculpt/sculpting/delta_limit.h>
 #include <haptic_sculpt/sculpting/kkt_residual.h>
 #include <haptic_sculpt/sculpting/stop.h>
+#include <haptic_sculpt/surface/fetch_ahead.h>
 
 namespace haptic_sculpt {
 
@@ -32,6 +33,24 @@ public:
   const Checklist<Mesh>& checklist() const { return list_; }
   /// How often a checklist has been filled: it has changed when this has.
   std::size_t looks() const { return looks_; }
+
+  /// Takes the star of a vertex, and asks for the memory that its first motion will read. Cost: the valence.
+  void collect(Vertex_index v) {
+    // While the star is read, each of whose faces is found by what memory tells of the last one, the broad phase can wait
+    // for its own memory: the surroundings are about as large as those of the star before.
+    if (!mesh_->is_isolated(v)) {
+      const double size = usual_reach * link_extent();
+      Box_3 about(vertex_coordinates(*mesh_, v));
+      for (int i = 0; i < 3; ++i)
+        about.lower[i] -= size, about.upper[i] += size;
+      internal::fetch_ahead(*broad_phase_, about);
+    }
+    star_.collect(*mesh_, v, [this](Vertex_index neighbour) {
+      prefetch_watched(neighbour);
+      internal::fetch_on(*broad_phase_);
+    });
+    invalidate();
+  }
 
   /// Forget the candidates: an element outside the star has changed.
   void invalidate() {
@@ -142,6 +161,9 @@ private:
   /// memory not seen lately, and of those that follow in one grab.
   static constexpr double first_margin = 0.125, region_margin = 0.5;
 
+  /// From a vertex to the end of its first region, in extents of a link: half of one and the margin.
+  static constexpr double usual_reach = 0.5 + first_margin;
+
   /// Pairs cost as much as to decide a motion or two without them, so they are taken at the second motion of a grab, and with every
   /// one that leaves the ball. Where they cannot be had, or are too many, they are tried again after twice as many motions.
   static constexpr int most_patience = 64;
@@ -250,11 +272,13 @@ private:
   /// \param region empty for one motion alone: the next one asks again
   void take_candidates(const Box_3& region = Box_3()) {
     pairs_.clear();
-    list_.assign(*mesh_, *corners_of_, star_, candidates_, region, [this](Vertex_index v) {
-      if (watch_ != nullptr)
-        watch_->prefetch(v);
-    });
+    list_.assign(*mesh_, *corners_of_, star_, candidates_, region, [this](Vertex_index v) { prefetch_watched(v); });
     ++looks_;
+  }
+
+  void prefetch_watched(Vertex_index v) const {
+    if (watch_ != nullptr)
+      watch_->prefetch(v);
   }
 
   template <class Found>

@@ -263,14 +263,15 @@ private:
       watch_.check(v);
       return;
     }
+    internal::prefetch(&mesh_->point(v), sizeof(Point)); // there is other work until it comes
+    watch_.prefetch(v);
     release();
     editor_.prepare_for_moves();
-    guard_.star().collect(*mesh_, v);
-    guard_.invalidate();
+    watch_.check_some();
+    guard_.collect(v);
     watch_.check(v);
     for (const Vertex_index neighbour : guard_.star().link)
       watch_.check(neighbour);
-    watch_.check_some();
     held_ = v;
   }
 

@@ -39,6 +39,21 @@ public:
       descend([&filter](const Node& node) { return node.meeting(filter.box()); }, faces);
   }
 
+  /// Begins to fetch from memory what a query about here will read. Changes no answer. Cost: log n.
+  void fetch_ahead(const Box_3& box) {
+    if (levels_ == 0 || level_begin_[0] < nodes_in_cache)
+      return;
+    ahead_ = internal::Float_box::query(box);
+    to_root();
+    while (is_worth_fetching() && level_begin_[level_ - 1] < nodes_in_cache)
+      fetch_on();
+  }
+  /// Goes on with that for a level, whose nodes have come by now.
+  void fetch_on() {
+    if (is_worth_fetching())
+      go_down([this](const Node& node) { return node.meeting(ahead_); });
+  }
+
   /// \pre each of the faces is known: it was there at the construction or has been inserted.
   template <class Faces>
   void faces_moved(const Faces& faces) {
@@ -89,7 +104,7 @@ public:
   /// Bytes held, capacity included.
   std::size_t memory() const {
     return nodes_.capacity() * sizeof(Node) + slot_of_face_.capacity() * sizeof(std::uint32_t) +
-           face_of_slot_.capacity() * sizeof(std::uint32_t) + touched_.capacity() * sizeof(std::uint32_t) +
+           face_of_slot_.capacity() * sizeof(std::uint32_t) + (touched_.capacity() + queue_.capacity()) * sizeof(std::uint32_t) +
            overflow_.memory() + sizeof *this;
   }
 
@@ -102,6 +117,10 @@ private:
                                                   << 31; ///< slots from here on are places of the overflow
   static constexpr int most_levels = 11;                 ///< 8^11 > 2^31
 
+  /// Levels that begin before this node, at 192 KiB, are taken to be in cache. With more nodes on a level than most_ahead
+  /// nothing is fetched: what was guessed is much too large.
+  static constexpr std::uint32_t nodes_in_cache = 1024, most_ahead = 64;
+
   const Mesh* mesh_;
   std::vector<Node> nodes_;                              ///< level by level from the root
   std::array<std::uint32_t, most_levels> level_begin_{}; ///< of the lowest level first; the last is the root's, 0
@@ -110,6 +129,10 @@ private:
   std::vector<std::uint32_t> slot_of_face_;
   internal::Growing_box_tree overflow_;
   std::vector<std::uint32_t> touched_; ///< nodes of one level with a box that has changed
+  std::vector<std::uint32_t> queue_;   ///< nodes that a query goes through, level by level
+  std::size_t begin_ = 0, end_ = 0;    ///< those of the level at hand
+  int level_ = 0;                      ///< of which the nodes at hand are
+  internal::Float_box ahead_;          ///< what is fetched ahead
 
   static bool is_in_overflow(std::uint32_t slot) { return slot >= first_overflow && slot != no_slot; }
 
@@ -203,32 +226,47 @@ private:
   template <class Passing>
   void descend(const Passing& passing, std::vector<Face_index>& faces) {
     const auto found = [&faces](std::uint32_t f) { faces.push_back(Face_index(f)); };
-    if (levels_ != 0) {
-      struct Step {
-        int level;
-        std::uint32_t node;
-      };
-      std::array<Step, (width - 1) * most_levels + 1> stack; // seven wait on each level at most
-      std::size_t height = 0;
-      stack[height++] = {levels_ - 1, 0};
-      while (height != 0) {
-        const Step at = stack[--height];
-        unsigned mask = passing(nodes_[level_begin_[at.level] + at.node]);
-        if (at.level == 0) {
-          for (; mask != 0; mask &= mask - 1)
-            found(face_of_slot_[at.node * width + internal::lowest_bit(mask)]);
-          continue;
-        }
-        for (; mask != 0; mask &= mask - 1) {
-          const std::uint32_t child = at.node * width + internal::lowest_bit(mask);
-          internal::prefetch(&nodes_[level_begin_[at.level - 1] + child], sizeof(Node));
-          if (at.level == 1)
-            internal::prefetch(&face_of_slot_[std::size_t{child} * width], width * sizeof(std::uint32_t));
-          stack[height++] = {at.level - 1, child};
-        }
+    to_root();
+    while (level_ > 0)
+      go_down(passing);
+    for (; begin_ != end_; ++begin_)
+      for (unsigned mask = passing(nodes_[level_begin_[0] + queue_[begin_]]); mask != 0; mask &= mask - 1)
+        found(face_of_slot_[std::size_t{queue_[begin_]} * width + internal::lowest_bit(mask)]);
+    overflow_.visit(passing, found);
+  }
+
+  void to_root() {
+    queue_.resize(std::max<std::size_t>(queue_.size(), 1));
+    queue_[0] = 0;
+    begin_ = 0, end_ = levels_ != 0 ? 1 : 0;
+    level_ = levels_ - 1;
+  }
+
+  bool is_worth_fetching() const { return level_ > 0 && end_ - begin_ <= most_ahead; }
+
+  /// Puts the children that pass in the place of the nodes of a level.
+  ///
+  /// All are asked for before the first is read, so that memory is waited for once a level; on the way to one leaf after
+  /// the other it would be waited for on each.
+  template <class Passing>
+  void go_down(const Passing& passing) {
+    const Node* const nodes = &nodes_[level_begin_[level_]];
+    const Node* const children = &nodes_[level_begin_[level_ - 1]];
+    std::size_t count = end_;
+    for (; begin_ != end_; ++begin_) {
+      if (queue_.size() < count + width)
+        queue_.resize(2 * (count + width));
+      const std::uint32_t first = queue_[begin_] * width;
+      for (unsigned mask = passing(nodes[queue_[begin_]]); mask != 0; mask &= mask - 1) {
+        const std::uint32_t child = first + internal::lowest_bit(mask);
+        internal::prefetch(children + child, sizeof(Node));
+        if (level_ == 1)
+          internal::prefetch(&face_of_slot_[std::size_t{child} * width], width * sizeof(std::uint32_t));
+        queue_[count++] = child;
       }
     }
-    overflow_.visit(passing, found);
+    end_ = count;
+    --level_;
   }
 };
 

@@ -34,6 +34,12 @@ struct Star {
 
   /// \pre v is not on a boundary and no face corner is pinched at v. Cost: the valence.
   void collect(const Mesh& mesh, Vertex_index v) {
+    collect(mesh, v, [](Vertex_index) {});
+  }
+
+  /// Calls `is_known(w)` for each vertex w of the link as soon as it is known: to ask for memory ahead.
+  template <class Is_known>
+  void collect(const Mesh& mesh, Vertex_index v, const Is_known& is_known) {
     clear();
     centre = v;
     if (mesh.is_isolated(v))
@@ -45,6 +51,7 @@ struct Star {
       link_points.push_back(vertex_coordinates(mesh, mesh.source(h)));
       faces.push_back(mesh.face(h));
       h = mesh.opposite(mesh.next(h));
+      is_known(link.back());
     } while (h != first);
   }
 
