@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a fan says is apart, the exact sweeps find apart: on small grids, a few units in the last place beside the fan,
 // at any scale, for flat fans, vanishing motions and repeated points. And it says so often enough to be of use.
-#include "Random_scene.h"
+#include "planes_and_points.h"
 
 #include <haptic_sculpt/collision.h>
-#include <haptic_sculpt/sculpting/Swept_fan.h>
+#include <haptic_sculpt/sculpting/Spoke_planes.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -89,7 +89,6 @@ BOOST_AUTO_TEST_CASE(what_a_fan_says_is_apart_is_apart) {
     double reach = 4 * drawn.scale;
     for (const Coordinates& p : drawn.link)
       spokes.push_back(minus(p, drawn.source));
-    const Box_3 everywhere = Box_3({-1e300, -1e300, -1e300}).include({1e300, 1e300, 1e300});
     const internal::Swept_fan fan(minus(drawn.target, drawn.source), spokes, 0, static_cast<std::size_t>(faces), reach);
     for (int i = 0; i < 10; ++i) {
       const Coordinates p = drawn.draw_still(random), q = drawn.draw_still(random);
@@ -104,11 +103,16 @@ BOOST_AUTO_TEST_CASE(what_a_fan_says_is_apart_is_apart) {
       for (int f = 0; f < faces; ++f)
         p_hits = p_hits || is_hit(face_sweep, drawn.link[f], drawn.link[f + 1], p);
       internal::Places places;
-      places.push_back(minus(p, drawn.source));
-      places.push_back(minus(q, drawn.source));
-      places.compare(everywhere);
-      fan.compare(places);
-      const bool is_edge_apart = (places.sides(0) & places.sides(1)) != 0, is_point_apart = places.sides(0) != 0;
+      places.resize(2);
+      places.set(0, minus(p, drawn.source));
+      places.set(1, minus(q, drawn.source));
+      places.clear_sides();
+      const std::size_t number = random() % internal::Swept_fan::most_fans;
+      fan.compare(places, number);
+      const unsigned from_edge = internal::Swept_fan::apart_from_fans(places.sides(0) & places.sides(1)),
+                     from_point = internal::Swept_fan::apart_from_fans(places.sides(0));
+      const bool is_edge_apart = from_edge != 0, is_point_apart = from_point != 0;
+      BOOST_TEST(((from_edge | from_point) & ~(1u << number)) == 0u);
       asked += 2, apart += is_edge_apart + is_point_apart, really += !hits + !p_hits;
       wrong += (is_edge_apart && hits) + (is_point_apart && p_hits);
     }
@@ -117,4 +121,77 @@ BOOST_AUTO_TEST_CASE(what_a_fan_says_is_apart_is_apart) {
   BOOST_TEST(wrong == 0u);
   BOOST_TEST(really < asked);
   BOOST_TEST(2 * apart > really);
+}
+
+namespace {
+
+struct Planes_at_spokes {
+  using Sides = internal::Places::Sides;
+  std::size_t first;
+  internal::Spoke_planes planes;
+
+  explicit Planes_at_spokes(Faces_and_points& scene) : first(scene.first) {
+    const Rounding in_this_mode(scene.rounding);
+    planes.assign(scene.way, scene.spokes, first, scene.last, scene.reach, scene.margin);
+    planes.compare(scene.places);
+  }
+  bool beyond_vertex(Sides) const { return false; } // these are no planes of a whole star
+  bool beyond_edge(std::size_t i, Sides sides) const {
+    return (planes.apart_from_spokes(sides) >> (i - first) & 1) != 0;
+  }
+  bool beyond_face(std::size_t i, Sides sides) const {
+    return (planes.apart_from_faces(sides) >> (i - first) & 1) != 0;
+  }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(what_planes_at_spokes_say_is_apart_is_apart) {
+  Random random(seed_from_environment(72));
+  const std::size_t stars = count_from_environment("HAPTIC_SCULPT_LARGE_STARS", 5000);
+  Count vertex, edge, face;
+  for (std::size_t k = 0; k < stars; ++k) {
+    const std::size_t most = internal::Spoke_planes::most_faces;
+    Faces_and_points scene(random, 4 + random() % 16, draw_exponent(random), most, false);
+    check(random, scene, Planes_at_spokes(scene), vertex, edge, face);
+  }
+  BOOST_TEST_MESSAGE("edges: " << edge << "; faces: " << face);
+  for (const Count& count : {edge, face}) {
+    BOOST_TEST(count.wrong == 0u);
+    BOOST_TEST(count.apart * 4 > count.asked);
+  }
+}
+
+// The other half of a bipyramid meets every spoke's end from below, and wherever the apex goes a little, no pair is left: that is what
+// these planes are for.
+BOOST_AUTO_TEST_CASE(planes_at_spokes_part_a_fan_from_what_lies_under_it) {
+  Random random(seed_from_environment(73));
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int k = 0; k < 100; ++k) {
+    const std::size_t valence = 100 + random() % 900, faces = 1 + random() % internal::Spoke_planes::most_faces;
+    const double turn = random() % 2 == 0 ? 1 : -1, side = random() % 2 == 0 ? 1 : -1; // the fan may be a cap or a cup
+    std::vector<internal::Vector> spokes;
+    for (std::size_t i = 0; i < valence; ++i) {
+      const double angle = turn * 6.283185307179586 * static_cast<double>(i) / static_cast<double>(valence);
+      spokes.push_back({std::cos(angle), std::sin(angle), -side});
+    }
+    internal::Places places; // the ends of the spokes, and the other apex
+    places.resize(valence + 1);
+    for (std::size_t i = 0; i < valence; ++i)
+      places.set(i, spokes[i]);
+    places.set(valence, {0, 0, -2 * side});
+    const double x = number(random), y = number(random), z = number(random);
+    internal::Spoke_planes planes;
+    planes.assign({0.02 * x, 0.02 * y, 0.02 * z}, spokes, 0, faces, 2, 0);
+    planes.compare(places);
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < faces; ++i)
+      for (std::size_t j = 0; j < valence; ++j) {
+        const std::size_t next = j + 1 < valence ? j + 1 : 0;
+        const auto apart = [&](auto sides) { return (planes.apart_from_spokes(sides) >> i & 1) != 0; };
+        left += j != i && !apart(places.sides(j) & places.sides(valence)) && (j < 2 * faces || 2 * valence - 2 * faces < 2 * j);
+        left += j != i && next != i && !apart(places.sides(j) & places.sides(next)) && j < 2 * faces;
+      }
+    BOOST_TEST(left == 0u);
+  }
 }

@@ -54,12 +54,35 @@ public:
     }
   }
 
+  /// So many fans have sides that fit in a number: one bit of each quarter a fan.
+  static constexpr std::size_t most_fans = 16;
+
   /// Adds to the sides of the points on the far side of which planes they certainly lie. All points of a set on the far
-  /// side of one plane: the set, and its hull, is certainly apart from the fan.
-  /// \pre compare() with a box was called for these points
-  void compare(Places& points) const {
-    for (std::size_t k = 0; k < size_; ++k)
-      points.compare(normals_[k], levels_[k], Places::Sides{1} << (first_side + k));
+  /// side of one plane: the set, and its hull, is certainly apart from the fan. \param fan the number of this one
+  /// \pre sides of these points were set
+  void compare(Places& points, std::size_t fan = 0) const {
+    for (std::size_t k = 0; k < size_; k += 2) {
+      const Places::Sides side = Places::Sides{1} << (most_fans * k + fan);
+      points.compare(normals_[k], levels_[k], side, normals_[k + 1], levels_[k + 1], side << most_fans);
+    }
+  }
+
+  /// The numbers of the fans, a bit each, from which something is apart all of whose corners lie on these sides.
+  static unsigned apart_from_fans(Places::Sides sides) {
+    sides |= sides >> 32;
+    return static_cast<unsigned>(sides | sides >> 16) & 0xffff;
+  }
+
+  /// About `side * up`, turned so that neither end of the way is higher than the spoke's.
+  static Vector leaning(const Vector& spoke, const Vector& way, const Vector& up, double side) {
+    const Vector from_start = scaled(upright_to(up, spoke), side);
+    if (quick_dot(from_start, way) <= 0)
+      return from_start;
+    const Vector from_end = scaled(upright_to(up, minus(spoke, way)), side);
+    if (quick_dot(from_end, spoke) >= 0)
+      return from_end;
+    const Vector swept = quick_cross(spoke, way); // normal to what the spoke sweeps over
+    return quick_dot(swept, up) * side < 0 ? scaled(swept, -1) : swept;
   }
 
 private:
@@ -72,8 +95,6 @@ private:
 
   /// Of the length: coordinates are at most 1 + lean.
   static constexpr double longest_normal = 3.5;
-
-  static constexpr std::size_t first_side = 6; ///< behind those of a box
 
   std::size_t size_ = 0;
   std::array<Vector, 4> normals_;
@@ -88,18 +109,6 @@ private:
     upright = of_size_one(upright);
     for (const double side : {-1.0, 1.0})
       normals_[size_++] = quick_sum(upright, lean, of_size_one(leaning(spoke, way, up, side)));
-  }
-
-  /// About `side * up`, turned so that neither end of the way is higher than the spoke's.
-  static Vector leaning(const Vector& spoke, const Vector& way, const Vector& up, double side) {
-    const Vector from_start = scaled(upright_to(up, spoke), side);
-    if (quick_dot(from_start, way) <= 0)
-      return from_start;
-    const Vector from_end = scaled(upright_to(up, minus(spoke, way)), side);
-    if (quick_dot(from_end, spoke) >= 0)
-      return from_end;
-    const Vector swept = quick_cross(spoke, way); // normal to what the spoke sweeps over
-    return quick_dot(swept, up) * side < 0 ? scaled(swept, -1) : swept;
   }
 
   /// What of a is normal to b.
