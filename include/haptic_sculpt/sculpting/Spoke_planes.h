@@ -85,7 +85,7 @@ private:
   static unsigned beyond_before(Sides sides) { return static_cast<unsigned>(sides >> 32 | sides >> 48); }
 
   /// As in Swept_fan, for sums of two heights with directions of at most 1 and `lean`.
-  static constexpr double rounding = 0x1p-45, longest_normal = 3.5;
+  static constexpr double rounding = 0x1p-45, longest_normal = 2.25;
 
   /// How far planes lean: little, for what is under or over the middle of the fan leans with the angle between the
   /// spokes.
