@@ -66,17 +66,19 @@ private:
   std::vector<std::uint32_t> kept_; ///< the places that are copied
   std::uint32_t round_ = 0;
 
+  /// Of a run.
+  static constexpr std::size_t most_faces = std::min(Separating_planes::most_faces, Spoke_planes::most_faces);
   /// A large star is divided into so many parts at least: hardly anything is apart from a third of a star.
   static constexpr std::size_t least_parts = 4;
   /// Into so many where there are more runs than parts can be: more take more planes, fewer more divisions.
   static constexpr std::size_t usual_parts = 8;
 
-  /// Faces of a star that is not large.
-  Run run_of_few(const Scene& scene, std::size_t first, std::size_t last) {
-    Near_candidates& all = levels_[0].near;
+  /// Faces of a star that is not large, or on a long way.
+  Run run_of_few(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth = 0) {
+    Near_candidates& near = levels_[depth].near;
     planes_.assign(scene.motion.way(), spokes_, first, last, reach_, scene.margin, box_of(scene, first, last));
-    planes_.compare(all.places);
-    return Run(scene.list, scene.star.valence(), all, first, last, planes_);
+    planes_.compare(near.places);
+    return Run(scene.list, scene.star.valence(), near, first, last, planes_);
   }
   /// A narrow part of a large star.
   Run run_of_many(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth) {
@@ -89,9 +91,10 @@ private:
   /// Parts are made as even as possible, and parts of them, until each is a run.
   template <class Visit>
   bool divide(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth, const Visit& visit) {
-    const std::size_t faces = last - first, runs = (faces + Spoke_planes::most_faces - 1) / Spoke_planes::most_faces;
+    const std::size_t faces = last - first, runs = (faces + most_faces - 1) / most_faces;
     if (runs == 1)
-      return visit(run_of_many(scene, first, last, depth));
+      return visit(is_long(scene, first) ? run_of_few(scene, first, last, depth)
+                                         : run_of_many(scene, first, last, depth));
     const std::size_t few = depth == 0 ? std::max(least_parts, runs) : runs,
                       parts = runs > Swept_fan::most_fans ? usual_parts : few;
     const auto begin = [&](std::size_t part) { return first + faces * part / parts; };
@@ -102,6 +105,11 @@ private:
         return false;
     }
     return true;
+  }
+
+  /// Whether the motion is longer than a spoke: what is swept over is a cone then, which planes to its tip fit best.
+  bool is_long(const Scene& scene, std::size_t spoke) const {
+    return quick_magnitude(scene.motion.way()) > quick_magnitude(spokes_[spoke]);
   }
 
   /// Finds which of the candidates kept at this depth are near which part.
