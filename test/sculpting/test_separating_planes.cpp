@@ -188,17 +188,6 @@ struct Session {
   }
 };
 
-/// A name for a private member: access is not checked where templates are instantiated explicitly.
-template <class Tag, typename Tag::Type member>
-struct Opened {
-  friend typename Tag::Type opened(Tag) { return member; }
-};
-struct Round_of_runs {
-  using Type = std::uint32_t internal::Star_runs<Mesh>::*;
-  friend Type opened(Round_of_runs);
-};
-template struct Opened<Round_of_runs, &internal::Star_runs<Mesh>::round_>;
-
 } // namespace
 
 BOOST_AUTO_TEST_CASE(what_planes_about_spokes_say_is_apart_is_apart) {
@@ -245,26 +234,6 @@ BOOST_AUTO_TEST_CASE(impacts_in_soups_are_those_of_all_pairs) {
   BOOST_TEST(session.met > session.covered / 20);
   BOOST_TEST(session.refused > session.collapses / 20);
   BOOST_TEST(session.refused < session.collapses * 19 / 20);
-}
-
-// Some hours of dragging a vertex of valence 1000.
-BOOST_AUTO_TEST_CASE(runs_outlast_the_numbers_of_their_rounds) {
-  Random random(seed_from_environment(94));
-  std::size_t wrong = 0;
-  for (int k = 0; k < 1000; ++k) {
-    Session session;
-    const auto drag = [&](std::size_t valence, std::size_t triangles) {
-      const Drawn_star drawn(random, valence, 0, 0);
-      const Soup soup(random, drawn, triangles, 0.5);
-      soup.fill(session.list);
-      session.check_motion(All_pairs(soup.mesh, soup.star, soup.triangles), soup.source, soup.target, 0);
-    };
-    drag(60, 4); // makes room for the numbers and leaves some behind
-    session.narrow.runs().*opened(Round_of_runs()) = 0xffffffffu - random() % 4;
-    drag(29 + random() % 26, 1 + random() % 3);
-    wrong += session.wrong;
-  }
-  BOOST_TEST(wrong == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(impacts_in_meshes_are_those_of_all_pairs) {

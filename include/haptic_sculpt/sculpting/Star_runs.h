@@ -59,12 +59,9 @@ private:
   double reach_ = 0;                                  ///< of the coordinates of spokes and places
   Separating_planes planes_;
   Spoke_planes spoke_planes_;
-  struct Copy {
-    std::uint32_t round = 0, place = 0;
-  };
-  std::vector<Copy> copies_;        ///< when a place was copied last, and where to
-  std::vector<std::uint32_t> kept_; ///< the places that are copied
-  std::uint32_t round_ = 0;
+  static constexpr std::uint32_t nowhere = 0xffffffff;
+  std::vector<std::uint32_t> kept_;   ///< the places that are copied
+  std::vector<std::uint32_t> copies_; ///< where to; nowhere for all others
 
   /// Of a run.
   static constexpr std::size_t most_faces = std::min(Separating_planes::most_faces, Spoke_planes::most_faces);
@@ -157,21 +154,18 @@ private:
     near.places.reserve(from.places.size());
     near.positions.reserve(from.places.size());
     kept_.reserve(from.places.size());
-    if (copies_.size() < from.places.size() || ++round_ == 0) {
-      copies_.assign(std::max(copies_.size(), from.places.size()), Copy{});
-      round_ = 1;
-    }
+    if (copies_.size() < from.places.size())
+      copies_.resize(from.places.size(), nowhere);
     kept_.assign(part.places.begin(), part.places.begin() + part.number_of_places);
     for (std::uint32_t k = 0; k < kept_.size(); ++k)
-      copies_[kept_[k]] = {round_, k};
+      copies_[kept_[k]] = k;
     // As a rule an edge that is near has ends that are, but not each.
     const auto copied = [&](std::uint32_t place) {
-      Copy& copy = copies_[place];
-      if (copy.round != round_) {
-        copy = {round_, static_cast<std::uint32_t>(kept_.size())};
+      if (copies_[place] == nowhere) {
+        copies_[place] = static_cast<std::uint32_t>(kept_.size());
         kept_.push_back(place);
       }
-      return copy.place;
+      return copies_[place];
     };
     near.edges.resize(part.number_of_edges);
     for (std::size_t k = 0; k < part.number_of_edges; ++k) {
@@ -180,8 +174,10 @@ private:
     }
     near.places.assign(from.places, kept_);
     near.positions.resize(kept_.size());
-    for (std::size_t k = 0; k < kept_.size(); ++k)
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
       near.positions[k] = from.positions[kept_[k]];
+      copies_[kept_[k]] = nowhere;
+    }
   }
 
   /// Around what these faces sweep over, in coordinates from the start of the motion. Rounded like those of the
