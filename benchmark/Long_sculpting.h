@@ -146,7 +146,7 @@ private:
     Drag_result<Mesh> result;
     const auto end = responses.move(Response::slide, guard, mesh_, s, t, sculptor_.clearance(to), largest, 0, result);
     const auto legs = guard.way(s, end);
-    tally_.ways_unproven += end != s && legs.empty();
+    tally_.ways_unproven += end != s && (legs.empty() || legs.size() > static_cast<std::size_t>(result.legs));
     const test::Surroundings around(mesh_, v);
     for (const auto& [from, on] : legs) {
       ++tally_.legs_checked;

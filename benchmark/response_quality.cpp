@@ -25,7 +25,7 @@ enum Exit { all_kept = 0, usage = 2, not_embedded = 10, no_minimum = 11, contrad
 
 /// One scene, response and clearance.
 struct Row {
-  std::size_t drags = 0, held = 0, judged = 0, at_minimum = 0, legs = 0;
+  std::size_t drags = 0, held = 0, judged = 0, at_minimum = 0, legs = 0, most_legs = 0;
   double left = 0; ///< sum of distances left to the target, in half extents of the scene
   std::vector<double> nanoseconds;
 };
@@ -60,6 +60,7 @@ public:
         ++row.drags;
         row.held += !r.reached;
         row.legs += static_cast<std::size_t>(r.legs);
+        row.most_legs = std::max(row.most_legs, static_cast<std::size_t>(r.legs));
         row.left += std::sqrt(CGAL::squared_distance(r.position, target)) / subject.size;
         const auto check = test::check_local_minimum(around, mesh, r, target, sculptor.clearance(target), random_);
         ++row.judged;
@@ -89,6 +90,7 @@ public:
                        {"mean_distance_left", row.left / n},
                        {"share_at_minimum", static_cast<double>(row.at_minimum) / static_cast<double>(row.judged)},
                        {"mean_legs", static_cast<double>(row.legs) / n},
+                       {"most_legs", row.most_legs},
                        {"mean_ns", sum / n},
                        {"median_ns", sorted[sorted.size() / 2]},
                        {"p99_ns", sorted[sorted.size() * 99 / 100]}});
@@ -172,8 +174,8 @@ Exit run(const Options& options) {
     report["chart"] = chart.json();
     for (const auto& row : report["chart"])
       std::cout << row["scene"].get<std::string>() << ", " << row["response"].get<std::string>() << ": left "
-                << row["mean_distance_left"] << ", at a minimum " << row["share_at_minimum"] << ", legs " << row["mean_legs"] << ", "
-                << row["mean_ns"] << " ns\n";
+                << row["mean_distance_left"] << ", at a minimum " << row["share_at_minimum"] << ", legs " << row["mean_legs"] << " (most "
+                << row["most_legs"] << "), " << row["mean_ns"] << " ns\n";
     if (chart.invalid() > 0)
       exit = not_embedded;
   }

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting.h>
 
+#include <deque>
 #include <map>
 #include <set>
 #include <utility>
@@ -31,13 +32,13 @@ public:
     return free;
   }
 
-  /// The legs of a way from source to target through free motions only, or none: then the vertex has gone where nothing was proven.
+  /// The legs of a way from source to target through free motions only, as few as can be, or none: then the vertex has gone where nothing was proven.
   std::vector<std::pair<Coordinates, Coordinates>> way(const Coordinates& source, const Coordinates& target) const {
     std::map<Coordinates, Coordinates> came_from;
-    std::vector<Coordinates> open = {source};
+    std::deque<Coordinates> open = {source}; // those of fewest legs first
     while (!open.empty() && came_from.count(target) == 0) {
-      const Coordinates x = open.back();
-      open.pop_back();
+      const Coordinates x = open.front();
+      open.pop_front();
       for (auto i = free_.lower_bound({x, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}}); i != free_.end() && i->first == x; ++i)
         if (i->second != source && came_from.emplace(i->second, x).second)
           open.push_back(i->second);

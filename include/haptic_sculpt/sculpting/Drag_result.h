@@ -37,7 +37,7 @@ struct Drag_result {
   bool reached = false;                      ///< whether that is the target
   Drag_end end = Drag_end::reached;          ///< why the drag ended
   Contacts contacts;                         ///< what holds it, in an order that depends on the elements only
-  int legs = 0;                              ///< straight motions that were made, one after the other
+  int legs = 0;                              ///< straight motions, each proven, from where it was to `position`
   /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact is
   /// flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.
   double stop_error = 0;

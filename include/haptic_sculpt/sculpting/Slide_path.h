@@ -20,6 +20,8 @@ public:
 
   int legs() const { return legs_; }
   const Vector& end() const { return points_[legs_]; }
+  /// Where leg i begins, and leg i - 1 ends. \pre 0 <= i <= legs()
+  const Vector& point(int i) const { return points_[i]; }
 
   /// \pre legs() < most_legs, and the way from end() to there is free
   void add(const Vector& point) { points_[++legs_] = point; }
@@ -31,23 +33,30 @@ public:
   }
   Slide_path(const Slide_path& other) { *this = other; }
 
-  /// Puts one or two legs in place of many, between the same ends, wherever those are free: round a finely cut surface
-  /// the way found is one of many legs, a facet each, and not the only one. Ways of two legs pass the middle of what they
-  /// replace, or above it, away from the target. Returns whether there are fewer now.
-  /// \param is_free(a, b) whether the straight way from a to b is free; called some hundred times at most
+  /// What is tried in the place of many legs.
+  enum class Ways { straight, straight_and_bent };
+
+  /// Puts one leg or two in the place of many, between the same two points, wherever those are free: round a finely cut
+  /// surface the way found is one of many legs, a facet each, and not the only one. From each point on, the farthest
+  /// ones are tried first, and half as far and so on. Bent ways, of two legs, pass the middle of what they replace, or
+  /// above it, away from the target. The path begins and ends where it did. Returns whether there are fewer legs now.
+  /// \param is_free(a, b) whether the straight way from a to b is free; every leg that is new has been asked for. Called
+  ///        160 times at most for straight ways, some hundred times for bent ones too
+  /// \param enough no more is tried once so few legs are left
   template <class Is_free>
-  bool shorten(const Vector& target, const Is_free& is_free) {
-    std::array<Vector, most_legs + 1> old = points_;
+  bool shorten(const Vector& target, const Is_free& is_free, Ways ways, int enough = 1) {
+    const std::array<Vector, most_legs + 1> old = points_;
     const int before = legs_;
     legs_ = 0;
     for (int i = 0; i < before;) {
       int next = i + 1;
-      for (int j = before; j > i + 1 && next == i + 1; j = i + (j - i) / 2) {
+      const bool is_enough = legs_ + before - i <= enough;
+      for (int j = before; !is_enough && j > i + 1 && next == i + 1; j = i + (j - i) / 2) {
         if (is_free(old[i], old[j])) {
           next = j;
           break;
         }
-        if (j - i < least_bent)
+        if (ways == Ways::straight || j - i < least_bent)
           continue;
         const Vector& middle = old[i + (j - i) / 2];
         const Vector up = normalized(minus(middle, target));

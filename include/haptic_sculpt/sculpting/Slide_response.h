@@ -18,8 +18,14 @@ public:
   using Coordinates = internal::Coordinates;
   using Vector = internal::Vector;
 
-  /// One drag makes at most so many legs.
+  /// A walk makes at most so many legs.
   static constexpr int most_legs = internal::Slide_path::most_legs;
+  /// When the drag has ended, straight ways are tried where it has made more legs than `few_legs`, bent ones too where
+  /// more than `many_legs` are left: one step of a hand shall make no more than so many, and a slide over a plane cut
+  /// into triangles no more than three beside the first (doc/slide.md, "The path made shorter").
+  static constexpr int few_legs = 4, many_legs = 8;
+  /// What bending has left may be bent again, so often.
+  static constexpr int most_bendings = 4;
   /// So often a path that has come to as many is made anew with fewer.
   static constexpr int most_shortenings = 8;
   /// A walk that has made so many legs begins to leap, every few legs.
@@ -45,6 +51,7 @@ public:
     walk_.begin(source);
     unmet_planes_.begin();
     Walk_end end;
+    const auto is_free = [&](const Vector& a, const Vector& b) { return guard.is_free(a, b, lengths.delta); };
     Vector before = source, at_last_shortening = source;
     int until = legs_before_leaps, shortenings = 0;
     for (;;) {
@@ -54,7 +61,7 @@ public:
       bool creeps = false;
       if (walk_.legs() + internal::Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
         ++shortenings;
-        walk_.path.shorten(target, [&](const Vector& a, const Vector& b) { return guard.is_free(a, b, lengths.delta); });
+        walk_.path.shorten(target, is_free, Ways::straight_and_bent);
         if (leap_far(guard, at_last_shortening, target, lengths))
           until = 0;
         else
@@ -80,6 +87,7 @@ public:
     }
     if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
+    make_shorter(target, is_free);
     walk_.forget([&](const auto& facet) { return facet.is_over(lengths.lifted()); });
     report(end, source, result);
     walk_.forget([](const auto& facet) { return facet.is_wall(); });
@@ -88,6 +96,7 @@ public:
 
 private:
   using Walk = internal::Slide_walk<Mesh>;
+  using Ways = internal::Slide_path::Ways;
 
   Walk walk_, trial_;
   internal::Unmet_planes<Mesh> unmet_planes_;
@@ -150,6 +159,16 @@ private:
           }
         }
     return walk_.x != start.x;
+  }
+
+  /// The drag has ended: fewer legs lead to the same place. Ways round nothing but seams are straight.
+  template <class Is_free>
+  void make_shorter(const Vector& target, const Is_free& is_free) {
+    if (walk_.legs() > few_legs)
+      walk_.path.shorten(target, is_free, Ways::straight, few_legs);
+    for (int i = 0; i < most_bendings && walk_.legs() > many_legs; ++i)
+      if (!walk_.path.shorten(target, is_free, Ways::straight_and_bent, few_legs))
+        break;
   }
 
   void report(internal::Walk_end end, const Vector& source, Drag_result<Mesh>& result) const {
