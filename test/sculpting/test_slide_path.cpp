@@ -121,6 +121,6 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_free_the_path_stays_and_little_is_asked) {
     for (int i = 0; i <= Slide_path::most_legs; ++i)
       BOOST_TEST(outcome.path.point(i) == points[static_cast<std::size_t>(i)]);
   }
-  BOOST_TEST(straight.asked <= 160u);
-  BOOST_TEST(bent.asked <= 600u);
+  BOOST_TEST(straight.asked <= 103u);
+  BOOST_TEST(bent.asked <= 400u);
 }

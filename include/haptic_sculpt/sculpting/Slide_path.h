@@ -40,8 +40,8 @@ public:
   /// surface the way found is one of many legs, a facet each, and not the only one. From each point on, the farthest
   /// ones are tried first, and half as far and so on. Bent ways, of two legs, pass the middle of what they replace, or
   /// above it, away from the target. The path begins and ends where it did. Returns whether there are fewer legs now.
-  /// \param is_free(a, b) whether the straight way from a to b is free; every leg that is new has been asked for. Called
-  ///        160 times at most for straight ways, some hundred times for bent ones too
+  /// \param is_free(a, b) whether the straight way from a to b is free; every leg that is new has been asked
+  ///        for. Called about a hundred times at most for straight ways, four hundred times for bent ones too
   /// \param enough no more is tried once so few legs are left
   template <class Is_free>
   bool shorten(const Vector& target, const Is_free& is_free, Ways ways, int enough = 1) {
