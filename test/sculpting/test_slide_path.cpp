@@ -48,15 +48,15 @@ Outcome shortened(const std::vector<Vector>& points, const Is_free& is_free, Way
     proven.emplace(points[i - 1], points[i]);
   Outcome outcome{path_of(points)};
   outcome.says_fewer = outcome.path.shorten(
-    origin,
-    [&](const Vector& a, const Vector& b) {
-      ++outcome.asked;
-      const bool free = is_free(a, b);
-      if (free)
-        proven.emplace(a, b);
-      return free;
-    },
-    ways, enough);
+      origin,
+      [&](const Vector& a, const Vector& b) {
+        ++outcome.asked;
+        const bool free = is_free(a, b);
+        if (free)
+          proven.emplace(a, b);
+        return free;
+      },
+      ways, enough);
   for (int i = 0; i < outcome.path.legs(); ++i)
     outcome.not_proven += proven.count({outcome.path.point(i), outcome.path.point(i + 1)}) == 0;
   outcome.ends_stay = std::memcmp(&outcome.path.point(0), &points.front(), sizeof(Vector)) == 0 &&
@@ -69,7 +69,8 @@ std::vector<Vector> around_cylinder(int legs, double angle, double from, double 
   const double radius = 1.0001 / std::cos(angle / legs / 2);
   std::vector<Vector> points;
   for (int i = 0; i <= legs; ++i)
-    points.push_back({radius * std::cos(from + angle * i / legs), radius * std::sin(from + angle * i / legs), rise * i});
+    points.push_back(
+        {radius * std::cos(from + angle * i / legs), radius * std::sin(from + angle * i / legs), rise * i});
   return points;
 }
 
@@ -77,10 +78,13 @@ std::vector<Vector> around_cylinder(int legs, double angle, double from, double 
 
 BOOST_AUTO_TEST_CASE(paths_half_round_a_cylinder_become_short) {
   std::mt19937_64 random(512);
-  const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto number = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   int most_bent = 0, most_straight = 0;
   for (int i = 0; i < 2000; ++i) {
-    const int legs = 1 + static_cast<int>(random() % Slide_path::most_legs), enough = 1 + static_cast<int>(random() % 8);
+    const int legs = 1 + static_cast<int>(random() % Slide_path::most_legs),
+              enough = 1 + static_cast<int>(random() % 8);
     const auto points = around_cylinder(legs, number(0.1, pi), number(0, 2 * pi), number(-0.1, 0.1));
     for (const Ways ways : {Ways::straight, Ways::straight_and_bent}) {
       const Outcome outcome = shortened(points, is_free_of_cylinder, ways, enough);
@@ -104,7 +108,8 @@ BOOST_AUTO_TEST_CASE(steps_of_an_ulp_over_a_plane_become_one_leg) {
   std::vector<Vector> points = {{-1, -1, 1}};
   for (int i = 0; i < 7; ++i)
     points.push_back({0.5, 0.5, 1e-15 * static_cast<double>(1 + random() % 8)});
-  const Outcome outcome = shortened(points, [](const Vector& a, const Vector& b) { return a[2] > 0 && b[2] > 0; }, Ways::straight, 4);
+  const Outcome outcome = shortened(
+      points, [](const Vector& a, const Vector& b) { return a[2] > 0 && b[2] > 0; }, Ways::straight, 4);
   BOOST_TEST(outcome.path.legs() == 1);
   BOOST_TEST(outcome.asked == 1u);
   BOOST_TEST(outcome.ends_stay);
@@ -113,7 +118,8 @@ BOOST_AUTO_TEST_CASE(steps_of_an_ulp_over_a_plane_become_one_leg) {
 BOOST_AUTO_TEST_CASE(where_nothing_is_free_the_path_stays_and_little_is_asked) {
   const auto points = around_cylinder(Slide_path::most_legs, 6, 0, 0.01);
   const auto never = [](const Vector&, const Vector&) { return false; };
-  const Outcome straight = shortened(points, never, Ways::straight, 4), bent = shortened(points, never, Ways::straight_and_bent, 4);
+  const Outcome straight = shortened(points, never, Ways::straight, 4),
+                bent = shortened(points, never, Ways::straight_and_bent, 4);
   BOOST_TEST_MESSAGE(straight.asked << " ways asked for, " << bent.asked << " with bent ones");
   for (const Outcome& outcome : {straight, bent}) {
     BOOST_TEST(!outcome.says_fewer);
