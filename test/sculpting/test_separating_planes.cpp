@@ -123,7 +123,8 @@ struct Session {
   Narrow_phase<Mesh> narrow{counters};
   internal::Edit_proof<Mesh, Filter_counters> proof{counters};
   Star_impacts<Mesh> found;
-  std::size_t motions = 0, blocked = 0, several = 0, late = 0, collapses = 0, refused = 0, balls = 0, covered = 0, met = 0, wrong = 0;
+  std::size_t motions = 0, blocked = 0, several = 0, late = 0, collapses = 0, refused = 0, balls = 0, covered = 0, met = 0, meeting = 0,
+              left_out = 0, wrong = 0;
 
   void check_motion(const All_pairs& all, const Coordinates& source, const Coordinates& target,
                     std::size_t rounding) {
@@ -137,6 +138,36 @@ struct Session {
     ++motions, blocked += !expected.empty(), several += expected.size() > 1;
     late += !expected.empty() && expected[0].impact().time().second > 0;
     wrong += !same(found, expected) || is_free != expected.empty();
+  }
+
+  /// Of all pairs that meet on the way, not only the first, none has been left out of the runs of the star's faces.
+  void check_left_out(const All_pairs& all, const Coordinates& source, const Coordinates& target, std::size_t rounding) {
+    if (all.star.valence() == 0)
+      return;
+    using Pair = std::pair<Impact_feature, std::array<Vertex_index, 3>>;
+    std::set<Pair> asked;
+    const auto& link = all.star.link;
+    const auto index = [this](std::size_t v) { return list.vertices()[v].index; };
+    {
+      const Rounding in_this_mode(rounding);
+      internal::Star_motion motion(source, target);
+      narrow.runs().for_each_run(all.star, list, motion, 0, [&](const auto& run) {
+        run.for_each_edge_pair([&](std::size_t i, std::uint32_t e) {
+          const Vertex_index a = index(list.edges()[e][0]), b = index(list.edges()[e][1]);
+          return asked.insert({Impact_feature::edge_edge, {link[i], std::min(a, b), std::max(a, b)}}).second;
+        });
+        run.for_each_vertex_pair([&](std::size_t i, std::uint32_t v) {
+          return asked.insert({Impact_feature::face_vertex, {link[i], link[all.star.next(i)], index(v)}}).second;
+        });
+        return true;
+      });
+    }
+    all.for_each_hit(source, target, [&](Impact_feature feature, const std::array<Vertex_index, 3>& vertices, const auto&, const auto&) {
+      if (feature == Impact_feature::vertex_face)
+        return; // no matter of runs in a large star
+      ++meeting;
+      left_out += asked.count({feature, vertices}) == 0;
+    });
   }
 
   /// A part of the way is looked at first: what comes first in it is told.
@@ -184,7 +215,7 @@ struct Session {
     return out << s.motions << " motions, " << s.blocked << " blocked, " << s.several << " of them by several, " << s.late
                << " later than the start; " << s.balls
                << " balls, " << s.covered << " motions in them, " << s.met << " blocked; " << s.collapses << " collapses, "
-               << s.refused << " refused; " << s.wrong << " wrong";
+               << s.refused << " refused; " << s.meeting << " pairs that meet, " << s.left_out << " of them left out; " << s.wrong << " wrong";
   }
 };
 
@@ -221,6 +252,7 @@ BOOST_AUTO_TEST_CASE(impacts_in_soups_are_those_of_all_pairs) {
     const All_pairs all(soup.mesh, soup.star, soup.triangles);
     BOOST_TEST(all.are_in(session.list));
     session.check_motion(all, soup.source, soup.target, random() % 8 < 4 ? 0 : random());
+    session.check_left_out(all, soup.source, soup.target, random() % 4);
     session.check_part(all, soup.source, soup.target, std::ldexp(1.0, -static_cast<int>(random() % 8)));
     session.check_ball(random, all, soup.source, drawn.size());
     if (!is_large && soup.star.valence() != 0)
@@ -228,6 +260,7 @@ BOOST_AUTO_TEST_CASE(impacts_in_soups_are_those_of_all_pairs) {
   }
   BOOST_TEST_MESSAGE(session);
   BOOST_TEST(session.wrong == 0u);
+  BOOST_TEST(session.left_out == 0u);
   BOOST_TEST(session.blocked > session.motions / 10);
   BOOST_TEST(session.late > session.motions / 10);
   BOOST_TEST(session.blocked < session.motions * 9 / 10);
@@ -266,12 +299,14 @@ BOOST_AUTO_TEST_CASE(impacts_in_meshes_are_those_of_all_pairs) {
             ? vertex_coordinates(mesh, Vertex_index(static_cast<Mesh::size_type>(random() % n)))
             : internal::advanced(source, std::ldexp(4, -static_cast<int>(random() % 8)), {x, y, z});
     session.check_motion(all, source, target, random() % 4);
+    session.check_left_out(all, source, target, random() % 4);
     session.check_part(all, source, target, std::ldexp(1.0, -static_cast<int>(random() % 4)));
     session.check_ball(random, all, source, 0.25);
     session.check_collapse(all, source, random() % star.valence());
   }
   BOOST_TEST_MESSAGE(session);
   BOOST_TEST(session.wrong == 0u);
+  BOOST_TEST(session.left_out == 0u);
   BOOST_TEST(session.blocked > session.motions / 10);
   BOOST_TEST(session.refused > 0u);
 }

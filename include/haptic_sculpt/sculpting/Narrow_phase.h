@@ -140,8 +140,10 @@ private:
   }
 
   static bool goes_on(Scene& scene, double until) {
+    if (until == enough)
+      return false;
     scene.motion.shorten(until);
-    return until != enough;
+    return true;
   }
 
   template <class Hit>

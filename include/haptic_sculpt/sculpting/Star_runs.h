@@ -21,7 +21,8 @@ public:
 
   /// Calls `visit(run)` until it returns false; returns whether it never did. In no run are pairs that certainly do not
   /// touch in the part of the motion that is of interest, and are then farther than `margin` (rounded) from each other;
-  /// of those that may, none is left out. The visitor may shorten the motion.
+  /// of those that may, none is left out. The visitor may shorten the motion. \pre it does not keep the run, nor ask for
+  /// other runs meanwhile: they share their memory
   template <class Visit>
   bool for_each_run(const Star<Mesh>& star, const Checklist<Mesh>& list, Star_motion& motion, double margin,
                     const Visit& visit) {
