@@ -77,6 +77,7 @@ std::vector<Vector> around_cylinder(int legs, double angle, double from, double 
 } // namespace
 
 BOOST_AUTO_TEST_CASE(paths_half_round_a_cylinder_become_short) {
+  BOOST_TEST_MESSAGE("seed 512");
   std::mt19937_64 random(512);
   const auto number = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -104,6 +105,7 @@ BOOST_AUTO_TEST_CASE(paths_half_round_a_cylinder_become_short) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_of_an_ulp_over_a_plane_become_one_leg) {
+  BOOST_TEST_MESSAGE("seed 513");
   std::mt19937_64 random(513);
   std::vector<Vector> points = {{-1, -1, 1}};
   for (int i = 0; i < 7; ++i)

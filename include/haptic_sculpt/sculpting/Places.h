@@ -19,7 +19,6 @@ public:
   using Sides = std::uint64_t;
 
   std::size_t size() const { return x_.size(); }
-  Vector operator[](std::size_t v) const { return {x_[v], y_[v], z_[v]}; }
   Sides sides(std::size_t v) const { return sides_[v]; }
 
   void reserve(std::size_t n) { x_.reserve(n), y_.reserve(n), z_.reserve(n), sides_.reserve(n); }

@@ -119,25 +119,23 @@ private:
     return near_->places.sides(edge.ends[0]) & near_->places.sides(edge.ends[1]);
   }
 
-  /// The bits of the spokes, of the faces, that what lies on these sides may touch.
+  /// The bits of the spokes that what lies on these sides may touch.
   unsigned spokes_near(Sides sides) const {
-    if (planes_ == nullptr)
-      return all() & ~Spoke_planes::apart_from_spokes(sides);
-    if ((sides & beyond_all_) != 0)
-      return 0;
-    unsigned result = 0;
-    for (std::size_t i = first; i < last; ++i)
-      result |= ((sides & planes_->beyond_edge(i)) == 0 ? 1u : 0u) << (i - first);
-    return result;
+    return planes_ == nullptr ? all() & ~Spoke_planes::apart_from_spokes(sides)
+                              : near(sides, [this](std::size_t i) { return planes_->beyond_edge(i); });
   }
+  /// The same of the faces.
   unsigned faces_near(Sides sides) const {
-    if (planes_ == nullptr)
-      return all() & ~Spoke_planes::apart_from_faces(sides);
+    return planes_ == nullptr ? all() & ~Spoke_planes::apart_from_faces(sides)
+                              : near(sides, [this](std::size_t i) { return planes_->beyond_face(i); });
+  }
+  template <class Beyond>
+  unsigned near(Sides sides, const Beyond& beyond) const {
     if ((sides & beyond_all_) != 0)
       return 0;
     unsigned result = 0;
     for (std::size_t i = first; i < last; ++i)
-      result |= ((sides & planes_->beyond_face(i)) == 0 ? 1u : 0u) << (i - first);
+      result |= ((sides & beyond(i)) == 0 ? 1u : 0u) << (i - first);
     return result;
   }
   unsigned all() const { return (1u << (last - first)) - 1; }
