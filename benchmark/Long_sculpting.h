@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_BENCHMARK_LONG_SCULPTING_H
 
 #include "sculpting/Recording_guard.h"
+#include "sculpting/clearances.h"
 #include "sculpting/local_minimum.h"
 
 #include <nlohmann/json.hpp>
@@ -121,7 +122,7 @@ private:
     tally_.contradictions += r.position != mesh_.point(v) || r.reached != (r.position == to) || r.legs > 32;
     ++tally_.legs[std::min<std::size_t>(32, static_cast<std::size_t>(r.legs))];
     if (check && !r.reached) {
-      const auto minimum = test::check_local_minimum(test::Surroundings(mesh_, v), mesh_, r, to, sculptor_.clearance(to), random_);
+      const auto minimum = test::check_local_minimum(test::Surroundings(mesh_, v), mesh_, r, to, test::clearance_kept(sculptor_, r), random_);
       if (minimum.asked) {
         ++tally_.minima_asked;
         tally_.minima_missed += minimum.random_gain > 0 || minimum.kkt_residual > 1e-9;
@@ -134,9 +135,6 @@ private:
     const std::array<double, 3> s = vertex_coordinates(mesh_, v), t = {to.x(), to.y(), to.z()};
     if (s == t)
       return;
-    double largest = internal::largest_magnitude(t);
-    for (const Vertex_index w : mesh_.vertices())
-      largest = std::fmax(largest, internal::largest_magnitude(vertex_coordinates(mesh_, w)));
     Box_tree_broad_phase<Mesh> broad_phase(mesh_);
     const Face_corners<Mesh> corners(mesh_);
     Filter_counters counters;
@@ -144,7 +142,7 @@ private:
     guard.collect(v);
     Responses<Mesh> responses;
     Drag_result<Mesh> result;
-    const auto end = responses.move(Response::slide, guard, mesh_, s, t, sculptor_.clearance(to), largest, 0, result);
+    const auto end = responses.move(Response::slide, guard, mesh_, s, t, {}, result);
     const auto legs = guard.way(s, end);
     tally_.ways_unproven += end != s && (legs.empty() || legs.size() > static_cast<std::size_t>(result.legs));
     const test::Surroundings around(mesh_, v);

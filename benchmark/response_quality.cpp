@@ -2,6 +2,7 @@
 // The same hand drags with each response: how far from the target it ends, how often at a local minimum, how long it takes.
 #include "Long_sculpting.h"
 
+#include "sculpting/clearances.h"
 #include "sculpting/convex_scenes.h"
 #include "sculpting/outside_scenes.h"
 
@@ -62,7 +63,7 @@ public:
         row.legs += static_cast<std::size_t>(r.legs);
         row.most_legs = std::max(row.most_legs, static_cast<std::size_t>(r.legs));
         row.left += std::sqrt(CGAL::squared_distance(r.position, target)) / subject.size;
-        const auto check = test::check_local_minimum(around, mesh, r, target, sculptor.clearance(target), random_);
+        const auto check = test::check_local_minimum(around, mesh, r, target, test::clearance_kept(sculptor, r), random_);
         ++row.judged;
         row.at_minimum += !check.asked || (check.random_gain <= 0 && check.directed_gain <= 0);
       }

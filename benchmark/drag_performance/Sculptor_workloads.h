@@ -6,6 +6,8 @@
 #include "drag_performance/Random_motions.h"
 #include "drag_performance/workload_meshes.h"
 
+#include "sculpting/clearances.h"
+
 #include <haptic_sculpt/sculpting.h>
 
 namespace haptic_sculpt::benchmark {
@@ -187,7 +189,7 @@ private:
       ++blocked;
       if (result.contacts.size() != 1 || result.contacts[0].is_flat)
         return;
-      stop_errors.add_nanoseconds(result.stop_error / sculptor.clearance(result.position));
+      stop_errors.add_nanoseconds(result.stop_error / test::clearance_kept(sculptor, result));
       beyond_two += stop_errors.last() > 2;
     }
   };

@@ -42,8 +42,8 @@ public:
     return time;
   }
   template <class Result>
-  Coordinates leg(const Coordinates& source, const Coordinates& target, double clearance, double delta, Result& result) {
-    return guard_->leg(source, target, clearance, delta, result);
+  Coordinates leg(const Coordinates& source, const Coordinates& target, const Drag_rules& rules, Result& result) {
+    return guard_->leg(source, target, rules, result);
   }
 
 private:

@@ -114,7 +114,6 @@ Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_count
   Filter_counters counters;
   Guarded_star<Mesh, Timed> guard(mesh, broad_phase, corners, counters);
   Drag_result<Mesh> result;
-  const double clearance = default_clearance(2);
   Latencies counted;
   std::size_t looks = guard.looks();
   std::vector<Wanted_list> wanted;
@@ -124,7 +123,7 @@ Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_count
     for (std::size_t i = 0; i < drag.targets.size(); ++i) {
       Latencies moved;
       if (with_stop)
-        moved.measure([&] { guard.leg(at, drag.targets[i], clearance, 0, result); });
+        moved.measure([&] { guard.leg(at, drag.targets[i], {}, result); });
       else
         moved.measure([&] { guard.decide(at, drag.targets[i], 0); });
       const bool has_looked = guard.looks() != looks;
@@ -175,7 +174,6 @@ void add_slide_phases(Json& phases, const Workload_mesh& scene, std::uint64_t se
   Guarded_star<Mesh, Timed> star(mesh, broad_phase, corners, counters);
   Timed_guard<Guarded_star<Mesh, Timed>> guard(star);
   Responses<Mesh> responses;
-  const double clearance = default_clearance(2);
   Random_motions random(seed);
   Latencies whole, asking, deciding, planes, calls;
   for (std::size_t k = 0; k < count; ++k) {
@@ -195,7 +193,7 @@ void add_slide_phases(Json& phases, const Workload_mesh& scene, std::uint64_t se
       Latencies one;
       guard.reset();
       Timed::asking() = 0;
-      at = one.measure([&] { return responses.move(Response::slide, guard, mesh, at, target, clearance, 2, 0, result); });
+      at = one.measure([&] { return responses.move(Response::slide, guard, mesh, at, target, {}, result); });
       if (is_met) {
         whole.add_nanoseconds(one.last());
         asking.add_nanoseconds(Timed::asking());

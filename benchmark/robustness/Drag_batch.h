@@ -4,6 +4,7 @@
 
 #include "Drag_tally.h"
 #include "Random_places.h"
+#include "sculpting/clearances.h"
 
 #include <chrono>
 
@@ -62,7 +63,7 @@ private:
     tally_.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
     ++tally_.drags;
     ++(result.reached ? tally_.reached : tally_.blocked);
-    const double error = result.stop_error / sculptor_.clearance(target);
+    const double error = result.stop_error / test::clearance_kept(sculptor_, result);
     const bool determined = result.contacts.size() == 1 && !result.contacts[0].is_flat;
     if (kind == Kind::short_random) {
       ++tally_.short_asked;

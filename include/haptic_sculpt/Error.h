@@ -2,6 +2,8 @@
 #ifndef HAPTIC_SCULPT_ERROR_H
 #define HAPTIC_SCULPT_ERROR_H
 
+#include <locale>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +17,18 @@ public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 
+namespace internal {
+
+/// A number as messages show it, with all its digits, whatever the locale.
+inline std::string number(double x) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(17);
+  out << x;
+  return out.str();
+}
+
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

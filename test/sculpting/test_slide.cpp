@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "sculpting/Slide_faults.h"
+#include "sculpting/clearances.h"
 #include "sculpting/optimum_check.h"
 
 using namespace haptic_sculpt;
@@ -92,7 +93,7 @@ BOOST_AUTO_TEST_CASE(pushes_end_at_the_unique_optimum) {
           history.targets.push_back(target);
           const auto r = grab.drag_to(target);
           BOOST_REQUIRE(r.position == mesh.point(scene.moved));
-          check_end(scene, mesh, source, target, sculptor.clearance(target), is_default, r, "push " + std::to_string(i), found, &history);
+          check_end(scene, mesh, source, target, is_default ? largest_clearance(sculptor, target) : length, is_default, r, "push " + std::to_string(i), found, &history);
         }
         BOOST_REQUIRE(validate(mesh).is_valid());
       }
@@ -118,7 +119,7 @@ BOOST_AUTO_TEST_CASE(probes_end_at_the_unique_optimum) {
         for (int i = 0; i < 10; ++i, ++done) {
           const Point_3 target = scene.target(random, source);
           const auto r = sculptor.probe(source, target);
-          check_end(scene, mesh, source, target, std::fmax(length, length == default_length ? sculptor.clearance(target) : 0),
+          check_end(scene, mesh, source, target, length == default_length ? largest_clearance(sculptor, target) : length,
                     length == default_length, r, "probe", found);
         }
         sculptor.check_unchanged();

@@ -48,10 +48,10 @@ BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
       const Coordinates s = vertex_coordinates(mesh, v), t = {target.x(), target.y(), target.z()};
       if (s == t)
         continue;
-      const double c = i % 2 == 0 ? default_clearance(4 * size) : 1e-6;
+      const std::optional<double> c = i % 2 == 0 ? std::nullopt : std::optional<double>(1e-6);
       Drag_result<Mesh> result;
       guard.clear();
-      const Coordinates end = responses.move(response_under_test(), guard, mesh, s, t, c, 4 * size, 0, result);
+      const Coordinates end = responses.move(response_under_test(), guard, mesh, s, t, {Clearance_rule(c), 0}, result);
       held += end != t;
       const auto legs = guard.way(s, end);
       // The path that is reported is one of free motions: none of fewer legs is needed to explain it.

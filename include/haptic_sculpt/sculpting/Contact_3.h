@@ -59,6 +59,18 @@ Contact_3<Mesh> contact_of(const Star_impact<Mesh>& impact, const internal::Path
   return contact;
 }
 
+namespace internal {
+
+/// Of the still features of a contact.
+template <class Mesh>
+double largest_coordinate_of(const Contact_3<Mesh>& contact) {
+  double largest = 0;
+  for (const Coordinates& p : contact.plane)
+    largest = std::fmax(largest, largest_magnitude(p));
+  return largest;
+}
+
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

@@ -3,13 +3,14 @@
 #define HAPTIC_SCULPT_SCULPTING_FACET_H
 
 #include <haptic_sculpt/sculpting/Contact_3.h>
+#include <haptic_sculpt/sculpting/clearance.h>
 #include <haptic_sculpt/sculpting/delta_limit.h>
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// What one contact forbids the moving vertex J, taken as a point: to cross a planar convex facet (RULES 4,
-/// doc/slide.md).
+/// What one contact forbids the moving vertex J, taken as a point: to cross a planar convex facet
+/// (doc/slide.md).
 ///
 /// vertex-face: the triangle ABC; edge-edge: the part of plane V A B beyond AB, between the rays VA and VB;
 /// face-vertex: the wedge A + s (A - G) + t (A - I), s, t >= 0. The delta rule forbids to go through the surface of
@@ -20,7 +21,10 @@ namespace internal {
 template <class Mesh>
 class Facet {
 public:
-  Facet(const Contact_3<Mesh>& contact, const Vector& point_of_contact) : contact_(contact), foot_(point_of_contact) {
+  Facet(const Contact_3<Mesh>& contact, const Vector& point_of_contact)
+      : contact_(contact)
+      , foot_(point_of_contact)
+      , reach_(largest_coordinate_of(contact)) {
     if (contact.kind == Contact_kind::delta || contact.is_flat)
       return;
     // The plane's own normal, about which its three points run counterclockwise.
@@ -49,17 +53,26 @@ public:
   /// How far J is from the facet's plane, as of the last measure(); negative beyond.
   double height() const { return height_; }
 
-  /// Whether J has lifted off, or has gone round the facet to its other side (whose sign is exact).
-  bool is_over(double lifted) const { return height_ > lifted || (height_ < 0 && !contact_.is_flat); }
+  /// What J keeps from the plane where it is, as of the last measure().
+  double clearance() const { return clearance_; }
+  /// Of the features that stand still.
+  double largest_coordinate() const { return reach_; }
+
+  /// Whether J has lifted off by so many clearances, or has gone round the facet to its other side (whose sign is
+  /// exact).
+  bool is_over(double clearances) const {
+    return height_ > clearances * clearance_ || (height_ < 0 && !contact_.is_flat);
+  }
 
   /// J is at x now.
-  void measure(const Vector& x) {
+  void measure(const Vector& x, const Drag_rules& rules) {
+    clearance_ = rules.clearance.at(std::fmax(reach_, largest_magnitude(x)));
     if (contact_.kind == Contact_kind::delta) {
       const Altitude_over over = side_of_altitude();
       const Vector slope = altitude_slope(x, contact_.plane[0], contact_.plane[1], over);
       const double steepness = length(slope);
       contact_.normal = normalized(slope);
-      height_ = (altitude(x, contact_.plane[0], contact_.plane[1], over) - delta_) / (steepness > 0 ? steepness : 1);
+      height_ = (altitude(x, contact_.plane[0], contact_.plane[1], over) - rules.delta) / (steepness > 0 ? steepness : 1);
     } else if (contact_.is_flat)
       height_ = dot(contact_.normal, minus(x, foot_));
     else
@@ -76,13 +89,13 @@ public:
 
   /// Whether J has gone past a border: its plane goes on, but is no obstacle there. At once when J is as far as the
   /// clearance from the facet itself; a facet that is met again right after that holds on until J is `border` past it.
-  bool is_left(const Vector& x, double clearance, double resolution, double border) const {
-    return is_past(x, clearance, holds_on_ ? border : resolution);
+  bool is_left(const Vector& x, double resolution, double border) const {
+    return is_past(x, holds_on_ ? border : resolution);
   }
   /// The same for one that does not hold on.
-  bool is_past(const Vector& x, double clearance, double resolution) const {
+  bool is_past(const Vector& x, double resolution) const {
     const double beside = outside(x);
-    return beside > resolution && beside * beside + height_ * height_ > clearance * clearance;
+    return beside > resolution && length({beside, height_, 0}) > clearance_;
   }
 
   void hold_on() { holds_on_ = true; }
@@ -94,8 +107,6 @@ public:
   double beyond_border(int i, const Vector& x) const { return dot(outward_[i], minus(x, border_[i])); }
   /// The direction, of length 1, of border i.
   Vector along_border(int i) const { return cross(outward_[i], contact_.normal); }
-
-  void set_delta(double delta) { delta_ = delta; }
 
   /// Whether border i of a face is also one of another: then J that goes past it goes over to the other.
   bool shares_border(int i, const Facet& other) const {
@@ -124,7 +135,7 @@ private:
   Vector foot_;
   std::array<Vector, 3> border_{}, outward_{};
   int borders_ = 0;
-  double height_ = 0, delta_ = 0;
+  double reach_, clearance_ = 0, height_ = 0;
   bool holds_on_ = false;
 
   /// The line from p to q; the facet lies on its left about the normal where sign is 1, on its right where it is -1.

@@ -9,6 +9,7 @@
 #include <haptic_sculpt/sculpting/delta_limit.h>
 #include <haptic_sculpt/sculpting/kkt_residual.h>
 #include <haptic_sculpt/sculpting/stop.h>
+#include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/fetch_ahead.h>
 
 namespace haptic_sculpt {
@@ -60,8 +61,14 @@ public:
     is_crowded_ = false;
   }
 
-  /// Finds what stops the motion: `firsts()` and the delta limits that come exactly first, or neither.
+  /// Finds what stops the motion: `firsts()` and the delta limits that come exactly first, or neither. A target that is
+  /// not in range, or no number, is blocked without either: whatever proposed it, no leg is made that is not proven.
   void decide(const Coordinates& source, const Coordinates& target, double delta) {
+    firsts_.clear();
+    limits_.clear();
+    is_out_of_range_ = !internal::is_in_range(target);
+    if (is_out_of_range_)
+      return;
     if (has_pairs(source, target))
       narrow_phase_.first_impacts(star_, list_, pairs_, source, target, firsts_);
     else
@@ -81,10 +88,12 @@ public:
   }
 
   const Star_impacts<Mesh>& firsts() const { return firsts_; }
-  bool is_blocked() const { return !firsts_.empty() || !limits_.empty(); }
+  bool is_blocked() const { return is_out_of_range_ || !firsts_.empty() || !limits_.empty(); }
 
-  /// Whether the closed way touches nothing and keeps the delta rule; exact.
+  /// Whether the target is in range and the closed way touches nothing and keeps the delta rule; exact.
   bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
+    if (!internal::is_in_range(target))
+      return false;
     bool free = true;
     if (has_pairs(source, target))
       free = narrow_phase_.is_free(star_, list_, pairs_, source, target);
@@ -95,24 +104,27 @@ public:
   }
 
   /// One leg from source towards target: all the way if it is free, else proven up to a stop. Fills contacts and stop error.
-  Coordinates leg(const Coordinates& source, const Coordinates& target, double clearance, double delta,
+  Coordinates leg(const Coordinates& source, const Coordinates& target, const Drag_rules& rules,
                   Drag_result<Mesh>& result) {
     ++result.legs;
     result.contacts.clear();
     result.stop_error = result.stop_error_along_path = 0;
-    decide(source, target, delta);
+    decide(source, target, rules.delta);
     if (!is_blocked())
       return target;
-    double back = std::numeric_limits<double>::infinity();
-    // Of several simultaneous contacts the steepest decides: they meet in a point, and a clearance from one plane
+    // Of several simultaneous contacts the least setback decides: they meet in a point, and a clearance from one plane
     // through it is a clearance from it. The proof sees to the others.
+    double steepest = 0, reach = 0;
     const double time = for_each_first_contact(source, target, [&](const Contact_3<Mesh>& contact, double sine) {
-      back = std::fmin(back, internal::setback(clearance, sine));
+      steepest = std::fmax(steepest, sine > 0 ? sine : 1);
+      reach = std::fmax(reach, internal::largest_coordinate_of(contact));
       result.contacts.push_back(contact);
     });
-    const Coordinates end = internal::stop_before(source, target, time, back,
-                                                  [&](const Coordinates& q) { return is_free(source, q, delta); });
-    measure_stop(source, target, end, time, delta, result);
+    reach = std::fmax(reach, internal::largest_magnitude(internal::point_of_path(source, target, time)));
+    const Coordinates end =
+        internal::stop_before(source, target, time, internal::setback(rules.clearance.at(reach), steepest),
+                              [&](const Coordinates& q) { return is_free(source, q, rules.delta); });
+    measure_stop(source, target, end, time, rules.delta, result);
     return end;
   }
 
@@ -156,6 +168,7 @@ private:
   std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
   Star_impacts<Mesh> firsts_;
   std::vector<Limit> limits_;
+  bool is_out_of_range_ = false; ///< of the motion last decided
 
   /// How much larger than the motion, in extents of the link, the region of a checklist is: of the first, which has to be filled from
   /// memory not seen lately, and of those that follow in one grab.

@@ -3,7 +3,8 @@
 #define HAPTIC_SCULPT_SCULPTING_PAPER_RESPONSE_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
-#include <haptic_sculpt/sculpting/vector_3.h>
+#include <haptic_sculpt/sculpting/clearance.h>
+#include <haptic_sculpt/sculpting/is_farther.h>
 #include <haptic_sculpt/surface/face_box.h>
 
 #include <algorithm>
@@ -29,8 +30,8 @@ public:
   void forget() { touched_.number = 0; }
 
   template <class Guard>
-  Coordinates move(Guard& guard, const Mesh& mesh, const Coordinates& source, const Coordinates& target, double clearance,
-                   double delta, Drag_result<Mesh>& result) {
+  Coordinates move(Guard& guard, const Mesh& mesh, const Coordinates& source, const Coordinates& target,
+                   const Drag_rules& rules, Drag_result<Mesh>& result) {
     if (place_ != source)
       forget();
     place_ = source;
@@ -38,14 +39,14 @@ public:
     held_.clear();
     bool stands = false; // did not move in the turn before
     for (int legs = 0; legs < most_legs; ++legs) {
-      const std::optional<Aim> aim = next_aim(guard, mesh, target, clearance);
-      if (aim && !aim->lifts_off && is_at(aim->touched, aim->place, clearance)) {
+      const std::optional<Aim> aim = next_aim(guard, mesh, target, rules.clearance);
+      if (aim && !aim->lifts_off && is_at(*aim)) {
         result.end = Drag_end::held;
         break;
       }
       const Vector goal = aim && !aim->lifts_off ? aim->place : target;
       Drag_result<Mesh>& leg = leg_;
-      const Coordinates end = guard.leg(place_, goal, clearance, delta, leg);
+      const Coordinates end = guard.leg(place_, goal, rules, leg);
       result.legs += end != place_;
       const bool moved = end != place_;
       place_ = end;
@@ -70,6 +71,10 @@ public:
       stands = !moved;
     }
     result.contacts = held_;
+    if (internal::is_farther(target, place_, source)) {
+      place_ = source;
+      result.legs = 0;
+    }
     return place_;
   }
 
@@ -93,6 +98,7 @@ private:
     Touched touched;
     Vector place;
     bool lifts_off;
+    double clearance;
   };
 
   Touched touched_;
@@ -100,9 +106,9 @@ private:
   Drag_result<Mesh> leg_;                      ///< of the last leg; kept to allocate no more
   typename Drag_result<Mesh>::Contacts held_; ///< of the last leg that was stopped
 
-  bool is_at(const Touched& touched, const Vector& place, double clearance) const {
+  bool is_at(const Aim& aim) const {
     // A clearance is what separates stops of one place from each other.
-    return touched == touched_ && internal::length(internal::minus(place, place_)) <= clearance;
+    return aim.touched == touched_ && internal::length(internal::minus(aim.place, place_)) <= aim.clearance;
   }
 
   static Touched touched_by(const Drag_result<Mesh>& leg) {
@@ -127,7 +133,8 @@ private:
 
   /// The nearest point to the target on the faces at the feature; nothing where none is touched.
   template <class Guard>
-  std::optional<Aim> next_aim(const Guard& guard, const Mesh& mesh, const Vector& target, double clearance) const {
+  std::optional<Aim> next_aim(const Guard& guard, const Mesh& mesh, const Vector& target,
+                              const Clearance_rule& clearances) const {
     std::optional<Aim> best;
     double least = std::numeric_limits<double>::infinity();
     for_each_face(guard, mesh, [&](const std::array<Vertex_index, 3>& corners) {
@@ -142,8 +149,12 @@ private:
       if (distance >= least)
         return;
       least = distance;
+      double reach = internal::largest_magnitude(nearest);
+      for (const Vector& corner : p)
+        reach = std::fmax(reach, internal::largest_magnitude(corner));
+      const double clearance = clearances.at(reach);
       best = Aim{touched, internal::advanced(nearest, clearance, normal),
-                 internal::dot(internal::minus(target, p[0]), normal) > 0};
+                 internal::dot(internal::minus(target, p[0]), normal) > 0, clearance};
     });
     return best;
   }

@@ -23,24 +23,24 @@ public:
     paper_.forget();
   }
 
-  /// Moves from source towards target and fills in the result. Returns where the vertex is then. \pre source != target
+  /// Moves from source towards target and fills in the result. Returns where the vertex is then: no farther from the target than it
+  /// was, exactly. \pre source != target, both in range
   template <class Guard>
-  Coordinates move(Response rule, Guard& guard, const Mesh& mesh, const Coordinates& source, const Coordinates& target,
-                   double clearance, double largest_coordinate, double delta, Drag_result<Mesh>& result) {
-    const internal::Slide_lengths lengths = {clearance, unit_in_the_last_place(largest_coordinate), delta};
+  Coordinates move(Response response, Guard& guard, const Mesh& mesh, const Coordinates& source,
+                   const Coordinates& target, const Drag_rules& rules, Drag_result<Mesh>& result) {
     Coordinates end;
-    if (rule == Response::slide)
-      end = slide_.move(guard, source, target, lengths, result);
-    else if (rule == Response::paper)
-      end = paper_.move(guard, mesh, source, target, clearance, delta, result);
+    if (response == Response::slide)
+      end = slide_.move(guard, source, target, rules, result);
+    else if (response == Response::paper)
+      end = paper_.move(guard, mesh, source, target, rules, result);
     else {
-      end = guard.leg(source, target, clearance, delta, result);
+      end = guard.leg(source, target, rules, result);
       result.end = end == target ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
     }
     const internal::Vector pull = internal::minus(target, end);
     if (result.contacts.empty())
       result.kkt_residual = end == target ? 0 : 1;
-    if (!result.contacts.empty() && internal::length(pull) > lengths.shortest_pull())
+    if (!result.contacts.empty() && internal::length(pull) > shortest_pull(rules, end, result))
       measure_residual(pull, result);
     return end;
   }
@@ -49,6 +49,13 @@ private:
   Slide_response<Mesh> slide_;
   Paper_response<Mesh> paper_;
   std::vector<internal::Vector> normals_;
+
+  static double shortest_pull(const Drag_rules& rules, const Coordinates& end, const Drag_result<Mesh>& result) {
+    double reach = internal::largest_magnitude(end);
+    for (const Contact_3<Mesh>& contact : result.contacts)
+      reach = std::fmax(reach, internal::largest_coordinate_of(contact));
+    return internal::Slide_lengths{rules.clearance.at(reach), 0}.shortest_pull();
+  }
 
   void measure_residual(const internal::Vector& pull, Drag_result<Mesh>& result) {
     normals_.clear();

@@ -57,13 +57,12 @@ public:
                 "CGAL::Exact_predicates_inexact_constructions_kernel");
 
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
-  /// obey the delta rule; Invalid_parameter. The mesh is not changed. Cost: that of validate(), n log n in practice.
+  /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
     : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), corners_(mesh),
       editor_(mesh, broad_phase_, corners_, counters_, std::move(visitor)), guard_(mesh, broad_phase_, corners_, counters_, &watch_),
       probe_guard_(mesh, broad_phase_, corners_, counters_, &watch_) {
-    for (const Vertex_index v : mesh.vertices())
-      largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(vertex_coordinates(mesh, v)));
+    largest_coordinate_ = extent_of(mesh).largest;
   }
 
   Sculptor(const Sculptor&) = delete;
@@ -103,18 +102,18 @@ public:
   ///@{
 
   /// Creates a vertex at `p` and joins it to the corners of f, whose place the three new faces take.
-  /// \post f has died; its edges and corners have not. \throw Non_finite_point
+  /// \post f has died; its edges and corners have not. \throw Out_of_range
   Edited insert_on_face(Face_index f, const Point& p) {
-    internal::check_finite(p);
+    internal::check_point("the new vertex", p);
     if (!f.is_valid() || static_cast<std::size_t>(f) >= mesh_->num_faces() || mesh_->is_removed(f))
       return Edited::refused(Refusal_reason::unknown_element);
     return edited([&] { return editor_.insert_on_face(f, internal::coordinates(p), options_.delta_length); });
   }
 
   /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of two.
-  /// \post e and its two faces have died, no vertex has. \throw Non_finite_point
+  /// \post e and its two faces have died, no vertex has. \throw Out_of_range
   Edited insert_on_edge(Edge_index e, const Point& p) {
-    internal::check_finite(p);
+    internal::check_point("the new vertex", p);
     if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh_->num_edges() || mesh_->is_removed(e))
       return Edited::refused(Refusal_reason::unknown_element);
     return edited([&] { return editor_.insert_on_edge(mesh_->halfedge(e), internal::coordinates(p), options_.delta_length); });
@@ -159,38 +158,45 @@ public:
 
   /// Sweeps a free point from `source` towards `target` with the response. Changes nothing. A start that is nearer than the
   /// clearance to a face, or on it, is refused: `end` is Drag_end::refused and the contact names the face.
-  /// \throw Non_finite_point, Mesh_changed
+  /// \throw Out_of_range, Mesh_changed
   Result probe(const Point& source, const Point& target) {
-    internal::check_finite(source);
-    internal::check_finite(target);
+    internal::check_point("the source", source);
+    internal::check_point("the target", target);
+    check_clearance_serves();
     release();
     watch_.check_counts();
     watch_.check_some();
     const internal::Coordinates s = internal::coordinates(source), t = internal::coordinates(target);
-    const double c = clearance_of(s, t);
     Result result;
     result.position = source;
     result.reached = s == t;
-    if (refuse_start(s, c, result))
+    if (refuse_start(s, result))
       return result;
     probe_guard_.star().clear();
     probe_guard_.invalidate();
     if (s != t)
-      finish(responses_.move(options_.response_rule, probe_guard_, *mesh_, s, t, c, largest_of(s, t), 0, result), t, result);
+      finish(responses_.move(options_.response_rule, probe_guard_, *mesh_, s, t, {Clearance_rule(options_.clearance_length), 0}, result),
+             t, result);
     responses_.forget();
     return result;
   }
 
-  /// The clearance of a drag to `target`: the one set, or the default for the scene and this motion.
-  double clearance(const Point& target) const { return clearance_of(internal::coordinates(target), {0, 0, 0}); }
-
-  /// \throw Invalid_parameter
-  void set_clearance(double length) {
-    check_options(Sculptor_parameters(options_).clearance(length));
-    options_.clearance(length);
+  /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length set, or
+  /// the default.
+  double clearance(const Point& p) const {
+    return Clearance_rule(options_.clearance_length).at(internal::largest_magnitude(internal::coordinates(p)));
   }
 
-  /// \throw Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
+  /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene as it is (Sculptor_parameters), and
+  /// nothing changes. Cost: reads every point.
+  void set_clearance(double length) {
+    const Sculptor_parameters changed = Sculptor_parameters(options_).clearance(length);
+    check_options(changed);
+    check_clearance(*mesh_, changed);
+    options_ = changed;
+  }
+
+  /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
   /// of validate().
   void set_delta(double length) {
     const Sculptor_parameters changed = Sculptor_parameters(options_).delta(length);
@@ -225,35 +231,77 @@ private:
   Responses<Mesh_type> responses_;
   Vertex_index held_; ///< whose star guard_ has; invalid when none
   bool moved_ = false; ///< the broad phase has not been told yet where the held star is
-  double largest_coordinate_ = 0;
+  double largest_coordinate_ = 0; ///< bounds those of all vertices; never less than the largest
   std::size_t watched_look_ = 0, next_watched_ = 0;
 
   /// So many candidates are compared with where they were left at every drag; a list that holds for long is seen whole soon.
   static constexpr std::size_t candidates_per_drag = 4;
 
   static void check_options(const Sculptor_parameters& options) {
-    if (options.clearance_length && !(*options.clearance_length > 0 && std::isfinite(*options.clearance_length)))
-      throw Invalid_parameter("the clearance must be a finite length > 0, not " + std::to_string(*options.clearance_length));
-    if (!(options.delta_length >= 0 && std::isfinite(options.delta_length)))
-      throw Invalid_parameter("delta must be a finite length >= 0, not " + std::to_string(options.delta_length));
+    if (options.clearance_length)
+      internal::check_range("the clearance", *options.clearance_length);
+    internal::check_range("delta", options.delta_length);
+    if (options.clearance_length && !(*options.clearance_length > 0))
+      throw Invalid_parameter("the clearance must be a length > 0, not " + internal::number(*options.clearance_length));
+    if (!(options.delta_length >= 0))
+      throw Invalid_parameter("delta must be a length >= 0, not " + internal::number(options.delta_length));
+  }
+
+  struct Extent {
+    Box_3 box;
+    double largest = 0; ///< magnitude of a coordinate
+  };
+  static Extent extent_of(const Mesh_type& mesh) {
+    Extent extent;
+    for (const Vertex_index v : mesh.vertices()) {
+      const internal::Coordinates p = vertex_coordinates(mesh, v);
+      extent.box.include(p);
+      extent.largest = std::fmax(extent.largest, internal::largest_magnitude(p));
+    }
+    return extent;
+  }
+
+  /// \throw Invalid_parameter unless a clearance that is set serves the scene: what is less than an ulp cannot be kept, and the
+  /// longest way that a slide goes back to keep it from several planes should not be longer than the scene.
+  static void check_clearance(const Mesh_type& mesh, const Sculptor_parameters& options) {
+    if (!options.clearance_length)
+      return;
+    const Extent extent = extent_of(mesh);
+    double widest = 0;
+    for (int i = 0; i < 3; ++i)
+      widest = std::fmax(widest, extent.box.upper[i] - extent.box.lower[i]);
+    const double least = unit_in_the_last_place(extent.largest),
+                 most = widest / internal::Slide_lengths::clearances_of_retreat;
+    if (!(*options.clearance_length >= least && *options.clearance_length <= most))
+      throw Invalid_parameter("the clearance " + internal::number(*options.clearance_length) + " does not serve this scene: give " +
+                              internal::number(least) + " (an ulp of its largest coordinate) to " + internal::number(most) +
+                              " (1/128 of its extent), or none");
+  }
+
+  /// \throw Invalid_parameter where the scene has outgrown the clearance set.
+  void check_clearance_serves() {
+    if (!options_.clearance_length || *options_.clearance_length >= unit_in_the_last_place(largest_coordinate_))
+      return;
+    largest_coordinate_ = extent_of(*mesh_).largest; // what was far may be back
+    if (!(*options_.clearance_length >= unit_in_the_last_place(largest_coordinate_)))
+      check_clearance(*mesh_, options_);
   }
 
   static const Mesh_type& validated(const Mesh_type& mesh, const Sculptor_parameters& options) {
     check_options(options);
+    for (const Vertex_index v : mesh.vertices())
+      if (const auto p = vertex_coordinates(mesh, v); !internal::is_in_range(p) && is_finite(p))
+        internal::check_range("vertex " + std::to_string(static_cast<std::size_t>(v)) + " at", p);
     Validity_report report = validate(mesh, options.delta_length);
     if (!report.is_valid())
       throw Invalid_surface("the mesh", std::move(report));
+    check_clearance(mesh, options);
     return mesh;
   }
 
-  double clearance_of(const internal::Coordinates& p, const internal::Coordinates& q) const {
-    if (options_.clearance_length)
-      return *options_.clearance_length;
-    return default_clearance(largest_of(p, q));
-  }
-
-  double largest_of(const internal::Coordinates& p, const internal::Coordinates& q) const {
-    return std::fmax(largest_coordinate_, std::fmax(internal::largest_magnitude(p), internal::largest_magnitude(q)));
+  /// Others are named, all of them, by the report of validate().
+  static bool is_finite(const internal::Coordinates& p) {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
   }
 
   /// Makes guard_ the guard of v. \throw Mesh_changed
@@ -277,14 +325,15 @@ private:
 
   Result drag(Vertex_index v, const Point& target) {
     internal::check_vertex(*mesh_, v);
-    internal::check_finite(target);
+    internal::check_point("the target", target);
+    check_clearance_serves();
     hold(v);
     const internal::Coordinates s = vertex_coordinates(*mesh_, v), t = internal::coordinates(target);
-    const double c = clearance_of(s, t);
     Result result;
-    const internal::Coordinates end = s == t ? t
-                                             : responses_.move(options_.response_rule, guard_, *mesh_, s, t, c, largest_of(s, t),
-                                                               options_.delta_length, result);
+    const internal::Coordinates end =
+        s == t ? t
+               : responses_.move(options_.response_rule, guard_, *mesh_, s, t,
+                                 {Clearance_rule(options_.clearance_length), options_.delta_length}, result);
     watch_candidates();
     if (end != s) {
       mesh_->point(v) = Point(end[0], end[1], end[2]);
@@ -335,7 +384,9 @@ private:
     result.reached = end == target;
   }
 
-  bool refuse_start(const internal::Coordinates& start, double clearance, Result& result) {
+  bool refuse_start(const internal::Coordinates& start, Result& result) {
+    const Clearance_rule rule(options_.clearance_length);
+    const double reach = internal::largest_magnitude(start), clearance = rule.at(std::fmax(largest_coordinate_, reach));
     Box_3 near(start);
     for (int i = 0; i < 3; ++i) {
       // One ulp more than the clearance, for the sums are rounded.
@@ -348,8 +399,11 @@ private:
     for (const Face_index f : faces) {
       const auto h = mesh_->halfedge(f);
       const std::array<Vertex_index, 3> corners = {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))};
-      if (!internal::is_within_distance(start, vertex_coordinates(*mesh_, corners[0]), vertex_coordinates(*mesh_, corners[1]),
-                                        vertex_coordinates(*mesh_, corners[2]), clearance))
+      const auto a = vertex_coordinates(*mesh_, corners[0]), b = vertex_coordinates(*mesh_, corners[1]),
+                 c = vertex_coordinates(*mesh_, corners[2]);
+      const double there = std::fmax(std::fmax(reach, internal::largest_magnitude(a)),
+                                     std::fmax(internal::largest_magnitude(b), internal::largest_magnitude(c)));
+      if (!internal::is_within_distance(start, a, b, c, rule.at(there)))
         continue;
       Contact_3<Mesh_type> contact;
       contact.vertices = corners;

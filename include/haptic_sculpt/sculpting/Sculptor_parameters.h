@@ -10,16 +10,17 @@ namespace haptic_sculpt {
 
 /// The options of a Sculptor, named and chained: `parameters::clearance(1e-9).delta(1e-3)`.
 struct Sculptor_parameters {
-  std::optional<double> clearance_length; ///< unset: default_clearance() of the scene and the motion
+  std::optional<double> clearance_length; ///< unset: default_clearance() at each contact
   double delta_length = 0;                ///< 0: only exactly degenerate triangles are refused
   Response response_rule = Response::slide;
 
-  /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates; > 0 and finite.
+  /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates. Of use is what is at least an
+  /// ulp of the scene's largest coordinate, and at most 1/128 of its extent.
   Sculptor_parameters& clearance(double length) {
     clearance_length = length;
     return *this;
   }
-  /// No triangle may have an altitude below this length; >= 0 and finite.
+  /// No triangle may have an altitude below this length; >= 0 and in range.
   Sculptor_parameters& delta(double length) {
     delta_length = length;
     return *this;

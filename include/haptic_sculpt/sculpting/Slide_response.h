@@ -5,11 +5,12 @@
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/Unmet_planes.h>
 #include <haptic_sculpt/sculpting/Way_out.h>
+#include <haptic_sculpt/sculpting/is_farther.h>
 
 namespace haptic_sculpt {
 
-/// The default response: a blocked vertex slides along what blocks it to a point nearest to its target (RULES 4,
-/// doc/slide.md).
+/// The default response: a blocked vertex slides along what blocks it to a point nearest to its target
+/// (doc/slide.md).
 ///
 /// Carries its contacts from one drag of a grab to the next. Allocates nothing.
 template <class Mesh>
@@ -43,52 +44,54 @@ public:
   /// Goes from source towards target. Returns where the vertex is then; every leg on the way there is proven free.
   /// Fills in contacts, legs, stop error and `end`.
   template <class Guard>
-  Coordinates move(Guard& guard, const Coordinates& source, const Coordinates& target,
-                   const internal::Slide_lengths& lengths, Drag_result<Mesh>& result) {
+  Coordinates move(Guard& guard, const Coordinates& source, const Coordinates& target, const Drag_rules& rules,
+                   Drag_result<Mesh>& result) {
     using internal::Walk_end;
     if (walk_.x != source)
       forget();
-    walk_.begin(source);
+    walk_.begin(source, rules);
     unmet_planes_.begin();
     Walk_end end;
-    const auto is_free = [&](const Vector& a, const Vector& b) { return guard.is_free(a, b, lengths.delta); };
+    const auto is_free = [&](const Vector& a, const Vector& b) { return guard.is_free(a, b, rules.delta); };
     Vector before = source, at_last_shortening = source;
     int until = legs_before_leaps, shortenings = 0;
     for (;;) {
-      end = walk_.go(guard, target, lengths, std::min(until, most_legs));
+      end = walk_.go(guard, target, std::min(until, most_legs));
       if (end == Walk_end::reached)
         break;
       bool creeps = false;
       if (walk_.legs() + internal::Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
         ++shortenings;
         walk_.path.shorten(target, is_free, Ways::straight_and_bent);
-        if (leap_far(guard, at_last_shortening, target, lengths))
+        if (leap_far(guard, at_last_shortening, target))
           until = 0;
         else
-          creeps = end == Walk_end::limit && internal::length(internal::minus(target, at_last_shortening)) -
-                                                     internal::length(internal::minus(target, walk_.x)) <
-                                                 lengths.lifted();
+          creeps = end == Walk_end::limit &&
+                   internal::nearer_by(target, at_last_shortening, walk_.x) < walk_.lengths().lifted();
         at_last_shortening = walk_.x;
       }
       if (walk_.legs() >= most_legs)
         break;
       if (creeps) {
         end = Walk_end::stuck;
-        if (!way_out_.take(walk_, guard, target, lengths, most_legs))
+        if (!way_out_.take(walk_, guard, target, most_legs))
           break;
       } else if (end == Walk_end::limit) {
         if (until > legs_before_leaps)
-          leap(guard, before, target, lengths);
+          leap(guard, before, target);
         before = walk_.x;
         until = walk_.legs() + legs_between_leaps;
-      } else if (!unmet_planes_.take(walk_, guard, target, lengths) &&
-                 !way_out_.take(walk_, guard, target, lengths, most_legs))
+      } else if (!unmet_planes_.take(walk_, guard, target) &&
+                 !way_out_.take(walk_, guard, target, most_legs))
         break;
     }
     if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
+    // To keep a clearance from what was nearer J may have gone back: then it had better stay.
+    if (end != Walk_end::reached && internal::is_farther(target, walk_.x, source))
+      walk_.return_to(source);
     make_shorter(target, is_free);
-    walk_.forget([&](const auto& facet) { return facet.is_over(lengths.lifted()); });
+    walk_.forget([](const auto& facet) { return facet.is_over(internal::Slide_lengths::clearances_of_lift); });
     report(end, source, result);
     walk_.forget([](const auto& facet) { return facet.is_wall(); });
     return walk_.x;
@@ -105,10 +108,10 @@ private:
   /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many
   /// times as far, and takes it if that, when J has come down, has brought it nearer than these did.
   template <class Guard>
-  void leap(Guard& guard, const Vector& before, const Vector& target, const internal::Slide_lengths& lengths) {
+  void leap(Guard& guard, const Vector& before, const Vector& target) {
     const Vector way = internal::minus(walk_.x, before);
     const double step = internal::length(way), distance = internal::length(internal::minus(target, walk_.x)),
-                 gained = internal::length(internal::minus(target, before)) - distance;
+                 gained = internal::nearer_by(target, before, walk_.x);
     if (step < least_step * distance)
       return;
     const Vector up = walk_.mean_normal();
@@ -117,14 +120,14 @@ private:
         if (times * step > distance || walk_.legs() + 1 >= most_legs)
           break;
         const Vector end = internal::advanced(internal::advanced(walk_.x, times, way), slope * times * step, up);
-        if (!guard.is_free(walk_.x, end, lengths.delta))
+        if (!guard.is_free(walk_.x, end, walk_.delta()))
           continue;
         trial_ = walk_;
         trial_.forget_progress();
         trial_.facets.clear();
         trial_.step_to(end);
-        trial_.go(guard, target, lengths, std::min(trial_.legs() + legs_between_leaps - 1, most_legs));
-        if (internal::length(internal::minus(target, trial_.x)) < distance - std::fmax(gained, lengths.lifted())) {
+        trial_.go(guard, target, std::min(trial_.legs() + legs_between_leaps - 1, most_legs));
+        if (internal::nearer_by(target, walk_.x, trial_.x) > std::fmax(gained, walk_.lengths().lifted())) {
           walk_ = trial_;
           return;
         }
@@ -135,12 +138,12 @@ private:
   /// J went, rising more or less, each ended by what it hits, and takes what brings J nearest. Returns whether any did by
   /// more than clearances feign.
   template <class Guard>
-  bool leap_far(Guard& guard, const Vector& before, const Vector& target, const internal::Slide_lengths& lengths) {
+  bool leap_far(Guard& guard, const Vector& before, const Vector& target) {
     using namespace internal;
-    const Vector pull = minus(target, walk_.x), up = walk_.mean_normal();
+    const Vector pull = walk_.pull_to(target), up = walk_.mean_normal();
     const double distance = length(pull);
     const Walk start = walk_;
-    double nearest = distance - lengths.lifted();
+    double most = walk_.lengths().lifted();
     for (const Vector& way : {advanced(pull, -dot(pull, up), up), minus(start.x, before)})
       for (const double part : {1.0, 0x1p-2, 0x1p-4, 0x1p-6, 0x1p-8})
         for (const double slope : {1.0, 0x1p-2, 0x1p-4, 0.0}) {
@@ -150,11 +153,11 @@ private:
           const Vector end = advanced(advanced(start.x, part * distance, normalized(way)), slope * part * distance, up);
           for (const Vector& aim : {end, target}) {
             trial_.forget_progress();
-            trial_.go(guard, aim, lengths, trial_.legs() + 1);
+            trial_.go(guard, aim, trial_.legs() + 1);
           }
-          const double left = length(minus(target, trial_.x));
-          if (left < nearest) {
-            nearest = left;
+          const double gained = nearer_by(target, start.x, trial_.x);
+          if (gained > most) {
+            most = gained;
             walk_ = trial_;
           }
         }

@@ -28,7 +28,8 @@ public:
   /// Looks where J rests near its target, for targets are put on vertices, edges and faces; elsewhere only where a drag
   /// has led nowhere, once: few places are so near to a plane by chance, and a look costs as much as some legs.
   template <class Guard>
-  bool take(Walk& walk, Guard& guard, const Vector& target, const Slide_lengths& lengths) {
+  bool take(Walk& walk, Guard& guard, const Vector& target) {
+    const Slide_lengths lengths = walk.lengths();
     const Vector pull = minus(target, walk.x);
     const bool is_near = length(pull) <= lengths.shortest_pull();
     bool any = false;
@@ -36,18 +37,18 @@ public:
       ++looks_;
       walk.forget_what_was_left(); // of what J left it may be over some
       if (is_near)
-        any = meet_towards(walk, guard, pull, lengths);
+        any = meet_towards(walk, guard, pull);
       for (int i = 0; i < 3; ++i)
         for (const double way : {reach, -reach}) {
           Vector step{};
           step[i] = way * lengths.clearance;
-          any = meet_towards(walk, guard, step, lengths) || any;
+          any = meet_towards(walk, guard, step) || any;
         }
       looked_ = true;
       looked_from_ = walk.x;
       looked_for_ = target;
     }
-    if (times_let_go_ < most_looks && walk.let_go(lengths)) {
+    if (times_let_go_ < most_looks && walk.let_go()) {
       ++times_let_go_;
       any = true;
     }
@@ -69,12 +70,12 @@ private:
   }
 
   template <class Guard>
-  static bool meet_towards(Walk& walk, Guard& guard, const Vector& step, const Slide_lengths& lengths) {
+  static bool meet_towards(Walk& walk, Guard& guard, const Vector& step) {
     const Vector end = plus(walk.x, step);
     if (end == walk.x)
       return false;
-    guard.decide(walk.x, end, lengths.delta);
-    return guard.is_blocked() && walk.meet_faces(guard, end, lengths.delta);
+    guard.decide(walk.x, end, walk.delta());
+    return guard.is_blocked() && walk.meet_faces(guard, end);
   }
 };
 

@@ -24,22 +24,22 @@ public:
 
   /// Takes a way if it brings the vertex nearer by more than what clearances can feign. Returns whether there was one.
   template <class Guard>
-  bool take(Walk& walk, Guard& guard, const Vector& target, const Slide_lengths& lengths, int most_legs) {
+  bool take(Walk& walk, Guard& guard, const Vector& target, int most_legs) {
     walk_ = &walk;
     most_legs_ = most_legs;
-    const Vector pull = minus(target, walk_->x);
-    const double distance = length(pull);
-    if (walk_->facets.empty() || distance <= lengths.shortest_pull())
+    const Slide_lengths lengths = walk_->lengths(); // trials may change those of the walk
+    const Vector pull = walk_->pull_to(target);
+    if (walk_->facets.empty() || length(pull) <= lengths.shortest_pull())
       return false;
     // A target is nearer by as much as it has moved at most: below what clearances can feign the answer is the same as
     // before.
     if (sought_ && length(minus(walk_->x, sought_at_)) <= lengths.settled() &&
         length(minus(target, sought_for_)) <= 4 * lengths.clearance)
       return false;
-    if (!may_lead_on(guard, lengths))
+    if (!may_lead_on(guard))
       return false;
-    const auto held = walk_->nearest(pull, distance, lengths.clearance, lengths);
-    const auto without_clearance = walk_->nearest(pull, distance, 0, lengths);
+    const auto held = walk_->nearest(pull, 1);
+    const auto without_clearance = walk_->nearest(pull, 0);
     const double gain =
         std::fmax(8 * lengths.clearance, without_clearance.exists ? 4 * length(without_clearance.displacement) : 0);
     int trials = 0;
@@ -48,22 +48,21 @@ public:
       ++trials;
       trial_.forget_progress();
       if (first_aim != target) {
-        trial_.go(guard, first_aim, lengths,
-                  std::min(trial_.legs() + 1, most_legs_)); // one leg: on from there it must not climb
+        trial_.go(guard, first_aim, std::min(trial_.legs() + 1, most_legs_)); // one leg: on from there it must not climb
         trial_.forget_progress();
       }
-      trial_.go(guard, target, lengths, std::min(walk_->legs() + trial_legs, most_legs_));
+      trial_.go(guard, target, std::min(walk_->legs() + trial_legs, most_legs_));
       for (const auto& facet : trial_.facets)
         remember(facet);
-      if (length(minus(target, trial_.x)) >= distance - gain)
+      if (nearer_by(target, walk_->x, trial_.x) <= gain)
         return false;
       *walk_ = trial_;
       return true;
     };
     const bool all_legs_were_left = walk_->legs() + trial_legs <= most_legs;
-    if (leave_contacts(held, target, brings_nearer) || leave_walls(guard, target, lengths, brings_nearer) ||
-        follow_features(guard, pull, target, lengths, trials, brings_nearer) ||
-        look_about(guard, pull, target, lengths, gain, brings_nearer)) {
+    if (leave_contacts(held, target, brings_nearer) || leave_walls(guard, target, brings_nearer) ||
+        follow_features(guard, pull, target, trials, brings_nearer) ||
+        look_about(guard, pull, target, gain, brings_nearer)) {
       sought_ = false;
       return true;
     }
@@ -93,19 +92,19 @@ private:
   /// contacts rise across all borders, and J is near no corner, it is likely one, and looking beyond their planes
   /// tells.
   template <class Guard>
-  bool may_lead_on(Guard& guard, const Slide_lengths& lengths) const {
+  bool may_lead_on(Guard& guard) const {
     bool is_doubtful = false;
     for (const auto& facet : walk_->facets) {
       if (facet.is_wall())
         return true;
       int open = 0;
       for (int k = 0; k < facet.borders(); ++k)
-        if (facet.beyond_border(k, walk_->x) > -lengths.border() && !is_closed(facet, k))
+        if (facet.beyond_border(k, walk_->x) > -walk_->lengths().border() && !is_closed(facet, k))
           if (!does_rise(facet.outward(k)) || ++open > 1)
             return true;
       is_doubtful = is_doubtful || open > 0;
     }
-    return is_doubtful && sees_beyond_a_contact(guard, lengths);
+    return is_doubtful && sees_beyond_a_contact(guard);
   }
 
   bool does_rise(const Vector& way) const {
@@ -118,15 +117,15 @@ private:
   /// Whether a place beyond the plane of a contact is free to be reached: along other contacts past its border, or in
   /// any of many directions.
   template <class Guard>
-  bool sees_beyond_a_contact(Guard& guard, const Slide_lengths& lengths) const {
+  bool sees_beyond_a_contact(Guard& guard) const {
     const auto is_free = [&](const Vector& direction) {
-      return guard.is_free(walk_->x, advanced(walk_->x, lengths.lifted(), direction), lengths.delta);
+      return guard.is_free(walk_->x, advanced(walk_->x, walk_->lengths().lifted(), direction), walk_->delta());
     };
     for (const auto& facet : walk_->facets)
       for (int k = 0; k < facet.borders(); ++k)
         for (const auto& other : walk_->facets) {
           const Vector& out = facet.outward(k);
-          if (&other == &facet || facet.beyond_border(k, walk_->x) <= -lengths.border())
+          if (&other == &facet || facet.beyond_border(k, walk_->x) <= -walk_->lengths().border())
             continue;
           const Vector along = normalized(advanced(out, -dot(out, other.normal()), other.normal()));
           if (dot(facet.normal(), along) < -least_rise && is_free(along))
@@ -171,14 +170,14 @@ private:
 
   /// A flat impact blocks the way in one plane only: tries both sides of that plane.
   template <class Guard, class Brings_nearer>
-  bool leave_walls(Guard& guard, const Vector& target, const Slide_lengths& lengths,
-                   const Brings_nearer& brings_nearer) {
+  bool leave_walls(Guard& guard, const Vector& target, const Brings_nearer& brings_nearer) {
+    const Slide_lengths lengths = walk_->lengths();
     for (const auto& facet : walk_->facets)
       for (const double height : {4 * lengths.clearance, -4 * lengths.clearance}) {
         if (!facet.is_wall() || walk_->legs() >= most_legs_)
           break;
         const Vector beside = advanced(walk_->x, height, facet.normal_of_wall());
-        if (beside == walk_->x || !guard.is_free(walk_->x, beside, lengths.delta))
+        if (beside == walk_->x || !guard.is_free(walk_->x, beside, walk_->delta()))
           continue;
         trial_.begin_at(*walk_);
         trial_.step_to(beside);
@@ -190,9 +189,10 @@ private:
 
   /// The paper's vertex rule (3.2.2 c): from a little off, tries every face and every edge that was met here.
   template <class Guard, class Brings_nearer>
-  bool follow_features(Guard& guard, const Vector& pull, const Vector& target, const Slide_lengths& lengths,
-                       const int& trials, const Brings_nearer& brings_nearer) {
-    const Vector lifted = off_the_contacts(guard, lengths);
+  bool follow_features(Guard& guard, const Vector& pull, const Vector& target, const int& trials,
+                       const Brings_nearer& brings_nearer) {
+    const Slide_lengths lengths = walk_->lengths();
+    const Vector lifted = off_the_contacts(guard);
     const double beside = lengths.border() / 4;
     const auto start = [&] {
       trial_.begin_at(*walk_);
@@ -212,7 +212,7 @@ private:
         // Past the border, where it may be only a clearance to free space.
         start();
         const Vector past = advanced(trial_.x, beside, seen_[i].outward(k));
-        if (trial_.legs() < most_legs_ && guard.is_free(trial_.x, past, lengths.delta)) {
+        if (trial_.legs() < most_legs_ && guard.is_free(trial_.x, past, walk_->delta())) {
           trial_.step_to(past);
           if (brings_nearer(target))
             return true;
@@ -237,16 +237,17 @@ private:
   /// The last way out, which takes nothing for granted: looks in many directions, none of them along an axis, close by
   /// and less so.
   template <class Guard, class Brings_nearer>
-  bool look_about(Guard& guard, const Vector& pull, const Vector& target, const Slide_lengths& lengths, double gain,
+  bool look_about(Guard& guard, const Vector& pull, const Vector& target, double gain,
                   const Brings_nearer& brings_nearer) {
+    const Slide_lengths lengths = walk_->lengths();
     const double distance = length(pull);
     for (const Vector& direction : directions()) {
       if (dot(direction, pull) < 0)
         continue;
-      for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted() * distance)}) {
+      for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted()) * std::sqrt(distance)}) {
         const Vector end = advanced(walk_->x, reach, direction);
-        if (walk_->legs() >= most_legs_ || end == walk_->x || length(minus(target, end)) > distance + gain ||
-            !guard.is_free(walk_->x, end, lengths.delta))
+        if (walk_->legs() >= most_legs_ || end == walk_->x || nearer_by(target, walk_->x, end) < -gain ||
+            !guard.is_free(walk_->x, end, walk_->delta()))
           continue;
         trial_.begin_at(*walk_);
         trial_.step_to(end);
@@ -279,11 +280,11 @@ private:
 
   /// A free point a few clearances from the vertex along the mean normal of its contacts, or where it is.
   template <class Guard>
-  Vector off_the_contacts(Guard& guard, const Slide_lengths& lengths) const {
+  Vector off_the_contacts(Guard& guard) const {
     const Vector up = walk_->mean_normal();
     for (const double height : {4.0, 1.0}) {
-      const Vector off = advanced(walk_->x, height * lengths.clearance, up);
-      if (off != walk_->x && guard.is_free(walk_->x, off, lengths.delta))
+      const Vector off = advanced(walk_->x, height * walk_->lengths().clearance, up);
+      if (off != walk_->x && guard.is_free(walk_->x, off, walk_->delta()))
         return off;
     }
     return walk_->x;

@@ -2,27 +2,60 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_CLEARANCE_H
 #define HAPTIC_SCULPT_SCULPTING_CLEARANCE_H
 
-#include <cmath>
-#include <limits>
+#include <cstdint>
+#include <cstring>
+#include <optional>
 
 namespace haptic_sculpt {
 
-/// How many units in the last place of the scene's largest coordinate a stop keeps from a contact plane by default.
+/// How many units in the last place a stop keeps from a contact plane by default.
 /// Measured (doc/stop.md): below 3 a rounded stop often fails its proof and retries; above 4 nothing is gained.
 constexpr double default_clearance_ulps = 4;
 
-/// The distance from |x| to the next larger double; 0 for infinities.
+/// The distance from |x| to the next larger double; 0 for infinities and what is no number.
 inline double unit_in_the_last_place(double x) {
-  x = std::abs(x);
-  return std::isfinite(x) ? (x < std::numeric_limits<double>::max() ? std::nextafter(x, std::numeric_limits<double>::infinity()) - x
-                                                                    : x - std::nextafter(x, 0.0))
-                          : 0;
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  const std::uint64_t exponent = bits >> 52 & 0x7ff; // |x| < 2^(exponent - 1022)
+  const std::uint64_t ulp = exponent == 0x7ff ? 0
+                            : exponent > 52   ? (exponent - 52) << 52
+                            : exponent > 0    ? std::uint64_t{1} << (exponent - 1)
+                                              : 1;
+  std::memcpy(&x, &ulp, sizeof x);
+  return x;
 }
 
-/// The default clearance, a length, for a scene whose largest coordinate is `largest_coordinate`.
+/// The default clearance, a length, of a contact whose vertices and moving vertex have coordinates of at most
+/// `largest_coordinate`.
 inline double default_clearance(double largest_coordinate) {
   return default_clearance_ulps * unit_in_the_last_place(largest_coordinate);
 }
+
+/// What is kept from the plane of a contact: the length that was set, or else default_clearance() of the largest
+/// coordinate among the contact's vertices and the moving vertex there. So it depends on what touches and where, not on
+/// where the hand points, nor on what else is in the scene, nor on what was before.
+class Clearance_rule {
+public:
+  Clearance_rule() = default;
+  explicit Clearance_rule(std::optional<double> length) : set_(length.value_or(0)) {}
+
+  /// Less than an ulp cannot be kept: a vertex that has left the scene keeps one where it is then.
+  double at(double largest_coordinate) const {
+    if (set_ == 0)
+      return default_clearance(largest_coordinate);
+    const double ulp = unit_in_the_last_place(largest_coordinate);
+    return set_ > ulp ? set_ : ulp;
+  }
+
+private:
+  double set_ = 0; ///< 0: none
+};
+
+/// What a drag has to keep.
+struct Drag_rules {
+  Clearance_rule clearance;
+  double delta = 0; ///< no triangle of the star gets an altitude below this length
+};
 
 } // namespace haptic_sculpt
 

@@ -75,6 +75,27 @@ Quadratic<Number> altitude_excess(const std::array<Number, 3>& s, const std::arr
 
 using Limit_time = CGAL::Root_of_traits<CGAL::Gmpq>::Root_of_2;
 
+/// q times a power of two, which has the same roots: its largest coefficient is about 1, so that roots can be rounded.
+inline Quadratic<CGAL::Gmpq> scaled_to_one(const Quadratic<CGAL::Gmpq>& q) {
+  const auto exponent = [](const CGAL::Gmpq& x) { // of 2, within one; the least for 0
+    return CGAL::is_zero(x) ? std::numeric_limits<long>::min()
+                            : static_cast<long>(mpz_sizeinbase(mpq_numref(x.mpq()), 2)) -
+                                  static_cast<long>(mpz_sizeinbase(mpq_denref(x.mpq()), 2));
+  };
+  const long largest = std::max({exponent(q.a), exponent(q.b), exponent(q.c)});
+  if (largest == std::numeric_limits<long>::min())
+    return q;
+  const auto scaled = [largest](const CGAL::Gmpq& x) {
+    CGAL::Gmpq y;
+    if (largest > 0)
+      mpq_div_2exp(y.mpq(), x.mpq(), static_cast<mp_bitcnt_t>(largest));
+    else
+      mpq_mul_2exp(y.mpq(), x.mpq(), static_cast<mp_bitcnt_t>(-largest));
+    return y;
+  };
+  return {scaled(q.a), scaled(q.b), scaled(q.c)};
+}
+
 /// inf { u in [0, 1) : q(u) < 0 }, exact, or nothing. A q that only touches 0 is no violation.
 inline std::optional<Limit_time> first_negative(const Quadratic<CGAL::Gmpq>& q) {
   using CGAL::sign;
@@ -124,12 +145,17 @@ inline std::optional<Limit_time> delta_limit(const Coordinates& s, const Coordin
   if (certainly_high(s, t, g, i, delta, side))
     return std::nullopt;
   return first_negative(
-      altitude_excess<CGAL::Gmpq>(exact(s), exact(t), exact(g), exact(i), CGAL::Gmpq(delta), side));
+      scaled_to_one(altitude_excess<CGAL::Gmpq>(exact(s), exact(t), exact(g), exact(i), CGAL::Gmpq(delta), side)));
 }
 
 /// The gradient of the altitude where J is: how much it grows when J moves. Floating point.
-inline Vector altitude_slope(const Coordinates& j, const Coordinates& g, const Coordinates& i, Altitude_over side) {
-  const Vector n = cross(minus(g, j), minus(i, j));
+inline Vector altitude_slope(const Coordinates& at, const Coordinates& far_g, const Coordinates& far_i,
+                             Altitude_over side) {
+  // Relative to J, and of size one: the gradient has no unit, and no product over- or underflows.
+  const Vector to_g = minus(far_g, at), to_i = minus(far_i, at), j{};
+  const double size = std::fmax(largest_magnitude(to_g), largest_magnitude(to_i));
+  const Vector g = {to_g[0] / size, to_g[1] / size, to_g[2] / size}, i = {to_i[0] / size, to_i[1] / size, to_i[2] / size};
+  const Vector n = cross(g, i);
   const Vector area_gradient = cross(minus(g, i), normalized(n));
   if (side == Altitude_over::gi)
     return normalized(area_gradient);
@@ -147,7 +173,7 @@ inline Vector altitude_gradient(const Coordinates& j, const Coordinates& g, cons
 /// The altitude in doubles.
 inline double altitude(const Coordinates& j, const Coordinates& g, const Coordinates& i, Altitude_over side) {
   const Vector base = side == Altitude_over::gi ? minus(g, i) : minus(j, side == Altitude_over::ji ? i : g);
-  return length(cross(minus(g, j), minus(i, j))) / length(base);
+  return length(cross(normalized(base), minus(side == Altitude_over::jg ? i : g, j)));
 }
 
 } // namespace internal

@@ -5,15 +5,16 @@
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/sculpting/Narrow_phase.h>
 #include <haptic_sculpt/surface/Brute_force_broad_phase.h>
+#include <haptic_sculpt/surface/coordinate_range.h>
 
 namespace haptic_sculpt {
 
 /// A point with a coordinate that is not a finite number was given as a target.
-class Non_finite_point : public Error {
+class Non_finite_point : public Out_of_range {
 public:
   template <class Point_3>
   explicit Non_finite_point(const Point_3& p)
-    : Error("the point (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
+    : Out_of_range("the point (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
             ") is not finite: give three finite coordinates") {}
 };
 
@@ -33,10 +34,12 @@ void check_vertex(const Mesh& mesh, typename Mesh::Vertex_index v) {
     throw Unknown_vertex(static_cast<std::size_t>(v));
 }
 
+/// \throw Non_finite_point, Out_of_range
 template <class Point_3>
-void check_finite(const Point_3& p) {
+void check_point(const char* what, const Point_3& p) {
   if (!(std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z())))
     throw Non_finite_point(p);
+  check_range(what, coordinates(p));
 }
 
 } // namespace internal
@@ -47,12 +50,12 @@ void check_finite(const Point_3& p) {
 /// A mesh that is closed and embedded stays so up to `target` if and only if the result is empty; otherwise it stays so
 /// up to, and not at, the time of the impacts (doc/exact_sweeps.md, "Completeness"). On other meshes the answer is about
 /// the three sweeps only.
-/// \throw Unknown_vertex, Non_finite_point
+/// \throw Unknown_vertex, Out_of_range
 /// Cost: reads every face once; the sweeps cost valence times the candidates whose boxes meet the swept star's.
 template <class Mesh>
 Star_impacts<Mesh> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v, const typename Mesh::Point& target) {
   internal::check_vertex(mesh, v);
-  internal::check_finite(target);
+  internal::check_point("the target", target);
   const auto source = vertex_coordinates(mesh, v);
   const internal::Coordinates end = internal::coordinates(target);
   Star<Mesh> star;

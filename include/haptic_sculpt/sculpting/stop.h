@@ -33,7 +33,7 @@ inline double path_length(const Coordinates& source, const Coordinates& target) 
 /// Stops short of an impact at time u, at least `setback` before it, at a rounded point to which the way is proven free.
 ///
 /// `is_free(Q)` decides exactly whether the motion from source to Q touches nothing. The setback doubles until it does;
-/// at the latest Q = source, which is no motion, ends it. (DESIGN 4, RULES 2; doc/stop.md)
+/// at the latest Q = source, which is no motion, ends it. (doc/stop.md)
 template <class Is_free>
 Coordinates stop_before(const Coordinates& source, const Coordinates& target, double time, double setback,
                         const Is_free& is_free) {

@@ -18,12 +18,15 @@ public:
       return;
     const auto &s = star.source, &t = star.target, &g = star.link[0];
     double normal[3], largest = 0;
+    for (int i = 0; i < 3; ++i)
+      if (!(std::abs(s[i] - g[i]) < largest_extent && std::abs(t[i] - g[i]) < largest_extent))
+        return;
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       normal[i] = (s[j] - g[j]) * (t[k] - g[k]) - (s[k] - g[k]) * (t[j] - g[j]);
       largest = std::fmax(largest, std::abs(normal[i]));
     }
-    if (!(largest > least_size && largest < largest_size))
+    if (!(largest > least_size))
       return;
     double low = 0, high = 0, across = 0;
     for (int i = 0; i < 3; ++i) {
@@ -74,7 +77,7 @@ public:
   }
 
 private:
-  static constexpr double least_size = 0x1p-200, largest_size = 0x1p+200;
+  static constexpr double least_size = 0x1p-200, largest_extent = 0x1p+100;
   static constexpr float least_error =
       0x1p-120f; ///< more than products lose that underflow; far below any thickness there is
 
