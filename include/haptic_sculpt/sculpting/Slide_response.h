@@ -57,7 +57,9 @@ public:
     int until = legs_before_leaps, shortenings = 0;
     for (;;) {
       end = walk_.go(guard, target, std::min(until, most_legs));
-      if (end == Walk_end::reached)
+      // A target that is beyond reach brings forth legs each longer than the last, far from all that is to be seen: no
+      // search for ways that are better there.
+      if (end == Walk_end::reached || (end != Walk_end::limit && walk_.is_beyond_reach(target)))
         break;
       bool creeps = false;
       if (walk_.legs() + internal::Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
