@@ -19,5 +19,6 @@
 #include <haptic_sculpt/device/simulation.h>
 #include <haptic_sculpt/device/spatial_dynamics.h>
 #include <haptic_sculpt/device/workspace.h>
+#include <haptic_sculpt/no_fast_math.h>
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_H
 #define HAPTIC_SCULPT_SURFACE_H
 
+#include <haptic_sculpt/no_fast_math.h>
 #include <haptic_sculpt/surface/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>

@@ -8,12 +8,11 @@
 /// Contraction to fused multiply-add and every rounding mode are allowed for. Re-association, finite-only and
 /// reciprocal arithmetic, and evaluation in a wider format are not: they are refused here.
 
+#include <haptic_sculpt/no_fast_math.h>
+
 #include <cfloat>
 #include <limits>
 
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(__ASSOCIATIVE_MATH__)
-#error "haptic_sculpt: exact predicates do not survive -ffast-math, -Ofast, -ffinite-math-only or -fassociative-math; compile without them"
-#endif
 #if !defined(__SIZEOF_INT128__)
 #error "haptic_sculpt: the exact stage needs a 128-bit integer: g++ or clang for a 64-bit machine"
 #endif

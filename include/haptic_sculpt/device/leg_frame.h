@@ -2,6 +2,8 @@
 #ifndef HAPTIC_SCULPT_DEVICE_LEG_FRAME_H
 #define HAPTIC_SCULPT_DEVICE_LEG_FRAME_H
 
+#include <haptic_sculpt/no_fast_math.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>

@@ -29,6 +29,9 @@ struct Face_soup {
   const Index* begin(std::size_t face) const { return corners.data() + first_corner[face]; }
   const Index* end(std::size_t face) const { return corners.data() + first_corner[face + 1]; }
 
+  /// Appends a point. Every coordinate of a file comes through here.
+  void add_point(double x, double y, double z) { points.emplace_back(x, y, z); }
+
   /// Ends the face whose corners were appended to `corners`.
   void close_face() { first_corner.push_back(static_cast<Index>(corners.size())); }
 

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SURFACE_TEXT_SCANNER_H
 
 #include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/quoted.h>
 
 #include <algorithm>
 #include <charconv>
@@ -70,14 +71,14 @@ public:
   /// \throw Read_error if the line holds another word
   void expect_end_of_line(const char* after) {
     if (has_word())
-      fail("'" + std::string(word("")) + "' stands after " + after);
+      fail(in_quotes(word("")) + " stands after " + after);
   }
 
   /// A number in decimal notation. "nan" and "inf" are numbers here, to be found and named later.
   template <class Number = double>
   Number to_number(std::string_view word, const char* expected) const {
     std::string_view digits = word;
-    if (!digits.empty() && digits.front() == '+')
+    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-')
       digits.remove_prefix(1);
     Number value{};
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -88,7 +89,7 @@ public:
       if (all && error == std::errc::result_out_of_range)
         if (const Number rounded = static_cast<Number>(nearest(digits)); rounded == 0)
           return rounded; // below the least subnormal
-    fail("'" + std::string(word.substr(0, 40)) + "' is not " + expected +
+    fail(in_quotes(word) + " is not " + expected +
          (error == std::errc::result_out_of_range ? " (too large)" : ""));
   }
 

@@ -25,6 +25,12 @@ struct Validity_report {
   using Vertex_pair = std::pair<Vertex_index, Vertex_index>;
   using Face_pair = std::pair<Face_index, Face_index>;
 
+  /// So many pairs of intersecting faces are named where nothing else is asked for. A surface that crosses itself badly
+  /// has as many as the square of its faces.
+  static constexpr std::size_t default_most_intersections = 1000;
+  /// Asks for all of them.
+  static constexpr std::size_t all_intersections = static_cast<std::size_t>(-1);
+
   /// The `delta` asked for: length of the smallest altitude allowed, in the unit of the coordinates.
   double delta = 0;
 
@@ -51,6 +57,8 @@ struct Validity_report {
   /// Pairs of faces that meet elsewhere than in their shared vertices and edge. A degenerate face counts as the segment
   /// it is, and only against faces with which it shares no vertex.
   std::vector<Face_pair> intersecting_faces;
+  /// Whether there are more of them: the search ended when it had found as many as it was asked for.
+  bool has_more_intersections = false;
 
   /// \name For information: what does not make a surface invalid
   ///@{
@@ -66,7 +74,7 @@ struct Validity_report {
   /// Whether the surface is closed, 2-manifold, triangular, not degenerate, embedded, and obeys the delta rule.
   bool is_valid() const { return number_of_faults() == 0; }
 
-  /// Number of offending elements of all kinds.
+  /// Number of offending elements of all kinds; at least so many if `has_more_intersections`.
   std::size_t number_of_faults() const {
     return inconsistent_halfedges.size() + non_finite_vertices.size() + non_triangular_faces.size() +
            degenerate_faces.size() + low_faces.size() + boundary_edges.size() + non_manifold_edges.size() +
@@ -79,10 +87,10 @@ struct Validity_report {
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out.precision(17);
-    const auto list = [&](const auto& elements, const char* kind, const char* cure) {
+    const auto list = [&](const auto& elements, const char* kind, const char* cure, bool has_more = false) {
       if (elements.empty())
         return;
-      out << elements.size() << ' ' << kind << ':';
+      out << (has_more ? "at least " : "") << elements.size() << ' ' << kind << ':';
       for (std::size_t i = 0; i < elements.size() && i < named; ++i)
         out << (i == 0 ? " " : ", ") << name(elements[i]);
       if (elements.size() > named)
@@ -108,7 +116,8 @@ struct Validity_report {
     list(coincident_vertices, "pair(s) of vertices at one point",
          "Use PMP::merge_duplicate_points_in_polygon_soup, or move them apart.");
     list(intersecting_faces, "pair(s) of intersecting faces",
-         "Use PMP::experimental::remove_self_intersections, or PMP::autorefine and keep the outer surface.");
+         "Use PMP::experimental::remove_self_intersections, or PMP::autorefine and keep the outer surface.",
+         has_more_intersections);
     return out.str();
   }
 

@@ -5,6 +5,8 @@
 /// \file
 /// The one place of this folder that knows CGAL 5.5 from CGAL 6.
 
+#include <haptic_sculpt/no_fast_math.h>
+
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mpzf.h>

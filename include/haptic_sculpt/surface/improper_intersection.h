@@ -100,13 +100,19 @@ private:
   const Face_soup& soup_;
 };
 
-/// All pairs f < g of triangles of `faces` that meet improperly, sorted. Pairs whose boxes meet are found by CGAL's
-/// box intersection, O(n log^3 n + pairs); each is then decided exactly.
+struct Improper_intersections {
+  std::vector<std::pair<Face_soup::Index, Face_soup::Index>> pairs; // f < g, sorted
+  bool has_more = false;
+};
+
+/// Pairs of triangles of `faces` that meet improperly: all if there are at most `most`, else the first `most` that are
+/// found. Pairs whose boxes meet are found by CGAL's box intersection, O(n log^3 n + pairs), always in the same order;
+/// each is then decided exactly.
 /// \param flat[f] whether face f is degenerate
-inline std::vector<std::pair<Face_soup::Index, Face_soup::Index>>
-improper_intersections(const Face_soup& soup, const std::vector<Face_soup::Index>& faces,
-                       const std::vector<bool>& flat) {
+inline Improper_intersections improper_intersections(const Face_soup& soup, const std::vector<Face_soup::Index>& faces,
+                                                     const std::vector<bool>& flat, std::size_t most) {
   using Index = Face_soup::Index;
+  struct Enough {}; // thrown through the box intersection: it has no other way to end early
   using Box =
       CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index, CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
   std::vector<Box> boxes;
@@ -122,16 +128,23 @@ improper_intersections(const Face_soup& soup, const std::vector<Face_soup::Index
   for (const Box& box : boxes)
     pointers.push_back(&box);
 
-  std::vector<std::pair<Index, Index>> found;
+  Improper_intersections found;
   const Meet_improperly meet_improperly(soup);
   const auto decide = [&](const Box* a, const Box* b) {
     const Index f = std::min(a->info(), b->info()), g = std::max(a->info(), b->info());
-    if (flat[f] || flat[g] ? meet_improperly.degenerate(f, g) : meet_improperly(f, g))
-      found.emplace_back(f, g);
+    if (!(flat[f] || flat[g] ? meet_improperly.degenerate(f, g) : meet_improperly(f, g)))
+      return;
+    if (found.pairs.size() == most)
+      throw Enough();
+    found.pairs.emplace_back(f, g);
   };
   constexpr std::ptrdiff_t cutoff = 2000; // below so many boxes all pairs are tried; the figure PMP uses
-  CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), decide, cutoff);
-  std::sort(found.begin(), found.end());
+  try {
+    CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), decide, cutoff);
+  } catch (const Enough&) {
+    found.has_more = true;
+  }
+  std::sort(found.pairs.begin(), found.pairs.end());
   return found;
 }
 

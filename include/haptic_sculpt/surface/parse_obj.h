@@ -36,7 +36,7 @@ inline Face_soup parse_obj(std::string_view text) {
         scan.fail("a vertex has 3 coordinates, not " + std::to_string(n));
       if (n % 3 == 1 && x[3] != 1)
         scan.fail("vertices with a weight other than 1 are not supported; divide the coordinates by it");
-      soup.points.emplace_back(x[0], x[1], x[2]);
+      soup.add_point(x[0], x[1], x[2]);
     } else if (keyword == "f") {
       const auto face = std::to_string(soup.number_of_faces());
       while (scan.has_word()) {
@@ -57,7 +57,7 @@ inline Face_soup parse_obj(std::string_view text) {
     } else if (std::find(skipped.begin(), skipped.end(), keyword) != skipped.end()) {
       scan.skip_rest_of_line();
     } else {
-      scan.fail("'" + std::string(keyword.substr(0, 40)) + "' is no line of an OBJ mesh");
+      scan.fail(in_quotes(keyword) + " is no line of an OBJ mesh");
     }
   }
   if (highest >= static_cast<std::int64_t>(soup.points.size()))

@@ -5,26 +5,41 @@
 #include <haptic_sculpt/surface/Face_soup.h>
 #include <haptic_sculpt/surface/Text_scanner.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace haptic_sculpt {
 namespace internal {
 
+/// Pairs of vertices that stand one after another in a face. O(n log n)
+inline std::size_t number_of_edges(const Face_soup& soup) {
+  std::vector<std::pair<Face_soup::Index, Face_soup::Index>> edges;
+  edges.reserve(soup.corners.size());
+  for (std::size_t f = 0; f < soup.number_of_faces(); ++f)
+    for (const Face_soup::Index *corner = soup.begin(f), *end = soup.end(f); corner != end; ++corner)
+      edges.push_back(std::minmax(*corner, corner + 1 != end ? corner[1] : *soup.begin(f)));
+  std::sort(edges.begin(), edges.end());
+  return std::unique(edges.begin(), edges.end()) - edges.begin();
+}
+
 /// Reads the text of an OFF file, one vertex or face a line. Colours, normals and texture coordinates are skipped.
-/// Refused are binary OFF (it holds floats only), and four or n dimensions. \throw Read_error
+/// The number of edges may be left out, or be 0; any other has to be right. Refused are binary OFF (it holds floats
+/// only), and four or n dimensions. \throw Read_error
 inline Face_soup parse_off(std::string_view text) {
   Text_scanner scan(text);
   if (!scan.next_line())
     throw Read_error("the file holds no text");
   const std::string keyword(scan.word("'OFF'"));
   if (keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF")
-    scan.fail("an OFF file begins with 'OFF', not with '" + keyword.substr(0, 20) + "'");
+    scan.fail("an OFF file begins with 'OFF', not with " + in_quotes(keyword));
   const std::string prefix = keyword.substr(0, keyword.size() - 3);
   if (prefix.find_first_of("4n") != std::string::npos)
-    scan.fail("points of '" + keyword + "' have more than three coordinates; write them with three");
+    scan.fail("points of " + in_quotes(keyword) + " have more than three coordinates; write them with three");
   if (prefix.find_first_not_of("STCN") != std::string::npos)
-    scan.fail("'" + keyword + "' is no kind of OFF file known here");
+    scan.fail(in_quotes(keyword) + " is no kind of OFF file known here");
 
   const auto count = [&](const char* what) {
     const std::string_view word = scan.word_anywhere(what);
@@ -33,7 +48,8 @@ inline Face_soup parse_off(std::string_view text) {
     return scan.to_number<std::uint64_t>(word, what);
   };
   const std::uint64_t vertices = count("the number of vertices"), faces = count("the number of faces");
-  scan.skip_rest_of_line();                                 // the number of edges, which nobody keeps
+  const std::uint64_t edges = scan.has_word() ? count("the number of edges") : 0; // most programs write 0 anyway
+  scan.expect_end_of_line("the number of edges");
   check_count(vertices, 6, scan.rest().size(), "vertices"); // "0 0 0" and the line's end
   check_count(faces, 2, scan.rest().size(), "faces");
 
@@ -51,7 +67,7 @@ inline Face_soup parse_off(std::string_view text) {
     if (prefix.empty())
       scan.expect_end_of_line("the three coordinates of a vertex");
     scan.skip_rest_of_line();
-    soup.points.emplace_back(x[0], x[1], x[2]);
+    soup.add_point(x[0], x[1], x[2]);
   }
   for (std::uint64_t i = 0; i < faces; ++i) {
     next_line("faces", i, faces);
@@ -68,6 +84,10 @@ inline Face_soup parse_off(std::string_view text) {
   }
   if (scan.next_line())
     scan.fail("text follows after the last face");
+  if (edges != 0)
+    if (const std::size_t found = number_of_edges(soup); found != edges)
+      throw Read_error("the header promises " + std::to_string(edges) + " edges, but the faces have " +
+                       std::to_string(found) + ": the file is damaged, or write 0 there, which says nothing");
   return soup;
 }
 

@@ -55,7 +55,7 @@ inline Ply_header parse_ply_header(std::string_view bytes) {
     for (int i = 0; i < 8; ++i)
       if (word == names[0][i] || word == names[1][i])
         return static_cast<Ply_type>(i);
-    scan.fail("'" + std::string(word.substr(0, 40)) + "' is no type of PLY");
+    scan.fail(in_quotes(word) + " is no type of PLY");
   };
   Ply_header header{};
   bool has_format = false;
@@ -74,7 +74,7 @@ inline Ply_header parse_ply_header(std::string_view bytes) {
       else if (name == "binary_big_endian")
         header.encoding = Ply_header::Encoding::big_endian;
       else
-        scan.fail("'" + std::string(name.substr(0, 40)) + "' is no format of PLY");
+        scan.fail(in_quotes(name) + " is no format of PLY");
       has_format = true;
     } else if (keyword == "element") {
       std::string name(scan.word("a name"));
@@ -102,7 +102,7 @@ inline Ply_header parse_ply_header(std::string_view bytes) {
       header.lines = std::count(bytes.begin(), bytes.begin() + header.size, '\n');
       return header;
     } else {
-      scan.fail("'" + std::string(keyword.substr(0, 40)) + "' is no line of a PLY header");
+      scan.fail(in_quotes(keyword) + " is no line of a PLY header");
     }
   }
 }
@@ -169,14 +169,14 @@ inline Face_soup parse_ply(std::string_view bytes) {
     for (const Ply_property& property : element.properties)
       least += text ? 2 : size_of(property.length_type.value_or(property.type)); // in text a digit and a blank
     if (least == 0 && element.count > 0)
-      throw Read_error("the element '" + element.name + "' has no properties");
+      throw Read_error("the element " + in_quotes(element.name) + " has no properties");
     if (element.count > 0)
-      check_count(element.count, least, body.size(), "elements '" + element.name + "'");
+      check_count(element.count, least, body.size(), "elements " + in_quotes(element.name));
 
     const bool is_vertex = element.name == "vertex" || element.name == "vertices";
     const bool is_face = element.name == "face" || element.name == "faces";
     if ((is_vertex && has_vertices) || (is_face && has_faces))
-      throw Read_error("the element '" + element.name + "' stands twice in the header");
+      throw Read_error("the element " + in_quotes(element.name) + " stands twice in the header");
     std::array<std::optional<std::size_t>, 3> coordinate;
     std::optional<std::size_t> indices;
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -200,7 +200,7 @@ inline Face_soup parse_ply(std::string_view bytes) {
       try {
         return values.take(type);
       } catch (const Read_error& error) {
-        throw Read_error(element.name + " " + std::to_string(item) + " of " + std::to_string(element.count) + ": " +
+        throw Read_error(escaped(element.name) + " " + std::to_string(item) + " of " + std::to_string(element.count) + ": " +
                          error.what());
       }
     };
@@ -214,7 +214,7 @@ inline Face_soup parse_ply(std::string_view bytes) {
         }
         const double length = take(*property.length_type, item);
         if (length < 0)
-          throw Read_error(element.name + " " + std::to_string(item) + " has a list of negative length");
+          throw Read_error(escaped(element.name) + " " + std::to_string(item) + " has a list of negative length");
         for (double k = 0; k < length; ++k) {
           const double value = take(property.type, item); // an absurd length soon finds the end of the file
           if (!is_face || i != *indices)
@@ -226,7 +226,7 @@ inline Face_soup parse_ply(std::string_view bytes) {
         }
       }
       if (is_vertex)
-        soup.points.emplace_back(row[*coordinate[0]], row[*coordinate[1]], row[*coordinate[2]]);
+        soup.add_point(row[*coordinate[0]], row[*coordinate[1]], row[*coordinate[2]]);
       if (is_face)
         soup.close_face();
     }

@@ -8,6 +8,7 @@
 
 #include <boost/container_hash/hash.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
@@ -33,7 +34,7 @@ public:
     }
     const auto [place, is_new] = index_.emplace(key, static_cast<Face_soup::Index>(soup_.points.size()));
     if (is_new)
-      soup_.points.emplace_back(x, y, z);
+      soup_.add_point(x, y, z);
     soup_.corners.push_back(place->second);
   }
 
@@ -42,18 +43,20 @@ private:
   std::unordered_map<std::array<std::uint64_t, 3>, Face_soup::Index, boost::hash<std::array<std::uint64_t, 3>>> index_;
 };
 
-/// ASCII STL, one or several solids. Coordinates are doubles; normals are skipped. \throw Read_error
+inline std::string in_lower_case(std::string_view word) {
+  std::string lower(word);
+  for (char& c : lower)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+/// ASCII STL, one or several solids. Coordinates are doubles; normals are skipped. Keywords may stand in capitals.
+/// \throw Read_error
 inline Face_soup parse_ascii_stl(std::string_view text) {
   Text_scanner scan(text, 0);
-  const auto keyword = [&](const char* expected) {
-    std::string word(scan.word_anywhere(expected));
-    for (char& c : word)
-      c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return word;
-  };
   const auto expect = [&](const char* expected) {
-    if (const std::string word = keyword(expected); word != expected)
-      scan.fail("'" + word.substr(0, 40) + "' stands where '" + expected + "' should");
+    if (const std::string_view word = scan.word_anywhere(expected); in_lower_case(word) != expected)
+      scan.fail(in_quotes(word) + " stands where '" + expected + "' should");
   };
   const auto skip_words = [&](int n) {
     for (int i = 0; i < n; ++i)
@@ -64,10 +67,13 @@ inline Face_soup parse_ascii_stl(std::string_view text) {
   while (scan.has_word() || scan.next_line()) {
     expect("solid");
     scan.skip_rest_of_line(); // its name
-    for (std::string word = keyword("'facet' or 'endsolid'"); word != "endsolid";
-         word = keyword("'facet' or 'endsolid'")) {
-      if (word != "facet")
-        scan.fail("'" + word.substr(0, 40) + "' stands where 'facet' or 'endsolid' should");
+    for (;;) {
+      const std::string_view word = scan.word_anywhere("'facet' or 'endsolid'");
+      const std::string keyword = in_lower_case(word);
+      if (keyword == "endsolid")
+        break;
+      if (keyword != "facet")
+        scan.fail(in_quotes(word) + " stands where 'facet' or 'endsolid' should");
       expect("normal");
       skip_words(3);
       expect("outer");
@@ -111,7 +117,8 @@ inline Face_soup parse_binary_stl(std::string_view bytes, std::uint32_t faces) {
 /// A file is binary iff its size is that which a binary file with its count has. \throw Read_error
 inline Face_soup parse_stl(std::string_view bytes) {
   constexpr std::size_t header = 84, facet = 50;
-  const bool looks_like_text = bytes.substr(0, 5) == "solid";
+  const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  const bool looks_like_text = in_lower_case(bytes.substr(start, 5)) == "solid";
   if (bytes.size() >= header) {
     const auto faces = Binary_scanner(bytes.substr(80), false).take<std::uint32_t>();
     const std::uint64_t size = header + std::uint64_t(facet) * faces;

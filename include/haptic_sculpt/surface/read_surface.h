@@ -2,12 +2,14 @@
 #ifndef HAPTIC_SCULPT_SURFACE_READ_SURFACE_H
 #define HAPTIC_SCULPT_SURFACE_READ_SURFACE_H
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/parse_obj.h>
 #include <haptic_sculpt/surface/parse_off.h>
 #include <haptic_sculpt/surface/parse_ply.h>
 #include <haptic_sculpt/surface/parse_stl.h>
+#include <haptic_sculpt/surface/quoted.h>
 #include <haptic_sculpt/surface/validate.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -16,6 +18,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace haptic_sculpt {
@@ -41,6 +44,21 @@ inline std::string bytes_of_file(const std::filesystem::path& path) {
   if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
     throw Read_error("the file is empty");
   return bytes;
+}
+
+/// \throw Read_error
+inline Face_soup parse(std::string_view bytes, Mesh_file_format format) {
+  switch (format) {
+  case Mesh_file_format::off:
+    return parse_off(bytes);
+  case Mesh_file_format::ply:
+    return parse_ply(bytes);
+  case Mesh_file_format::obj:
+    return parse_obj(bytes);
+  case Mesh_file_format::stl:
+    break;
+  }
+  return parse_stl(bytes);
 }
 
 /// The surface as a mesh; vertices and faces keep their indices, and faces their first corners (STL numbers vertices by
@@ -76,31 +94,17 @@ Mesh mesh_of(const Face_soup& soup) {
 /// against the file's before anything is allocated, and errors name the line. The tests compare both on good files.
 /// \throw Read_error
 inline Face_soup read_face_soup(const std::filesystem::path& path) {
+  const internal::Rounding_to_nearest rounding;
   try {
     const auto format = mesh_file_format(path);
     if (!format)
       throw Read_error("the extension has to be .off, .ply, .obj or .stl");
-    const std::string bytes = internal::bytes_of_file(path);
-    Face_soup soup;
-    switch (*format) {
-    case Mesh_file_format::off:
-      soup = internal::parse_off(bytes);
-      break;
-    case Mesh_file_format::ply:
-      soup = internal::parse_ply(bytes);
-      break;
-    case Mesh_file_format::obj:
-      soup = internal::parse_obj(bytes);
-      break;
-    case Mesh_file_format::stl:
-      soup = internal::parse_stl(bytes);
-      break;
-    }
+    Face_soup soup = internal::parse(internal::bytes_of_file(path), *format);
     if (soup.number_of_faces() == 0)
       throw Read_error("the file holds no faces");
     return soup;
   } catch (const Read_error& error) {
-    throw Read_error("cannot read '" + path.string() + "': " + error.what());
+    throw Read_error("cannot read " + internal::quoted_path(path) + ": " + error.what());
   }
 }
 
@@ -108,20 +112,21 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
 ///
 /// Vertices and faces are numbered from 0 in file order. STL has no vertices: exactly equal corners become one,
 /// numbered by first appearance. Decimals are read to the nearest double, so what `write_surface()` wrote comes back
-/// bit for bit. Vertices without faces are kept (see `validate()`).
+/// bit for bit, whatever rounding mode the caller has set. Vertices without faces are kept (see `validate()`).
 ///
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param path to the file; its extension tells the format
 /// \param delta the delta rule's length, >= 0
 /// \throw Read_error if the file cannot be read as a mesh
-/// \throw Invalid_surface if `validate()` finds fault with it; names every offending vertex, edge and face by index
+/// \throw Invalid_surface if `validate()` finds fault with it; names every offending vertex, edge and face by index (of
+/// pairs of intersecting faces the first `Validity_report::default_most_intersections`)
 /// \post `validate(mesh, delta).is_valid()`
 template <class Mesh>
 Mesh read_surface(const std::filesystem::path& path, double delta = 0) {
   const Face_soup soup = read_face_soup(path);
   Validity_report report = validate_soup(soup, delta);
   if (!report.is_valid())
-    throw Invalid_surface("'" + path.string() + "'", std::move(report));
+    throw Invalid_surface(internal::quoted_path(path), std::move(report));
   return internal::mesh_of<Mesh>(soup);
 }
 

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SURFACE_VALIDATE_H
 
 #include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Face_soup.h>
 #include <haptic_sculpt/surface/Validity_report.h>
 #include <haptic_sculpt/surface/component_orientation.h>
@@ -73,12 +74,15 @@ inline void find_coincident_vertices(const Face_soup& soup, Validity_report& rep
 } // namespace internal
 
 /// Says everything that is wrong with a list of faces; see `validate(mesh)`.
+/// \param most_intersections stop after so many pairs of intersecting faces, at least one
 /// \param face_name the index under which each face is reported; empty: its place in the soup
 /// \param vertex_exists false for points that belong to nothing (removed vertices); empty: all exist
 /// \pre every corner is the index of a point
 inline Validity_report validate_soup(const Face_soup& soup, double delta = 0,
+                                     std::size_t most_intersections = Validity_report::default_most_intersections,
                                      std::vector<Face_soup::Index> face_name = {},
                                      std::vector<bool> vertex_exists = {}) {
+  const internal::Rounding_to_nearest rounding;
   using Index = Face_soup::Index;
   if (!(delta >= 0) || !std::isfinite(delta))
     throw Error("delta is a length: it must be finite and not negative, not " + std::to_string(delta));
@@ -111,7 +115,9 @@ inline Validity_report validate_soup(const Face_soup& soup, double delta = 0,
     else if (delta > 0 && !satisfies_delta_rule(soup.points[corner[0]], soup.points[corner[1]], soup.points[corner[2]]))
       report.low_faces.emplace_back(face_name[f]);
   }
-  for (const auto& [f, g] : internal::improper_intersections(soup, triangles, flat))
+  const auto intersections = internal::improper_intersections(soup, triangles, flat, std::max<std::size_t>(most_intersections, 1));
+  report.has_more_intersections = intersections.has_more;
+  for (const auto& [f, g] : intersections.pairs)
     report.intersecting_faces.emplace_back(Validity_report::Face_index(face_name[f]),
                                            Validity_report::Face_index(face_name[g]));
   if (report.is_valid())
@@ -149,7 +155,8 @@ Face_soup face_soup(const Mesh& mesh, std::vector<Face_soup::Index>* face_name =
 
 /// The one oracle of validity: is this a closed, 2-manifold surface of triangles, none degenerate, whose closed
 /// triangles meet only in shared vertices and edges, with no altitude below `delta`? Names every offending element of
-/// every kind.
+/// every kind; of pairs of intersecting faces, which can be as many as the square of the faces, only the first
+/// `most_intersections` (always the same ones), and whether there are more.
 ///
 /// Everything geometric is decided exactly on the stored doubles, by predicates that no fast path of this library uses:
 /// all pairs of faces with meeting boxes are tried. Decisions taken:
@@ -161,11 +168,14 @@ Face_soup face_soup(const Mesh& mesh, std::vector<Face_soup::Index>* face_name =
 ///
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param delta the delta rule's length (paper, section 3.1), >= 0; 0: only exact degeneracy counts
+/// \param most_intersections pairs of intersecting faces to name, at least one; `Validity_report::all_intersections`: all
 /// \throw Error if delta is negative or not finite
-/// Complexity: O(n log^3 n + pairs of faces with meeting boxes); 1.6 s for a million triangles. Memory: about 80 bytes
-/// a triangle beside the mesh. Thread-safe as far as reading the mesh is.
+/// Complexity: O(n log^3 n + pairs of faces with meeting boxes) up to the last pair named, components included
+/// (doc/validity.md); 1.6 s for a million triangles. Memory: about 80 bytes a triangle beside the mesh. Thread-safe as
+/// far as reading the mesh is; whatever rounding mode the caller has set.
 template <class Mesh>
-Validity_report validate(const Mesh& mesh, double delta = 0) {
+Validity_report validate(const Mesh& mesh, double delta = 0,
+                         std::size_t most_intersections = Validity_report::default_most_intersections) {
   using Kernel = typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel;
   static_assert(std::is_same_v<typename Kernel::FT, double>, "validate() decides on coordinates of type double");
   if (auto wrong = internal::inconsistent_halfedges(mesh); !wrong.empty()) {
@@ -181,7 +191,7 @@ Validity_report validate(const Mesh& mesh, double delta = 0) {
   std::vector<bool> vertex_exists(soup.points.size(), false);
   for (const auto v : mesh.vertices())
     vertex_exists[v] = true;
-  return validate_soup(soup, delta, std::move(face_name), std::move(vertex_exists));
+  return validate_soup(soup, delta, most_intersections, std::move(face_name), std::move(vertex_exists));
 }
 
 } // namespace haptic_sculpt

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_WRITE_SURFACE_H
 #define HAPTIC_SCULPT_SURFACE_WRITE_SURFACE_H
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/replace_file.h>
@@ -168,6 +169,7 @@ inline std::string file_contents(const Face_soup& soup, Mesh_file_format format,
 /// \throw Write_error
 template <class Mesh>
 void write_surface(const std::filesystem::path& path, const Mesh& mesh, const Write_options& options = {}) {
+  const internal::Rounding_to_nearest rounding;
   using Encoding = Write_options::Encoding;
   const auto format = mesh_file_format(path);
   std::string contents;
