@@ -4,6 +4,9 @@
 
 #include <haptic_sculpt/device/Device_parameters.h>
 #include <nlohmann/json.hpp>
+#include <algorithm>
+#include <initializer_list>
+#include <string>
 
 /// \file
 /// Device descriptions from JSON, for the programs: `{"form", "R", "l1", "l2", "r", "m1", "m2", "M", "I", "Jm", "g"}`, SI units.
@@ -38,6 +41,15 @@ inline Eigen::VectorXd json_vector(const nlohmann::json& object, const char* key
 }
 
 inline Eigen::Vector3d json_vector_3(const nlohmann::json& object, const char* key) { return json_vector(object, key, 3, 3); }
+
+inline bool is_one_of(const std::string& key, std::initializer_list<const char*> keys) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Whether a member of `params` has a meaning.
+inline bool is_device_key(const std::string& key) {
+  return is_one_of(key, {"form", "R", "l1", "l2", "r", "m1", "m2", "M", "I", "Jm", "g", "torque_limit", "angle_limits"});
+}
 
 /// The description in `params`. Masses may be left out where only kinematics is asked (`with_masses` false), `r` in the di-tetrahedral
 /// form; `I` left out is a disc's, `Jm` is 0, `g` 9.81, the limits are those of the default design.
