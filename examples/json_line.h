@@ -10,7 +10,8 @@
 #include <vector>
 
 /// \file
-/// JSON by lines from a stream that is not trusted: nothing it says can take more than a bounded amount of memory or of stack.
+/// JSON by lines from a stream that is not trusted: nothing it says can take more than a bounded amount of memory or of
+/// stack.
 
 namespace haptic_sculpt {
 
@@ -21,8 +22,8 @@ constexpr std::size_t longest_line = std::size_t(1) << 20;
 /// The library copies and prints values by recursion, so the depth is what bounds the stack.
 constexpr int deepest_nesting = 32;
 
-/// Values in one line, those within others counted too; more are refused. A request has some sixty. Taking a value down needs memory
-/// (16 bytes an element) and has no way to say that there is none, so that a value must stay small.
+/// Values in one line, those within others counted too; more are refused. A request has some sixty. Taking a value down
+/// needs memory (16 bytes an element) and has no way to say that there is none, so that a value must stay small.
 constexpr int most_values = 1000;
 
 /// Reads line after line into one buffer of fixed size.
@@ -67,14 +68,16 @@ private:
 };
 
 /// The value a line says.
-/// \throw nlohmann::json::exception if it is no JSON; Line_too_complex before anything deeper or more is built; std::bad_alloc
+/// \throw nlohmann::json::exception if it is no JSON; Line_too_complex before anything deeper or more is built;
+/// std::bad_alloc
 inline nlohmann::json parse_line(std::string_view line) {
   using Event = nlohmann::json::parse_event_t;
   int values = 0;
   return nlohmann::json::parse(line.begin(), line.end(), [&](int depth, Event event, nlohmann::json&) {
     const bool opens = event == Event::object_start || event == Event::array_start;
     if (opens && depth >= deepest_nesting)
-      throw Line_too_complex("nested_too_deep", "objects and arrays are nested more than " + std::to_string(deepest_nesting) + " deep");
+      throw Line_too_complex("nested_too_deep",
+                             "objects and arrays are nested more than " + std::to_string(deepest_nesting) + " deep");
     if ((opens || event == Event::value) && ++values > most_values)
       throw Line_too_complex("too_many_values", "the line says more than " + std::to_string(most_values) + " values");
     return true;
