@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mechanism as a calculator: one JSON request a line in, one JSON answer a line out. doc/device.md has the keys.
 #include "device_json.h"
+#include "json_line.h"
 #include <haptic_sculpt/device.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
+#include <cstring>
 #include <iostream>
+#include <new>
 #include <optional>
 
 namespace {
@@ -226,17 +229,32 @@ json answer(const json& request) {
   return answer_forward(r);
 }
 
-json failure(const char* code, const std::string& message) { return {{"ok", false}, {"error", code}, {"message", message}}; }
-
-json answer_line(const std::string& line) {
-  json request;
-  try {
-    request = json::parse(line);
-  } catch (const json::exception& error) {
-    return failure("malformed_json", error.what());
+/// The request's keys that mean nothing to any operation, those of `params` as `params.KEY`: a misspelt key must not go unseen.
+json unknown_keys(const json& request) {
+  json unknown = json::array();
+  if (!request.is_object())
+    return unknown;
+  for (const auto& [key, value] : request.items()) {
+    if (!is_one_of(key, {"op", "form", "params", "theta", "thetad", "thetadd", "mode", "phi_seed", "wrench", "p"}))
+      unknown.push_back(key);
+    if (key == "params" && value.is_object())
+      for (const auto& [name, ignored] : value.items())
+        if (!is_device_key(name))
+          unknown.push_back("params." + name);
   }
+  return unknown;
+}
+
+/// A message quotes what it complains of, which may be a whole line.
+constexpr std::size_t longest_message = 1000;
+
+json failure(const char* code, const std::string& message) {
+  return {{"ok", false}, {"error", code}, {"message", message.size() > longest_message ? message.substr(0, longest_message) + "..." : message}};
+}
+
+json answer_or_failure(const json& request) {
   try {
-    const json found = answer(request);
+    json found = answer(request);
     return is_finite_answer(found) ? found : failure("not_finite", "the numbers are so large or small that the answer overflows");
   } catch (const No_answer& reason) {
     return failure(reason.code(), reason.what());
@@ -247,14 +265,72 @@ json answer_line(const std::string& line) {
   }
 }
 
+json answer_line(const Line_reader& reader) {
+  if (reader.is_too_long())
+    return failure("line_too_long", "a line may have " + std::to_string(longest_line) + " bytes; this one was skipped");
+  json request;
+  try {
+    request = parse_line(reader.line());
+  } catch (const Line_too_complex& error) {
+    return failure(error.code(), error.what());
+  } catch (const json::exception& error) {
+    return failure("malformed_json", error.what());
+  }
+  json found = answer_or_failure(request);
+  json unknown = unknown_keys(request);
+  if (!unknown.empty())
+    found["unknown_keys"] = std::move(unknown);
+  return found;
+}
+
+constexpr const char* help = R"(device_calculator: the three-leg mechanism as a calculator.
+
+It reads JSON requests from its input, one a line, and prints one JSON answer a line. SI units and radians.
+
+Example: the apex above three legs at 1, 1.1 and 0.9 rad.
+  $ device_calculator <<'END'
+  {"op":"forward","form":"ditetra","params":{"R":0.03,"l1":0.07,"l2":0.1},"theta":[1,1.1,0.9]}
+  END
+  {"J":[...],"Q":[...],"condA":...,"joints":[...],"ok":true,"p":[...]}
+
+Requests: form, params and one op, with the keys it takes (those in brackets may be left out)
+  form      "ditetra" or "general"
+  params    R l1 l2 [r] [m1 m2 M] [I] [Jm] [g]; r for "general", masses for "dynamics"
+  forward   theta [mode] [phi_seed] [wrench]    pose, Jacobian, condition
+  dynamics  the same, thetad thetadd            also velocity, acceleration and both dynamic models
+  inverse   p [theta]                           joint angles; theta is the seed in the general form
+  modes     theta                               all assembly modes
+doc/device.md says what each key means.
+
+A request that cannot be answered gets {"ok":false,"error":CODE,"message":TEXT}, and the next line is read. Keys that are not
+known are listed in the answer as "unknown_keys". A line may have 1048576 bytes, 1000 values and 32 levels of nesting.
+
+usage: device_calculator [--help] < REQUESTS > ANSWERS
+exit:  0 all lines answered (failures are answers), 2 wrong arguments, 5 the answers cannot be written
+)";
+static_assert(longest_line == 1048576 && most_values == 1000 && deepest_nesting == 32, "the help text says these");
+
 } // namespace
 
-int main(int argument_count, char**) {
+int main(int argument_count, char** arguments) {
+  for (int k = 1; k < argument_count; ++k)
+    if (std::strcmp(arguments[k], "--help") == 0 || std::strcmp(arguments[k], "-h") == 0) {
+      std::cout << help;
+      return std::cout.flush() ? 0 : 5;
+    }
   if (argument_count > 1) {
-    std::cerr << "device_calculator reads JSON requests, one a line, from its input; it takes no arguments.\n";
+    std::cerr << "device_calculator: unknown argument `" << arguments[1] << "`. It reads JSON requests, one a line, from its input; see --help.\n";
     return 2;
   }
-  std::string line;
-  while (std::getline(std::cin, line))
-    std::cout << answer_line(line).dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
+  std::ios::sync_with_stdio(false);
+  Line_reader reader(std::cin);
+  while (reader.next()) {
+    try {
+      std::cout << answer_line(reader).dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
+    } catch (const std::bad_alloc&) { // what this line took has been given back by now
+      std::cout << R"({"error":"out_of_memory","message":"there is not enough memory to answer this line","ok":false})" << std::endl;
+    }
+    if (!std::cout)
+      return 5;
+  }
 }

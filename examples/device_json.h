@@ -4,9 +4,13 @@
 
 #include <haptic_sculpt/device/Device_parameters.h>
 #include <nlohmann/json.hpp>
+#include <algorithm>
+#include <initializer_list>
+#include <string>
 
 /// \file
-/// Device descriptions from JSON, for the programs: `{"form", "R", "l1", "l2", "r", "m1", "m2", "M", "I", "Jm", "g"}`, SI units.
+/// Device descriptions from JSON, for the programs: `{"form", "R", "l1", "l2", "r", "m1", "m2", "M", "I", "Jm", "g"}` and, of the joints,
+/// `{"torque_limit", "angle_limits", "friction", "coulomb", "encoder_step"}`; SI units and radians.
 
 namespace haptic_sculpt {
 
@@ -39,8 +43,17 @@ inline Eigen::VectorXd json_vector(const nlohmann::json& object, const char* key
 
 inline Eigen::Vector3d json_vector_3(const nlohmann::json& object, const char* key) { return json_vector(object, key, 3, 3); }
 
+inline bool is_one_of(const std::string& key, std::initializer_list<const char*> keys) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Whether a member of `params` has a meaning.
+inline bool is_device_key(const std::string& key) {
+  return is_one_of(key, {"form", "R", "l1", "l2", "r", "m1", "m2", "M", "I", "Jm", "g", "torque_limit", "angle_limits", "friction", "coulomb", "encoder_step"});
+}
+
 /// The description in `params`. Masses may be left out where only kinematics is asked (`with_masses` false), `r` in the di-tetrahedral
-/// form; `I` left out is a disc's, `Jm` is 0, `g` 9.81, the limits are those of the default design.
+/// form; `I` left out is a disc's, `g` 9.81, the limits are those of the default design, all else is 0.
 /// \throw Bad_request if a member is missing or has the wrong type
 inline Device_description<double> device_description_from_json(const nlohmann::json& params, Device_form form, bool with_masses) {
   if (!params.is_object())
@@ -58,6 +71,9 @@ inline Device_description<double> device_description_from_json(const nlohmann::j
   d.gravity = optional("g", 9.81);
   d.rotor_inertia = optional("Jm", 0);
   d.torque_limit = optional("torque_limit", d.torque_limit);
+  d.viscous_friction = optional("friction", 0);
+  d.coulomb_friction = optional("coulomb", 0);
+  d.encoder_step = optional("encoder_step", 0);
   if (params.contains("angle_limits")) {
     const Eigen::VectorXd limits = json_vector(params, "angle_limits", 2, 2);
     d.least_angle.setConstant(limits[0]);
@@ -93,6 +109,9 @@ template <class S> Device_description<S> device_description_as(const Device_desc
   e.rotor_inertia = S(d.rotor_inertia);
   e.gravity = S(d.gravity);
   e.torque_limit = S(d.torque_limit);
+  e.viscous_friction = S(d.viscous_friction);
+  e.coulomb_friction = S(d.coulomb_friction);
+  e.encoder_step = S(d.encoder_step);
   for (int k = 0; k < 3; ++k) {
     e.platform_inertia[k] = S(d.platform_inertia[k]);
     e.least_angle[k] = S(d.least_angle[k]);

@@ -7,15 +7,22 @@
 
 #include <haptic_sculpt/device/Device_parameters.h>
 #include <haptic_sculpt/device/Device_pose.h>
+#include <haptic_sculpt/device/Torque_delay.h>
 #include <haptic_sculpt/device/assembly_modes.h>
 #include <haptic_sculpt/device/conditioning.h>
 #include <haptic_sculpt/device/ditetrahedral_kinematics.h>
+#include <haptic_sculpt/device/dynamics.h>
+#include <haptic_sculpt/device/encoder.h>
 #include <haptic_sculpt/device/forward_kinematics.h>
 #include <haptic_sculpt/device/general_inverse.h>
 #include <haptic_sculpt/device/general_kinematics.h>
+#include <haptic_sculpt/device/gravity_torque.h>
 #include <haptic_sculpt/device/jacobian.h>
+#include <haptic_sculpt/device/joint_friction.h>
 #include <haptic_sculpt/device/nine_equations.h>
 #include <haptic_sculpt/device/planar_dynamics.h>
+#include <haptic_sculpt/device/runge_kutta.h>
+#include <haptic_sculpt/device/simulated_tick.h>
 #include <haptic_sculpt/device/simulation.h>
 #include <haptic_sculpt/device/spatial_dynamics.h>
 #include <haptic_sculpt/device/workspace.h>

@@ -2,18 +2,109 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Asks device_calculator for every configuration of a reference file and compares within the file's tolerances.
 
-usage: check_calculator.py DEVICE_CALCULATOR REFERENCE.json     exit 77 (skipped) if the reference is absent
+usage: check_calculator.py DEVICE_CALCULATOR REFERENCE.json     exit 77 (skipped in part) if the reference is absent
 """
 import json
 import math
 import os
+import resource
 import subprocess
 import sys
 
 program, path = sys.argv[1], sys.argv[2]
+failures = []
+
+# What does not need the reference: lines no caller should send must not cost memory, stack or the answers after them.
+plain = {"op": "forward", "form": "ditetra", "params": {"R": 0.03, "l1": 0.07, "l2": 0.1}, "theta": [1, 1.1, 0.9]}
+good_line = json.dumps(plain)
+
+
+def expect(condition, *what):
+    if not condition:
+        failures.append(what)
+
+
+def answers(lines, address_space=None):
+    """The answers to these lines, parsed; none if the program dies."""
+    def limit():
+        if address_space:
+            resource.setrlimit(resource.RLIMIT_AS, (address_space, address_space))
+    run = subprocess.run([program], input="\n".join(lines).encode() + b"\n", stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=100, preexec_fn=limit)
+    expect(run.returncode == 0, "exit code", run.returncode, [line[:40] for line in lines])
+    got = [json.loads(line) for line in run.stdout.decode().splitlines()]
+    expect(len(got) == len(lines), len(lines), "lines,", len(got), "answers", [line[:40] for line in lines])
+    return got if len(got) == len(lines) else [{}] * len(lines)
+
+
+def expect_errors(lines, error, address_space=None):
+    """Each line is refused with this error, and a good one after it is answered."""
+    got = answers([both for line in lines for both in (line, good_line)], address_space)
+    for line, refused, good in zip(lines, got[::2], got[1::2]):
+        expect(refused.get("ok") is False and refused.get("error") == error and len(refused.get("message", "")) in range(1, 1100), error, line[:60], refused)
+        expect(good.get("ok") is True, "a good line after", line[:60], good)
+
+
+def nested(depth):  # the request itself is the first level
+    return good_line[:-1] + ', "x": ' + "[" * (depth - 1) + "]" * (depth - 1) + "}"
+
+
+expect_errors(['{"params":{},"op":"forward","form":' + "[" * 500000 + "]" * 500000 + "}", '{"op":"forward","form":' + "[" * 87000, "[" * 1000000, '{"a":' * 150000, nested(33)], "nested_too_deep")
+expect_errors(["[" * 50000000, " " * (2**20 - len(good_line) + 1) + good_line, '"' + "a" * 2**21], "line_too_long", None if "sanitize" in program else 3 * 2**30)
+expect_errors(["[" + "[]," * 300000 + "[]]", "[" + "1," * 1000 + "1]", '{"x":[' + "1," * 999 + "1]}"], "too_many_values")
+expect_errors(['"' + "a" * 1000000, "\x00\x01\x1b[31m"], "malformed_json")
+just, deep, many = answers([" " * (2**20 - len(good_line)) + good_line, nested(32), good_line[:-1] + ', "x": [' + "1," * 900 + "1]}"])
+expect(many.get("ok") is True and many.get("unknown_keys") == ["x"], "many values", many)
+expect(just.get("ok") is True and "unknown_keys" not in just, "a line of the greatest length", just)
+expect(deep.get("ok") is True and deep.get("unknown_keys") == ["x"], "the deepest nesting", deep)
+
+process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+
+
+def ask_process(line):
+    try:
+        process.stdin.write(line.encode() + b"\n")
+        process.stdin.flush()
+    except BrokenPipeError:
+        return {}
+    return json.loads(process.stdout.readline() or b"{}")
+
+
+expect(ask_process(good_line).get("ok") is True, "a good line")
+size = next(int(line.split()[1]) * 1024 for line in open(f"/proc/{process.pid}/status") if line.startswith("VmSize"))
+if size < 2**34:  # an address sanitizer reserves more and does not survive a limit
+    resource.prlimit(process.pid, resource.RLIMIT_AS, (size + 2**19, size + 2**19))
+    starved = ask_process('{"x": "' + "a" * 1000000 + '"}')
+    expect(starved.get("ok") is False and starved.get("error") == "out_of_memory" and starved.get("message"), "out of memory", starved)
+    expect(ask_process(good_line).get("ok") is True, "a good line after running out of memory")
+try:
+    process.stdin.close()
+except BrokenPipeError:
+    pass
+expect(process.wait() == 0, "exit code after running out of memory")
+
+joints = {"torque_limit": 0.2, "angle_limits": [-0.5, 2.5], "friction": 1e-4, "coulomb": 1e-3, "encoder_step": 1.53e-4}
+with_joints, wrong = answers([json.dumps({**plain, "params": {**plain["params"], **joints}}), json.dumps({**plain, "params": {**plain["params"], "coulomb": -1}})])
+expect(with_joints.get("ok") is True and "unknown_keys" not in with_joints, "a device's keys", with_joints)
+expect(wrong.get("error") == "invalid_parameters" and "coulomb" in wrong["message"], "negative friction", wrong)
+answered, same, failed = answers([json.dumps({**plain, "thetas": 1, "Mode": -1, "params": {**plain["params"], "Gravity": 1}}), good_line,
+                                  json.dumps({**plain, "theta": None, "wrnch": [1]})])
+expect(answered.pop("unknown_keys", None) == ["Mode", "params.Gravity", "thetas"] and answered == same, "unknown keys", answered)
+expect(failed.get("error") == "bad_request" and failed.get("unknown_keys") == ["wrnch"], "unknown keys of a failure", failed)
+
+run = subprocess.run([program, "--help"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+expect(run.returncode == 0 and not run.stderr and b"usage:" in run.stdout, "--help", run)
+examples = [line.strip() for line in run.stdout.decode().splitlines() if line.strip().startswith('{"op"')]
+expect(examples and all(answer.get("ok") is True and "unknown_keys" not in answer for answer in answers(examples)), "the examples of --help", examples)
+run = subprocess.run([program, "--hlep"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+expect(run.returncode == 2 and not run.stdout and b"--hlep" in run.stderr, "a wrong argument", run)
+with open("/dev/full", "wb") as full:
+    expect(subprocess.run([program], input=good_line.encode(), stdout=full).returncode == 5, "answers that cannot be written")
+
 if not os.path.exists(path):
     print("no reference at", path)
-    sys.exit(77)
+    for failure in failures:
+        print("FAILED", failure)
+    sys.exit(1 if failures else 77)
 reference = json.load(open(path))
 requests, checks = [], []
 
@@ -30,7 +121,6 @@ def relative(got, want):
 
 
 worst = {}
-failures = []
 
 
 def note(name, ratio, tag):

@@ -41,6 +41,7 @@ template <class S> Device_description<S> description_as(const Device_description
   e.base_radius = S(d.base_radius), e.primary_length = S(d.primary_length), e.secondary_length = S(d.secondary_length);
   e.platform_radius = S(d.platform_radius), e.primary_mass = S(d.primary_mass), e.secondary_mass = S(d.secondary_mass);
   e.platform_mass = S(d.platform_mass), e.rotor_inertia = S(d.rotor_inertia), e.gravity = S(d.gravity), e.torque_limit = S(d.torque_limit);
+  e.viscous_friction = S(d.viscous_friction), e.coulomb_friction = S(d.coulomb_friction), e.encoder_step = S(d.encoder_step);
   for (int k = 0; k < 3; ++k)
     e.platform_inertia[k] = S(d.platform_inertia[k]), e.least_angle[k] = S(d.least_angle[k]), e.greatest_angle[k] = S(d.greatest_angle[k]);
   return e;

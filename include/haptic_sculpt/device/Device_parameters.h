@@ -30,6 +30,9 @@ template <class S = double> struct Device_description {
   S rotor_inertia = S(0);                ///< of one motor, reflected to its joint, kg m^2
   S gravity = S(981) / S(100);           ///< along -z, m/s^2
   S torque_limit = S(1) / S(5);          ///< of one joint, N m
+  S viscous_friction = S(0);             ///< of one joint, N m s/rad
+  S coulomb_friction = S(0);             ///< of one joint, N m; see joint_friction()
+  S encoder_step = S(0);                 ///< the least joint angle an encoder tells, rad; 0: it tells every angle
   Device_vector<S> least_angle = Device_vector<S>::Constant(S(-0.5));   ///< joint limits, rad
   Device_vector<S> greatest_angle = Device_vector<S>::Constant(S(2.5));
 
@@ -101,6 +104,9 @@ template <class S> std::vector<std::string> violations(const Device_description<
   finite(d.gravity, "gravity (g)");
   if (!(d.torque_limit > S(0)))
     found.push_back("torque_limit must be positive");
+  not_negative(d.viscous_friction, "viscous_friction (friction)");
+  not_negative(d.coulomb_friction, "coulomb_friction (coulomb)");
+  not_negative(d.encoder_step, "encoder_step");
   bool inertia_is_sound = true;
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t before = found.size();
@@ -153,6 +159,9 @@ public:
   const S& rotor_inertia() const { return d_.rotor_inertia; }
   const S& gravity() const { return d_.gravity; }
   const S& torque_limit() const { return d_.torque_limit; }
+  const S& viscous_friction() const { return d_.viscous_friction; }
+  const S& coulomb_friction() const { return d_.coulomb_friction; }
+  const S& encoder_step() const { return d_.encoder_step; }
   const Device_vector<S>& least_angle() const { return d_.least_angle; }
   const Device_vector<S>& greatest_angle() const { return d_.greatest_angle; }
 

@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_DEVICE_ASSEMBLY_MODES_H
 
 #include <haptic_sculpt/device/ditetrahedral_kinematics.h>
+#include <haptic_sculpt/device/hessenberg_eigenvalues.h>
 #include <haptic_sculpt/device/platform_closure.h>
-#include <Eigen/Eigenvalues>
 #include <array>
 
 /// \file
@@ -102,24 +102,24 @@ template <class S> int candidate_cosines(const Platform_closure<S>& closure, int
     colleague(k, k) = S(2);
   if (top == 1)
     colleague(0, 0) = -coefficients[0] / coefficients[1];
-  else {
-    colleague(0, 1) = S(1);
+  else { // transposed, the polynomial in its last column: so it is a Hessenberg matrix
+    colleague(1, 0) = S(1);
     for (int k = 1; k < top; ++k) {
-      colleague(k, k - 1) = S(0.5);
+      colleague(k - 1, k) = S(0.5);
       if (k + 1 < top)
-        colleague(k, k + 1) = S(0.5);
+        colleague(k + 1, k) = S(0.5);
     }
     for (int k = 0; k < top; ++k)
-      colleague(top - 1, k) -= coefficients[k] / (S(2) * coefficients[top]);
+      colleague(k, top - 1) -= coefficients[k] / (S(2) * coefficients[top]);
   }
-  const Eigen::EigenSolver<Eigen::Matrix<S, degree, degree>> solver(colleague, false);
-  if (solver.info() != Eigen::Success)
+  Hessenberg_eigenvalues<S, degree> eigenvalues;
+  if (!eigenvalues.compute(colleague))
     return -1;
   // A double root splits into a pair of complex ones by the square root of the rounding, a quadruple one by its fourth root.
   const S slack(0.05);
   int count = 0;
   for (int k = 0; k < degree; ++k) {
-    const S real = solver.eigenvalues()[k].real(), imaginary = solver.eigenvalues()[k].imag();
+    const S real = eigenvalues.real[k], imaginary = eigenvalues.imaginary[k];
     if (abs(imaginary) <= slack && abs(real) <= S(1) + slack)
       cosines[count++] = real > S(1) ? S(1) : real < S(-1) ? S(-1) : real;
   }

@@ -24,7 +24,11 @@ template <class S> struct Dynamics_terms {
     return solve_mass(torque - coriolis * rate - gravity);
   }
   /// M^-1 times a vector.
-  Device_vector<S> solve_mass(const Device_vector<S>& right) const { return mass.ldlt().solve(right); }
+  Device_vector<S> solve_mass(const Device_vector<S>& right) const {
+    device_detail::Small_lu<S, 3> lu;
+    lu.compute(mass);
+    return lu.solve(right);
+  }
 };
 
 /// A triple of joint torques, N m.

@@ -3,7 +3,6 @@
 #define HAPTIC_SCULPT_DEVICE_GENERAL_INVERSE_H
 
 #include <haptic_sculpt/device/general_kinematics.h>
-#include <Eigen/LU>
 #include <vector>
 
 /// \file
@@ -36,7 +35,9 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
       a.template block<1, 3>(i, 3) = lever.cross(link).transpose();
       a.template block<1, 3>(3 + i, 3) = axis.cross(arm).transpose();
     }
-    Eigen::Matrix<S, 6, 1> step = a.partialPivLu().solve(-f);
+    Small_lu<S, 6> lu;
+    lu.compute(a);
+    Eigen::Matrix<S, 6, 1> step = lu.solve(-f);
     S length = step.cwiseAbs().maxCoeff();
     if (!is_finite(length) || !all_finite(step))
       return false;

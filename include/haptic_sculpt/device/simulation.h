@@ -2,72 +2,26 @@
 #ifndef HAPTIC_SCULPT_DEVICE_SIMULATION_H
 #define HAPTIC_SCULPT_DEVICE_SIMULATION_H
 
-#include <haptic_sculpt/device/forward_kinematics.h>
-#include <haptic_sculpt/device/planar_dynamics.h>
-#include <haptic_sculpt/device/spatial_dynamics.h>
+#include <haptic_sculpt/device/runge_kutta.h>
 
 /// \file
-/// Time stepping. The coordinates are the three joint angles, and every stage solves the kinematics anew, so the constraints hold to
-/// rounding at any time: there is nothing to drift.
+/// Time stepping of the mechanism alone. The coordinates are the three joint angles, and every stage solves the kinematics anew, so the constraints hold to
+/// rounding at any time: there is nothing to drift. Joint friction (the parameters') is part of the motion.
 
 namespace haptic_sculpt {
 
-/// Which equations of motion.
-enum class Dynamics_model { spatial, planar };
-
-/// M, C, gravity and energies of the chosen model. Failures: `singular`, `not_finite`.
-template <class S>
-Outcome<Dynamics_terms<S>> dynamics(const Device_parameters<S>& parameters, Dynamics_model model, const Device_pose<S>& pose, const Device_vector<S>& rate) {
-  const Outcome<Device_motion<S>> motion = device_motion(parameters, pose, rate);
-  if (!motion)
-    return Outcome<Dynamics_terms<S>>(motion.status(), motion.shortfall());
-  return model == Dynamics_model::planar ? planar_dynamics(parameters, *motion) : Outcome<Dynamics_terms<S>>(spatial_dynamics(parameters, *motion));
-}
-
-/// Joint accelerations for given torques. Failures: `singular`, `not_finite`.
-template <class S>
-Outcome<Joint_accelerations<S>> forward_dynamics(const Device_parameters<S>& parameters, Dynamics_model model, const Device_pose<S>& pose,
-                                                 const Device_vector<S>& rate, const Device_vector<S>& torque) {
-  const Outcome<Dynamics_terms<S>> terms = dynamics(parameters, model, pose, rate);
-  if (!terms)
-    return Outcome<Joint_accelerations<S>>(terms.status(), terms.shortfall());
-  const Joint_accelerations<S> found{terms->acceleration(rate, torque)};
-  if (!device_detail::all_finite(found.acceleration))
-    return Outcome<Joint_accelerations<S>>(Device_status::singular, S(0));
-  return found;
-}
-
 /// One classical Runge-Kutta step of fourth order. `torque(pose, rate, time)` gives the joint torques.
 ///
-/// Failures: those of the kinematics and dynamics at a stage; the state is untouched then.
+/// Failures: those of the kinematics and dynamics at a stage, and `not_finite` torques; the state is untouched then.
 template <class S, class Torque>
 Outcome<Device_state<S>> runge_kutta_step(const Device_parameters<S>& parameters, Dynamics_model model, const Device_state<S>& state, const S& time,
                                           const S& step, const Torque& torque) {
-  using V = Device_vector<S>;
-  V position_slope[4], rate_slope[4];
-  for (int stage = 0; stage < 4; ++stage) {
-    const S ahead = stage == 0 ? S(0) : stage == 3 ? step : S(step / S(2));
-    Device_pose<S> pose = state.pose;
-    V rate = state.rate;
-    if (stage > 0) {
-      rate += ahead * rate_slope[stage - 1];
-      const Outcome<Device_pose<S>> moved = forward_kinematics(parameters, V(state.pose.theta + ahead * position_slope[stage - 1]), state.pose);
-      if (!moved)
-        return Outcome<Device_state<S>>(moved.status(), moved.shortfall());
-      pose = *moved;
-    }
-    const Outcome<Joint_accelerations<S>> found = forward_dynamics(parameters, model, pose, rate, V(torque(pose, rate, S(time + ahead))));
-    if (!found)
-      return Outcome<Device_state<S>>(found.status(), found.shortfall());
-    position_slope[stage] = rate;
-    rate_slope[stage] = found->acceleration;
-  }
-  const S sixth = step / S(6);
-  const V theta = state.pose.theta + sixth * (position_slope[0] + S(2) * (position_slope[1] + position_slope[2]) + position_slope[3]);
-  const Outcome<Device_pose<S>> pose = forward_kinematics(parameters, theta, state.pose);
-  if (!pose)
-    return Outcome<Device_state<S>>(pose.status(), pose.shortfall());
-  return Device_state<S>{*pose, V(state.rate + sixth * (rate_slope[0] + S(2) * (rate_slope[1] + rate_slope[2]) + rate_slope[3]))};
+  const auto surroundings = [&](const Device_motion<S>& motion, const Further_states<S, 0>& none, const S& now) {
+    return Surroundings_effect<S, 0>{torque(motion.pose, motion.rate, now), none};
+  };
+  const Outcome<Coupled_state<S, 0>> next =
+      runge_kutta_step(parameters, model, Coupled_state<S, 0>{state, Further_states<S, 0>()}, time, step, surroundings);
+  return next ? Outcome<Device_state<S>>(next->device) : Outcome<Device_state<S>>(next.status(), next.shortfall());
 }
 
 /// One step of the three-stage Gauss collocation on angles and momenta: sixth order, symplectic and time-reversible, so for
@@ -92,7 +46,7 @@ Outcome<Device_state<S>> symplectic_step(const Device_parameters<S>& parameters,
   const V momentum = now->mass * state.rate;
   V slopes[3], forces[3]; // dtheta/dt and d(momentum)/dt at the stages
   Device_pose<S> poses[3];
-  const V force = now->coriolis.transpose() * state.rate - now->gravity + torque(state.pose, state.rate, time);
+  const V force = now->coriolis.transpose() * state.rate - now->gravity + torque(state.pose, state.rate, time) + joint_friction(parameters, state.rate);
   for (int i = 0; i < 3; ++i)
     slopes[i] = state.rate, forces[i] = force, poses[i] = state.pose;
   S previous_change(0);
@@ -116,7 +70,7 @@ Outcome<Device_state<S>> symplectic_step(const Device_parameters<S>& parameters,
       terms = dynamics(parameters, model, poses[i], new_slopes[i]);
       if (!terms)
         return Outcome<Device_state<S>>(terms.status(), terms.shortfall());
-      new_forces[i] = terms->coriolis.transpose() * new_slopes[i] - terms->gravity + torque(poses[i], new_slopes[i], S(time + nodes[i] * step));
+      new_forces[i] = terms->coriolis.transpose() * new_slopes[i] - terms->gravity + torque(poses[i], new_slopes[i], S(time + nodes[i] * step)) + joint_friction(parameters, new_slopes[i]);
       const S turn = device_detail::largest_magnitude(V(step * (new_slopes[i] - slopes[i])));
       change = turn > change ? turn : change;
     }

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_DEVICE_VELOCITY_MAP_H
 
 #include <haptic_sculpt/device/Device_pose.h>
-#include <Eigen/LU>
+#include <haptic_sculpt/device/Small_lu.h>
 
 /// \file
 /// The linear equations that tie the platform's velocity to what the legs do, factored once a pose.
@@ -76,7 +76,6 @@ private:
   }
 
   void factor_platform(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
-    using std::abs;
     point_ = false;
     orientation_ = pose.orientation;
     inverse_length_ = parameters.inverse_secondary_length();
@@ -101,19 +100,14 @@ private:
     }
     a.row(3) << S(0), last_x, last_y, x_[0] + x_[1] + x_[2];
     lu_.compute(a);
-    S least = abs(lu_.matrixLU()(0, 0));
-    for (int i = 1; i < 4; ++i) {
-      const S pivot = abs(lu_.matrixLU()(i, i));
-      least = pivot < least ? pivot : least;
-    }
-    regular_ = least > S(16) * std::numeric_limits<S>::epsilon() * ratio;
+    regular_ = lu_.least_pivot() > S(16) * std::numeric_limits<S>::epsilon() * ratio;
   }
 
   bool point_, regular_;
   Device_matrix<S> inverse_, orientation_;
   Device_vector<S> cosine_, x_, z_;
   S inverse_length_;
-  Eigen::PartialPivLU<Eigen::Matrix<S, 4, 4>> lu_;
+  device_detail::Small_lu<S, 4> lu_;
 };
 
 } // namespace haptic_sculpt

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_JSON_LINE_H
+#define HAPTIC_SCULPT_EXAMPLES_JSON_LINE_H
+
+#include <haptic_sculpt/Error.h>
+#include <nlohmann/json.hpp>
+#include <istream>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+/// \file
+/// JSON by lines from a stream that is not trusted: nothing it says can take more than a bounded amount of memory or of
+/// stack.
+
+namespace haptic_sculpt {
+
+/// A longer line is refused unread, in bytes. A request takes about one thousandth of this.
+constexpr std::size_t longest_line = std::size_t(1) << 20;
+
+/// Objects and arrays within each other, counted with the outermost; deeper is refused. A request needs three.
+/// The library copies and prints values by recursion, so the depth is what bounds the stack.
+constexpr int deepest_nesting = 32;
+
+/// Values in one line, those within others counted too; more are refused. A request has some sixty. Taking a value down
+/// needs memory (16 bytes an element) and has no way to say that there is none, so that a value must stay small.
+constexpr int most_values = 1000;
+
+/// Reads line after line into one buffer of fixed size.
+class Line_reader {
+public:
+  explicit Line_reader(std::istream& in) : in_(in), buffer_(longest_line + 1) {} // the line and a terminating 0
+
+  /// The next line, without its end, good until the next call; false at the end of the stream.
+  bool next() {
+    in_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    std::size_t count = static_cast<std::size_t>(in_.gcount());
+    too_long_ = in_.fail() && count > 0;
+    if (too_long_ && !in_.bad()) {
+      in_.clear();
+      in_.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    } else if (in_.fail())
+      return false;
+    else if (!in_.eof())
+      --count; // the end of the line was counted
+    line_ = std::string_view(buffer_.data(), count);
+    return true;
+  }
+  const std::string_view& line() const { return line_; }
+  /// The line has more bytes than `longest_line`: `line()` is its beginning, the rest has been skipped.
+  bool is_too_long() const { return too_long_; }
+
+private:
+  std::istream& in_;
+  std::vector<char> buffer_;
+  std::string_view line_;
+  bool too_long_ = false;
+};
+
+/// A line that nests too deep or says too many values; `code()` is `nested_too_deep` or `too_many_values`.
+class Line_too_complex : public Error {
+public:
+  Line_too_complex(const char* code, const std::string& message) : Error(message), code_(code) {}
+  const char* code() const { return code_; }
+
+private:
+  const char* code_;
+};
+
+/// The value a line says.
+/// \throw nlohmann::json::exception if it is no JSON; Line_too_complex before anything deeper or more is built;
+/// std::bad_alloc
+inline nlohmann::json parse_line(std::string_view line) {
+  using Event = nlohmann::json::parse_event_t;
+  int values = 0;
+  return nlohmann::json::parse(line.begin(), line.end(), [&](int depth, Event event, nlohmann::json&) {
+    const bool opens = event == Event::object_start || event == Event::array_start;
+    if (opens && depth >= deepest_nesting)
+      throw Line_too_complex("nested_too_deep",
+                             "objects and arrays are nested more than " + std::to_string(deepest_nesting) + " deep");
+    if ((opens || event == Event::value) && ++values > most_values)
+      throw Line_too_complex("too_many_values", "the line says more than " + std::to_string(most_values) + " values");
+    return true;
+  });
+}
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_DEVICE_ENCODER_H
+#define HAPTIC_SCULPT_DEVICE_ENCODER_H
+
+#include <haptic_sculpt/device/Device_parameters.h>
+
+namespace haptic_sculpt {
+
+/// What the encoders say of joint angles: each the nearest multiple of the encoder step, rad, so off by half a step at
+/// most; halves go up.
+template <class S>
+Device_vector<S> measured_angles(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
+  using std::floor;
+  const S& step = parameters.encoder_step();
+  if (step == S(0))
+    return theta;
+  Device_vector<S> measured;
+  for (int joint = 0; joint < 3; ++joint)
+    measured[joint] = step * floor(S(theta[joint] / step + S(0.5)));
+  return measured;
+}
+
+} // namespace haptic_sculpt
+
+#endif
