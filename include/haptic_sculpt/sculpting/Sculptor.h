@@ -190,6 +190,9 @@ public:
     options_.clearance(length);
   }
 
+  /// From here on the default for the scene and the motion.
+  void set_default_clearance() { options_.clearance_length.reset(); }
+
   /// \throw Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
   /// of validate().
   void set_delta(double length) {
