@@ -2,15 +2,16 @@
 #include "resume.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
+#include <iterator>
 
 namespace haptic_sculpt::sculpt_program {
 namespace {
 
+/// The shortest decimal that is this number.
 std::string decimal(double x) {
   char text[40];
-  std::snprintf(text, sizeof text, "%.17g", x);
-  return text;
+  return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
 
 void compare(const Arguments& arguments, const Settings& log, const std::string& when) {

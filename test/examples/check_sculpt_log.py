@@ -46,10 +46,10 @@ def edits_and_log(folder, mesh):
     head = sum(map(len, lines[:HEAD]))
     check(b"".join(lines[:HEAD]).startswith(b"# haptic_sculpt log 1 # ") and words(lines[1]) == [b"mesh", sha256(mesh).encode()], "head")
     check([words(line) for line in lines[2:HEAD]] == [[b"response", b"slide"], [b"clearance", b"default"], [b"delta", b"0x0p+0"]], "settings")
-    for length in sorted({*range(head, head + 120), *range(len(complete) - 180, len(complete)), *range(head, len(complete), 13)}):
+    for length in sorted({*range(head, head + 120, 3), *range(len(complete) - 90, len(complete)), *range(head, len(complete), 29)}):
         cut = write(f"{folder}/cut.log", complete[:length])
         kept = b"".join(lines[:complete[:length].count(b"\n")])
-        if length % 3 == 0:
+        if length % 4 == 0:
             check(run(mesh, "-o", again, "--log", cut).returncode == 0, f"log cut at {length}")
             as_script = f"{folder}/as_script.off"
             check(run(mesh, "--script", "/dev/stdin", "-o", as_script, script=kept.decode()).returncode == 0, "prefix")
@@ -79,9 +79,9 @@ def settings(folder, mesh):
     plain = f"{folder}/plain.log"
     run(mesh, "--script", script, "--log", plain)
     kept = bytes_of(plain)
-    for name, value, logged, of in (("--response", "slide", "response stop", log), ("--clearance", "1e-9", "clearance 0.0009765625", log),
+    for name, value, logged, of in (("--response", "slide", "response stop", log), ("--clearance", "0.001", "clearance 0.0009765625", log),
                                     ("--delta", "0", "delta 0.01", log), ("--response", "stop", "response slide", plain),
-                                    ("--clearance", "1e-9", "clearance default", plain), ("--delta", "0.5", "delta 0", plain)):
+                                    ("--clearance", "0.001", "clearance default", plain), ("--delta", "0.5", "delta 0", plain)):
         fails(2, [f"{name} {value}", logged, of, "script"], run(mesh, "--log", of, "-o", f"{folder}/none.off", name, value), "an option against the log")
     check(bytes_of(log) == begun and bytes_of(plain) == kept and not os.path.exists(f"{folder}/none.off"), "refused, and yet changed")
     # What holds at the end is what a further script begins with.
