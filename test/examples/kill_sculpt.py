@@ -3,7 +3,7 @@
 """kill -9 while `sculpt` edits and logs, with options and directives mixed in; the same command goes on until it is through.
 
 Whenever it is killed, its log is the beginning of the log of a run that is not killed, byte for byte; replayed, it gives what its lines
-give as a script; and in the end log and result are those of the run that is not killed. HAPTIC_SCULPT_KILLS says how often (20)."""
+give as a script; and in the end log and result are those of the run that is not killed. HAPTIC_SCULPT_KILLS says how often (12)."""
 import os
 import random
 import subprocess
@@ -13,7 +13,7 @@ import time
 from program_runs import SCULPT, SOURCE, bytes_of, check, end, run, write
 
 MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
-KILLS = int(os.environ.get("HAPTIC_SCULPT_KILLS", "20"))
+KILLS = int(os.environ.get("HAPTIC_SCULPT_KILLS", "12"))
 SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "7"))
 
 
