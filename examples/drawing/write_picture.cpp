@@ -75,7 +75,7 @@ private:
 
 } // namespace
 
-void write_picture(const Scene& scene, const std::filesystem::path& path, const View& view) {
+std::string write_picture(const Scene& scene, const std::filesystem::path& path, const View& view) {
   scene.check();
   const Camera camera(scene, view);
   const Floating_point_guard guard;
@@ -84,7 +84,7 @@ void write_picture(const Scene& scene, const std::filesystem::path& path, const 
   Mesh_view mesh_view;
   mesh_view.set_scene(scene, camera);
   mesh_view.draw(camera, view.background);
-  write_png(path, view.width, view.height, framebuffer.pixels());
+  return write_png(path, view.width, view.height, framebuffer.pixels());
 }
 
 } // namespace haptic_sculpt::drawing

@@ -10,9 +10,10 @@ namespace haptic_sculpt::drawing {
 /// Draws `scene` and writes it as a PNG file, whole or not at all. Needs neither display nor graphics card.
 ///
 /// The calling thread has no OpenGL context afterwards; its floating-point environment is as before.
+/// \return for people: what of an old file could not be kept, such as its owner; empty if all was
 /// \throw Picture_error for a scene or view that cannot be drawn, a machine or build that cannot draw, and a file that
 /// cannot be written.
-void write_picture(const Scene& scene, const std::filesystem::path& path, const View& view = {});
+std::string write_picture(const Scene& scene, const std::filesystem::path& path, const View& view = {});
 
 } // namespace haptic_sculpt::drawing
 

@@ -2,7 +2,7 @@
 // Compiled instead of the drawing code where the libraries it needs were not found.
 #include "write_picture.h"
 
-void haptic_sculpt::drawing::write_picture(const Scene&, const std::filesystem::path& path, const View&) {
+std::string haptic_sculpt::drawing::write_picture(const Scene&, const std::filesystem::path& path, const View&) {
   throw Picture_error(
       "Cannot write the picture " + path.string() +
       ": this program was built without pictures. Install "

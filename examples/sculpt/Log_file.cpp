@@ -1,80 +1,142 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Log_file.h"
 
-#include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/Write_error.h>
+#include <haptic_sculpt/surface/replace_file.h>
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace haptic_sculpt::sculpt_program {
 namespace {
 
-std::string hexadecimal(double x) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%a", x);
-  return text;
+std::string in_words(const std::string& path) {
+  return "the log '" + path + "'";
 }
-
-std::string line_of(const Command& command) {
-  std::string line = name_of(command.kind);
-  for (std::size_t index : command.indices)
-    line += ' ' + std::to_string(index);
-  for (const auto& point : command.points)
-    for (double x : point)
-      line += ' ' + hexadecimal(x);
-  if (command.kind == Command::Kind::clearance || command.kind == Command::Kind::delta)
-    line += ' ' + hexadecimal(command.length);
-  if (!command.word.empty())
-    line += ' ' + command.word;
-  return line + '\n';
+std::string system_says() {
+  return std::strerror(errno);
 }
 
 } // namespace
 
-Log_file::Log_file(const std::string& path, const std::string& mesh_hash, const std::vector<Command>& settings) : path_(path) {
-  std::string text;
-  if (std::filesystem::exists(path)) {
-    std::ifstream old(path, std::ios::binary);
-    std::ostringstream all;
-    all << old.rdbuf();
-    if (!old)
-      throw Write_error("cannot read the log '" + path + "'");
-    text = all.str();
-    const std::size_t end = text.find_last_of('\n');
-    const std::size_t kept = end == std::string::npos ? 0 : end + 1;
-    if (kept != text.size()) {
-      text.resize(kept);
-      std::error_code error;
-      std::filesystem::resize_file(path, kept, error);
-      if (error)
-        throw Write_error("cannot cut the unfinished last line off the log '" + path + "': " + error.message());
-    }
+Log_file::Log_file(const std::string& path, const std::string& mesh)
+    : path_(path), mesh_(mesh), target_(follow_links(path)) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    if (const std::string why = why_not_replaceable(target_); !why.empty())
+      throw Write_error("cannot make " + in_words(path) + ": " + why);
+    return; // made when the work begins
   }
-  std::istringstream lines(text);
-  commands_ = read_script(lines, path);
-  if (!commands_.empty() && (commands_[0].kind != Command::Kind::mesh || commands_[0].word != mesh_hash))
-    throw Foreign_log("the log '" + path + "' does not begin with the hash of this mesh, " + mesh_hash +
-                      ": give the mesh it was begun with, or another log");
-  file_.reset(std::fopen(path.c_str(), "ab"));
-  if (!file_)
-    throw Write_error("cannot open the log '" + path + "': " + std::strerror(errno));
-  if (commands_.empty()) {
-    Command hash;
-    hash.kind = Command::Kind::mesh;
-    hash.word = mesh_hash;
-    append(hash);
+  if (!S_ISREG(status.st_mode)) // asked before it is opened: opening a device may do something, and a pipe waits
+    throw Write_error(in_words(path) + " cannot be a folder, a device or a pipe: it is read again later; name a file");
+  file_ = ::open(target_.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (file_ < 0)
+    throw Write_error("cannot open " + in_words(path) + " for appending: " + system_says() +
+                      "; to replay it only, give it as a script (--script)");
+  try {
+    lock();
+    const std::string text = read_all();
+    if (text.empty())
+      return;
+    contents_ = read_log(text, path_, mesh_);
+    writer_ = contents_->writer;
+    size_ = static_cast<off_t>(contents_->whole_size);
+  } catch (...) { // no destructor closes it: there is no object yet
+    ::close(file_);
+    throw;
   }
-  for (const Command& setting : settings)
-    append(setting);
 }
 
-void Log_file::append(const Command& command) {
-  const std::string line = line_of(command);
-  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0)
-    throw Write_error("cannot append to the log '" + path_ + "': " + std::strerror(errno));
+Log_file::~Log_file() {
+  if (file_ >= 0)
+    ::close(file_);
+}
+
+void Log_file::lock() const {
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
+    throw Write_error(errno == EWOULDBLOCK
+                          ? in_words(path_) +
+                                " is in use by another process; wait until it has ended, or give another log"
+                          : "cannot lock " + in_words(path_) + ": " + system_says());
+  struct stat here {
+  }, there{};
+  if (::fstat(file_, &here) != 0 || ::stat(target_.c_str(), &there) != 0 || here.st_ino != there.st_ino ||
+      here.st_dev != there.st_dev)
+    throw Write_error(in_words(path_) + " has just been replaced by another process; try again");
+}
+
+std::string Log_file::read_all() const {
+  std::string text;
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t got = ::read(file_, buffer, sizeof buffer);
+    if (got == 0)
+      return text;
+    if (got > 0)
+      text.append(buffer, static_cast<std::size_t>(got));
+    else if (errno != EINTR)
+      throw Write_error("cannot read " + in_words(path_) + ": " + system_says());
+  }
+}
+
+void Log_file::begin(const Settings& settings) {
+  if (contents_) {
+    if (!contents_->unfinished.empty() && ::ftruncate(file_, size_) != 0)
+      throw Write_error("cannot cut the unfinished last line off " + in_words(path_) + ": " + system_says());
+    return;
+  }
+  const bool is_made = file_ < 0;
+  if (is_made) {
+    file_ = ::open(target_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ < 0 && errno == EEXIST)
+      throw Write_error(in_words(path_) +
+                        " has just been begun by another process; wait until it has ended, or give another log");
+    if (file_ < 0 && (errno == ENOSPC || errno == EDQUOT)) {
+      fail(system_says());
+      return;
+    }
+    if (file_ < 0)
+      throw Write_error("cannot make " + in_words(path_) + ": " + system_says());
+    lock();
+  }
+  append(writer_.head(mesh_, settings)); // in one write: whoever finds a log finds a whole head
+  if (is_made && !failure_.empty())
+    ::unlink(target_.c_str());
+}
+
+void Log_file::begin_pass(const std::string& script, std::size_t after) {
+  std::string lines;
+  if (contents_ && !contents_->has_checksums) {
+    if (::lseek(file_, 0, SEEK_SET) != 0)
+      throw Write_error("cannot read " + in_words(path_) + ": " + system_says());
+    lines = writer_.version(read_all());
+  }
+  append(lines + writer_.pass(script, after));
+}
+
+void Log_file::append(const std::string& lines) {
+  if (!failure_.empty())
+    return;
+  for (std::size_t done = 0; done < lines.size();) {
+    const ssize_t written = ::write(file_, lines.data() + done, lines.size() - done);
+    if (written < 0 && errno != EINTR) {
+      fail(system_says());
+      if (::ftruncate(file_, size_) != 0)
+        failure_ += " (and part of a line is left, which the next run drops)";
+      return;
+    }
+    done += written > 0 ? static_cast<std::size_t>(written) : 0;
+  }
+  size_ += static_cast<off_t>(lines.size());
+}
+
+void Log_file::fail(const std::string& why) {
+  failure_ = "cannot append to " + in_words(path_) + ": " + why;
 }
 
 } // namespace haptic_sculpt::sculpt_program

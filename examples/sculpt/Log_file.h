@@ -2,39 +2,60 @@
 #ifndef HAPTIC_SCULPT_EXAMPLES_LOG_FILE_H
 #define HAPTIC_SCULPT_EXAMPLES_LOG_FILE_H
 
-#include "Script.h"
+#include "Log_text.h"
 
-#include <cstdio>
-#include <memory>
+#include <filesystem>
+#include <optional>
+
+#include <sys/types.h>
 
 namespace haptic_sculpt::sculpt_program {
 
-/// A log or script that names another mesh.
-struct Foreign_log : Error {
-  using Error::Error;
-};
-
-/// An edit log: a script that begins with the mesh's hash, one line an edit, appended and flushed as the work goes on, so that a
-/// killed process loses at most the edit under way. Numbers are hexadecimal: replay is exact to the bit.
+/// An edit log on the disk, locked against other processes as long as the object lives. One write a line, when the edit
+/// is done, so that a killed process loses at most the edit under way.
 class Log_file {
 public:
-  /// Opens a log, or begins one with the hash and the settings. An unterminated last line, which a killed process may leave, is
-  /// cut off. \throw Script_error for a line that cannot be read; Foreign_log; Write_error
-  Log_file(const std::string& path, const std::string& mesh_hash, const std::vector<Command>& settings);
+  /// Opens, locks and reads what is there, and changes nothing. An empty file counts as none.
+  /// \throw Foreign_log, Script_error, Write_error (no regular file; another process has it; may not be written)
+  Log_file(const std::string& path, const std::string& mesh);
+  Log_file(const Log_file&) = delete;
+  Log_file& operator=(const Log_file&) = delete;
+  ~Log_file();
 
-  /// What the log held when it was opened.
-  const std::vector<Command>& commands() const { return commands_; }
+  /// What the log held when it was opened; none of a new one.
+  const std::optional<Log_contents>& contents() const { return contents_; }
 
-  /// \throw Write_error
-  void append(const Command& command);
+  /// From here on it is written: a new log gets its head, an old one loses its unfinished last line.
+  /// \throw Write_error if a new one cannot be made, but not if the disk is full
+  void begin(const Settings& settings);
+
+  /// \name Appending
+  /// After a failure, at once and for good, nothing is appended: a log ends where the first line is missing.
+  ///@{
+  /// What follows comes from the script with this hash, from the lines after this one. A log of the first format gets
+  /// checksums from here on.
+  void begin_pass(const std::string& script, std::size_t after);
+  void append(const Command& command) { append(writer_.command(command, command.line)); }
+  /// The script has been carried out to its end, and the results are written.
+  void end_pass(const std::string& script) { append(writer_.done(script)); }
+  ///@}
+
+  /// Why the log does not hold all that was appended; empty if it does.
+  const std::string& failure() const { return failure_; }
 
 private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::string path_;
-  std::vector<Command> commands_;
-  std::unique_ptr<std::FILE, Close> file_;
+  std::string path_, mesh_;
+  std::filesystem::path target_; ///< with links followed
+  int file_ = -1;
+  off_t size_ = 0; ///< up to the end of the last whole line
+  std::optional<Log_contents> contents_;
+  Log_writer writer_;
+  std::string failure_;
+
+  void append(const std::string& lines);
+  void lock() const;
+  std::string read_all() const;
+  void fail(const std::string& why);
 };
 
 } // namespace haptic_sculpt::sculpt_program

@@ -24,7 +24,10 @@ Json json_of(const Edit_record& edit) {
   Json contacts = Json::array();
   for (const auto& contact : edit.contacts)
     contacts.push_back({{"kind", contact.kind}, {"ids", contact.ids}, {"normal", contact.normal}});
-  return {{"line", edit.line},
+  const Json script_line = edit.is_logged ? (edit.script_line != 0 ? Json(edit.script_line) : Json()) : Json(edit.line);
+  return {{"source", edit.is_logged ? "log" : "script"},
+          {"line", edit.line},
+          {"script_line", script_line},
           {"op", name_of(edit.kind)},
           {"status", name_of(edit.status)},
           {"reason", edit.reason ? Json(edit.reason) : Json()},
@@ -73,7 +76,7 @@ double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinate
 
 } // namespace
 
-std::string report_of(const Run_result& result) {
+std::string report_of(const Run_result& result, const std::vector<std::string>& notes) {
   std::vector<double> times = result.nanoseconds;
   std::sort(times.begin(), times.end());
   const Json totals = {
@@ -92,7 +95,9 @@ std::string report_of(const Run_result& result) {
       "{\n\"version\": " + Json(HAPTIC_SCULPT_VERSION).dump() + ",\n\"totals\": " + totals.dump() + ",\n\"edits\": [";
   for (std::size_t i = 0; i < result.edits.size(); ++i)
     text += (i == 0 ? "\n" : ",\n") + json_of(result.edits[i]).dump();
-  return text + "\n],\n\"time_ns\": " + time.dump() + ",\n\"filter\": " + filter.dump() + "\n}\n";
+  // A note may name a file whose name is no UTF-8.
+  const std::string told = Json(notes).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text + "\n],\n\"notes\": " + told + ",\n\"time_ns\": " + time.dump() + ",\n\"filter\": " + filter.dump() + "\n}\n";
 }
 
 void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) {
@@ -109,8 +114,8 @@ void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) 
       break;
     }
     if (told++ == 0)
-      out << "  line  edit    vertex  outcome  left to go  by (the vertices of what stands still)\n";
-    out << std::setw(6) << edit.line << "  " << std::left << std::setw(6) << name_of(edit.kind) << std::right
+      out << "      line  edit    vertex  outcome  left to go  by (the vertices of what stands still)\n";
+    out << std::setw(10) << (edit.is_logged ? "log " : "") + std::to_string(edit.line) << "  " << std::left << std::setw(6) << name_of(edit.kind) << std::right
         << std::setw(8) << (edit.kind == Command::Kind::drag ? std::to_string(edit.elements[0]) : "-") << "  "
         << name_of(edit.status);
     if (edit.motion)

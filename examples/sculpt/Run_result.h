@@ -35,7 +35,9 @@ struct Edit_record {
     Coordinates start, stop, target;
   };
 
-  std::size_t line = 0;
+  std::size_t line = 0; ///< of the log where `is_logged`, else of the script
+  bool is_logged = false;
+  std::size_t script_line = 0; ///< of the script that a line of the log came from; 0 where the log does not say
   Command::Kind kind = Command::Kind::release;
   Status status = Status::refused;
   const char* reason = nullptr; ///< why it was not reached, or nullptr

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Script.h"
 
+#include "printable.h"
+
 #include <haptic_sculpt/sculpting/Response.h>
 
 #include <algorithm>
@@ -8,8 +10,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <istream>
-#include <optional>
 
 namespace haptic_sculpt::sculpt_program {
 namespace {
@@ -58,14 +58,16 @@ public:
     fail("the line ends where " + expected + " is expected");
   }
 
-  double number(const std::string& expected) {
-    const std::string found = word(expected);
+  double number(const std::string& expected) { return number(expected, word(expected)); }
+
+  /// The one place where a number is read. \param found the word just read
+  double number(const std::string& expected, const std::string& found) const {
     char* end = nullptr;
     const double value = std::strtod(found.c_str(), &end);
     if (end != found.c_str() + found.size())
-      fail("'" + found + "' is not " + expected + " (a decimal or hexadecimal number)");
+      fail("'" + printable(found) + "' is not " + expected + " (a decimal or hexadecimal number)");
     if (!std::isfinite(value))
-      fail("'" + found + "' is not a finite number");
+      fail("'" + printable(found) + "' is not a finite number");
     return value;
   }
 
@@ -74,9 +76,9 @@ public:
     std::size_t value = 0;
     const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
     if (error == std::errc::invalid_argument || end != found.data() + found.size())
-      fail("'" + found + "' is not a vertex index (0, 1, 2, ...)");
+      fail("'" + printable(found) + "' is not a vertex index (0, 1, 2, ...)");
     if (error == std::errc::result_out_of_range)
-      fail("'" + found + "' is more than any vertex index");
+      fail("'" + printable(found) + "' is more than any vertex index");
     return value;
   }
 
@@ -90,19 +92,26 @@ private:
 
 void read_last(Line& line, const Syntax& syntax, Command& command) {
   if (syntax.last == Syntax::length) {
-    command.length = line.number("a length");
+    const bool may_be_default = command.kind == Kind::clearance;
+    const std::string expected = may_be_default ? "a length, or 'default'" : "a length";
+    const std::string found = line.word(expected);
+    if (may_be_default && found == "default") {
+      command.word = found;
+      return;
+    }
+    command.length = line.number(expected, found);
     if (command.length < 0 || (command.length == 0 && command.kind == Kind::clearance))
       line.fail(std::string("the ") + syntax.name + " must be " + (command.kind == Kind::delta ? "at least 0" : "more than 0"));
   } else if (syntax.last == Syntax::word && command.kind == Kind::response) {
     command.word = line.word("slide, stop or paper");
     if (!response_named(command.word))
-      line.fail("'" + command.word + "' is not a response: slide, stop or paper");
+      line.fail("'" + printable(command.word) + "' is not a response: slide, stop or paper");
   } else if (syntax.last == Syntax::word) {
     command.word = line.word("the SHA-256 of the mesh file");
     std::transform(command.word.begin(), command.word.end(), command.word.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (command.word.size() != 64 || command.word.find_first_not_of("0123456789abcdef") != std::string::npos)
-      line.fail("'" + command.word + "' is not a SHA-256 (64 hexadecimal digits)");
+      line.fail("'" + printable(command.word) + "' is not a SHA-256 (64 hexadecimal digits)");
   }
 }
 
@@ -112,36 +121,40 @@ const char* name_of(Kind kind) {
   return std::find_if(std::begin(syntaxes), std::end(syntaxes), [kind](const Syntax& s) { return s.kind == kind; })->name;
 }
 
-std::vector<Command> read_script(std::istream& input, const std::string& name) {
-  std::vector<Command> commands;
-  std::string text;
-  for (std::size_t number = 1; std::getline(input, text); ++number) {
-    Line line(name, text, number);
-    const auto first = line.next_word();
-    if (!first)
-      continue;
-    const auto syntax =
-        std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return *first == s.name; });
-    if (syntax == std::end(syntaxes))
-      line.fail("'" + *first + "' is not an edit or a directive");
-    Command command;
-    command.line = number;
-    command.kind = syntax->kind;
-    for (int i = 0; i < syntax->indices; ++i)
-      command.indices.push_back(line.index());
-    for (int i = 0; i < syntax->points; ++i) {
-      std::array<double, 3> point;
-      for (double& coordinate : point)
-        coordinate = line.number("a coordinate");
-      command.points.push_back(point);
-    }
-    read_last(line, *syntax, command);
-    if (const auto surplus = line.next_word())
-      line.fail("'" + *surplus + "' is more than '" + *first + "' takes");
-    commands.push_back(std::move(command));
+std::optional<Command> read_line(const std::string& text, std::size_t number, const std::string& script) {
+  Line line(script, text, number);
+  const auto first = line.next_word();
+  if (!first)
+    return std::nullopt;
+  const auto syntax =
+      std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return *first == s.name; });
+  if (syntax == std::end(syntaxes))
+    line.fail("'" + printable(*first) + "' is not an edit or a directive");
+  Command command;
+  command.line = number;
+  command.kind = syntax->kind;
+  for (int i = 0; i < syntax->indices; ++i)
+    command.indices.push_back(line.index());
+  for (int i = 0; i < syntax->points; ++i) {
+    std::array<double, 3> point;
+    for (double& coordinate : point)
+      coordinate = line.number("a coordinate");
+    command.points.push_back(point);
   }
-  if (input.bad())
-    throw Script_error("reading the script '" + name + "' failed");
+  read_last(line, *syntax, command);
+  if (const auto surplus = line.next_word())
+    line.fail("'" + printable(*surplus) + "' is more than '" + *first + "' takes");
+  return command;
+}
+
+std::vector<Command> read_script(std::string_view text, const std::string& name) {
+  std::vector<Command> commands;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (auto command = read_line(std::string(text.substr(0, end)), number, name))
+      commands.push_back(std::move(*command));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
   return commands;
 }
 

@@ -5,8 +5,9 @@
 #include <haptic_sculpt/Error.h>
 
 #include <array>
-#include <iosfwd>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace haptic_sculpt::sculpt_program {
@@ -18,12 +19,14 @@ struct Command {
     response, clearance, delta, mesh                                    // directives
   };
 
-  std::size_t line = 0; ///< from 1
+  std::size_t line = 0;        ///< from 1
+  bool is_logged = false;      ///< read from a log, not from a script
+  std::size_t script_line = 0; ///< of what is logged: the line of the script that it came from; 0 where the log does not say
   Kind kind = Kind::release;
   std::vector<std::size_t> indices;        ///< of vertices
   std::vector<std::array<double, 3>> points;
   double length = 0;                       ///< clearance, delta
-  std::string word;                        ///< response, mesh: in lower case
+  std::string word;                        ///< response; mesh: in lower case; clearance: "default", or empty for `length`
 };
 
 /// The word that a line of this kind begins with.
@@ -37,8 +40,12 @@ public:
   explicit Script_error(const std::string& what) : Error(what) {}
 };
 
+/// Reads a line, without its end. \param script how messages call the whole. \return none of a line that holds a comment only, or
+/// nothing \throw Script_error
+std::optional<Command> read_line(const std::string& text, std::size_t number, const std::string& script);
+
 /// Reads a whole script. \param name how messages call it. \throw Script_error
-std::vector<Command> read_script(std::istream& input, const std::string& name);
+std::vector<Command> read_script(std::string_view text, const std::string& name);
 
 } // namespace haptic_sculpt::sculpt_program
 

@@ -53,7 +53,10 @@ private:
     case Kind::probe: probe(command); break;
     case Kind::clearance:
       sculptor_.release();
-      sculptor_.set_clearance(command.length);
+      if (command.word == "default")
+        sculptor_.set_default_clearance();
+      else
+        sculptor_.set_clearance(command.length);
       break;
     case Kind::delta: delta(command); break;
     case Kind::insert_face: insert_on_face(command); break;
@@ -133,6 +136,10 @@ private:
   }
 
   void delta(const Command& command) {
+    if (command.length == sculptor_.options().delta_length) { // a log begins so; looking at all triangles again finds nothing
+      sculptor_.release();
+      return;
+    }
     try {
       sculptor_.set_delta(command.length);
     } catch (const Invalid_surface& error) {
@@ -155,6 +162,8 @@ private:
   Edit_record& record(const Command& command, Status status, const char* reason, std::vector<std::size_t> elements) {
     Edit_record edit;
     edit.line = command.line;
+    edit.is_logged = command.is_logged;
+    edit.script_line = command.script_line;
     edit.kind = command.kind;
     edit.status = status;
     edit.reason = reason;

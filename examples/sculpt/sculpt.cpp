@@ -1,33 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/sculpt.md.
 #include "Log_file.h"
-#include "Report.h"
-#include "Run_result.h"
 #include "output_targets.h"
+#include "printable.h"
+#include "resume.h"
 #include "sha256_of_file.h"
-
-#include "../drawing/surface_mesh_arrays.h"
-#include "../drawing/write_picture.h"
+#include "write_results.h"
 
 #include <haptic_sculpt/surface/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/read_surface.h>
-#include <haptic_sculpt/surface/replace_file.h>
-#include <haptic_sculpt/surface/write_surface.h>
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <new>
-#include <optional>
-#include <string>
-#include <vector>
+#include <utility>
 
 namespace {
 
@@ -37,24 +31,24 @@ using Kind = Command::Kind;
 
 enum Exit { done = 0, no_memory = 1, usage = 2, mesh_refused = 3, script_error = 4, cannot_write = 5, foreign_log = 6 };
 
-struct Arguments {
-  std::string mesh, script, out, report, log, response, broad_phase = "tree", picture;
-  std::optional<double> clearance;
-  double delta = 0;
+/// A script, and the hash that a log knows it by.
+struct Script {
+  std::vector<Command> commands;
+  std::string hash;
 };
 
-/// Something that was asked for and does not exist yet, or does not fit together.
-struct Usage_error : Error {
-  using Error::Error;
-};
-
-std::vector<Command> script_of(const Arguments& arguments) {
+Script script_of(const Arguments& arguments) {
   if (arguments.script.empty())
     return {};
-  std::ifstream file(arguments.script);
+  std::ifstream file(arguments.script, std::ios::binary);
   if (!file)
     throw Script_error("cannot open the script '" + arguments.script + "': " + std::strerror(errno));
-  return read_script(file, arguments.script);
+  std::string text, block(1 << 16, '\0');
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    text.append(block, 0, static_cast<std::size_t>(file.gcount()));
+  if (!file.eof())
+    throw Script_error("reading the script '" + arguments.script + "' failed");
+  return {read_script(text, arguments.script), Sha256().add(text).digest()};
 }
 
 /// \throw Usage_error where one file would be written over another of this run; Write_error
@@ -70,6 +64,9 @@ void check_targets(const Arguments& arguments) {
   for (const std::string& path : {arguments.report, arguments.picture, arguments.log})
     if (!path.empty() && are_one_file(path, arguments.mesh))
       throw Usage_error("'" + path + "' is the mesh to be read; give another name");
+  if (!arguments.log.empty() && !arguments.out.empty() && are_one_file(arguments.out, arguments.mesh))
+    throw Usage_error("'" + arguments.out + "' is the mesh that the log '" + arguments.log +
+                      "' begins with; sculpted, it could not be resumed from the log. Give the result another name");
   for (const std::string& path : {arguments.out, arguments.report, arguments.picture})
     if (!path.empty())
       check_target(path);
@@ -91,7 +88,7 @@ void check_mesh_directives(const std::vector<Command>& script, const Arguments& 
 
 Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& arguments, const After_command& after) {
   Sculptor_parameters parameters;
-  parameters.delta(arguments.delta);
+  parameters.delta(arguments.delta.value_or(0));
   if (!arguments.response.empty())
     parameters.response(*response_named(arguments.response));
   if (arguments.clearance)
@@ -103,100 +100,83 @@ Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& 
   return run_script<Box_tree_broad_phase<Mesh>>(mesh, script, parameters, after);
 }
 
-/// The options that a log has to repeat, as directives.
-std::vector<Command> settings(const Arguments& arguments) {
-  std::vector<Command> directives;
-  Command command;
-  if (!arguments.response.empty()) {
-    command.kind = Kind::response;
-    command.word = arguments.response;
-    directives.push_back(command);
-    command.word.clear();
-  }
-  if (arguments.clearance) {
-    command.kind = Kind::clearance;
-    command.length = *arguments.clearance;
-    directives.push_back(command);
-  }
-  if (arguments.delta > 0) {
-    command.kind = Kind::delta;
-    command.length = arguments.delta;
-    directives.push_back(command);
-  }
-  return directives;
+/// \throw Usage_error
+void check_lengths(const Arguments& arguments) {
+  if (arguments.clearance && !(*arguments.clearance > 0 && std::isfinite(*arguments.clearance)))
+    throw Usage_error("--clearance must be a finite length > 0");
+  if (arguments.delta && !(*arguments.delta >= 0 && std::isfinite(*arguments.delta)))
+    throw Usage_error("--delta must be a finite length >= 0");
 }
 
-void write_picture_of(const Mesh& mesh, const Run_result& result, const std::string& path) {
-  drawing::Scene scene = drawing::scene_of(mesh);
-  constexpr std::size_t most = 2000; // marks beyond this hide the mesh, and cost a few hundred triangles each
-  for (std::size_t i = 0; i < result.moved_vertices.size() && i < most; ++i)
-    scene.add_moved_vertex(drawing::to_eigen(mesh.point(result.moved_vertices[i])));
-  const auto vector = [](const Edit_record::Coordinates& p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
-  std::size_t marks = 0;
-  for (const Edit_record& edit : result.edits) {
-    if (edit.status != Edit_record::Status::blocked)
-      continue;
-    if (++marks > most)
-      break;
-    const Eigen::Vector3d stop = vector(edit.motion->stop);
-    scene.add_blocked_drag(vector(edit.motion->start), stop, vector(edit.motion->target));
-    for (const auto& contact : edit.contacts)
-      if (vector(contact.normal).squaredNorm() > 0)
-        scene.add_contact(stop, vector(contact.normal));
-  }
-  drawing::write_picture(scene, path);
-}
+/// What the log adds to the work: what to replay, and where the script goes on.
+struct Plan {
+  std::vector<Command> commands;
+  std::size_t replayed = 0;
+  Rest rest;
+};
 
-/// Writes what was asked for. A file that cannot be written does not keep the others from being written: the work is
-/// done.
-bool write_all(const Mesh& mesh, const Run_result& result, const Arguments& arguments) {
-  bool all_written = true;
-  const auto attempt = [&](const std::string& path, const auto& write) {
-    try {
-      if (!path.empty())
-        write(path);
-    } catch (const Write_error& error) {
-      std::cerr << "sculpt: " << error.what() << '\n';
-      all_written = false;
-    } catch (const drawing::Picture_error& error) {
-      std::cerr << "sculpt: " << error.what() << '\n';
-      all_written = false;
-    }
-  };
-  attempt(arguments.out, [&](const std::string& path) {
-    Write_options options;
-    options.vertex_order = result.vertex_order;
-    write_surface(path, mesh, options);
-  });
-  attempt(arguments.report, [&](const std::string& path) { replace_file(path, report_of(result)); });
-  attempt(arguments.picture, [&](const std::string& path) { write_picture_of(mesh, result, path); });
-  return all_written;
+Plan plan_of(const Script& script, const Log_file* log, const Arguments& arguments) {
+  Plan plan;
+  plan.rest.commands = script.commands;
+  if (log && log->contents()) {
+    const Log_contents& logged = *log->contents();
+    if (!script.commands.empty())
+      plan.rest = rest_of(script.commands, script.hash, logged, arguments);
+    check_options(arguments, logged, !script.commands.empty() && plan.rest.is_new_pass);
+    plan.commands = logged.commands;
+    plan.replayed = plan.commands.size();
+  }
+  plan.commands.insert(plan.commands.end(), plan.rest.commands.begin(), plan.rest.commands.end());
+  return plan;
 }
 
 Exit sculpt(const Arguments& arguments) {
-  if (arguments.clearance && !(*arguments.clearance > 0 && std::isfinite(*arguments.clearance)))
-    throw Usage_error("--clearance must be a finite length > 0");
-  if (!(arguments.delta >= 0 && std::isfinite(arguments.delta)))
-    throw Usage_error("--delta must be a finite length >= 0");
-  std::vector<Command> script = script_of(arguments);
+  check_lengths(arguments);
+  const Script script = script_of(arguments);
   check_targets(arguments);
-  Mesh mesh = read_surface<Mesh>(arguments.mesh, arguments.delta);
-  check_mesh_directives(script, arguments);
   std::optional<Log_file> log;
-  std::size_t replayed = 0;
-  if (!arguments.log.empty()) {
-    log.emplace(arguments.log, sha256_of_file(arguments.mesh), settings(arguments));
-    replayed = log->commands().size();
-    script.insert(script.begin(), log->commands().begin(), log->commands().end());
+  if (!arguments.log.empty())
+    log.emplace(arguments.log, sha256_of_file(arguments.mesh));
+  const Plan plan = plan_of(script, log ? &*log : nullptr, arguments);
+  Mesh mesh = read_surface<Mesh>(arguments.mesh, arguments.delta.value_or(0));
+  check_mesh_directives(script.commands, arguments);
+
+  std::vector<std::string> notes;
+  const auto note = [&notes](const std::string& text) {
+    std::cerr << "sculpt: " << text << '\n';
+    notes.push_back(text);
+  };
+  bool is_told = false;
+  const auto tell_failure = [&] { // once, and at once: the work may take hours
+    if (log && !log->failure().empty() && !std::exchange(is_told, true))
+      note(log->failure() + ". The work goes on without; what the log holds can be resumed");
+  };
+  const bool is_logging = log && !script.commands.empty();
+  if (log) {
+    if (log->contents() && !log->contents()->unfinished.empty())
+      note("the unfinished last line of the log '" + arguments.log + "' is dropped: " + printable(log->contents()->unfinished));
+    log->begin(settings_of(arguments));
+    if (is_logging && !plan.rest.is_announced)
+      log->begin_pass(script.hash, plan.rest.after);
+    tell_failure();
   }
   std::size_t made = 0;
-  const Run_result result = run(mesh, script, arguments, [&](const Command& command) {
-    if (log && ++made > replayed)
+  const Run_result result = run(mesh, plan.commands, arguments, [&](const Command& command) {
+    if (log && ++made > plan.replayed) {
       log->append(command);
+      tell_failure();
+    }
   });
-  const bool all_written = write_all(mesh, result, arguments);
-  if (replayed > 0)
-    std::cout << "replayed " << replayed << " lines of " << arguments.log << '\n';
+  bool all_written = write_all(mesh, result, arguments, notes);
+  if (is_logging && all_written) {
+    log->end_pass(script.hash);
+    tell_failure();
+  }
+  all_written = all_written && (!log || log->failure().empty());
+  if (plan.replayed > 0)
+    std::cout << "replayed " << plan.replayed << " lines of " << arguments.log << '\n';
+  if (plan.rest.after > 0)
+    std::cout << "went on with " << arguments.script << " after line " << plan.rest.after << '\n';
   print_table(std::cout, result, mesh); // last: whoever reads it may close the pipe
   if (!std::cout.flush())
     throw Write_error("cannot write the table to standard output");
@@ -206,20 +186,25 @@ Exit sculpt(const Arguments& arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is told like a full disk, and the others are written
   Arguments arguments;
   CLI::App app("Sculpts a closed triangle mesh from a script; no surface ever passes through a surface.\n"
                "Exit: 0 done (blocked drags and refused edits are done), 1 out of memory, 2 usage, 3 mesh refused, 4 "
                "script error, "
-               "5 cannot write, 6 script or log of another mesh.\n"
+               "5 cannot write, 6 script or log of another mesh, or no log.\n"
                "Script, one edit a line, # comments, numbers decimal or hexadecimal:\n"
                "  drag V X Y Z | release | insert_face A B C X Y Z | insert_edge A B X Y Z | remove V |\n"
-               "  probe X Y Z X2 Y2 Z2 | undo | redo | response slide|stop|paper | clearance L | delta L | mesh SHA256");
+               "  probe X Y Z X2 Y2 Z2 | undo | redo | response slide|stop|paper | clearance L|default | delta L | mesh SHA256");
   const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->required()->check(named);
   app.add_option("--script", arguments.script, "The edits; may be /dev/stdin")->check(named);
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes: .off .ply .obj .stl")->check(named);
   app.add_option("--report", arguments.report, "Where the JSON report goes")->check(named);
-  app.add_option("--log", arguments.log, "Edit log: replayed if it exists, then appended to")->check(named);
+  app.add_option("--log", arguments.log, "Edit log: replayed if it exists, then appended to. The same command goes on where it stopped")
+      ->check(named);
+  app.add_flag("--append", arguments.append, "With a log that has the whole script already: makes the same edits once more")
+      ->needs("--log")
+      ->needs("--script");
   app.add_option("--response", arguments.response, "What a blocked vertex does: slide (the default), stop or paper")
       ->check(CLI::IsMember({"slide", "stop", "paper"}));
   app.add_option("--broad-phase", arguments.broad_phase, "How candidates are found; the results are the same")
@@ -227,7 +212,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"tree", "six-lists", "brute"}));
   app.add_option("--clearance", arguments.clearance,
                  "Distance kept from what blocks, > 0; by default 4 ulp of the largest coordinate");
-  app.add_option("--delta", arguments.delta, "No triangle altitude may be less, >= 0")->capture_default_str();
+  app.add_option("--delta", arguments.delta, "No triangle altitude may be less, >= 0; by default 0");
   app.add_option("--picture", arguments.picture, "Where a picture goes: .png")->check(named);
   try {
     app.parse(argc, argv);

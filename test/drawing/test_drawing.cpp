@@ -285,9 +285,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused_and_leaves_nothing) {
   const Folder folder;
   const Scene scene = icosahedron();
   BOOST_TEST(says(refusal(scene, folder.path / "missing" / "picture.png"), "No such file or directory"));
-  BOOST_TEST(says(refusal(scene, folder.path), "not a file"));
-  BOOST_TEST(says(refusal(scene, ""), "not a file"));
-  BOOST_TEST(says(refusal(scene, "/dev/full"), "not a file"));
+  BOOST_TEST(says(refusal(scene, folder.path), "directory"));
+  BOOST_TEST(says(refusal(scene, ""), "not name a file"));
+  BOOST_TEST(says(refusal(scene, "/dev/full"), "not a regular file"));
   BOOST_TEST(fs::is_character_file("/dev/full"));
   BOOST_TEST(folder.entries() == 0u);
 }

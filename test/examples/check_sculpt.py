@@ -4,44 +4,9 @@
 import hashlib
 import json
 import os
-import random
-import resource
-import subprocess
-import sys
 import tempfile
-import time
 
-SCULPT, QUERIES, SOURCE = map(os.path.abspath, sys.argv[1:4])
-FAULTS = []
-
-
-def check(condition, what):
-    if not condition:
-        FAULTS.append(what)
-        print("FAULT:", what)
-
-
-def run(*arguments, program=SCULPT, script=None, limit=None, folder=None):
-    def limit_size():
-        if limit is not None:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-
-    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=100, cwd=folder,
-                          preexec_fn=limit_size, restore_signals=False)  # Python ignores SIGXFSZ; the write fails
-
-
-def fails(code, parts, done, what):
-    check(done.returncode == code, f"{what}: exit {done.returncode}, expected {code}: {done.stderr}")
-    for part in parts:
-        check(part in done.stderr, f"{what}: the message does not say '{part}': {done.stderr}")
-
-
-def points(path):
-    lines = [line for line in open(path).read().split("\n") if line and not line.startswith("#")]
-    return [tuple(map(float, line.split())) for line in lines[2:2 + int(lines[1].split()[0])]]
-
-
-TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0.1 0.1 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+from program_runs import QUERIES, SOURCE, TETRAHEDRON, check, end, fails, points, run
 
 
 def happy_path(folder, mesh):
@@ -51,7 +16,7 @@ def happy_path(folder, mesh):
     done = run(mesh, "--script", "/dev/stdin", "-o", out, "--report", report, script=script)
     check(done.returncode == 0, f"happy path: {done.returncode} {done.stderr}")
     told = json.load(open(report))
-    check(set(told) >= {"version", "totals", "edits", "time_ns", "filter"}, "report keys")
+    check(set(told) >= {"version", "totals", "edits", "notes", "time_ns", "filter"}, "report keys")
     check(set(told["time_ns"]) >= {"p50", "p99", "p999", "max"}, "time keys")
     totals = told["totals"]
     check(totals["asked"] == totals["reached"] + totals["blocked"] + totals["refused"] == 7, f"totals {totals}")
@@ -59,7 +24,7 @@ def happy_path(folder, mesh):
     check(status == [(2, "drag", "reached"), (3, "drag", "blocked"), (5, "probe", "blocked"), (6, "probe", "refused"),
                      (7, "drag", "refused"), (9, "drag", "reached"), (10, "drag", "blocked")], f"statuses {status}")
     for edit in told["edits"]:
-        check(set(edit) >= {"line", "op", "status", "reason", "elements", "position", "legs", "stop_error", "kkt_residual",
+        check(set(edit) >= {"source", "line", "script_line", "op", "status", "reason", "elements", "position", "legs", "stop_error", "kkt_residual",
                             "contacts"}, f"edit keys {edit}")
     check(told["edits"][0]["position"] == [0.2, 0.2, 2.0], "hexadecimal target")
     contact = told["edits"][1]["contacts"][0]
@@ -199,6 +164,9 @@ def bad_scripts(folder, mesh):
     refused("  drug 3 0 0 1\n", 1, 3, "drug")
     refused("release 3\n", 1, 9)
     refused("clearance 0\n", 1, 11)
+    refused("clearance standard\n", 1, 11, "default")
+    refused("delta default\n", 1, 7)
+    refused("drag 3 0 0 \x1b[31m\n", 1, 12, "\\x1b[31m")
     refused("delta -1\n", 1, 7)
     refused("response bounce\n", 1, 10, "bounce")
     refused("mesh 12\n", 1, 6)
@@ -212,151 +180,6 @@ def bad_scripts(folder, mesh):
     digest = hashlib.sha256(open(mesh, "rb").read()).hexdigest()
     check(run(mesh, "--script", "/dev/stdin", script=f"mesh {digest.upper()}\n").returncode == 0, "own hash")
     fails(6, [digest], run(mesh, "--script", "/dev/stdin", script=f"mesh {'0' * 64}\n"), "foreign hash")
-
-
-EDITS = ("insert_face 0 1 2 0.2 0.2 0\ndrag 4 0.2 0.2 -0.5\ninsert_edge 1 2 0.55 0.55 0\nundo\nundo\nredo\nremove 4\n"
-         "remove 4\nundo\ndrag 4 0.3 0.2 -0.25\nremove 0\nredo\n")
-
-
-def edits_and_log(folder, mesh):
-    log, report = f"{folder}/edits.log", f"{folder}/edits.json"
-
-    def sculpt(*arguments, script=None):
-        arguments = [mesh, *arguments] + (["--script", "/dev/stdin"] if script is not None else [])
-        return run(*arguments, script=script)
-
-    whole = f"{folder}/whole.off"
-    done = sculpt("-o", whole, "--log", log, "--report", report, script=EDITS)
-    check(done.returncode == 0, f"edits: {done.stderr}")
-    told = [(e["op"], e["status"], e["reason"], e["elements"]) for e in json.load(open(report))["edits"]]
-    check(told[0] == ("insert_face", "reached", None, [4]) and told[2] == ("insert_edge", "reached", None, [5]), f"names {told}")
-    check(told[7] == ("remove", "refused", "unknown-element", [4]), f"a dead vertex {told[7]}")
-    check(told[11][1:3] == ("refused", "nothing-to-redo"), f"nothing to redo {told[11]}")
-    check(len(points(whole)) == 4, "one vertex came and one went")
-    expected = open(whole, "rb").read()
-    replayed = f"{folder}/replayed.off"
-    check(sculpt("-o", replayed, "--log", log).returncode == 0, "resume")
-    check(open(replayed, "rb").read() == expected, "replay is exact to the bit")
-    as_script = f"{folder}/as_script.off"
-    check(run(mesh, "--script", log, "-o", as_script).returncode == 0, "a log is a script")
-    check(open(as_script, "rb").read() == expected, "a log as a script gives the same")
-    # Cut anywhere in its last two lines, the log gives the state after the whole lines that are left.
-    bytes_of_log = open(log, "rb").read()
-    lines = bytes_of_log.splitlines(keepends=True)
-    cut = f"{folder}/cut.log"
-    for length in range(len(bytes_of_log) - len(lines[-1]) - len(lines[-2]), len(bytes_of_log)):
-        with open(cut, "wb") as file:
-            file.write(bytes_of_log[:length])
-        whole_lines = bytes_of_log[:length].count(b"\n")
-        prefix = b"".join(lines[:whole_lines]).decode()
-        check(sculpt("-o", replayed, "--log", cut).returncode == 0, f"log cut at {length}")
-        check(run(mesh, "--script", "/dev/stdin", "-o", as_script, script=prefix).returncode == 0, "prefix")
-        check(open(replayed, "rb").read() == open(as_script, "rb").read(), f"log cut at {length} gives another mesh")
-        check(open(cut, "rb").read() == prefix.encode(), f"log cut at {length}: the unfinished line stays")
-    with open(cut, "wb") as file:
-        file.write(lines[0] + b"drag 4 0 zero 0\n" + lines[1])
-    fails(4, ["line 2", "zero"], sculpt("--log", cut), "a spoilt line inside the log")
-    other = f"{folder}/other.off"
-    with open(other, "w") as file:
-        file.write(TETRAHEDRON.replace("0.1 0.1 1", "0.1 0.1 2"))
-    fails(6, ["hash"], run(other, "--log", log), "the log of another mesh")
-
-
-def random_script(rng, mesh, lines):
-    """Drags, creations, removals, undo and redo mixed; many are refused, as they name what is gone by then."""
-    text = [line.split() for line in open(mesh).read().split("\n") if line and not line.startswith("#")]
-    vertices, faces = int(text[1][0]), int(text[1][1])
-    corners = [row[1:4] for row in text[2 + vertices:2 + vertices + faces]]
-    at = text[2:2 + vertices]
-
-    def middle(indices):
-        return " ".join(str(sum(float(at[int(i)][k]) for i in indices) / len(indices)) for k in range(3))
-
-    script = []
-    for _ in range(lines):
-        kind, face = rng.randrange(12), rng.choice(corners)
-        if kind < 5:
-            v = rng.randrange(vertices + 200)
-            x, y, z = (rng.uniform(-0.2, 0.2) + float(at[v % vertices][k]) for k in range(3))
-            script.append(f"drag {v} {x} {y} {z}\n")
-        elif kind < 7:
-            script.append(f"insert_face {' '.join(face)} {middle(face)}\n")
-        elif kind < 8:
-            script.append(f"insert_edge {' '.join(face[:2])} {middle(face[:2])}\n")
-        elif kind < 10:
-            script.append(f"remove {rng.randrange(vertices + 200)}\n")
-        else:
-            script.append("undo\n" if kind == 10 else "redo\n")
-    return script
-
-
-def killed_at_random_moments(folder):
-    """kill -9 while edits go on: the log replays to the state after its last whole line, and has lost nothing before it."""
-    mesh = f"{SOURCE}/examples/data/ball_and_moon.off"
-    rng = random.Random(int(os.environ.get("HAPTIC_SCULPT_SEED", "7")))
-    kills = int(os.environ.get("HAPTIC_SCULPT_KILLS", "10"))
-    script = random_script(rng, mesh, 40000)
-    path = f"{folder}/long.script"
-    with open(path, "w") as file:
-        file.writelines(script)
-    cut, least, most, attempts = 0, len(script), 0, 0
-    start = time.monotonic()
-    check(run(mesh, "--script", path, "--log", f"{folder}/whole.log").returncode == 0, "not killed")
-    takes = time.monotonic() - start
-    for kill in range(kills):
-        log = f"{folder}/killed{kill}.log"
-        while True:  # until it was not faster than expected
-            process = subprocess.Popen([SCULPT, mesh, "--script", path, "--log", log], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(rng.uniform(0.05, 0.9) * takes)
-            process.kill()
-            attempts += 1
-            if process.wait() == -9 or attempts >= 3 * kills + 10:
-                break
-            os.remove(log)
-            takes *= 0.8
-        check(process.returncode == -9, "killed before its end")
-        left = open(log).read() if os.path.exists(log) else ""
-        whole = left[:left.rfind("\n") + 1]
-        cut += whole != left
-        edits = whole.splitlines()[1:]  # after the hash
-        least, most = min(least, len(edits)), max(most, len(edits))
-        check([line.split()[0] for line in edits] == [line.split()[0] for line in script[:len(edits)]], "the log has other edits than the script")
-        check(run(mesh, "--log", log, "-o", f"{folder}/a.off").returncode == 0, "resume after kill -9")
-        check(run(mesh, "--script", "/dev/stdin", "-o", f"{folder}/b.off", script="".join(script[:len(edits)])).returncode == 0,
-              "the same edits anew")
-        check(open(f"{folder}/a.off", "rb").read() == open(f"{folder}/b.off", "rb").read(), "state after kill -9")
-        os.remove(log)
-    print(f"killed {kills} times after {least} to {most} edits, {cut} times within a line")
-
-
-def bad_targets(folder, mesh):
-    kept = f"{folder}/kept.off"
-    with open(kept, "w") as file:
-        file.write("kept")
-    fails(5, [], run(mesh, "-o", kept, limit=64), "disk full")
-    check(open(kept).read() == "kept", "a full disk spoils the old file")
-    check(not [name for name in os.listdir(folder) if name.startswith("kept.off") and name != "kept.off"], "left-over file")
-    fails(5, ["nowhere"], run(mesh, "-o", f"{folder}/nowhere/out.off"), "missing folder of the result")
-    os.mkdir(f"{folder}/target.off")
-    fails(5, ["target.off"], run(mesh, "-o", f"{folder}/target.off"), "the result is a folder")
-    for option in ("--report", "--picture"):
-        with open(f"{folder}/kept.x", "w") as file:
-            file.write("kept")
-        fails(5, ["kept.x"], run(mesh, option, f"{folder}/kept.x", limit=64), f"disk full, {option}")
-        check(open(f"{folder}/kept.x").read() == "kept", f"a full disk spoils the old file of {option}")
-        check(not [name for name in os.listdir(folder) if name.startswith("kept.x") and name != "kept.x"], f"left-over file of {option}")
-        fails(5, ["/dev/full"], run(mesh, option, "/dev/full"), f"{option} to a device")
-        # Found before the work: the good target is not touched either.
-        fails(5, ["nowhere"], run(mesh, "-o", kept, option, f"{folder}/nowhere/file"), f"missing folder of {option} beside a good result")
-        check(open(kept).read() == "kept", f"the result is written though {option} cannot be")
-    with open("/dev/full", "w") as full:
-        done = subprocess.run([SCULPT, mesh, "-o", f"{folder}/table.off"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=100)
-    fails(5, ["standard output"], done, "no room for the table")
-    check(os.path.exists(f"{folder}/table.off"), "the result is written before the table")
-    fails(5, ["nowhere"], run(mesh, "--report", f"{folder}/nowhere/report.json"), "missing folder of the report")
-    fails(5, ["nowhere"], run(mesh, "--picture", f"{folder}/nowhere/picture.png"), "missing folder of the picture")
-    done = run(mesh, "--picture", f"{folder}/picture.png")
-    check(done.returncode == 0 and open(f"{folder}/picture.png", "rb").read(4) == b"\x89PNG", f"picture: {done.stderr}")
 
 
 def queries(folder):
@@ -392,12 +215,8 @@ def main():
         bad_usage(folder, mesh)
         bad_meshes(folder)
         bad_scripts(folder, mesh)
-        edits_and_log(folder, mesh)
-        killed_at_random_moments(folder)
-        bad_targets(folder, mesh)
         queries(folder)
-    print(len(FAULTS), "faults")
-    return 1 if FAULTS else 0
+    end()
 
 
-sys.exit(main())
+main()

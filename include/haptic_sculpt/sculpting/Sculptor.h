@@ -196,6 +196,9 @@ public:
     options_ = changed;
   }
 
+  /// From here on the default of each contact.
+  void set_default_clearance() { options_.clearance_length.reset(); }
+
   /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
   /// of validate().
   void set_delta(double length) {

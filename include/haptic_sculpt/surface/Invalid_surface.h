@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/surface/Validity_report.h>
+#include <haptic_sculpt/surface/Write_error.h>
 
 #include <string>
 #include <utility>
@@ -25,12 +26,6 @@ private:
 
 /// A file could not be read as a mesh: missing, empty, cut short, or not what its format asks for.
 class Read_error : public Error {
-public:
-  using Error::Error;
-};
-
-/// A mesh could not be written. The file that was there before, if any, is as it was.
-class Write_error : public Error {
 public:
   using Error::Error;
 };

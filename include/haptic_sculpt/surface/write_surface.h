@@ -165,10 +165,11 @@ inline std::string file_contents(const Face_soup& soup, Mesh_file_format format,
 /// in index order or in `options.vertex_order`, faces in index order. An invalid surface is written as it is (and will
 /// not be read back), unless the format cannot hold it.
 ///
-/// \param path of the file; its folder has to exist
+/// \param path of the file; its folder has to exist. `replace_file()` says what becomes of links, permissions and owner
+/// \return for people: what of the old file could not be kept, such as its owner; empty if all was
 /// \throw Write_error
 template <class Mesh>
-void write_surface(const std::filesystem::path& path, const Mesh& mesh, const Write_options& options = {}) {
+std::string write_surface(const std::filesystem::path& path, const Mesh& mesh, const Write_options& options = {}) {
   const internal::Rounding_to_nearest rounding;
   using Encoding = Write_options::Encoding;
   const auto format = mesh_file_format(path);
@@ -190,7 +191,7 @@ void write_surface(const std::filesystem::path& path, const Mesh& mesh, const Wr
   } catch (const Write_error& error) {
     throw Write_error("cannot write '" + path.string() + "': " + error.what());
   }
-  replace_file(path, contents);
+  return replace_file(path, contents);
 }
 
 } // namespace haptic_sculpt

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_ARGUMENTS_H
+#define HAPTIC_SCULPT_EXAMPLES_ARGUMENTS_H
+
+#include <haptic_sculpt/Error.h>
+
+#include <optional>
+#include <string>
+
+namespace haptic_sculpt::sculpt_program {
+
+/// The command line. Names that were not given are empty.
+struct Arguments {
+  std::string mesh, script, out, report, log, response, broad_phase = "tree", picture;
+  std::optional<double> clearance, delta;
+  bool append = false;
+};
+
+/// Something that was asked for and does not exist yet, or does not fit together.
+struct Usage_error : Error {
+  using Error::Error;
+};
+
+} // namespace haptic_sculpt::sculpt_program
+
+#endif

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Log_text.h"
+
+#include "Sha256.h"
+#include "printable.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+namespace haptic_sculpt::sculpt_program {
+namespace {
+
+using Kind = Command::Kind;
+
+constexpr std::string_view version_word = "# haptic_sculpt log ", current_version = "1", pass_word = "# script ",
+                           after_word = " after line ", done_word = " done", line_word = " # line ",
+                           checksum_word = " # ";
+constexpr std::size_t checksum_size = 16; // digits: 64 bits
+
+bool begins_with(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+std::string hexadecimal(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%a", x);
+  return text;
+}
+
+std::string text_of(const Command& command) {
+  std::string text = name_of(command.kind);
+  for (std::size_t index : command.indices)
+    text += ' ' + std::to_string(index);
+  for (const auto& point : command.points)
+    for (double x : point)
+      text += ' ' + hexadecimal(x);
+  if ((command.kind == Kind::clearance && command.word.empty()) || command.kind == Kind::delta)
+    text += ' ' + hexadecimal(command.length);
+  return command.word.empty() ? text : text + ' ' + command.word;
+}
+
+std::optional<std::size_t> number(std::string_view text) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::string checksum_of(std::string_view before, std::string_view payload) {
+  return Sha256().add(before).add(payload).digest().substr(0, checksum_size);
+}
+
+/// A line without its checksum.
+struct Checked_line {
+  std::string_view payload, checksum;
+};
+
+std::optional<Checked_line> split(std::string_view line) {
+  if (line.size() < checksum_word.size() + checksum_size)
+    return std::nullopt;
+  const std::size_t at = line.size() - checksum_size - checksum_word.size();
+  if (line.substr(at, checksum_word.size()) != checksum_word)
+    return std::nullopt;
+  return Checked_line{line.substr(0, at), line.substr(at + checksum_word.size())};
+}
+
+class Log_reader {
+public:
+  Log_reader(std::string_view text, const std::string& name, const std::string& mesh)
+      : text_(text), name_(name), mesh_(mesh) {}
+
+  Log_contents read() {
+    while (read_line_here())
+      ;
+    contents_.whole_size = at_;
+    contents_.unfinished = text_.substr(at_);
+    check_unfinished();
+    const std::size_t head = begins_with(text_, version_word) ? 1 + Settings().directives().size() : 1;
+    if (contents_.commands.size() < head)
+      throw Foreign_log("'" + name_ + "' ends within its head, at line " + std::to_string(number_) +
+                        ": no edit is in it, so remove it, or give another name");
+    contents_.writer = Log_writer(checksum_);
+    return std::move(contents_);
+  }
+
+private:
+  std::string_view text_;
+  const std::string& name_;
+  const std::string& mesh_;
+  Log_contents contents_;
+  std::string checksum_; ///< of the line before
+  std::size_t at_ = 0, number_ = 0;
+
+  [[noreturn]] void fail(const std::string& what) const { throw Script_error(name_, number_, 1, what); }
+
+  /// False at the end of the whole lines.
+  bool read_line_here() {
+    const std::size_t end = text_.find('\n', at_);
+    ++number_;
+    if (number_ == 1 && !begins_with(text_, version_word) && !is_mesh_line(text_.substr(0, end)))
+      throw Foreign_log(
+          "'" + name_ +
+          "' is not a log, for line 1 is not the first line of one; it is left as it is. Give the name of a log, "
+          "or one that is not there yet");
+    if (end == std::string_view::npos)
+      return false;
+    const std::string_view line = text_.substr(at_, end - at_);
+    if (!contents_.has_checksums && begins_with(line, version_word))
+      read_version(line);
+    else if (contents_.has_checksums)
+      read_checked(line);
+    else
+      read_command(line, 0);
+    at_ = end + 1;
+    return true;
+  }
+
+  /// The first line of a log without checksums.
+  bool is_mesh_line(std::string_view line) const {
+    try {
+      const auto command = read_line(std::string(line), 1, name_);
+      return command && command->kind == Kind::mesh;
+    } catch (const Script_error&) {
+      return false;
+    }
+  }
+
+  void read_version(std::string_view line) {
+    checksum_ = Sha256().add(text_.substr(0, at_)).digest(); // of all before; see Log_writer::version
+    const std::string_view payload = check(line, number_ == 1 ? "" : ", or a line before it");
+    if (payload.substr(version_word.size()) != current_version)
+      throw Foreign_log("'" + name_ + "' is a log of format " + printable(payload.substr(version_word.size())) +
+                        ", which this program is too old for");
+    contents_.has_checksums = true;
+  }
+
+  /// The line without its checksum. \throw Script_error
+  std::string_view check(std::string_view line, const std::string& or_else) {
+    const auto parts = split(line);
+    if (!parts || checksum_of(checksum_, parts->payload) != parts->checksum)
+      fail("this line does not agree with its checksum: it" + or_else +
+           " has been changed, or lines before it are gone. Give a copy of "
+           "the log that is sound; as a script (--script) it would be read without looking at checksums");
+    checksum_ = parts->checksum;
+    return parts->payload;
+  }
+
+  void read_checked(std::string_view line) {
+    const std::string_view payload = check(line, "");
+    if (begins_with(payload, pass_word)) {
+      read_pass(payload.substr(pass_word.size()));
+      return;
+    }
+    const std::size_t from = payload.rfind(line_word);
+    if (from == std::string_view::npos) {
+      read_command(payload, 0);
+      return;
+    }
+    const auto script_line = number(payload.substr(from + line_word.size()));
+    if (!script_line || *script_line == 0 || contents_.passes.empty())
+      fail("the line of the script is not understood");
+    read_command(payload.substr(0, from), *script_line);
+    contents_.passes.back().last_line = *script_line;
+  }
+
+  void read_pass(std::string_view text) {
+    Log_contents::Pass pass;
+    pass.script = text.substr(0, 64);
+    const std::string_view rest = text.substr(pass.script.size());
+    const auto line = begins_with(rest, after_word) ? number(rest.substr(after_word.size())) : std::nullopt;
+    const bool is_done =
+        rest == done_word && !contents_.passes.empty() && contents_.passes.back().script == pass.script;
+    if (!is_sha256(pass.script) || !(line || is_done))
+      fail("what is said of a script is not understood");
+    if (is_done) {
+      contents_.passes.back().is_done = true;
+      return;
+    }
+    pass.last_line = *line;
+    contents_.passes.push_back(pass);
+  }
+
+  void read_command(std::string_view text, std::size_t script_line) {
+    auto command = read_line(std::string(text), number_, name_);
+    if (!command)
+      return;
+    command->is_logged = true;
+    command->script_line = script_line;
+    if (contents_.commands.empty() && (command->kind != Kind::mesh || command->word != mesh_))
+      throw Foreign_log("the log '" + name_ + "' does not begin with the hash of this mesh, " + mesh_ +
+                        ": give the mesh it was begun with, or another log");
+    contents_.commands.push_back(std::move(*command));
+  }
+
+  /// A process that is killed leaves part of a line. A whole one and a byte more is a line whose end has been changed.
+  void check_unfinished() const {
+    const std::string_view tail = text_.substr(at_);
+    if (tail.empty() || !contents_.has_checksums)
+      return;
+    const auto parts = split(tail.substr(0, tail.size() - 1));
+    if (parts && checksum_of(checksum_, parts->payload) == parts->checksum)
+      fail("the end of this line has been changed; it should be the end of a line");
+  }
+};
+
+} // namespace
+
+void Settings::follow(const Command& command) {
+  if (command.kind == Kind::response)
+    response = command.word;
+  else if (command.kind == Kind::clearance)
+    clearance = command.word.empty() ? std::optional(command.length) : std::nullopt;
+  else if (command.kind == Kind::delta)
+    delta = command.length;
+}
+
+std::vector<Command> Settings::directives() const {
+  std::vector<Command> all(3);
+  all[0].kind = Kind::response;
+  all[0].word = response;
+  all[1].kind = Kind::clearance;
+  all[1].word = clearance ? "" : "default";
+  all[1].length = clearance.value_or(0);
+  all[2].kind = Kind::delta;
+  all[2].length = delta;
+  return all;
+}
+
+std::string Log_writer::line(const std::string& payload) {
+  checksum_ = checksum_of(checksum_, payload);
+  return payload + std::string(checksum_word) + checksum_ + '\n';
+}
+
+std::string Log_writer::head(const std::string& mesh, const Settings& settings) {
+  std::string text = version({});
+  Command hash;
+  hash.kind = Kind::mesh;
+  hash.word = mesh;
+  text += line(text_of(hash));
+  for (const Command& setting : settings.directives())
+    text += line(text_of(setting));
+  return text;
+}
+
+std::string Log_writer::version(std::string_view before) {
+  checksum_ = Sha256().add(before).digest();
+  return line(std::string(version_word) + std::string(current_version));
+}
+
+std::string Log_writer::command(const Command& command, std::size_t script_line) {
+  return line(text_of(command) + std::string(line_word) + std::to_string(script_line));
+}
+
+std::string Log_writer::pass(const std::string& script, std::size_t after) {
+  return line(std::string(pass_word) + script + std::string(after_word) + std::to_string(after));
+}
+
+std::string Log_writer::done(const std::string& script) {
+  return line(std::string(pass_word) + script + std::string(done_word));
+}
+
+Settings Log_contents::first_settings() const {
+  // The directives that stand between the mesh and the first edit or line of a script; the first of a kind counts: in
+  // the first format, directives of a script may follow those of the options.
+  const auto is_setting = [](const Command& c) {
+    return c.script_line == 0 && (c.kind == Kind::response || c.kind == Kind::clearance || c.kind == Kind::delta);
+  };
+  Settings settings;
+  const auto begin = commands.begin() + 1;
+  for (auto after = std::find_if_not(begin, commands.end(), is_setting); after != begin;)
+    settings.follow(*--after);
+  return settings;
+}
+
+Settings Log_contents::last_settings() const {
+  Settings settings;
+  for (const Command& command : commands)
+    settings.follow(command);
+  return settings;
+}
+
+Log_contents read_log(std::string_view text, const std::string& name, const std::string& mesh) {
+  return Log_reader(text, name, mesh).read();
+}
+
+} // namespace haptic_sculpt::sculpt_program

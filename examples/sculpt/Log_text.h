@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_LOG_TEXT_H
+#define HAPTIC_SCULPT_EXAMPLES_LOG_TEXT_H
+
+#include "Script.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace haptic_sculpt::sculpt_program {
+
+/// A file that is no log, or a log or script of another mesh.
+struct Foreign_log : Error {
+  using Error::Error;
+};
+
+/// What holds at the first edit, and how options and directives change it.
+struct Settings {
+  std::string response = "slide";
+  std::optional<double> clearance; ///< unset: the default
+  double delta = 0;
+
+  /// Of commands other than settings: nothing.
+  void follow(const Command& command);
+  /// As directives.
+  std::vector<Command> directives() const;
+};
+
+/// Makes the lines of a log. Each ends with a checksum of all that stands before it, as a comment, so that a log is a
+/// script and a line that is changed, moved or gone is found. doc/sculpt.md says what the lines are.
+class Log_writer {
+public:
+  Log_writer() = default;
+  /// Goes on after a line with this checksum.
+  explicit Log_writer(std::string checksum) : checksum_(std::move(checksum)) {}
+
+  /// What a new log begins with: the version, the hash of the mesh, the settings.
+  std::string head(const std::string& mesh, const Settings& settings);
+  /// The first line with a checksum. \param before what stands in the log already: nothing, or lines of the first
+  /// format
+  std::string version(std::string_view before);
+  /// An edit or directive, and the line of the script that it comes from.
+  std::string command(const Command& command, std::size_t script_line);
+  /// What follows comes from the script with this hash, from the lines after this one.
+  std::string pass(const std::string& script, std::size_t after);
+  /// The script has been carried out to its end, and the results are written.
+  std::string done(const std::string& script);
+
+private:
+  std::string checksum_; ///< of the line before
+
+  std::string line(const std::string& payload);
+};
+
+/// What a log says.
+struct Log_contents {
+  /// A run through a script.
+  struct Pass {
+    std::string script;        ///< its hash
+    std::size_t last_line = 0; ///< the last that was carried out
+    bool is_done = false;      ///< to the end of the script, results written
+  };
+
+  std::vector<Command> commands; ///< `mesh` is the first
+  std::vector<Pass> passes;
+  bool has_checksums = false; ///< false: the first format, which had none, nor passes
+  std::size_t whole_size = 0; ///< bytes up to the end of the last whole line
+  std::string unfinished;     ///< what follows: a killed process may leave part of a line
+  Log_writer writer;          ///< goes on after the last whole line
+
+  /// What held at the first edit.
+  Settings first_settings() const;
+  /// What holds at the end. (A `delta` that was refused counts.)
+  Settings last_settings() const;
+};
+
+/// \param name how messages call the log \param mesh the hash that it has to begin with
+/// \throw Foreign_log if the first line is not that of a log, or the log is of another mesh; Script_error for a line
+/// that has been changed or cannot be read
+Log_contents read_log(std::string_view text, const std::string& name, const std::string& mesh);
+
+} // namespace haptic_sculpt::sculpt_program
+
+#endif

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_TEMPORARY_FILE_H
+#define HAPTIC_SCULPT_SURFACE_TEMPORARY_FILE_H
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace haptic_sculpt::internal {
+
+/// A file beside the one it shall replace. It is removed with its object unless it has been renamed.
+///
+/// It is locked as long as it is open, and a lock dies with its process. So a file with such a name that nobody has
+/// locked is left from a process that was killed. (The number of the process in the name would not tell: numbers are
+/// given again, and other machines and containers have their own.)
+class Temporary_file {
+public:
+  /// Makes it, empty. Where that fails, `is_open()` is false and errno says why.
+  explicit Temporary_file(const std::filesystem::path& target) {
+    for (int attempt = 0; file_ < 0 && attempt < 1000; ++attempt) {
+      // The name of the target says what this is; cut, for names have a greatest length.
+      path_ = target.parent_path() / ('.' + target.filename().string().substr(0, 200) + mark +
+                                      std::to_string(::getpid()) + '-' + std::to_string(number()));
+      // O_EXCL: nobody else's file is touched, whatever its name.
+      file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (file_ < 0 && errno != EEXIST)
+        return;
+      if (file_ >= 0 && was_taken_for_left())
+        close();
+    }
+  }
+  Temporary_file(const Temporary_file&) = delete;
+  Temporary_file& operator=(const Temporary_file&) = delete;
+  ~Temporary_file() {
+    if (file_ < 0)
+      return;
+    const int kept = errno; // of the failure that is being told
+    ::unlink(path_.c_str());
+    close();
+    errno = kept;
+  }
+
+  bool is_open() const { return file_ >= 0; }
+  int descriptor() const { return file_; }
+
+  /// Puts it in the place of the target. False on failure; errno says why.
+  bool rename_to(const std::filesystem::path& target) {
+    if (std::rename(path_.c_str(), target.c_str()) != 0)
+      return false;
+    close();
+    return true;
+  }
+
+  /// Removes what killed processes have left in a folder. What cannot be removed stays: it is in nobody's way.
+  static void remove_left(const std::filesystem::path& folder) {
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (!has_such_a_name(entry->path().filename().string()))
+        continue;
+      const int file = ::open(entry->path().c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+      struct stat status {};
+      if (file >= 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && ::flock(file, LOCK_EX | LOCK_NB) == 0)
+        ::unlink(entry->path().c_str());
+      if (file >= 0)
+        ::close(file);
+    }
+  }
+
+private:
+  /// A process gives no number twice: who has looked at an old file and removes its name never meets a new file.
+  static unsigned number() {
+    static std::atomic<unsigned> next{0};
+    return next++;
+  }
+
+  static constexpr const char* mark = ".haptic_sculpt-new-";
+  std::filesystem::path path_;
+  int file_ = -1;
+
+  void close() {
+    ::close(file_);
+    file_ = -1;
+  }
+
+  /// Locks it. True where another process was faster, between the making and the lock, and may have removed it.
+  bool was_taken_for_left() const {
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      return true; // else this file system has no locks: nobody can take it for left
+    struct stat status {};
+    return ::fstat(file_, &status) == 0 && status.st_nlink == 0;
+  }
+
+  /// `.NAME.haptic_sculpt-new-PROCESS-NUMBER`
+  static bool has_such_a_name(const std::string& name) {
+    const std::size_t at = name.rfind(mark);
+    if (name[0] != '.' || at == std::string::npos)
+      return false;
+    const std::string numbers = name.substr(at + std::char_traits<char>::length(mark));
+    const std::size_t dash = numbers.find('-');
+    return dash != std::string::npos && dash != 0 && dash + 1 < numbers.size() &&
+           numbers.find_first_not_of("0123456789-") == std::string::npos &&
+           numbers.find('-', dash + 1) == std::string::npos;
+  }
+};
+
+} // namespace haptic_sculpt::internal
+
+#endif

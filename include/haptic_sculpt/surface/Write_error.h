@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_WRITE_ERROR_H
+#define HAPTIC_SCULPT_SURFACE_WRITE_ERROR_H
+
+#include <haptic_sculpt/Error.h>
+
+namespace haptic_sculpt {
+
+/// A file could not be written. What was there before, if anything, is as it was.
+class Write_error : public Error {
+public:
+  using Error::Error;
+};
+
+} // namespace haptic_sculpt
+
+#endif

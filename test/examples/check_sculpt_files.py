@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `sculpt` writes, and where: links, rights, full disks, left-over files."""
+import fcntl
+import json
+import os
+import stat
+import subprocess
+import tempfile
+
+from program_runs import SCULPT, TETRAHEDRON, bytes_of, check, end, fails, run, write
+
+
+def bad_targets(folder, mesh):
+    """What cannot be written is told, before the work where it can be known, and costs nothing else."""
+    kept = f"{folder}/kept.off"
+    with open(kept, "w") as file:
+        file.write("kept")
+    fails(5, [], run(mesh, "-o", kept, limit=64), "disk full")
+    check(open(kept).read() == "kept", "a full disk spoils the old file")
+    check(not [name for name in os.listdir(folder) if name.startswith("kept.off") and name != "kept.off"], "left-over file")
+    fails(5, ["nowhere"], run(mesh, "-o", f"{folder}/nowhere/out.off"), "missing folder of the result")
+    os.mkdir(f"{folder}/target.off")
+    fails(5, ["target.off"], run(mesh, "-o", f"{folder}/target.off"), "the result is a folder")
+    for option in ("--report", "--picture"):
+        with open(f"{folder}/kept.x", "w") as file:
+            file.write("kept")
+        fails(5, ["kept.x"], run(mesh, option, f"{folder}/kept.x", limit=64), f"disk full, {option}")
+        check(open(f"{folder}/kept.x").read() == "kept", f"a full disk spoils the old file of {option}")
+        check(not [name for name in os.listdir(folder) if name.startswith("kept.x") and name != "kept.x"], f"left-over file of {option}")
+        fails(5, ["/dev/full"], run(mesh, option, "/dev/full"), f"{option} to a device")
+        # Found before the work: the good target is not touched either.
+        fails(5, ["nowhere"], run(mesh, "-o", kept, option, f"{folder}/nowhere/file"), f"missing folder of {option} beside a good result")
+        check(open(kept).read() == "kept", f"the result is written though {option} cannot be")
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([SCULPT, mesh, "-o", f"{folder}/table.off"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=100)
+    fails(5, ["standard output"], done, "no room for the table")
+    check(os.path.exists(f"{folder}/table.off"), "the result is written before the table")
+    fails(5, ["nowhere"], run(mesh, "--report", f"{folder}/nowhere/report.json"), "missing folder of the report")
+    fails(5, ["nowhere"], run(mesh, "--picture", f"{folder}/nowhere/picture.png"), "missing folder of the picture")
+    done = run(mesh, "--picture", f"{folder}/picture.png")
+    check(done.returncode == 0 and open(f"{folder}/picture.png", "rb").read(4) == b"\x89PNG", f"picture: {done.stderr}")
+
+
+def links(folder, mesh):
+    expected = f"{folder}/expected.off"
+    run(mesh, "-o", expected)
+    os.mkdir(f"{folder}/there")
+    os.symlink("there/result.off", f"{folder}/first.off")
+    os.symlink(f"{folder}/first.off", f"{folder}/second.off")
+    for _ in range(2):  # to begin with it leads nowhere
+        check(run(mesh, "-o", f"{folder}/second.off").returncode == 0, "a result through links")
+        check(os.path.islink(f"{folder}/first.off") and os.path.islink(f"{folder}/second.off"), "the links stay")
+        check(bytes_of(f"{folder}/there/result.off") == bytes_of(expected) and os.listdir(f"{folder}/there") == ["result.off"], "where the links lead")
+    for option, name in (("--report", "report"), ("--picture", "picture")):
+        os.symlink(f"there/{name}", f"{folder}/{name}")
+        check(run(mesh, option, f"{folder}/{name}").returncode == 0 and os.path.islink(f"{folder}/{name}") and os.path.exists(f"{folder}/there/{name}"),
+              f"{option} through a link that leads nowhere yet")
+    for link, to in (("loop.off", "loop.off"), ("a.off", "b.off"), ("b.off", "a.off"), ("nowhere.off", "not_there/x.off")):
+        os.symlink(to, f"{folder}/{link}")
+    for link, part in (("loop.off", "circle"), ("a.off", "circle"), ("nowhere.off", "folder")):
+        for option in ("-o", "--report", "--picture"):
+            report = f"{folder}/not_yet.json"
+            fails(5, [link, part], run(mesh, option, f"{folder}/{link}", *([] if option == "--report" else ["--report", report])), f"{option} {link}")
+            check(os.path.islink(f"{folder}/{link}") and not os.path.exists(report), f"{option} {link}: found out too late")
+    os.symlink("both", f"{folder}/one.json")
+    fails(2, ["one file"], run(mesh, "--report", f"{folder}/one.json", "--picture", f"{folder}/both"), "two outputs in one file through a link that leads nowhere")
+
+
+def rights(folder, mesh):
+    out = write(f"{folder}/out.off", "old")
+    for before, after in ((0o640, 0o640), (0o4755, 0o755), (0o2775, 0o775), (0o6777, 0o777), (0o600, 0o600)):
+        os.chmod(out, before)
+        check(run(mesh, "-o", out).returncode == 0, f"over a file of mode {before:o}")
+        check(stat.S_IMODE(os.stat(out).st_mode) == after, f"mode {before:o} becomes {stat.S_IMODE(os.stat(out).st_mode):o}, not {after:o}")
+    if os.getuid() != 0:
+        print("skipped: owners can be given by root only")
+        return
+    os.chown(out, 12345, 23456)
+    done = run(mesh, "-o", out)
+    check((os.stat(out).st_uid, os.stat(out).st_gid) == (12345, 23456) and "owner" not in done.stderr, "root keeps the owner")
+    # Somebody else who may write the file, and into the folder, but cannot give files away.
+    os.chmod(folder, 0o777)
+    os.chmod(os.path.dirname(folder), 0o755)
+    os.chown(out, 12345, 23456)
+    os.chmod(out, 0o676)
+    done = run(mesh, "-o", out, "--report", f"{folder}/report.json", user=34567)
+    check(done.returncode == 0, f"another user: {done.stderr}")
+    for part in (out, "owner (user 12345)", "34567", "group (23456)"):
+        check(part in done.stderr and any(part in note for note in json.load(open(f"{folder}/report.json"))["notes"]), f"the message does not say {part}: {done.stderr}")
+    status = os.stat(out)
+    check(status.st_uid == 34567 and stat.S_IMODE(status.st_mode) == 0o666, f"a group comes by rights: mode {stat.S_IMODE(status.st_mode):o}")
+
+
+def left_over_files(folder, mesh):
+    """Temporary files of dead processes go, those of living ones stay, and so does everything else."""
+    dead = subprocess.Popen(["true"])
+    dead.wait()
+    left = [write(f"{folder}/.{name}.haptic_sculpt-new-{dead.pid}-{i}", "half") for i, name in enumerate(("out.off", "other.ply", "report.json"))]
+    # The number of a living process says nothing: numbers are given again.
+    left.append(write(f"{folder}/.out.off.haptic_sculpt-new-{os.getpid()}-0", "half"))
+    others = [write(f"{folder}/{name}", "mine") for name in ("out.off.haptic_sculpt-new-1-1", ".out.off.haptic_sculpt-new-1", ".haptic_sculpt-new-x-1", ".x")]
+    os.mkdir(f"{folder}/.folder.haptic_sculpt-new-1-1")
+    living = write(f"{folder}/.out.off.haptic_sculpt-new-{os.getpid()}-1", "half")
+    with open(living) as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        check(run(mesh, "-o", f"{folder}/out.off").returncode == 0, "beside left-over files")
+        check(not any(map(os.path.exists, left)), f"left-over files stay: {os.listdir(folder)}")
+        check(os.path.exists(living), "the temporary file of a living process is removed")
+        check(all(map(os.path.exists, others)) and os.path.isdir(f"{folder}/.folder.haptic_sculpt-new-1-1"), "other files are removed")
+    run(mesh, "--report", f"{folder}/report.json")
+    check(not os.path.exists(living), "it stays when its process has died")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
+        os.chmod(mesh, 0o644)
+        for part in (bad_targets, links, rights, left_over_files):
+            inner = f"{folder}/{part.__name__}"
+            os.mkdir(inner)
+            part(inner, mesh)
+    end()
+
+
+main()

@@ -1,0 +1,292 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The edit log of `sculpt`: resumed, refused, spoilt, locked, on a full disk, and in the format of earlier versions."""
+import fcntl
+import json
+import os
+import random
+import subprocess
+import tempfile
+import time
+
+from program_runs import SCULPT, TETRAHEDRON, bytes_of, check, end, fails, points, run, sha256, write
+
+EDITS = ("insert_face 0 1 2 0.2 0.2 0\ndrag 4 0.2 0.2 -0.5\ninsert_edge 1 2 0.55 0.55 0\nundo\nundo\nredo\nremove 4\n"
+         "remove 4\nundo\ndrag 4 0.3 0.2 -0.25\nremove 0\nredo\n")
+HEAD = 5  # lines: version, mesh, response, clearance, delta
+
+
+def words(line):
+    """What a line of a log says, without comments."""
+    return line.split(b"#")[0].split()
+
+
+def edits_and_log(folder, mesh):
+    log, report, script = f"{folder}/edits.log", f"{folder}/edits.json", write(f"{folder}/edits.script", EDITS)
+    whole, again = f"{folder}/whole.off", f"{folder}/again.off"
+    done = run(mesh, "-o", whole, "--log", log, "--report", report, "--script", script)
+    check(done.returncode == 0, f"edits: {done.stderr}")
+    edits = json.load(open(report))["edits"]
+    told = [(e["op"], e["status"], e["reason"], e["elements"]) for e in edits]
+    check(told[0] == ("insert_face", "reached", None, [4]) and told[2] == ("insert_edge", "reached", None, [5]), f"names {told}")
+    check(told[7] == ("remove", "refused", "unknown-element", [4]), f"a dead vertex {told[7]}")
+    check(told[11][1:3] == ("refused", "nothing-to-redo"), f"nothing to redo {told[11]}")
+    check(len(points(whole)) == 4, "one vertex came and one went")
+    check([(e["source"], e["line"], e["script_line"]) for e in edits] == [("script", i, i) for i in range(1, 13)], "sources")
+    expected = bytes_of(whole)
+    check(run(mesh, "-o", again, "--log", log, "--report", report).returncode == 0, "replay")
+    check(bytes_of(again) == expected, "replay is exact to the bit")
+    edits = json.load(open(report))["edits"]
+    check([(e["source"], e["line"], e["script_line"]) for e in edits] == [("log", i + HEAD + 1, i) for i in range(1, 13)], "sources of a replay")
+    check(run(mesh, "--script", log, "-o", again).returncode == 0, "a log is a script")
+    check(bytes_of(again) == expected, "a log as a script gives the same")
+    # Cut anywhere behind its head, the log gives the state after the whole lines that are left, and the script goes on from there.
+    complete = bytes_of(log)
+    lines = complete.splitlines(keepends=True)
+    head = sum(map(len, lines[:HEAD]))
+    check(b"".join(lines[:HEAD]).startswith(b"# haptic_sculpt log 1 # ") and words(lines[1]) == [b"mesh", sha256(mesh).encode()], "head")
+    check([words(line) for line in lines[2:HEAD]] == [[b"response", b"slide"], [b"clearance", b"default"], [b"delta", b"0x0p+0"]], "settings")
+    for length in sorted({*range(head, head + 120, 3), *range(len(complete) - 90, len(complete)), *range(head, len(complete), 29)}):
+        cut = write(f"{folder}/cut.log", complete[:length])
+        kept = b"".join(lines[:complete[:length].count(b"\n")])
+        if length % 4 == 0:
+            check(run(mesh, "-o", again, "--log", cut).returncode == 0, f"log cut at {length}")
+            as_script = f"{folder}/as_script.off"
+            check(run(mesh, "--script", "/dev/stdin", "-o", as_script, script=kept.decode()).returncode == 0, "prefix")
+            check(bytes_of(again) == bytes_of(as_script), f"log cut at {length} gives another mesh")
+            check(bytes_of(cut) == kept, f"log cut at {length}: the unfinished line stays")
+        done = run(mesh, "-o", again, "--log", cut, "--script", script)
+        check(done.returncode == 0 and bytes_of(again) == expected, f"log cut at {length} goes on to another mesh: {done.stderr}")
+        check(bytes_of(cut) == complete, f"log cut at {length}: it ends otherwise than without the break")
+    for length in (1, 10, len(lines[0]), head - 1):
+        cut = write(f"{folder}/cut.log", complete[:length])
+        fails(6, ["line 1" if length < 20 else "head"], run(mesh, "--log", cut), f"log cut within its head, at {length}")
+        check(bytes_of(cut) == complete[:length], "a log cut within its head is left as it is")
+
+
+def settings(folder, mesh):
+    script, log = write(f"{folder}/s.script", "drag 3 0.2 0.3 -1\ndrag 3 0.5 0.2 -0.5\n"), f"{folder}/settings.log"
+    out, again = f"{folder}/s.off", f"{folder}/t.off"
+    options = ("--response", "stop", "--clearance", "0x1p-10", "--delta", "0.01")
+    check(run(mesh, "--script", script, "--log", log, "-o", out, *options).returncode == 0, "with options")
+    begun = bytes_of(log)
+    check([words(line) for line in begun.splitlines()[2:HEAD]]
+          == [[b"response", b"stop"], [b"clearance", b"0x1p-10"], [b"delta", float(0.01).hex().encode()]], f"settings {begun}")
+    for what, arguments in (("no option", ()), ("the same options", options)):
+        check(run(mesh, "--log", log, "-o", again, *arguments).returncode == 0 and bytes_of(again) == bytes_of(out), f"replay with {what}")
+    done = run(mesh, "--script", log, "-o", again, "--response", "paper", "--clearance", "0.1")
+    check(done.returncode == 0 and bytes_of(again) == bytes_of(out), "the settings of a log that is given as a script hold")
+    plain = f"{folder}/plain.log"
+    run(mesh, "--script", script, "--log", plain)
+    kept = bytes_of(plain)
+    for name, value, logged, of in (("--response", "slide", "response stop", log), ("--clearance", "0.001", "clearance 0.0009765625", log),
+                                    ("--delta", "0", "delta 0.01", log), ("--response", "stop", "response slide", plain),
+                                    ("--clearance", "0.001", "clearance default", plain), ("--delta", "0.5", "delta 0", plain)):
+        fails(2, [f"{name} {value}", logged, of, "script"], run(mesh, "--log", of, "-o", f"{folder}/none.off", name, value), "an option against the log")
+    check(bytes_of(log) == begun and bytes_of(plain) == kept and not os.path.exists(f"{folder}/none.off"), "refused, and yet changed")
+    # What holds at the end is what a further script begins with.
+    changes, further = write(f"{folder}/changes.script", "response stop\nclearance default\ndrag 3 0 0 2\n"), write(f"{folder}/further.script", "drag 3 0.2 0.2 -1\n")
+    mixed = f"{folder}/mixed.log"
+    check(run(mesh, "--script", changes, "--log", mixed, "--response", "slide", "--clearance", "0.125").returncode == 0, "settings that change")
+    fails(2, ["--response slide", "ends with", "response stop"], run(mesh, "--script", further, "--log", mixed, "--response", "slide"), "option against the end")
+    fails(2, ["--clearance 0.125", "ends with", "default"], run(mesh, "--script", further, "--log", mixed, "--clearance", "0.125"), "option against the end")
+    check(run(mesh, "--script", further, "--log", mixed, "-o", out).returncode == 0, "no option")
+    together = "clearance 0.125\nresponse stop\nclearance default\ndrag 3 0 0 2\ndrag 3 0.2 0.2 -1\n"
+    check(run(mesh, "--script", "/dev/stdin", "-o", again, script=together).returncode == 0 and bytes_of(again) == bytes_of(out), "what the log ends with holds")
+
+
+def rerun(folder, mesh):
+    log, out, report = f"{folder}/rerun.log", f"{folder}/rerun.off", f"{folder}/rerun.json"
+    script = write(f"{folder}/rerun.script", "# begin\ninsert_face 0 1 2 0.2 0.2 0\n\ndrag 4 0.2 0.2 -0.5\n")
+    command = (mesh, "--script", script, "--log", log, "-o", out, "--report", report)
+    check(run(*command).returncode == 0, "first run")
+    complete, result = bytes_of(log), bytes_of(out)
+    os.remove(out)
+    fails(2, ["--append", script, log], run(*command), "the same command again")
+    check(bytes_of(log) == complete and not os.path.exists(out), "refused, and yet something was written")
+    # Killed while the results were being written.
+    write(log, b"".join(complete.splitlines(keepends=True)[:-1]))
+    check(run(*command).returncode == 0 and bytes_of(log) == complete and bytes_of(out) == result, "results are written by the next run")
+    # In a pass that was asked for once more, and killed.
+    check(run(*command, "--append").returncode == 0 and len(points(out)) == 5, "--append")
+    twice = bytes_of(log)
+    edits = json.load(open(report))["edits"]
+    check([(e["source"], e["line"], e["script_line"], e["status"]) for e in edits]
+          == [("log", 7, 2, "reached"), ("log", 8, 4, "reached"), ("script", 2, 2, "refused"), ("script", 4, 4, "reached")], f"sources {edits}")
+    check("log 11  insert_face" in run(mesh, "--log", log).stdout, "the table does not say which line of the log was refused")
+    lines = twice.splitlines(keepends=True)
+    for count in range(len(complete.splitlines()) + 1, len(lines)):
+        for options in ((), ("--append",)):
+            write(log, b"".join(lines[:count]))
+            check(run(*command, *options).returncode == 0 and bytes_of(log) == twice, f"the second pass broken after {count} lines, {options}")
+    fails(2, ["--append"], run(*command), "complete again")
+    # Another script goes on behind; and the first one, broken then, after it.
+    other = write(f"{folder}/other.script", "drag 3 0 0 2\n")
+    broken = b"".join(complete.splitlines(keepends=True)[:-2])
+    write(log, broken)
+    check(run(mesh, "--script", other, "--log", log).returncode == 0 and bytes_of(log).startswith(broken), "another script")
+    done = run(*command)
+    check(done.returncode == 0 and "after line 2" in done.stdout, f"the first script goes on: {done.stdout} {done.stderr}")
+    edits = json.load(open(report))["edits"]
+    check([(e["source"], e["script_line"], e["op"]) for e in edits] == [("log", 2, "insert_face"), ("log", 1, "drag"), ("script", 4, "drag")], f"{edits}")
+    fails(2, ["--append"], run(*command), "complete behind another")
+    check(run(mesh, "--log", log, "-o", f"{folder}/r.off").returncode == 0 and bytes_of(out) == bytes_of(f"{folder}/r.off"), "replay of three passes")
+    fails(2, ["--log"], run(mesh, "--script", script, "--append"), "--append without a log")
+    for _ in range(2):  # nothing is done twice by a script that does nothing
+        check(run(mesh, "--script", "/dev/null", "--log", f"{folder}/empty.log").returncode == 0, "empty script")
+
+
+def no_logs(folder, mesh):
+    """What is no log of this mesh is refused, byte for byte as it was."""
+    digest = sha256(mesh)
+    other = write(f"{folder}/other.off", TETRAHEDRON.replace("0.1 0.1 1", "0.1 0.1 2"))
+    run(other, "--script", "/dev/stdin", "--log", f"{folder}/foreign.log", script="drag 3 0 0 3\n")
+    foreign = bytes_of(f"{folder}/foreign.log")
+    for contents in (b"precious", b"precious\n", b"\n", b"#", b"m", b"mesh", b"mesh 12\n", b"mesh " + digest.encode(), b"drag 3 0 0 2\n", b"\0" * 5000,
+                     b"two\nlines", bytes_of(mesh), b"\x89PNG\r\n\x1a\n" + bytes(range(256)), b"# haptic_sculpt log", b"# haptic_sculpt log 1 # ",
+                     f"mesh {'0' * 64}\ndrag 3 0 0 2\nunfinished".encode(), foreign, foreign[:-5]):
+        log = write(f"{folder}/no.log", contents)
+        for arguments in ((), ("--script", "/dev/stdin")):
+            fails(6, ["no.log"], run(mesh, "--log", log, "-o", f"{folder}/none.off", *arguments, script="drag 3 0 0 2\n"), f"no log: {contents[:40]}")
+            check(bytes_of(log) == contents, f"no log, and yet changed: {contents[:40]}")
+    check(not os.path.exists(f"{folder}/none.off"), "no log, and yet a result")
+    empty = write(f"{folder}/empty.log", b"")
+    check(run(mesh, "--log", empty, "--script", "/dev/stdin", script="drag 3 0 0 2\n").returncode == 0 and len(bytes_of(empty)) > 100, "an empty file is begun")
+    newer = run(mesh, "--log", write(f"{folder}/newer.log", b"# haptic_sculpt log 2 # 0123456789abcdef\n"))
+    fails(4, ["line 1"], newer, "a version that does not agree with its checksum")
+
+
+def changed_logs(folder, mesh):
+    """Every change of a byte, and of the order of lines, is found, and its line named."""
+    rng = random.Random(int(os.environ.get("HAPTIC_SCULPT_SEED", "5")))
+    log, script = f"{folder}/sound.log", write(f"{folder}/c.script", EDITS)
+    check(run(mesh, "--log", log, "--script", script).returncode == 0, "a sound log")
+    sound = bytes_of(log)
+    changed = f"{folder}/changed.log"
+    for i in range(300):
+        at = rng.randrange(len(sound)) if i > 0 else len(sound) - 1
+        byte = rng.choice([b for b in (*b"0123456789abcdef .#-+px\n\0", rng.randrange(256)) if b != sound[at]])
+        text = sound[:at] + bytes([byte]) + sound[at + 1:]
+        done = run(mesh, "--log", write(changed, text))
+        line = sound[:at].count(b"\n") + 1
+        fails(6 if done.returncode == 6 and line == 1 else 4, [f"line {line}"], done, f"byte {at} is {byte} instead of {sound[at]}")
+        check(bytes_of(changed) == text, f"a changed log (byte {at}) is touched")
+    lines = sound.splitlines(keepends=True)
+    for i in range(1, len(lines) - 1):
+        for what, text, line in (("gone", lines[:i] + lines[i + 1:], i + 1), ("doubled", lines[:i + 1] + lines[i:], i + 2),
+                                 ("swapped", lines[:i] + [lines[i + 1], lines[i]] + lines[i + 2:], i + 1)):
+            fails(4, [f"line {line}"], run(mesh, "--log", write(changed, b"".join(text))), f"line {i + 1} {what}")
+
+
+def first_format(folder, mesh):
+    """Logs without version, checksums and passes, as earlier versions wrote them."""
+    old = f"mesh {sha256(mesh)}\nresponse stop\nclearance 0x1p-10\ninsert_face 0 1 2 0x1.999999999999ap-3 0x1.999999999999ap-3 0x0p+0\n"
+    script, further = "drag 4 0.2 0.2 -0.5\ndrag 3 0.2 0.2 -1\n", write(f"{folder}/further2.script", "remove 4\n")
+    out, again, log = f"{folder}/old.off", f"{folder}/new.off", f"{folder}/old.log"
+    check(run(mesh, "--script", "/dev/stdin", "-o", out, script=old + script).returncode == 0, "as a script")
+    for tail in ("", "drag 3 0x1"):
+        write(log, old + tail)
+        check(run(mesh, "--log", log).returncode == 0 and bytes_of(log).decode() == old, "a log of the first format is replayed, not changed")
+        write(log, old + tail)
+        done = run(mesh, "--log", log, "--script", "/dev/stdin", "-o", again, script=script)
+        check(done.returncode == 0 and bytes_of(again) == bytes_of(out), f"the first format is resumed: {done.stderr}")
+        check(bytes_of(log).decode().startswith(old + "# haptic_sculpt log 1 # "), "checksums from here on")
+    fails(2, ["--response slide", "response stop"], run(mesh, "--log", log, "--response", "slide"), "an option against the first format")
+    check(run(mesh, "--log", log, "--response", "stop", "-o", again).returncode == 0 and bytes_of(again) == bytes_of(out), "its own option")
+    text = bytes_of(log)
+    fails(4, ["line 5", "before it"], run(mesh, "--log", write(f"{folder}/o.log", text.replace(b"0x1.99", b"0x1.98", 1))), "a change of the old part")
+    check(run(mesh, "--log", log, "--script", further).returncode == 0 and run(mesh, "--log", log).returncode == 0, "and further")
+    fails(4, ["line 2", "zero"], run(mesh, "--log", write(f"{folder}/o.log", old.splitlines()[0] + "\ndrag 4 0 zero 0\nundo\n")), "a spoilt line")
+
+
+def two_processes(folder, mesh):
+    log = f"{folder}/locked.log"
+    run(mesh, "--log", log)
+    kept = bytes_of(log)
+    with open(log) as other:
+        fcntl.flock(other, fcntl.LOCK_EX)
+        fails(5, ["in use", log], run(mesh, "--log", log, "--script", "/dev/stdin", script="drag 3 0 0 2\n"), "a locked log")
+    check(bytes_of(log) == kept, "a locked log is changed")
+    script = write(f"{folder}/long.script", "drag 3 0.2 0.2 2\ndrag 3 0.3 0.3 1\n" * 20000)
+    log = f"{folder}/new.log"
+    first = subprocess.Popen([SCULPT, mesh, "--script", script, "--log", log], stdout=subprocess.DEVNULL)
+    while first.poll() is None and not (os.path.exists(log) and os.path.getsize(log) > 0):
+        time.sleep(0.001)
+    fails(5, ["in use"], run(mesh, "--script", script, "--log", log), "a second process")
+    check(first.poll() is None, "the first process was too fast for this check")
+    check(first.wait() == 0 and run(mesh, "--log", log).returncode == 0, "the first process is disturbed")
+    begun = [subprocess.Popen([SCULPT, mesh, "--log", f"{folder}/race.log"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for _ in range(8)]
+    codes = {process.wait() for process in begun}
+    check(0 in codes and codes <= {0, 5} and run(mesh, "--log", f"{folder}/race.log").returncode == 0, f"eight begin one log: {codes}")
+
+
+def places(folder, mesh):
+    os.mkfifo(f"{folder}/pipe")
+    os.mkdir(f"{folder}/folder")
+    os.symlink("loop", f"{folder}/loop")
+    for path in (f"{folder}/pipe", f"{folder}/folder", "/dev/null", "/dev/full", "/dev/stdin", f"{folder}/loop", f"{folder}/nowhere/x.log"):
+        fails(5, [path], run(mesh, "--log", path, "-o", f"{folder}/none.off", script=""), f"a log at {path}")
+    check(not os.path.exists(f"{folder}/none.off"), "written though the log cannot be")
+    os.symlink("led_to.log", f"{folder}/link.log")
+    check(run(mesh, "--log", f"{folder}/link.log").returncode == 0 and os.path.islink(f"{folder}/link.log") and os.path.exists(f"{folder}/led_to.log"),
+          "a log through a link that leads nowhere yet")
+    # The mesh a log begins with has to stay.
+    copy = write(f"{folder}/copy.off", TETRAHEDRON)
+    os.link(copy, f"{folder}/hard.off")
+    os.symlink("copy.off", f"{folder}/soft.off")
+    for out in (copy, f"{folder}/hard.off", f"{folder}/soft.off", f"{folder}/./copy.off"):
+        fails(2, [out, "log"], run(copy, "-o", out, "--log", f"{folder}/copy.log"), "the result in place of the mesh, with a log")
+    check(bytes_of(copy) == TETRAHEDRON.encode() and not os.path.exists(f"{folder}/copy.log"), "the mesh is spoilt")
+    check(run(copy, "-o", copy).returncode == 0, "the result in place of the mesh, without a log")
+
+
+def full_disk(folder, mesh):
+    script = write(f"{folder}/full.script", "drag 3 0.2 0.2 2\ndrag 3 0.3 0.3 1.5\n" * 100)
+    expected, out, report = f"{folder}/e.off", f"{folder}/full.off", f"{folder}/full.json"
+    run(mesh, "--script", script, "-o", expected)
+    whole = f"{folder}/whole.log"
+    run(mesh, "--script", script, "--log", whole)
+    for limit in (200, 400, 2000, 2001, 2002, 5000):  # 200: less than the head
+        log = f"{folder}/full{limit}.log"
+        done = run(mesh, "--script", script, "--log", log, "-o", out, limit=limit)
+        fails(5, [log, "goes on without"], done, f"the log may not grow beyond {limit} bytes")
+        check(bytes_of(out) == bytes_of(expected), "the result is not written, or another")
+        os.remove(out)
+        if limit == 200:
+            check(not os.path.exists(log), "a log without a whole head is left")
+            continue
+        check(bytes_of(whole).startswith(bytes_of(log)) and bytes_of(log).endswith(b"\n"), "the log does not end with a whole line")
+        done = run(mesh, "--script", script, "--log", log, "-o", out, "--report", report)
+        check(done.returncode == 0 and bytes_of(out) == bytes_of(expected) and bytes_of(log) == bytes_of(whole), f"resumed with room: {done.stderr}")
+    small = f"{folder}/small"
+    os.mkdir(small)
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=8k", "tmpfs", small], stderr=subprocess.DEVNULL).returncode != 0:
+        print("skipped: no small disk can be mounted here")
+        return
+    try:
+        for room in (8192, 4096, 0):  # some, a page, none
+            write(f"{small}/ballast", b"x" * (8192 - room))
+            done = run(mesh, "--script", script, "--log", f"{small}/x.log", "-o", out, "--report", report)
+            fails(5, ["x.log", "No space left"], done, f"a disk with room for {room} bytes")
+            check(bytes_of(out) == bytes_of(expected) and any("x.log" in note for note in json.load(open(report))["notes"]), "the result, and a note in the report")
+            if os.path.exists(f"{small}/x.log"):
+                os.remove(f"{small}/x.log")
+            check(os.listdir(small) == ["ballast"], "what is left on a full disk")
+            os.remove(out)
+    finally:
+        subprocess.run(["umount", small], check=True)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
+        for part in (edits_and_log, settings, rerun, no_logs, changed_logs, first_format, two_processes, places, full_disk):
+            inner = f"{folder}/{part.__name__}"
+            os.mkdir(inner)
+            start = time.monotonic()
+            part(inner, mesh)
+            print(f"{part.__name__}: {time.monotonic() - start:.1f} s")
+    end()
+
+
+main()

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""kill -9 while `sculpt` edits and logs, with options and directives mixed in; the same command goes on until it is through.
+
+Whenever it is killed, its log is the beginning of the log of a run that is not killed, byte for byte; replayed, it gives what its lines
+give as a script; and in the end log and result are those of the run that is not killed. HAPTIC_SCULPT_KILLS says how often (12)."""
+import os
+import random
+import subprocess
+import tempfile
+import time
+
+from program_runs import SCULPT, SOURCE, bytes_of, check, end, run, write
+
+MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
+KILLS = int(os.environ.get("HAPTIC_SCULPT_KILLS", "12"))
+SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "7"))
+
+
+def random_script(rng, lines):
+    """Drags, creations, removals, undo, redo, probes and directives mixed; many are refused, as they name what is gone by then."""
+    text = [line.split() for line in open(MESH).read().split("\n") if line and not line.startswith("#")]
+    vertices, faces = int(text[1][0]), int(text[1][1])
+    corners = [row[1:4] for row in text[2 + vertices:2 + vertices + faces]]
+    at = text[2:2 + vertices]
+
+    def middle(indices):
+        return " ".join(str(sum(float(at[int(i)][k]) for i in indices) / len(indices)) for k in range(3))
+
+    def near(v):
+        return " ".join(str(rng.uniform(-0.2, 0.2) + float(at[v % vertices][k])) for k in range(3))
+
+    script = []
+    for _ in range(lines):
+        face, v = rng.choice(corners), rng.randrange(vertices + 50)
+        script.append(rng.choices(
+            [f"drag {v} {near(v)}", f"insert_face {' '.join(face)} {middle(face)}", f"insert_edge {' '.join(face[:2])} {middle(face[:2])}",
+             f"remove {v}", "undo", "redo", f"probe {near(v)} {near(v + 1)}", "release", f"response {rng.choice(['slide', 'stop', 'paper'])}",
+             f"clearance {rng.choice(['default', '1e-9', '0x1p-20', str(rng.uniform(1e-6, 1e-3))])}", f"delta {rng.choice(['0', '1e-6', '0.001'])}",
+             f"# comment {v}", ""],
+            [50, 15, 8, 15, 8, 8, 4, 2, 2, 2, 1, 1, 1])[0] + "\n")
+    return "".join(script)
+
+
+def random_options(rng):
+    return [word for option, values in (("--response", ["slide", "stop", "paper"]), ("--clearance", ["1e-9", "0x1p-20"]), ("--delta", ["0", "1e-6"]))
+            if rng.random() < 0.5 for word in (option, rng.choice(values))]
+
+
+def main():
+    rng = random.Random(SEED)
+    print("seed", SEED)
+    kills, runs, within_a_line, moments = 0, 0, 0, []
+    with tempfile.TemporaryDirectory() as folder:
+        log, out = f"{folder}/killed.log", f"{folder}/killed.off"
+        while kills < KILLS:
+            script, options = write(f"{folder}/edits.script", random_script(rng, rng.choice([30, 300, 3000]))), random_options(rng)
+            whole, expected = f"{folder}/whole.log", f"{folder}/whole.off"
+            for path in (whole, log, out):
+                if os.path.exists(path):
+                    os.remove(path)
+            start = time.monotonic()
+            check(run(MESH, "--script", script, "--log", whole, "-o", expected, *options).returncode == 0, "a run that is not killed")
+            takes = time.monotonic() - start
+            sound, result = bytes_of(whole), bytes_of(expected)
+            for attempt in range(12):
+                process = subprocess.Popen([SCULPT, MESH, "--script", script, "--log", log, "-o", out, *options], stdout=subprocess.DEVNULL,
+                                           stderr=subprocess.DEVNULL)
+                runs += 1
+                if attempt < 11 and kills < KILLS:
+                    # Often near the end, where the results are written.
+                    time.sleep(takes * (rng.uniform(0.85, 1.02) if rng.random() < 0.3 else rng.uniform(0, 1)))
+                    process.kill()
+                code = process.wait()
+                left = bytes_of(log) if os.path.exists(log) else b""
+                check(sound.startswith(left), f"the log of a killed run is not the beginning of a whole one (seed {SEED}, kill {kills})")
+                check(not os.path.exists(out) or bytes_of(out) == result, "a part of a result, or another")
+                if code != -9:
+                    break
+                kills += 1
+                within_a_line += not left.endswith(b"\n") and left != b""
+                moments.append(len(left) / len(sound))
+                if left and kills % 5 == 0:
+                    check(run(MESH, "--log", write(f"{folder}/copy.log", left), "-o", f"{folder}/a.off").returncode == 0, "replay after kill -9")
+                    lines = left[:left.rfind(b"\n") + 1].decode()
+                    check(run(MESH, "--script", "/dev/stdin", "-o", f"{folder}/b.off", script=lines).returncode == 0, "its lines as a script")
+                    check(bytes_of(f"{folder}/a.off") == bytes_of(f"{folder}/b.off"), "the replay is not what the lines say")
+            # Killed between its last line and its end, it is through.
+            check(code == 0 or (code == 2 and left == sound), f"the same command does not come through: exit {code}")
+            check(bytes_of(log) == sound and bytes_of(out) == result, f"after kills log or result are others (seed {SEED}, kill {kills})")
+            # A file half written is cleared by the next run that writes into the folder: the one that came through.
+            check(not [name for name in os.listdir(folder) if "haptic_sculpt-new" in name], f"left-over files {os.listdir(folder)}")
+    print(f"killed {kills} times in {runs} runs, {sum(m == 0 for m in moments)} before the log was begun, "
+          f"{sum(m == 1 for m in moments)} when it was complete, {within_a_line} within a line")
+    end()
+
+
+main()

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the checks of the programs share: running them as a user would, and looking at what they say."""
+import hashlib
+import os
+import resource
+import subprocess
+import sys
+
+SCULPT, QUERIES, SOURCE = map(os.path.abspath, sys.argv[1:4])
+FAULTS = []
+TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0.1 0.1 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+
+
+def check(condition, what):
+    if not condition:
+        FAULTS.append(what)
+        print("FAULT:", what)
+
+
+def run(*arguments, program=SCULPT, script=None, limit=None, folder=None, user=None):
+    def limit_size():
+        if limit is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    # Python ignores SIGXFSZ; that the program does so too is checked by restoring signals.
+    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=100, cwd=folder,
+                          preexec_fn=limit_size, restore_signals=True, user=user, group=user, extra_groups=[] if user else None)
+
+
+def fails(code, parts, done, what):
+    check(done.returncode == code, f"{what}: exit {done.returncode}, expected {code}: {done.stderr}")
+    for part in parts:
+        check(part in done.stderr, f"{what}: the message does not say '{part}': {done.stderr}")
+
+
+def points(path):
+    lines = [line for line in open(path).read().split("\n") if line and not line.startswith("#")]
+    return [tuple(map(float, line.split())) for line in lines[2:2 + int(lines[1].split()[0])]]
+
+
+def bytes_of(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def write(path, contents):
+    with open(path, "wb") as file:
+        file.write(contents if isinstance(contents, bytes) else contents.encode())
+    return path
+
+
+def sha256(path):
+    return hashlib.sha256(bytes_of(path)).hexdigest()
+
+
+def end():
+    print(len(FAULTS), "faults")
+    sys.exit(1 if FAULTS else 0)

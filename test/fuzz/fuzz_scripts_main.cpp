@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs the fuzz target of scripts where there is no libFuzzer: on files (a fault found), or on random scripts, half of
+// them put together from what scripts are made of, half of those with bytes changed.
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+std::string input; ///< the one being tried
+constexpr const char* fault_file = "fuzz_scripts.fault";
+
+/// Keeps the input that crashed, or took more than a minute.
+void keep_input(int signal) {
+  // Nothing but system calls: the process is in an unknown state.
+  const int file = ::creat(fault_file, 0666);
+  const char* text =
+      signal == SIGALRM ? "an input takes too long; kept in fuzz_scripts.fault\n" : "kept in fuzz_scripts.fault\n";
+  if (file < 0 || ::write(file, input.data(), input.size()) < 0 || ::write(STDERR_FILENO, text, std::strlen(text)) < 0)
+    ::_exit(3);
+  ::_exit(1);
+}
+
+class Random_scripts {
+public:
+  explicit Random_scripts(std::uint64_t seed) : random_(seed) {}
+
+  std::string next() {
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) // the mesh, the settings, the byte of the log to change
+      bytes += static_cast<char>(random_());
+    for (std::size_t lines = 1 + below(12); lines != 0; --lines)
+      bytes += line() + (below(40) == 0 ? "\r\n" : below(60) == 0 ? " # comment\n" : "\n");
+    if (below(4) == 0)
+      spoil(bytes);
+    return bytes;
+  }
+
+private:
+  std::mt19937_64 random_;
+
+  std::size_t below(std::size_t n) { return random_() % n; }
+
+  template <std::size_t n>
+  const char* any_of(const std::array<const char*, n>& all) {
+    return all[below(n)];
+  }
+
+  std::string number() {
+    static constexpr std::array<const char*, 24> special = {"0",
+                                                            "-0",
+                                                            "1",
+                                                            "-1",
+                                                            "0.5",
+                                                            "0.25",
+                                                            "2",
+                                                            "4",
+                                                            "1e-320",
+                                                            "4.9e-324",
+                                                            "0x1p-1022",
+                                                            "0x1p-1074",
+                                                            "1e154",
+                                                            "-1e154",
+                                                            "1e-162",
+                                                            "1e300",
+                                                            "1e308",
+                                                            "-1e308",
+                                                            "0x1p52",
+                                                            "0x1p53",
+                                                            "3.3333333333333334e-161",
+                                                            "0x1.fffffffffffffp1023",
+                                                            "-0x1.fffffffffffffp1023",
+                                                            "1e16"};
+    char text[48];
+    const double unit = static_cast<double>(random_()) * 0x1p-64;
+    switch (below(8)) {
+    case 0:
+      return any_of(special);
+    case 1: { // any double, log-uniform
+      const std::uint64_t pattern = random_();
+      double x;
+      std::memcpy(&x, &pattern, sizeof x);
+      std::snprintf(text, sizeof text, "%a", x);
+      return text;
+    }
+    case 2: // on the grid
+      return std::to_string(static_cast<int>(below(5)) - 1);
+    case 3: // an ulp or so beside it
+      std::snprintf(text, sizeof text, "%a", static_cast<double>(below(3)) + (below(2) ? 0x1p-52 : -0x1p-51));
+      return text;
+    default:
+      std::snprintf(text, sizeof text, below(2) ? "%.17g" : "%.3f", 4 * unit - 1.5);
+      return text;
+    }
+  }
+  std::string length() {
+    return below(3) == 0 ? number() : std::to_string(0x1p-10 * static_cast<double>(1 + below(200)));
+  }
+  std::string index() { return std::to_string(below(30) == 0 ? random_() : below(below(3) == 0 ? 12 : 5)); }
+  std::string point() { return ' ' + number() + ' ' + number() + ' ' + number(); }
+
+  std::string line() {
+    switch (below(16)) {
+    case 0:
+      return "insert_face " + index() + ' ' + index() + ' ' + index() + point();
+    case 1:
+      return "insert_face 0 " + std::string(below(2) ? "1 2" : "1 3") + " 0.3 0.3 0.1";
+    case 2:
+      return "insert_edge " + index() + ' ' + index() + point();
+    case 3:
+      return "insert_edge 0 1 0.5 " + number() + " 0";
+    case 4:
+      return "remove " + index();
+    case 5:
+      return below(2) ? "undo" : "redo";
+    case 6:
+      return "probe" + point() + point();
+    case 7:
+      return "clearance " + (below(3) == 0 ? "default" : length());
+    case 8:
+      return "delta " + (below(2) == 0 ? "0" : length());
+    case 9:
+      return std::string("response ") + any_of(std::array<const char*, 3>{"slide", "stop", "paper"});
+    case 10:
+      return below(2) ? "release" : "mesh " + std::string(64, 'b');
+    default:
+      return "drag " + index() + point();
+    }
+  }
+
+  void spoil(std::string& bytes) {
+    for (std::size_t changes = 1 + below(4); changes != 0; --changes) {
+      const std::size_t at = below(bytes.size());
+      switch (below(4)) {
+      case 0:
+        bytes[at] = static_cast<char>(random_());
+        break;
+      case 1:
+        bytes.erase(at, 1 + below(8));
+        break;
+      case 2:
+        bytes.insert(at, bytes.substr(below(bytes.size()), below(20)));
+        break;
+      default:
+        bytes.insert(at, 1, "0123456789.-+xpeE# \t\r\n\0"[below(23)]);
+      }
+      if (bytes.empty())
+        return;
+    }
+  }
+};
+
+int run_file(const char* name) {
+  std::ifstream file(name, std::ios::binary);
+  input.assign(std::istreambuf_iterator<char>(file), {});
+  if (!file) {
+    std::fprintf(stderr, "cannot read %s\n", name);
+    return 2;
+  }
+  return LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  std::uint64_t runs = 10000, seed = 1;
+  std::vector<const char*> files;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strncmp(argv[i], "--runs=", 7) == 0)
+      runs = std::strtoull(argv[i] + 7, nullptr, 10);
+    else if (std::strncmp(argv[i], "--seed=", 7) == 0)
+      seed = std::strtoull(argv[i] + 7, nullptr, 10);
+    else if (argv[i][0] == '-') {
+      std::fprintf(
+          stderr,
+          "usage: fuzz_scripts [--runs=N] [--seed=N] | FILE...\nWith files: tries these. A fault is kept in %s.\n",
+          fault_file);
+      return 2;
+    } else
+      files.push_back(argv[i]);
+  }
+  for (const int fatal : {SIGFPE, SIGSEGV, SIGABRT, SIGBUS, SIGILL, SIGALRM})
+    std::signal(fatal, files.empty() ? keep_input : SIG_DFL);
+  for (const char* name : files)
+    if (const int code = run_file(name); code != 0)
+      return code;
+  if (!files.empty())
+    return 0;
+  std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
+  std::fflush(stdout);
+  Random_scripts scripts(seed);
+  const auto start = std::chrono::steady_clock::now();
+  for (std::uint64_t i = 0; i < runs; ++i) {
+    input = scripts.next();
+    if (i % 64 == 0)
+      ::alarm(60);
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  std::printf("%llu scripts in %.1f s, no fault\n", static_cast<unsigned long long>(runs), took.count());
+}
