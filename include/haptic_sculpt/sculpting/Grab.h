@@ -8,8 +8,8 @@ namespace haptic_sculpt {
 
 /// A vertex in the hand: made by `Sculptor::grab()`, dragged as often as wanted, let go by `release()` or destruction.
 ///
-/// Refers to its Sculptor, which must outlive it. Stays usable across edits; while its vertex is removed, `drag_to()` throws
-/// Unknown_vertex.
+/// Refers to its Sculptor, which must outlive it. Stays usable across edits; while its vertex is removed, drags end as
+/// Drag_end::stale and move nothing, until undo or redo revives it.
 template <class Sculptor>
 class Grab {
 public:
