@@ -228,7 +228,7 @@ BOOST_AUTO_TEST_CASE(edits_allocate_nothing_after_reserve) {
         default: {
           const std::size_t before_drag = allocations;
           sculptor.grab(v).drag_to(mesh.point(v) + 0.1 * (middle - p));
-          if (i < edits / 2) // until its own lists are warm
+          if (i < edits / 4) // until the lists of slides are warm
             before += allocations - before_drag;
         }
         }

@@ -206,9 +206,28 @@ BOOST_AUTO_TEST_CASE(flips_by_others_are_found) {
   BOOST_CHECK_THROW(sculptor.insert_on_face(wrong, in_face(mesh, wrong, 0.3, 0.3)), Mesh_changed);
   BOOST_CHECK_THROW(sculptor.flip(e), Mesh_changed);
   BOOST_TEST((snapshot(sculptor) == flipped));
-  CGAL::Euler::flip_edge(mesh.halfedge(e), mesh); // back
+  for (int i = 0; i < 3; ++i) // all the way round
+    CGAL::Euler::flip_edge(mesh.halfedge(e), mesh);
   sculptor.check_unchanged();
   BOOST_TEST((snapshot(sculptor) == before));
+  { // a grab goes on where it was, with nothing of what it has seen meanwhile
+    Mesh copy = mesh;
+    Sculptor<Mesh> fresh(copy);
+    auto expecting = fresh.grab(a);
+    const Point_3 home = mesh.point(a), near = home + meshes::Kernel::Vector_3(0.01, 0, 0), far = home + meshes::Kernel::Vector_3(-3, 0.2, 0.1);
+    CGAL::Euler::flip_edge(mesh.halfedge(e), mesh);
+    auto grab = sculptor.grab(a);
+    BOOST_CHECK_THROW(grab.drag_to(near), Mesh_changed);
+    for (int i = 0; i < 3; ++i)
+      CGAL::Euler::flip_edge(mesh.halfedge(e), mesh);
+    for (const Point_3& target : {near, far, home}) {
+      const auto expected = expecting.drag_to(target), is = grab.drag_to(target);
+      BOOST_TEST((is.position == expected.position && is.legs == expected.legs));
+    }
+    BOOST_TEST(validate(mesh).is_valid());
+    while (sculptor.undo())
+      ;
+  }
 
   // Undo of a creation whose star was changed.
   const auto f = *mesh.faces().begin();
@@ -217,7 +236,8 @@ BOOST_AUTO_TEST_CASE(flips_by_others_are_found) {
   const auto spoke = mesh.edge(mesh.halfedge(*made.vertex));
   CGAL::Euler::flip_edge(mesh.halfedge(spoke), mesh);
   BOOST_CHECK_THROW(sculptor.undo(), Mesh_changed);
-  CGAL::Euler::flip_edge(mesh.halfedge(spoke), mesh);
+  for (int i = 0; i < 3; ++i)
+    CGAL::Euler::flip_edge(mesh.halfedge(spoke), mesh);
   sculptor.check_unchanged();
   BOOST_TEST(static_cast<bool>(sculptor.undo()));
   BOOST_TEST((snapshot(sculptor) == before));

@@ -129,6 +129,9 @@ public:
            });
   }
 
+  /// Makes room for so many candidates of a collapse.
+  void reserve(std::size_t vertices, std::size_t edges) { runs_.reserve(vertices, edges); }
+
 private:
   Counters* counters_;
   Star_runs<Mesh> runs_;

@@ -161,9 +161,10 @@ public:
     return mesh_->halfedge(v, w);
   }
 
+  /// reserve() makes room for stars of so many faces, and for so many faces about them.
+  static constexpr std::size_t usual_valence = internal::Star_runs<Mesh>::most_undivided, usual_candidates = 512;
+
 private:
-  /// Where there is more, the first edit allocates; the one in the middle of a wheel of hundreds does.
-  static constexpr std::size_t usual_valence = 64, usual_candidates = 1024;
 
   Mesh* mesh_;
   Mesh_watch<Mesh>* watch_;

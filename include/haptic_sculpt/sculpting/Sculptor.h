@@ -172,8 +172,9 @@ public:
   void set_history_limit(const History_limit& limit) { editor_.history().set_limit(limit); }
 
   /// Makes room, in the mesh too: after it so many edits (flips, collapses, creations, removals) and so many moves allocate nothing,
-  /// nor do undo and redo, as long as no star has more than 64 neighbours, none has more than 1,024 faces about it, and no
-  /// decision takes rational numbers; with the Box_tree_broad_phase. Cost: linear in the mesh.
+  /// nor do undo and redo, as long as no vertex has more than 28 neighbours, no star has more than 512 faces about it, and no
+  /// decision takes rational numbers; with the Box_tree_broad_phase. A slide's own lists are warm after a few drags. Cost: linear
+  /// in the mesh.
   void reserve(std::size_t edits, std::size_t moves) {
     const auto n = static_cast<typename Mesh_type::size_type>(edits);
     mesh_->reserve(mesh_->num_vertices() + n, mesh_->num_edges() + 3 * n, mesh_->num_faces() + 2 * n);
@@ -181,6 +182,7 @@ public:
     corners_.reserve(mesh_->num_faces() + 2 * edits);
     internal::reserve_faces(broad_phase_, mesh_->num_faces() + 2 * edits, 4 * edits);
     editor_.reserve(edits, moves);
+    guard_.reserve(editor_.usual_valence, editor_.usual_candidates);
   }
   ///@}
 
@@ -336,7 +338,12 @@ private:
     const internal::Coordinates end = s == t ? t
                                              : responses_.move(options_.response_rule, guard_, *mesh_, s, t, c, largest_of(s, t),
                                                                options_.delta_length, result);
-    watch_candidates();
+    try {
+      watch_candidates();
+    } catch (const Mesh_changed&) {
+      release(); // what was looked up is not to be used when the change has been undone
+      throw;
+    }
     if (end != s) {
       mesh_->point(v) = Point(end[0], end[1], end[2]);
       watch_.remember(v);
