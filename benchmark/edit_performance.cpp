@@ -13,9 +13,6 @@
 #include <cstdlib>
 #include <functional>
 #include <iostream>
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 
 namespace {
 
@@ -26,16 +23,6 @@ using Vertex_index = Mesh::Vertex_index;
 using Edited = Edit_result<Mesh>;
 using Json = nlohmann::ordered_json;
 using benchmark::Query_timer;
-
-/// Bytes in use on the heap, with what malloc adds; 0 where the C library does not tell.
-std::size_t heap_in_use() {
-#if defined(__GLIBC__)
-  const auto info = mallinfo2();
-  return info.uordblks + info.hblkhd;
-#else
-  return 0;
-#endif
-}
 
 struct Options {
   std::string json;
@@ -79,11 +66,9 @@ public:
           ++times.refused;
         }
       }
-      if (done >= 50) { // a copy of fewer steps measures the blocks of the allocator
-        const std::size_t before = heap_in_use();
-        const Edit_history copy = sculptor_.history();
-        times.bytes_per_step = static_cast<double>(heap_in_use() - before) / static_cast<double>(copy.number_of_undo_steps());
-      }
+      if (done != 0)
+        times.bytes_per_step =
+          static_cast<double>(sculptor_.history().bytes()) / static_cast<double>(sculptor_.history().number_of_undo_steps());
       for (std::size_t i = 0; i < done; ++i)
         times.undo.push_back(time([&] { sculptor_.undo(); }));
       for (std::size_t i = 0; i < done; ++i)
@@ -105,6 +90,12 @@ public:
   }
   bool remove(Vertex_index v) {
     return timed([&] { return static_cast<bool>(sculptor_.remove(v)); });
+  }
+  bool collapse(Mesh::Halfedge_index h) {
+    return timed([&] { return static_cast<bool>(sculptor_.collapse(h)); });
+  }
+  bool flip(Mesh::Edge_index e) {
+    return timed([&] { return static_cast<bool>(sculptor_.flip(e)); });
   }
   /// By a tenth of an edge, outward and sideways.
   bool drag(Vertex_index v) {
@@ -176,6 +167,8 @@ Json against_size(const Options& options, const Query_timer& timer) {
     rows.push_back(row("insert on face", run([&] { return bench.insert_on_face(bench.any<Mesh::Face_index>(m.num_faces())); })));
     rows.push_back(row("insert on edge", run([&] { return bench.insert_on_edge(bench.any<Mesh::Edge_index>(m.num_edges())); })));
     rows.push_back(row("remove", run([&] { return bench.remove(bench.any<Vertex_index>(m.num_vertices())); })));
+    rows.push_back(row("collapse", run([&] { return bench.collapse(m.halfedge(bench.any<Mesh::Edge_index>(m.num_edges()))); })));
+    rows.push_back(row("flip", run([&] { return bench.flip(bench.any<Mesh::Edge_index>(m.num_edges())); })));
     rows.push_back(row("drag", run([&] { return bench.drag(bench.any<Vertex_index>(m.num_vertices())); })));
     sizes.push_back({{"triangles", mesh.number_of_faces()}, {"edits", rows}});
   }
@@ -198,6 +191,7 @@ Json against_valence(const Options& options, const Query_timer& timer) {
     rows.push_back(row("insert on face", run([&] { return bench.insert_on_face(Mesh::Face_index(0)); })));
     rows.push_back(row("insert on edge", run([&] { return bench.insert_on_edge(bench.mesh().edge(bench.mesh().halfedge(apex()))); })));
     rows.push_back(row("remove", run([&] { return bench.remove(apex()); })));
+    rows.push_back(row("flip", run([&] { return bench.flip(bench.mesh().edge(bench.mesh().halfedge(apex()))); })));
     rows.push_back(row("drag", run([&] { return bench.drag(apex()); })));
     valences.push_back({{"valence", valence}, {"edits", rows}});
   }

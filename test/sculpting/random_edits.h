@@ -23,17 +23,17 @@ inline Point_3 in_face(const Mesh& mesh, Mesh::Face_index f, double a, double b)
 }
 
 struct Random_edit {
-  enum Kind { drag, insert_on_face, insert_on_edge, remove, undo, redo } kind;
+  enum Kind { drag, insert_on_face, insert_on_edge, remove, collapse, flip, undo, redo } kind;
   bool is_done; ///< a drag: it moved, which a blocked one may have done as well
 };
 
-/// Drags, creates, removes, undoes or redoes, here and there degenerate.
+/// Drags, creates, removes, collapses, flips, undoes or redoes, here and there degenerate.
 template <class Sculptor_type>
 Random_edit random_edit(Sculptor_type& sculptor, Random& random) {
   std::uniform_real_distribution<double> number(-1, 1);
   const Mesh& mesh = sculptor.mesh();
   const Vertex_index v = pick(mesh.vertices(), mesh.number_of_vertices(), random);
-  switch (random() % 8) {
+  switch (random() % 10) {
   case 0: case 1: {
     const double x = number(random), y = number(random), z = number(random);
     const Point_3 before = mesh.point(v);
@@ -50,8 +50,16 @@ Random_edit random_edit(Sculptor_type& sculptor, Random& random) {
     const Point_3 middle = CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)));
     return {Random_edit::insert_on_edge, static_cast<bool>(sculptor.insert_on_edge(e, middle))};
   }
-  case 4: case 5: return {Random_edit::remove, static_cast<bool>(sculptor.remove(v))};
-  case 6: return {Random_edit::undo, static_cast<bool>(sculptor.undo())};
+  case 4: return {Random_edit::remove, static_cast<bool>(sculptor.remove(v))};
+  case 5: {
+    const auto h = pick(mesh.halfedges(), mesh.number_of_halfedges(), random);
+    return {Random_edit::collapse, static_cast<bool>(sculptor.collapse(h))};
+  }
+  case 6: case 7: {
+    const auto e = pick(mesh.edges(), mesh.number_of_edges(), random);
+    return {Random_edit::flip, static_cast<bool>(sculptor.flip(e))};
+  }
+  case 8: return {Random_edit::undo, static_cast<bool>(sculptor.undo())};
   default: return {Random_edit::redo, static_cast<bool>(sculptor.redo())};
   }
 }

@@ -9,6 +9,7 @@
 
 #include <cstdlib>
 #include <new>
+#include <optional>
 
 namespace {
 std::size_t allocations = 0, gmp_allocations = 0; // of this program, so far
@@ -178,4 +179,69 @@ BOOST_AUTO_TEST_CASE(room_for_undo_is_made_at_the_grab) {
   there_and_back(Edit_history::room - 100);
   BOOST_TEST(allocations == before);
   BOOST_TEST(sculptor.history().number_of_undo_steps() > Edit_history::room / 2);
+}
+
+// Creations, removals, collapses, flips, drags, undo, redo and strokes, from the first one on.
+BOOST_AUTO_TEST_CASE(edits_allocate_nothing_after_reserve) {
+  const std::uint64_t seed = seed_from_environment(7);
+  constexpr std::size_t edits = 4000;
+  for (const bool is_bounded : {false, true})
+    for (const auto& list : {meshes::torus(40, 20), meshes::bumpy_sphere(3, 0.2, 0.02)}) {
+      Mesh mesh = meshes::to_mesh(list);
+      Sculptor<Mesh> sculptor(mesh);
+      Random random(seed);
+      if (is_bounded)
+        sculptor.set_history_limit({100, std::size_t{1} << 20});
+      sculptor.reserve(edits, edits);
+      std::size_t before = 0, warm = 0, by_gmp = 0;
+      std::array<std::size_t, 8> done{}, allocated{};
+      std::optional<Sculptor<Mesh>::Stroke_type> stroke;
+      const auto any = [&](auto index, std::size_t slots) {
+        do
+          index = decltype(index)(static_cast<Mesh::size_type>(random() % slots));
+        while (mesh.is_removed(index));
+        return index;
+      };
+      for (std::size_t i = 0; i < edits; ++i) {
+        const std::size_t kind = random() % 8;
+        const Vertex_index v = any(Vertex_index(), mesh.num_vertices());
+        const auto f = any(Mesh::Face_index(), mesh.num_faces());
+        const auto e = any(Mesh::Edge_index(), mesh.num_edges());
+        const auto h = mesh.halfedge(f);
+        const Point_3 p = mesh.point(mesh.source(h)), q = mesh.point(mesh.target(h)), r = mesh.point(mesh.target(mesh.next(h)));
+        const Point_3 middle = CGAL::centroid(p, q, r), half = CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)));
+        const std::size_t before_gmp = gmp_allocations;
+        before = allocations;
+        if (random() % 16 == 0)
+          stroke.reset(); // before another begins, or it would join
+        if (random() % 32 == 0)
+          stroke.emplace(sculptor.stroke());
+        bool is_done = true;
+        switch (kind) {
+        case 0: is_done = static_cast<bool>(sculptor.insert_on_face(f, middle)); break;
+        case 1: is_done = static_cast<bool>(sculptor.insert_on_edge(e, half)); break;
+        case 2: is_done = static_cast<bool>(sculptor.remove(v)); break;
+        case 3: is_done = static_cast<bool>(sculptor.collapse(h)); break;
+        case 4: is_done = static_cast<bool>(sculptor.flip(e)); break;
+        case 5: is_done = static_cast<bool>(sculptor.undo()); break;
+        case 6: is_done = static_cast<bool>(sculptor.redo()); break;
+        default: {
+          const std::size_t before_drag = allocations;
+          sculptor.grab(v).drag_to(mesh.point(v) + 0.1 * (middle - p));
+          if (i < edits / 4) // until the lists of slides are warm
+            before += allocations - before_drag;
+        }
+        }
+        done[kind] += is_done;
+        allocated[kind] += allocations - before;
+        warm += allocations - before;
+        by_gmp += gmp_allocations - before_gmp;
+      }
+      BOOST_TEST_MESSAGE("done " << done[0] << " " << done[1] << " " << done[2] << " " << done[3] << " " << done[4] << " " << done[5] << " " << done[6]
+                                 << ", allocations " << allocated[0] << " " << allocated[1] << " " << allocated[2] << " " << allocated[3] << " "
+                                 << allocated[4] << " " << allocated[5] << " " << allocated[6] << " " << allocated[7] << ", of GMP " << by_gmp);
+      BOOST_TEST(warm == 0u);
+      for (std::size_t kind = 0; kind < 7; ++kind)
+        BOOST_TEST(done[kind] > 50u);
+    }
 }

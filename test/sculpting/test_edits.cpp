@@ -180,6 +180,110 @@ BOOST_AUTO_TEST_CASE(edits_mixed_at_random_keep_every_promise_and_undo_to_the_bi
   for (const auto& [kind, count] : done)
     BOOST_TEST_MESSAGE("kind " << kind << ": " << count << " done, " << refused[kind] << " refused or blocked");
   BOOST_TEST(invalid == 0u);
-  for (const int kind : {Random_edit::drag, Random_edit::insert_on_face, Random_edit::insert_on_edge, Random_edit::remove})
+  for (const int kind : {Random_edit::drag, Random_edit::insert_on_face, Random_edit::insert_on_edge, Random_edit::remove, Random_edit::collapse, Random_edit::flip})
     BOOST_TEST(done[kind] > 100u);
+}
+
+// Connectivity changed by others: nothing moves, nothing is counted differently.
+BOOST_AUTO_TEST_CASE(flips_by_others_are_found) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.05));
+  Sculptor<Mesh> sculptor(mesh);
+  const auto e = sculptor.edge_of(0, static_cast<std::size_t>(mesh.source(mesh.halfedge(Vertex_index(0)))));
+  const auto h = mesh.halfedge(e);
+  const Vertex_index a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h));
+  sculptor.check_unchanged();
+  const Mesh_snapshot before = snapshot(sculptor);
+  CGAL::Euler::flip_edge(mesh.halfedge(a, b), mesh);
+  const Mesh_snapshot flipped = snapshot(sculptor);
+  BOOST_REQUIRE((flipped != before));
+  BOOST_CHECK_THROW(sculptor.check_unchanged(), Mesh_changed);
+  for (const Vertex_index v : {a, b, c}) {
+    auto grab = sculptor.grab(v);
+    BOOST_CHECK_THROW(grab.drag_to(mesh.point(v) + meshes::Kernel::Vector_3(0.01, 0, 0)), Mesh_changed);
+    BOOST_CHECK_THROW(sculptor.remove(v), Mesh_changed);
+  }
+  const auto wrong = mesh.face(mesh.halfedge(e));
+  BOOST_CHECK_THROW(sculptor.insert_on_face(wrong, in_face(mesh, wrong, 0.3, 0.3)), Mesh_changed);
+  BOOST_CHECK_THROW(sculptor.flip(e), Mesh_changed);
+  BOOST_TEST((snapshot(sculptor) == flipped));
+  for (int i = 0; i < 3; ++i) // all the way round
+    CGAL::Euler::flip_edge(mesh.halfedge(e), mesh);
+  sculptor.check_unchanged();
+  BOOST_TEST((snapshot(sculptor) == before));
+  { // a grab goes on where it was, with nothing of what it has seen meanwhile
+    Mesh copy = mesh;
+    Sculptor<Mesh> fresh(copy);
+    auto expecting = fresh.grab(a);
+    const Point_3 home = mesh.point(a), near = home + meshes::Kernel::Vector_3(0.01, 0, 0), far = home + meshes::Kernel::Vector_3(-3, 0.2, 0.1);
+    CGAL::Euler::flip_edge(mesh.halfedge(e), mesh);
+    auto grab = sculptor.grab(a);
+    BOOST_CHECK_THROW(grab.drag_to(near), Mesh_changed);
+    for (int i = 0; i < 3; ++i)
+      CGAL::Euler::flip_edge(mesh.halfedge(e), mesh);
+    for (const Point_3& target : {near, far, home}) {
+      const auto expected = expecting.drag_to(target), is = grab.drag_to(target);
+      BOOST_TEST((is.position == expected.position && is.legs == expected.legs));
+    }
+    BOOST_TEST(validate(mesh).is_valid());
+    while (sculptor.undo())
+      ;
+  }
+
+  // Undo of a creation whose star was changed.
+  const auto f = *mesh.faces().begin();
+  const auto made = sculptor.insert_on_face(f, in_face(mesh, f, 0.3, 0.3));
+  BOOST_REQUIRE(made);
+  const auto spoke = mesh.edge(mesh.halfedge(*made.vertex));
+  CGAL::Euler::flip_edge(mesh.halfedge(spoke), mesh);
+  BOOST_CHECK_THROW(sculptor.undo(), Mesh_changed);
+  for (int i = 0; i < 3; ++i)
+    CGAL::Euler::flip_edge(mesh.halfedge(spoke), mesh);
+  sculptor.check_unchanged();
+  BOOST_TEST(static_cast<bool>(sculptor.undo()));
+  BOOST_TEST((snapshot(sculptor) == before));
+}
+
+BOOST_AUTO_TEST_CASE(a_drag_of_a_removed_vertex_is_a_result) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.05));
+  Sculptor<Mesh> sculptor(mesh);
+  const Vertex_index v(20);
+  auto grab = sculptor.grab(v);
+  const Point_3 home = mesh.point(v), target = home + meshes::Kernel::Vector_3(0.01, 0, 0);
+  BOOST_TEST(grab.drag_to(target).reached);
+  BOOST_REQUIRE(static_cast<bool>(sculptor.remove(v)));
+  const Mesh_snapshot removed = snapshot(sculptor);
+  const auto stale = grab.drag_to(home);
+  BOOST_TEST((stale.end == Drag_end::stale));
+  BOOST_TEST(std::string(name_of(stale.end)) == "stale");
+  BOOST_TEST(!stale.reached);
+  BOOST_TEST(stale.legs == 0);
+  BOOST_TEST(stale.contacts.empty());
+  BOOST_TEST((snapshot(sculptor) == removed));
+  BOOST_TEST(sculptor.history().number_of_undo_steps() == 2u);
+  BOOST_CHECK_THROW(grab.drag_to(Point_3(0, std::nan(""), 0)), Non_finite_point);
+  BOOST_REQUIRE(static_cast<bool>(sculptor.undo()));
+  BOOST_TEST(grab.drag_to(home).reached);
+  BOOST_TEST((mesh.point(grab.vertex()) == home));
+}
+
+// Isolated vertices stand in the way of creations and collapses, too.
+BOOST_AUTO_TEST_CASE(edits_pass_no_isolated_vertex) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+  const Point_3 tip = mesh.point(Vertex_index(0));
+  const Vertex_index below = mesh.add_vertex(CGAL::ORIGIN + 0.97 * (tip - CGAL::ORIGIN));
+  const Mesh::Face_index f = *mesh.faces().begin();
+  const Point_3 middle = in_face(mesh, f, 1. / 3, 1. / 3);
+  const Vertex_index above = mesh.add_vertex(CGAL::ORIGIN + 1.1 * (middle - CGAL::ORIGIN));
+  Sculptor<Mesh> sculptor(mesh);
+  const auto blocked = sculptor.remove(Vertex_index(0));
+  BOOST_TEST((blocked.refusal->reason == Refusal_reason::blocked));
+  BOOST_TEST((blocked.refusal->elements.at(0) == below));
+  const Point_3 over = CGAL::ORIGIN + 1.2 * (middle - CGAL::ORIGIN);
+  const auto jumped = sculptor.insert_on_face(f, over);
+  BOOST_TEST((jumped.refusal->reason == Refusal_reason::blocked));
+  BOOST_TEST((jumped.refusal->elements.at(0) == above));
+  BOOST_REQUIRE(sculptor.grab(below).drag_to(Point_3(0, 0, 0)).reached);
+  BOOST_REQUIRE(sculptor.grab(above).drag_to(Point_3(2 * over.x(), 2 * over.y(), 2 * over.z())).reached);
+  BOOST_TEST(static_cast<bool>(sculptor.insert_on_face(f, over)));
+  BOOST_TEST(static_cast<bool>(sculptor.remove(Vertex_index(0))));
 }

@@ -2,12 +2,11 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_CHANGE_MAKER_H
 #define HAPTIC_SCULPT_SCULPTING_CHANGE_MAKER_H
 
-#include <haptic_sculpt/sculpting/Edit_history.h>
+#include <haptic_sculpt/sculpting/Edit.h>
 #include <haptic_sculpt/sculpting/Edit_visitor.h>
+#include <haptic_sculpt/sculpting/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/Vertex_names.h>
 #include <haptic_sculpt/sculpting/star_edits.h>
-#include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/star.h>
 
 #include <type_traits>
 
@@ -16,8 +15,11 @@ namespace haptic_sculpt {
 /// Makes changes of a mesh and takes them back, and keeps the broad phase, the numbers of the vertices and a visitor told. Nothing
 /// is proven here: what comes in has been, or restores what was.
 ///
-/// Every change but a move replaces the fan of one vertex over a polygon by the star of another, or the other way round. Cost:
-/// the size of the polygon, the degree of the fan's vertex to find it, and the broad phase.
+/// Every change but a move and a flip replaces the fan of one vertex over a polygon by the star of another, or the other way round.
+/// Cost: the size of the polygon, the degree of the fan's vertex to find it, and the broad phase.
+///
+/// The visitor is told of what dies before anything is changed, and of what was made when all is, `noted` included: an
+/// exception of it leaves a change not begun, or complete.
 template <class Mesh, class Broad_phase, class Visitor>
 class Change_maker {
 public:
@@ -32,32 +34,50 @@ public:
   const Vertex_names<Mesh>& names() const { return names_; }
   Visitor& visitor() { return visitor_; }
 
-  /// \return the vertex moved or created; of a removal, the neighbour it went into
-  Vertex_index make(const Edit& edit) {
+  /// \param noted called as `noted(v)` when the change is made and the visitor has not been told yet; v has moved or is new, or is the null index
+  /// \return the vertex moved or created; of a removal, the neighbour it went into; of a flip, an end of the new edge
+  /// \throw Mesh_changed where the faces to be replaced are not those known
+  template <class Noted>
+  Vertex_index make(const Edit& edit, const Noted& noted) {
     switch (edit.kind) {
     case Edit_kind::move:
-      return put(edit.vertex, edit.after);
+      return put(edit.vertex, edit.after, noted);
     case Edit_kind::insert_on_face:
-      return create_on_face(mesh_->halfedge(vertex(edit.around[0]), vertex(edit.around[1])), edit);
+      return create_on_face(edit, noted);
     case Edit_kind::insert_on_edge:
-      return create_on_edge(mesh_->halfedge(vertex(edit.around[0]), vertex(edit.around[1])), edit);
+      return create_on_edge(edit, noted);
+    case Edit_kind::flip:
+      return flip(edit, 0, noted);
     default:
-      fan_instead_of_star(edit);
-      return vertex(edit.around[0]);
+      return fan_instead_of_star(edit, noted);
     }
   }
 
-  /// \return the vertex moved or revived; of a creation, a neighbour of what was created
-  Vertex_index take_back(const Edit& edit) {
+  /// \return the vertex moved or revived; of a creation, a neighbour of what was created; of a flip, an end of the old edge
+  template <class Noted>
+  Vertex_index take_back(const Edit& edit, const Noted& noted) {
     switch (edit.kind) {
     case Edit_kind::move:
-      return put(edit.vertex, edit.before);
+      return put(edit.vertex, edit.before, noted);
     case Edit_kind::remove:
-      return star_instead_of_fan(edit);
+      return star_instead_of_fan(edit, noted);
+    case Edit_kind::flip:
+      return flip(edit, 2, noted);
     default:
-      fan_instead_of_star(edit);
-      return vertex(edit.around[0]);
+      return fan_instead_of_star(edit, noted);
     }
+  }
+
+  /// The visitor is told of a move that was made elsewhere.
+  void tell_moved(Vertex_index v) { visitor_.vertex_moved(v); }
+
+  /// Room for so many more vertices.
+  void reserve(std::size_t vertices, std::size_t usual_valence) {
+    names_.reserve(vertices);
+    star_.reserve(usual_valence);
+    fan_.reserve(usual_valence);
+    link_.reserve(usual_valence);
+    faces_.reserve(usual_valence);
   }
 
 private:
@@ -76,42 +96,85 @@ private:
   Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
   static typename Mesh::Point to_point(const Coordinates& p) { return {p[0], p[1], p[2]}; }
 
-  Vertex_index put(std::size_t name, const Coordinates& p) {
+  /// \throw Mesh_changed where there is none: whoever calls knows that there was
+  Halfedge_index halfedge(Vertex_index v, Vertex_index w) const {
+    const Halfedge_index h = mesh_->halfedge(v, w);
+    if (!h.is_valid())
+      throw Mesh_changed("vertices " + std::to_string(static_cast<std::size_t>(v)) + " and " +
+                         std::to_string(static_cast<std::size_t>(w)) + " are not joined any more");
+    return h;
+  }
+
+  template <class Noted>
+  Vertex_index put(std::size_t name, const Coordinates& p, const Noted& noted) {
     const Vertex_index v = vertex(name);
     mesh_->point(v) = to_point(p);
     star_.collect(*mesh_, v);
     broad_phase_->faces_moved(star_.faces);
+    noted(v);
     visitor_.vertex_moved(v);
     return v;
   }
 
-  Vertex_index create_on_face(Halfedge_index h, const Edit& edit) {
+  template <class Noted>
+  Vertex_index create_on_face(const Edit& edit, const Noted& noted) {
+    const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
     fan_.assign(1, h);
     fan_dies();
-    return star_created(internal::insert_star_in_face(*mesh_, h, to_point(edit.after)), edit);
+    return star_created(internal::insert_star_in_face(*mesh_, h, to_point(edit.after)), edit, noted);
   }
 
-  Vertex_index create_on_edge(Halfedge_index h, const Edit& edit) {
-    fan_.assign({mesh_->opposite(h), h});
+  template <class Noted>
+  Vertex_index create_on_edge(const Edit& edit, const Noted& noted) {
+    const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
+    fan_.assign(1, mesh_->opposite(h));
+    fan_.push_back(h);
     fan_dies();
-    return star_created(internal::insert_star_in_edge(*mesh_, h, to_point(edit.after)), edit);
+    return star_created(internal::insert_star_in_edge(*mesh_, h, to_point(edit.after)), edit, noted);
   }
 
-  Vertex_index star_instead_of_fan(const Edit& edit) {
+  template <class Noted>
+  Vertex_index star_instead_of_fan(const Edit& edit, const Noted& noted) {
     link_.clear();
     for (const std::size_t name : edit.around)
       link_.push_back(vertex(name));
-    internal::find_fan(*mesh_, link_, fan_);
+    internal::find_fan(*mesh_, halfedge(link_[1], link_[0]), link_.size() - 2, fan_);
     fan_dies();
-    return star_created(internal::insert_star_in_face(*mesh_, internal::merge_fan(*mesh_, fan_), to_point(edit.before)), edit);
+    return star_created(internal::insert_star_in_face(*mesh_, internal::merge_fan(*mesh_, fan_), to_point(edit.before)), edit, noted);
   }
 
-  void fan_instead_of_star(const Edit& edit) {
-    const Vertex_index v = vertex(edit.vertex);
+  template <class Noted>
+  Vertex_index fan_instead_of_star(const Edit& edit, const Noted& noted) {
+    const Vertex_index v = vertex(edit.vertex), apex = vertex(edit.around[0]);
     star_dies(v);
     names_.take(edit.vertex);
-    internal::fill_with_fan(*mesh_, internal::remove_star(*mesh_, v), vertex(edit.around[0]), fan_);
-    fan_created();
+    internal::fill_with_fan(*mesh_, internal::remove_star(*mesh_, v), apex, fan_);
+    fan_created(noted);
+    return apex;
+  }
+
+  /// \param old where in edit.around the ends of the edge that dies are: 0 or 2
+  template <class Noted>
+  Vertex_index flip(const Edit& edit, std::size_t old, const Noted& noted) {
+    const Halfedge_index h = halfedge(vertex(edit.around[old]), vertex(edit.around[old + 1]));
+    faces_.assign(1, mesh_->face(h));
+    faces_.push_back(mesh_->face(mesh_->opposite(h)));
+    Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
+    if constexpr (has_visitor) {
+      for (const Face_index f : faces_)
+        visitor_.face_dies(f);
+      visitor_.edge_dies(mesh_->edge(h));
+    }
+    CGAL::Euler::flip_edge(h, *mesh_);
+    corners_of_->update(faces_);
+    broad_phase_->faces_moved(faces_); // they keep their descriptors
+    noted(Vertex_index());
+    if constexpr (has_visitor) {
+      visitor_.edge_created(mesh_->edge(h));
+      for (const Face_index f : faces_)
+        visitor_.face_created(f);
+    }
+    return vertex(edit.around[2 - old]);
   }
 
   void collect_fan_faces() {
@@ -122,6 +185,7 @@ private:
 
   void fan_dies() {
     collect_fan_faces();
+    Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
     if constexpr (has_visitor) {
       for (const Face_index f : faces_)
         visitor_.face_dies(f);
@@ -129,12 +193,15 @@ private:
         visitor_.edge_dies(mesh_->edge(fan_[i]));
     }
     broad_phase_->faces_removed(faces_);
+    corners_of_->forget(faces_);
   }
 
-  void fan_created() {
+  template <class Noted>
+  void fan_created(const Noted& noted) {
     collect_fan_faces();
     corners_of_->update(faces_);
     broad_phase_->faces_inserted(faces_);
+    noted(Vertex_index());
     if constexpr (has_visitor) {
       for (std::size_t i = 1; i < fan_.size(); ++i)
         visitor_.edge_created(mesh_->edge(fan_[i]));
@@ -145,6 +212,7 @@ private:
 
   void star_dies(Vertex_index v) {
     star_.collect(*mesh_, v);
+    Mesh_watch<Mesh>::check_faces(*corners_of_, star_.faces);
     if constexpr (has_visitor) {
       for (const Face_index f : star_.faces)
         visitor_.face_dies(f);
@@ -153,13 +221,16 @@ private:
       visitor_.vertex_dies(v, names_.name(v));
     }
     broad_phase_->faces_removed(star_.faces);
+    corners_of_->forget(star_.faces);
   }
 
-  Vertex_index star_created(Vertex_index v, const Edit& edit) {
+  template <class Noted>
+  Vertex_index star_created(Vertex_index v, const Edit& edit, const Noted& noted) {
     names_.give(edit.vertex, v);
     star_.collect(*mesh_, v);
     corners_of_->update(star_.faces);
     broad_phase_->faces_inserted(star_.faces);
+    noted(v);
     if constexpr (has_visitor) {
       visitor_.vertex_created(v, edit.vertex);
       for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))

@@ -46,6 +46,17 @@ public:
     return result.include(vertices_[face.vertices[1]].point).include(vertices_[face.vertices[2]].point);
   }
 
+  /// Makes room for so many candidates about a star: none that are fewer allocate.
+  void reserve(std::size_t valence, std::size_t faces) {
+    vertices_.reserve(valence + 3 * faces);
+    edges_.reserve(3 * faces);
+    faces_.reserve(faces);
+    corners_.reserve(faces);
+    found_.reserve(valence + 3 * faces);
+    names_.prepare(valence + 3 * faces);
+    pairs_.reserve(3 * faces);
+  }
+
   void clear() {
     vertices_.clear();
     edges_.clear();

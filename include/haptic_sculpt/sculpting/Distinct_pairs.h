@@ -22,6 +22,12 @@ public:
       bits_.assign(n * words_, 0);
   }
 
+  /// Makes room for so many insertions, whatever the numbers.
+  void reserve(std::size_t most) {
+    bits_.reserve(most_numbers * (most_numbers / 64));
+    others_.prepare(most);
+  }
+
   /// Whether the pair comes for the first time.
   bool insert(std::uint32_t a, std::uint32_t b) {
     if (words_ == 0)

@@ -15,12 +15,13 @@ enum class Drag_end : std::uint8_t {
   held,        ///< contacts hold it where it is
   no_progress, ///< no representable point on the way keeps the clearance: it did not move
   leg_limit,   ///< as many legs were made as one drag may make; the next drag to the same target goes on
-  refused      ///< a probe that starts on a face, or nearer to it than the clearance
+  refused,     ///< a probe that starts on a face, or nearer to it than the clearance
+  stale        ///< the vertex has been removed: nothing was moved; undo that revives it makes the grab usable again
 };
 
-/// The name used in reports: "reached", "held", "no-progress", "leg-limit" or "refused".
+/// The name used in reports: "reached", "held", "no-progress", "leg-limit", "refused" or "stale".
 inline const char* name_of(Drag_end end) {
-  constexpr const char* names[] = {"reached", "held", "no-progress", "leg-limit", "refused"};
+  constexpr const char* names[] = {"reached", "held", "no-progress", "leg-limit", "refused", "stale"};
   return names[static_cast<int>(end)];
 }
 
@@ -33,7 +34,7 @@ struct Drag_result {
   /// Like a std::vector.
   using Contacts = boost::container::small_vector<Contact_3<Mesh>, usual_contacts>;
 
-  typename Mesh::Point position;             ///< where the vertex is now
+  typename Mesh::Point position;             ///< where the vertex is now; of one that has been removed, the target
   bool reached = false;                      ///< whether that is the target
   Drag_end end = Drag_end::reached;          ///< why the drag ended
   Contacts contacts;                         ///< what holds it, in an order that depends on the elements only

@@ -4,6 +4,9 @@
 
 #include <haptic_sculpt/collision.h>
 #include <haptic_sculpt/sculpting/Star_runs.h>
+#include <haptic_sculpt/surface/delta_rule.h>
+
+#include <CGAL/Kernel_traits.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -18,7 +21,25 @@ struct Corner {
 template <class Mesh>
 using Corners = std::array<Corner<Mesh>, 3>;
 
-/// Exact decisions about creations and removals. See doc/edits.md.
+/// The corners of the triangle at h, from its source on.
+template <class Mesh>
+Corners<Mesh> corners_at(const Mesh& mesh, typename Mesh::Halfedge_index h) {
+  Corners<Mesh> result;
+  for (Corner<Mesh>& corner : result) {
+    corner = {mesh.source(h), vertex_coordinates(mesh, mesh.source(h))};
+    h = mesh.next(h);
+  }
+  return result;
+}
+
+template <class Mesh>
+bool keeps_delta(const Coordinates& a, const Coordinates& b, const Coordinates& c, double delta) {
+  using Point = typename Mesh::Point;
+  const auto point = [](const Coordinates& p) { return Point(p[0], p[1], p[2]); };
+  return Satisfies_delta_rule_3<typename CGAL::Kernel_traits<Point>::Kernel>(delta)(point(a), point(b), point(c));
+}
+
+/// Exact decisions about creations, collapses and flips. See doc/edits.md.
 template <class Mesh, class Counters>
 class Edit_proof {
 public:
@@ -54,17 +75,18 @@ public:
                .hits;
   }
 
-  /// The sweeps of a star's centre into its neighbour `link[pivot]`, for the collapse that follows (RULES 3): true when
-  /// nothing but the faces that vanish is touched. `list` holds the faces not incident to the centre.
+  /// The sweeps of a star's centre into its neighbour `link[pivot]`, for the collapse that follows: true when nothing but
+  /// the faces that vanish is touched. `list` holds the faces not incident to the centre.
+  template <class Elements>
   bool can_collapse(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& centre, std::size_t pivot,
-                    std::vector<Vertex_index>& in_the_way) {
+                    Elements& in_the_way) {
     const std::size_t n = star.valence();
     const std::size_t left = pivot + 1 < n ? pivot + 1 : 0, right = pivot > 0 ? pivot - 1 : n - 1;
     const Vertex_index apex = star.link[pivot];
     const Coordinates& target = star.link_points[pivot];
     const auto& vertices = list.vertices();
     // The least that the first spoke or face in the way meets, so that what is told does not depend on the order of the list.
-    const auto note = [&](std::vector<Vertex_index> found) {
+    const auto note = [&](Elements found) {
       if (in_the_way.empty() || found < in_the_way)
         in_the_way = std::move(found);
     };
@@ -106,6 +128,9 @@ public:
              return in_the_way.empty();
            });
   }
+
+  /// Makes room for so many candidates of a collapse.
+  void reserve(std::size_t vertices, std::size_t edges) { runs_.reserve(vertices, edges); }
 
 private:
   Counters* counters_;

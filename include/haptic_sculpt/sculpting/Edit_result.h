@@ -2,11 +2,12 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_EDIT_RESULT_H
 #define HAPTIC_SCULPT_SCULPTING_EDIT_RESULT_H
 
+#include <boost/container/small_vector.hpp>
+
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace haptic_sculpt {
 
@@ -33,20 +34,25 @@ inline const char* name_of(Refusal_reason reason) {
 /// Why an edit was refused. The mesh is exactly as it was.
 template <class Mesh>
 struct Refusal {
+  /// Like a std::vector; allocates nothing for so few as there are.
+  using Elements = boost::container::small_vector<typename Mesh::Vertex_index, 4>;
+
   Refusal_reason reason;
-  std::vector<typename Mesh::Vertex_index> elements; ///< the vertices that stand in the way
+  Elements elements; ///< the vertices that stand in the way
 };
 
-/// The outcome of an edit that creates, removes, undoes or redoes.
+/// The outcome of an edit that creates, removes, flips, undoes or redoes.
 template <class Mesh>
 struct Edit_result {
-  std::optional<typename Mesh::Vertex_index> vertex; ///< created: the new one; removed: the neighbour it was drawn into
+  /// Created: the new one; removed: the neighbour it was drawn into; flipped: an end of the new edge; undone or redone: that of the
+  /// change made last.
+  std::optional<typename Mesh::Vertex_index> vertex;
   std::optional<Refusal<Mesh>> refusal;
 
   explicit operator bool() const { return !refusal; }
 
   static Edit_result done(typename Mesh::Vertex_index v) { return {v, std::nullopt}; }
-  static Edit_result refused(Refusal_reason reason, std::vector<typename Mesh::Vertex_index> elements = {}) {
+  static Edit_result refused(Refusal_reason reason, typename Refusal<Mesh>::Elements elements = {}) {
     return {std::nullopt, Refusal<Mesh>{reason, std::move(elements)}};
   }
 };

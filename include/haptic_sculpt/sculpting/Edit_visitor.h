@@ -8,10 +8,11 @@ namespace haptic_sculpt {
 
 /// The concept EditVisitor, and its model that ignores everything: no call is then made, and nothing is looked up for one.
 ///
-/// A Sculptor tells its visitor of every element that a drag, creation, removal, undo or redo moves, kills or creates. Derive
+/// A Sculptor tells its visitor of every element that a drag, creation, removal, flip, undo or redo moves, kills or creates. Derive
 /// from this class and hide the functions of interest; descriptors are those of the mesh.
 ///
 /// - A drag that moved its vertex, or such a one undone or redone: `vertex_moved`, after the move, once however many legs there were.
+///   A stroke is undone and redone change by change, the drags of a vertex between two other edits as one.
 /// - All other edits, undone and redone ones included, replace some faces by others. First, while the mesh is still as before,
 ///   `face_dies`, `edge_dies`, `vertex_dies` of what the edit takes away; then, when the mesh is complete again, `vertex_created`,
 ///   `edge_created`, `face_created` of what it has made. Each element once.
@@ -19,7 +20,11 @@ namespace haptic_sculpt {
 ///   got its descriptor, as Surface_mesh uses them again, within one edit too. What died has to be forgotten before the new is noted.
 /// - Nothing is told of what was refused, of a drag that did not move, of a probe, of set_delta() and the like.
 ///
-/// \pre The functions do not change the mesh, do not call the Sculptor's edits, and do not throw.
+/// - An exception goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`, the change is
+///   not made, though some of what it would have killed has been told; thrown in another function, it stands, and the rest of
+///   it is not told. An undo or redo of several changes ends there: the next goes on with what is left of the step.
+///
+/// \pre The functions do not change the mesh and do not call the Sculptor's edits.
 struct Default_edit_visitor {
   template <class Vertex_index>
   void vertex_moved(Vertex_index) {}

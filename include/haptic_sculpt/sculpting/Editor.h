@@ -3,17 +3,18 @@
 #define HAPTIC_SCULPT_SCULPTING_EDITOR_H
 
 #include <haptic_sculpt/sculpting/Change_maker.h>
-#include <haptic_sculpt/sculpting/Edit_proof.h>
+#include <haptic_sculpt/sculpting/Collapse_proof.h>
+#include <haptic_sculpt/sculpting/Creation_proof.h>
+#include <haptic_sculpt/sculpting/Edit_history.h>
 #include <haptic_sculpt/sculpting/Edit_result.h>
+#include <haptic_sculpt/sculpting/Flip_proof.h>
 #include <haptic_sculpt/sculpting/Pivot_order.h>
-#include <haptic_sculpt/surface/delta_rule.h>
-
-#include <CGAL/Kernel_traits.h>
 
 namespace haptic_sculpt {
 
-/// Creates and removes vertices of a mesh by Euler operations: each is proven and then done, or refused and nothing has changed.
-/// Also takes changes back and makes them again. Change_maker makes what is decided here. See doc/edits.md.
+/// Creates and removes vertices of a mesh and flips edges by Euler operations: each is proven and then done, or refused and nothing
+/// has changed. Also takes changes back and makes them again, in the steps of the history. Change_maker makes what is decided here.
+/// See doc/edits.md.
 template <class Mesh, class Broad_phase, class Visitor = Default_edit_visitor>
 class Editor {
 public:
@@ -24,88 +25,120 @@ public:
   using Coordinates = internal::Coordinates;
   using Result = Edit_result<Mesh>;
 
-  Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters, Visitor visitor = Visitor())
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners),
-      changes_(mesh, broad_phase, corners, std::move(visitor)), proof_(counters) {}
+  /// \param watch is told of what has changed
+  Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters, Mesh_watch<Mesh>& watch,
+         Visitor visitor = Visitor())
+    : mesh_(&mesh), watch_(&watch), changes_(mesh, broad_phase, corners, std::move(visitor)),
+      creation_(mesh, broad_phase, corners, counters), collapse_(mesh, broad_phase, corners, counters),
+      flip_(mesh, broad_phase, corners, counters) {
+    for (const Vertex_index v : mesh.vertices())
+      if (mesh.is_isolated(v))
+        isolated_.push_back(v);
+  }
 
   const Vertex_names<Mesh>& names() const { return changes_.names(); }
   Visitor& visitor() { return changes_.visitor(); }
+  Edit_history& history() { return history_; }
   const Edit_history& history() const { return history_; }
 
   /// Many drags may follow: what they need for undo is allocated now.
   void prepare_for_moves() { history_.make_room(); }
 
+  /// So many edits and moves follow: what they need is allocated now, for stars and surroundings of usual size.
+  void reserve(std::size_t edits, std::size_t moves) {
+    history_.reserve(edits, moves, names().size() + edits);
+    changes_.reserve(edits, usual_valence);
+    creation_.reserve(usual_candidates);
+    collapse_.reserve(usual_valence, usual_candidates);
+    flip_.reserve(usual_candidates);
+    order_.reserve(usual_valence);
+    edit_.around.reserve(usual_valence);
+  }
+
   /// A drag that has been made.
   void note_move(Vertex_index v, const Coordinates& before, const Coordinates& after) {
-    history_.push({Edit_kind::move, names().name(v), before, after, {}});
-    changes_.visitor().vertex_moved(v);
+    history_.push_move(names().name(v), before, after);
+    changes_.tell_moved(v);
   }
 
   Result insert_on_face(Face_index f, const Coordinates& p, double delta) {
     const Halfedge_index h = mesh_->halfedge(f);
-    if (auto refusal = refuse_creation({h}, p, delta))
-      return *std::move(refusal);
-    const Edit edit{Edit_kind::insert_on_face, names().size(), p, p, names_of(corners(h))};
-    return make(edit);
+    if (auto refusal = creation_.refuse({h}, p, delta, isolated_))
+      return {std::nullopt, std::move(refusal)};
+    describe(Edit_kind::insert_on_face, names().size(), p, {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))});
+    return make();
   }
 
   Result insert_on_edge(Halfedge_index h, const Coordinates& p, double delta) {
-    if (auto refusal = refuse_creation({h, mesh_->opposite(h)}, p, delta))
-      return *std::move(refusal);
-    const Edit edit{Edit_kind::insert_on_edge, names().size(), p, p, {names().name(mesh_->source(h)), names().name(mesh_->target(h))}};
-    return make(edit);
+    if (auto refusal = creation_.refuse({h, mesh_->opposite(h)}, p, delta, isolated_))
+      return {std::nullopt, std::move(refusal)};
+    describe(Edit_kind::insert_on_edge, names().size(), p, {mesh_->source(h), mesh_->target(h)});
+    return make();
+  }
+
+  /// Draws the source of h into its target.
+  Result collapse(Halfedge_index h, double delta) {
+    auto refusal = collapse_.begin(mesh_->source(h), isolated_);
+    const std::vector<Vertex_index>& link = collapse_.star().link;
+    const auto pivot = static_cast<std::size_t>(std::find(link.begin(), link.end(), mesh_->target(h)) - link.begin());
+    if (!refusal)
+      refusal = collapse_.refuse(pivot, delta);
+    return refusal ? Result{std::nullopt, std::move(refusal)} : collapse_into(pivot);
   }
 
   /// Draws v into each neighbour in turn, the one first whose fan has the largest least angle, until one is free.
   Result remove(Vertex_index v, double delta) {
-    if (mesh_->is_isolated(v))
-      return Result::refused(Refusal_reason::isolated_vertex, {v});
-    star_.collect(*mesh_, v);
-    const Coordinates centre = vertex_coordinates(*mesh_, v);
-    if (is_tetrahedron())
-      return Result::refused(Refusal_reason::tetrahedron, {star_.link.begin(), star_.link.end()});
-    candidates_.clear();
-    // Whatever the pivot, the way stays in the hull of the star.
-    broad_phase_->query(star_.swept(centre, centre).box(), candidates_);
-    list_.assign(*mesh_, *corners_of_, star_, candidates_, Box_3());
-    Result refusal = Result::refused(Refusal_reason::doubled_edge);
-    for (internal::Pivot_order<Mesh> order(star_); const auto next = order.next();) {
-      const std::size_t pivot = *next;
-      std::vector<Vertex_index> in_the_way;
-      if (!link_condition(pivot, in_the_way))
-        keep_graver(refusal, Refusal_reason::doubled_edge, in_the_way);
-      else if (!fan_keeps_delta(pivot, delta, in_the_way))
-        keep_graver(refusal, Refusal_reason::delta, in_the_way);
-      else if (!proof_.can_collapse(star_, list_, centre, pivot, in_the_way))
-        keep_graver(refusal, Refusal_reason::blocked, in_the_way);
-      else {
-        std::vector<std::size_t> link;
-        for (std::size_t i = 0; i < star_.valence(); ++i)
-          link.push_back(names().name(star_.link[(pivot + i) % star_.valence()]));
-        return make({Edit_kind::remove, names().name(v), centre, centre, std::move(link)});
-      }
+    if (auto refusal = collapse_.begin(v, isolated_))
+      return {std::nullopt, std::move(refusal)};
+    order_.begin(collapse_.star());
+    std::optional<Refusal<Mesh>> gravest;
+    while (const auto pivot = order_.next()) {
+      auto refusal = collapse_.refuse(*pivot, delta);
+      if (!refusal)
+        return collapse_into(*pivot);
+      // Of those for the several pivots, the last in the order of the checks says most.
+      if (!gravest || refusal->reason > gravest->reason)
+        gravest = std::move(refusal);
     }
-    return refusal;
+    return {std::nullopt, std::move(gravest)};
   }
 
-  /// Takes the last change back. No proof is needed: the mesh was embedded before it, and moved back it is so again.
+  Result flip(Halfedge_index h, double delta) {
+    if (auto refusal = flip_.refuse(h, delta, isolated_))
+      return {std::nullopt, std::move(refusal)};
+    const auto& [a, b, c, d] = flip_.corners();
+    describe(Edit_kind::flip, names().name(a), {}, {a, b, c, d});
+    return make();
+  }
+
+  /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again.
   Result undo() {
-    const Edit* edit = history_.to_undo();
-    if (edit == nullptr)
+    history_.end_stroke();
+    if (history_.to_undo() == nullptr)
       return Result::refused(Refusal_reason::nothing_to_undo);
-    const Vertex_index v = changes_.take_back(*edit);
-    history_.undone();
-    return Result::done(v);
+    for (;;) {
+      const Vertex_index v = changes_.take_back(*history_.to_undo(), [this](Vertex_index changed) {
+        watch(changed);
+        history_.undone();
+      });
+      if (history_.is_between_steps())
+        return Result::done(v);
+    }
   }
 
-  /// Makes the last change that was taken back again.
+  /// Makes the last step that was taken back again.
   Result redo() {
-    const Edit* edit = history_.to_redo();
-    if (edit == nullptr)
+    history_.end_stroke();
+    if (history_.to_redo() == nullptr)
       return Result::refused(Refusal_reason::nothing_to_redo);
-    const Vertex_index v = changes_.make(*edit);
-    history_.redone();
-    return Result::done(v);
+    for (;;) {
+      const Vertex_index v = changes_.make(*history_.to_redo(), [this](Vertex_index changed) {
+        watch(changed);
+        history_.redone();
+      });
+      if (history_.is_between_steps())
+        return Result::done(v);
+    }
   }
 
   /// The face with these three corners, by number and in any order; the null index where there is none.
@@ -128,137 +161,50 @@ public:
     return mesh_->halfedge(v, w);
   }
 
+  /// reserve() makes room for stars of so many faces, and for so many faces about them.
+  static constexpr std::size_t usual_valence = internal::Star_runs<Mesh>::most_undivided, usual_candidates = 512;
+
 private:
-  using Corners = internal::Corners<Mesh>;
-  using Kernel = typename CGAL::Kernel_traits<Point>::Kernel;
 
   Mesh* mesh_;
-  Broad_phase* broad_phase_;
-  const Face_corners<Mesh>* corners_of_;
+  Mesh_watch<Mesh>* watch_;
   Change_maker<Mesh, Broad_phase, Visitor> changes_;
   Edit_history history_;
-  internal::Edit_proof<Mesh, Filter_counters> proof_;
-  Star<Mesh> star_;
-  Checklist<Mesh> list_;
-  std::vector<Face_index> candidates_;
+  internal::Creation_proof<Mesh, Broad_phase> creation_;
+  internal::Collapse_proof<Mesh, Broad_phase> collapse_;
+  internal::Flip_proof<Mesh, Broad_phase> flip_;
+  internal::Pivot_order<Mesh> order_;
+  std::vector<Vertex_index> isolated_; ///< they neither come nor go
+  Edit edit_;                          ///< the one that is made, kept to allocate no more
 
-  Result make(Edit edit) {
-    const Vertex_index v = changes_.make(edit);
-    history_.push(std::move(edit));
-    return Result::done(v);
-  }
-
-  static Point to_point(const Coordinates& p) { return Point(p[0], p[1], p[2]); }
-
-  std::array<Vertex_index, 3> corners(Halfedge_index h) const {
-    return {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))};
-  }
-  std::vector<std::size_t> names_of(const std::array<Vertex_index, 3>& vertices) const {
-    return {names().name(vertices[0]), names().name(vertices[1]), names().name(vertices[2])};
-  }
-  Corners with_points(const std::array<Vertex_index, 3>& v) const {
-    Corners result;
-    for (int i = 0; i < 3; ++i)
-      result[i] = {v[i], vertex_coordinates(*mesh_, v[i])};
-    return result;
-  }
-  bool keeps_delta(const Coordinates& a, const Coordinates& b, const Coordinates& c, double delta) const {
-    return Satisfies_delta_rule_3<Kernel>(delta)(to_point(a), to_point(b), to_point(c));
+  void describe(Edit_kind kind, std::size_t vertex, const Coordinates& p, std::initializer_list<Vertex_index> around) {
+    edit_.kind = kind;
+    edit_.vertex = vertex;
+    edit_.before = edit_.after = p;
+    edit_.around.clear();
+    for (const Vertex_index v : around)
+      edit_.around.push_back(names().name(v));
   }
 
-  /// The proof of a creation (doc/edits.md): the new faces meet nothing improperly, and nothing stands between them and the old.
-  std::optional<Result> refuse_creation(const std::vector<Halfedge_index>& old_halfedges, const Coordinates& p, double delta) {
-    std::vector<Corners> old_faces, new_faces;
-    Box_3 box(p);
-    for (std::size_t k = 0; k < old_halfedges.size(); ++k) {
-      const Corners old = with_points(corners(old_halfedges[k]));
-      old_faces.push_back(old);
-      for (int i = 0; i < 3; ++i) {
-        box.include(old[i].point);
-        if (old[i].point == p)
-          return Result::refused(Refusal_reason::coincident_vertex, {old[i].index});
-        if (i > 0 || old_halfedges.size() == 1) // the side that two old faces share is split
-          new_faces.push_back({internal::Corner<Mesh>{Vertex_index(), p}, old[i], old[(i + 1) % 3]});
-      }
-    }
-    for (const Corners& f : new_faces)
-      if (!keeps_delta(f[0].point, f[1].point, f[2].point, delta))
-        return Result::refused(Refusal_reason::delta, {f[1].index, f[2].index});
-    for (std::size_t i = 0; i < new_faces.size(); ++i)
-      for (std::size_t j = i + 1; j < new_faces.size(); ++j)
-        if (proof_.meet_improperly(new_faces[i], new_faces[j]))
-          return Result::refused(Refusal_reason::blocked, {new_faces[j][1].index, new_faces[j][2].index});
-    return refuse_what_is_near(old_halfedges, old_faces, new_faces, p, box);
+  Result collapse_into(std::size_t pivot) {
+    const Star<Mesh>& star = collapse_.star();
+    describe(Edit_kind::remove, names().name(star.centre), collapse_.centre(), {});
+    for (std::size_t i = 0; i < star.valence(); ++i)
+      edit_.around.push_back(names().name(star.link[(pivot + i) % star.valence()]));
+    return make();
   }
 
-  std::optional<Result> refuse_what_is_near(const std::vector<Halfedge_index>& old_halfedges, const std::vector<Corners>& old_faces,
-                                            const std::vector<Corners>& new_faces, const Coordinates& p, const Box_3& box) {
-    candidates_.clear();
-    broad_phase_->query(box, candidates_);
-    std::sort(candidates_.begin(), candidates_.end());
-    for (const Face_index f : candidates_) {
-      bool is_old = false;
-      for (const Halfedge_index h : old_halfedges)
-        is_old |= mesh_->face(h) == f;
-      if (is_old)
-        continue;
-      const Corners other = with_points(corners(mesh_->halfedge(f)));
-      for (const internal::Corner<Mesh>& corner : other)
-        if (corner.point == p)
-          return Result::refused(Refusal_reason::coincident_vertex, {corner.index});
-      for (const Corners& g : new_faces)
-        if (proof_.meet_improperly(g, other))
-          return Result::refused(Refusal_reason::blocked, {other[0].index, other[1].index, other[2].index});
-      for (const Corners& old : old_faces)
-        for (const internal::Corner<Mesh>& corner : other)
-          if (corner.index != old[0].index && corner.index != old[1].index && corner.index != old[2].index &&
-              proof_.contains(old, p, corner.point))
-            return Result::refused(Refusal_reason::blocked, {corner.index});
-    }
-    return std::nullopt;
+  Result make() {
+    return Result::done(changes_.make(edit_, [this](Vertex_index changed) {
+      watch(changed);
+      history_.push(edit_);
+    }));
   }
 
-  bool is_tetrahedron() const {
-    if (star_.valence() != 3)
-      return false;
-    for (const Vertex_index v : star_.link)
-      if (mesh_->degree(v) != 3)
-        return false;
-    return true;
-  }
-
-  /// The centre and the pivot have no common neighbours but the two wings, and are not both of valence 3.
-  bool link_condition(std::size_t pivot, std::vector<Vertex_index>& in_the_way) const {
-    const Vertex_index apex = star_.link[pivot];
-    const std::size_t n = star_.valence(), left = (pivot + 1) % n, right = (pivot + n - 1) % n;
-    for (std::size_t i = 0; i < n; ++i)
-      if (i != pivot && i != left && i != right && mesh_->halfedge(apex, star_.link[i]).is_valid()) {
-        in_the_way = {apex, star_.link[i]};
-        return false;
-      }
-    if (n == 3 && mesh_->degree(apex) == 3) {
-      in_the_way = {apex};
-      return false;
-    }
-    return true;
-  }
-
-  bool fan_keeps_delta(std::size_t pivot, double delta, std::vector<Vertex_index>& in_the_way) const {
-    const std::size_t n = star_.valence();
-    for (std::size_t k = 1; k + 1 < n; ++k) {
-      const std::size_t i = (pivot + k) % n, j = (pivot + k + 1) % n;
-      if (!keeps_delta(star_.link_points[pivot], star_.link_points[i], star_.link_points[j], delta)) {
-        in_the_way = {star_.link[pivot], star_.link[i], star_.link[j]};
-        return false;
-      }
-    }
-    return true;
-  }
-
-  /// Of the refusals for the several pivots, the last in the order of the checks says most.
-  static void keep_graver(Result& refusal, Refusal_reason reason, const std::vector<Vertex_index>& elements) {
-    if (refusal.refusal->elements.empty() || reason > refusal.refusal->reason)
-      refusal = Result::refused(reason, elements);
+  void watch(Vertex_index changed) {
+    watch_->remember_counts();
+    if (changed.is_valid())
+      watch_->remember(changed);
   }
 };
 

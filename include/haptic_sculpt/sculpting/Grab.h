@@ -8,8 +8,8 @@ namespace haptic_sculpt {
 
 /// A vertex in the hand: made by `Sculptor::grab()`, dragged as often as wanted, let go by `release()` or destruction.
 ///
-/// Refers to its Sculptor, which must outlive it. Stays usable across edits; while its vertex is removed, `drag_to()` throws
-/// Unknown_vertex.
+/// Refers to its Sculptor, which must outlive it. Stays usable across edits; while its vertex is removed, drags end as
+/// Drag_end::stale and move nothing, until undo or redo revives it.
 template <class Sculptor>
 class Grab {
 public:
@@ -25,7 +25,7 @@ public:
   /// Drags the vertex towards `target` in a straight line, until it is there or something would be touched.
   ///
   /// \post The mesh is embedded as before, exactly, and nothing was crossed on the way.
-  /// \throw Non_finite_point, Unknown_vertex, Mesh_changed; the mesh is then as it was.
+  /// \throw Out_of_range, Invalid_parameter, Mesh_changed; the mesh is then as it was.
   /// Cost: the candidates near the star times its valence; a look at the broad phase when the star leaves its region.
   /// Allocates nothing once it is warm: no list longer than any before, no more contacts than Drag_result::usual_contacts, at most
   /// Edit_history::room moves since the grab, and no delta rule so nearly broken that it takes rational numbers to decide.

@@ -53,6 +53,16 @@ public:
     invalidate();
   }
 
+  /// Makes room for a star and candidates of usual size.
+  void reserve(std::size_t valence, std::size_t faces) {
+    star_.reserve(valence);
+    list_.reserve(valence, faces);
+    candidates_.reserve(faces);
+    whole_candidates_.reserve(faces);
+    narrow_phase_.runs().reserve(valence + 3 * faces, 3 * faces);
+    firsts_.reserve(faces);
+  }
+
   /// Forget the candidates: an element outside the star has changed.
   void invalidate() {
     list_.clear();

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_MESH_WATCH_H
 
 #include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/prefetch.h>
 #include <haptic_sculpt/surface/star.h>
 
@@ -23,7 +24,8 @@ public:
 ///
 /// Comparing all points before every drag would cost more than the drag. So counts are compared every time, the star and
 /// the candidates of a drag whenever they are looked up and a few of them in turn at every drag, and at a grab `points_per_look` more
-/// points in turn; a mesh of up to `few_points` vertices is compared whole then. `check_all()` compares everything.
+/// points in turn; all points of a mesh of up to `few_points` vertices are compared then. Connectivity is compared with a copy of the
+/// faces' corners: of the star whenever the candidates are looked up, and of what an edit takes away. `check_all()` compares everything.
 template <class Mesh>
 class Mesh_watch {
 public:
@@ -69,6 +71,20 @@ public:
       throw Mesh_changed("vertex " + std::to_string(static_cast<std::size_t>(v)) + " was moved");
   }
 
+  /// \throw Mesh_changed if f has other corners than it was left with.
+  static void check_face(const Face_corners<Mesh>& corners, typename Mesh::Face_index f) {
+    if (!corners.is_as_it_was(f))
+      throw Mesh_changed("face " + std::to_string(static_cast<std::size_t>(f)) + " has other corners, or came or went");
+  }
+  template <class Faces>
+  static void check_faces(const Face_corners<Mesh>& corners, const Faces& faces) {
+    for (const auto f : faces)
+      check_face(corners, f);
+  }
+
+  /// Makes room for so many vertices in all.
+  void reserve(std::size_t vertices) { points_.reserve(vertices); }
+
   /// Asks for the memory that check(v) will read.
   void prefetch(Vertex_index v) const { internal::prefetch(&points_[static_cast<std::size_t>(v)], sizeof(Coordinates)); }
 
@@ -87,8 +103,10 @@ public:
     }
   }
 
-  void check_all() const {
+  void check_all(const Face_corners<Mesh>& corners) const {
     check_counts();
+    for (std::size_t f = 0; f < mesh_->num_faces(); ++f)
+      check_face(corners, typename Mesh::Face_index(static_cast<typename Mesh::size_type>(f)));
     for (std::size_t i = 0; i < points_.size(); ++i)
       check(Vertex_index(static_cast<typename Vertex_index::size_type>(i)));
   }

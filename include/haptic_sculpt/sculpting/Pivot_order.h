@@ -5,10 +5,10 @@
 #include <haptic_sculpt/sculpting/vector_3.h>
 #include <haptic_sculpt/surface/star.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <queue>
 #include <vector>
 
 namespace haptic_sculpt {
@@ -23,21 +23,29 @@ namespace internal {
 template <class Mesh>
 class Pivot_order {
 public:
-  /// \pre the star stays as it is
-  explicit Pivot_order(const Star<Mesh>& star) : star_(star) {
+  /// \pre the star stays as it is while it is asked
+  void begin(const Star<Mesh>& star) {
+    star_ = &star;
+    fans_.clear();
     for (std::size_t pivot = 0; pivot < star.valence(); ++pivot)
-      fans_.push({std::numeric_limits<double>::infinity(), pivot, 1});
+      fans_.push_back({std::numeric_limits<double>::infinity(), pivot, 1});
+    std::make_heap(fans_.begin(), fans_.end());
   }
+
+  void reserve(std::size_t usual_valence) { fans_.reserve(usual_valence); }
 
   /// The place in the link of the next best; nothing after the last.
   std::optional<std::size_t> next() {
     while (!fans_.empty()) {
-      Fan fan = fans_.top();
-      fans_.pop();
-      if (fan.seen + 1 >= star_.valence())
-        return fan.pivot;
+      std::pop_heap(fans_.begin(), fans_.end());
+      Fan& fan = fans_.back();
+      if (fan.seen + 1 >= star_->valence()) {
+        const std::size_t pivot = fan.pivot;
+        fans_.pop_back();
+        return pivot;
+      }
       fan.bound = std::fmin(fan.bound, relative_altitude(fan.pivot, fan.seen++));
-      fans_.push(fan);
+      std::push_heap(fans_.begin(), fans_.end());
     }
     return std::nullopt;
   }
@@ -49,13 +57,13 @@ private:
     bool operator<(const Fan& other) const { return bound < other.bound || (bound == other.bound && pivot > other.pivot); }
   };
 
-  const Star<Mesh>& star_;
-  std::priority_queue<Fan> fans_;
+  const Star<Mesh>* star_ = nullptr;
+  std::vector<Fan> fans_; ///< a heap, kept to allocate no more
 
   /// Of triangle k of the fan of a pivot, to its longest edge.
   double relative_altitude(std::size_t pivot, std::size_t k) const {
-    const std::size_t n = star_.valence();
-    const auto &a = star_.link_points[pivot], &b = star_.link_points[(pivot + k) % n], &c = star_.link_points[(pivot + k + 1) % n];
+    const std::size_t n = star_->valence();
+    const auto &a = star_->link_points[pivot], &b = star_->link_points[(pivot + k) % n], &c = star_->link_points[(pivot + k + 1) % n];
     const Vector ab = minus(b, a), ac = minus(c, a), bc = minus(c, b);
     const double longest = std::fmax(length(ab), std::fmax(length(ac), length(bc)));
     return length(cross(scaled(ab, 1 / longest), scaled(ac, 1 / longest)));

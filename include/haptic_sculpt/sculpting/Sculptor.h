@@ -8,10 +8,12 @@
 #include <haptic_sculpt/sculpting/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/Responses.h>
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
+#include <haptic_sculpt/sculpting/Stroke.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/is_within_distance.h>
 #include <haptic_sculpt/surface/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/reserve_faces.h>
 #include <haptic_sculpt/surface/validate.h>
 
 #include <CGAL/Surface_mesh.h>
@@ -49,6 +51,8 @@ public:
   using Grab_type = Grab<Sculptor>;
   using Result = Drag_result<Mesh_type>;
   using Edge_index = typename Mesh_type::Edge_index;
+  using Halfedge_index = typename Mesh_type::Halfedge_index;
+  using Stroke_type = Stroke<Sculptor>;
   using Edited = Edit_result<Mesh_type>;
 
   static_assert(std::is_same<Mesh_type, CGAL::Surface_mesh<Point>>::value, "Sculptor: the mesh must be a CGAL::Surface_mesh");
@@ -60,9 +64,9 @@ public:
   /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
     : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), corners_(mesh),
-      editor_(mesh, broad_phase_, corners_, counters_, std::move(visitor)), guard_(mesh, broad_phase_, corners_, counters_, &watch_),
+      editor_(mesh, broad_phase_, corners_, counters_, watch_, std::move(visitor)), guard_(mesh, broad_phase_, corners_, counters_, &watch_),
       probe_guard_(mesh, broad_phase_, corners_, counters_, &watch_) {
-    largest_coordinate_ = extent_of(mesh).largest;
+    grow_to(extent_of(mesh).largest);
   }
 
   Sculptor(const Sculptor&) = delete;
@@ -128,17 +132,59 @@ public:
     return edited([&] { return editor_.remove(v, options_.delta_length); });
   }
 
-  /// Takes back the last drag, creation or removal that changed the mesh; without limit. A new change clears what could be redone.
-  /// \post What the change had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
+  /// Draws the source of h into its target and lets the edge between them collapse.
+  /// \post The source has died, and so have the edges and faces of its star; its neighbours have not.
+  Edited collapse(Halfedge_index h) {
+    if (!h.is_valid() || static_cast<std::size_t>(h) >= mesh_->num_halfedges() || mesh_->is_removed(h))
+      return Edited::refused(Refusal_reason::unknown_element);
+    return edited([&] { return editor_.collapse(h, options_.delta_length); });
+  }
+
+  /// Joins the two corners opposite to e by an edge in its place. Exactly those flips are refused after which the mesh is not
+  /// embedded, or breaks the delta rule, or for which anything is in the closed tetrahedron of the four corners.
+  /// \post e and its two faces have died, and the new ones have their descriptors; no vertex has.
+  Edited flip(Edge_index e) {
+    if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh_->num_edges() || mesh_->is_removed(e))
+      return Edited::refused(Refusal_reason::unknown_element);
+    return edited([&] { return editor_.flip(mesh_->halfedge(e), options_.delta_length); });
+  }
+
+  /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as the history
+  /// keeps. Ends the stroke under way first. A new change clears what could be redone.
+  /// \post What the step had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
   Edited undo() {
+    largest_coordinate_ = largest_ever_; // many vertices may move
     return edited([&] { return editor_.undo(); });
   }
-  /// Makes the change that was taken back last again. \post The same have died as when it was first made.
+  /// Makes the step that was taken back last again. \post The same have died as when it was first made.
   Edited redo() {
+    largest_coordinate_ = largest_ever_;
     return edited([&] { return editor_.redo(); });
   }
 
   const Edit_history& history() const { return editor_.history(); }
+
+  /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the moves of a vertex
+  /// between two other edits are kept as one.
+  Stroke_type stroke() { return Stroke_type(*this, editor_.history().begin_stroke(number_of_names())); }
+
+  /// Bounds the history, in steps or bytes (`history().bytes()`), or turns it off; without limit at first. The oldest steps are
+  /// forgotten; a stroke that alone is larger is not kept, nor is anything before it.
+  void set_history_limit(const History_limit& limit) { editor_.history().set_limit(limit); }
+
+  /// Makes room, in the mesh too: after it so many edits (flips, collapses, creations, removals) and so many moves allocate nothing,
+  /// nor do undo and redo, as long as no vertex has more than 28 neighbours, no star has more than 512 faces about it, and no
+  /// decision takes rational numbers; with the Box_tree_broad_phase. A slide's own lists are warm after a few drags. Cost: linear
+  /// in the mesh.
+  void reserve(std::size_t edits, std::size_t moves) {
+    const auto n = static_cast<typename Mesh_type::size_type>(edits);
+    mesh_->reserve(mesh_->num_vertices() + n, mesh_->num_edges() + 3 * n, mesh_->num_faces() + 2 * n);
+    watch_.reserve(mesh_->num_vertices() + edits);
+    corners_.reserve(mesh_->num_faces() + 2 * edits);
+    internal::reserve_faces(broad_phase_, mesh_->num_faces() + 2 * edits, 4 * edits);
+    editor_.reserve(edits, moves);
+    guard_.reserve(editor_.usual_valence, editor_.usual_candidates);
+  }
   ///@}
 
   /// \name Numbers of vertices that last
@@ -213,8 +259,8 @@ public:
     options_.response(rule);
   }
 
-  /// \throw Mesh_changed if anything was changed by others. Cost: reads every point.
-  void check_unchanged() const { watch_.check_all(); }
+  /// \throw Mesh_changed if anything was changed by others, points or connectivity. Cost: reads all of the mesh.
+  void check_unchanged() const { watch_.check_all(corners_); }
 
   /// Bytes held that grow with the mesh, capacity included: the broad phase, the corners of the faces, the copy of the points, the
   /// numbers of the vertices. Not the mesh itself, nor the history.
@@ -222,6 +268,9 @@ public:
 
 private:
   friend class Grab<Sculptor>;
+  friend class Stroke<Sculptor>;
+
+  void end_stroke(std::size_t number) noexcept { editor_.history().end_stroke(number); }
 
   Mesh_type* mesh_;
   Mesh_watch<Mesh_type> watch_;
@@ -234,7 +283,8 @@ private:
   Responses<Mesh_type> responses_;
   Vertex_index held_; ///< whose star guard_ has; invalid when none
   bool moved_ = false; ///< the broad phase has not been told yet where the held star is
-  double largest_coordinate_ = 0; ///< bounds those of all vertices; never less than the largest
+  double largest_coordinate_ = 0; ///< bounds those of all vertices
+  double largest_ever_ = 0;       ///< the same, those they have had included
   std::size_t watched_look_ = 0, next_watched_ = 0;
 
   /// So many candidates are compared with where they were left at every drag; a list that holds for long is seen whole soon.
@@ -279,6 +329,11 @@ private:
       throw Invalid_parameter("the clearance " + internal::number(*options.clearance_length) + " does not serve this scene: give " +
                               internal::number(least) + " (an ulp of its largest coordinate) to " + internal::number(most) +
                               " (1/128 of its extent), or none");
+  }
+
+  void grow_to(double coordinate) {
+    largest_coordinate_ = std::fmax(largest_coordinate_, coordinate);
+    largest_ever_ = std::fmax(largest_ever_, coordinate);
   }
 
   /// \throw Invalid_parameter where the scene has outgrown the clearance set.
@@ -327,8 +382,14 @@ private:
   }
 
   Result drag(Vertex_index v, const Point& target) {
-    internal::check_vertex(*mesh_, v);
     internal::check_point("the target", target);
+    if (!v.is_valid()) {
+      Result stale;
+      stale.position = target;
+      stale.end = Drag_end::stale;
+      return stale;
+    }
+    internal::check_vertex(*mesh_, v);
     check_clearance_serves();
     hold(v);
     const internal::Coordinates s = vertex_coordinates(*mesh_, v), t = internal::coordinates(target);
@@ -337,11 +398,16 @@ private:
         s == t ? t
                : responses_.move(options_.response_rule, guard_, *mesh_, s, t,
                                  {Clearance_rule(options_.clearance_length), options_.delta_length}, result);
-    watch_candidates();
+    try {
+      watch_candidates();
+    } catch (const Mesh_changed&) {
+      release(); // what was looked up is not to be used when the change has been undone
+      throw;
+    }
     if (end != s) {
       mesh_->point(v) = Point(end[0], end[1], end[2]);
       watch_.remember(v);
-      largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(end));
+      grow_to(internal::largest_magnitude(end));
       moved_ = true;
       editor_.note_move(v, s, end);
     }
@@ -356,14 +422,8 @@ private:
     watch_.check_counts();
     watch_.check_some();
     const Edited result = edit();
-    if (result) {
-      watch_.remember_counts();
-      const Vertex_index v = *result.vertex;
-      if (!mesh_->is_removed(v)) {
-        watch_.remember(v);
-        largest_coordinate_ = std::fmax(largest_coordinate_, internal::largest_magnitude(vertex_coordinates(*mesh_, v)));
-      }
-    }
+    if (result && !mesh_->is_removed(*result.vertex))
+      grow_to(internal::largest_magnitude(vertex_coordinates(*mesh_, *result.vertex)));
     return result;
   }
 
@@ -374,6 +434,7 @@ private:
       watched_look_ = guard_.looks();
       for (const auto& candidate : candidates)
         watch_.check(candidate.index);
+      watch_.check_faces(corners_, guard_.star().faces);
     } else {
       for (std::size_t left = std::min(candidates.size(), candidates_per_drag); left != 0; --left) {
         next_watched_ = next_watched_ + 1 < candidates.size() ? next_watched_ + 1 : 0;

@@ -32,9 +32,21 @@ public:
     constexpr std::size_t most = Separating_planes::most_faces;
     if (valence <= most)
       return visit(run_of_few(scene, 0, valence));
-    if (valence <= 2 * most)
+    if (valence <= most_undivided)
       return visit(run_of_few(scene, 0, half)) && visit(run_of_few(scene, half, valence));
     return divide(scene, 0, valence, 0, visit);
+  }
+
+  /// Stars of up to so many faces are not divided.
+  static constexpr std::size_t most_undivided = 2 * Separating_planes::most_faces;
+
+  /// Makes room for such a star and so many candidates.
+  void reserve(std::size_t vertices, std::size_t edges) {
+    Near_candidates& all = levels_[0].near;
+    all.edges.reserve(edges);
+    all.places.reserve(vertices);
+    all.positions.reserve(vertices);
+    spokes_.reserve(most_undivided);
   }
 
 private:

@@ -47,6 +47,12 @@ public:
 
   void take(std::size_t name) { vertices_[name] = Vertex_index(); }
 
+  /// Room for so many more vertices.
+  void reserve(std::size_t vertices) {
+    vertices_.reserve(vertices_.size() + vertices);
+    names_.reserve(names_.size() + vertices);
+  }
+
   /// Bytes held, capacity included.
   std::size_t memory() const { return vertices_.capacity() * sizeof(Vertex_index) + names_.capacity() * sizeof(std::size_t); }
 

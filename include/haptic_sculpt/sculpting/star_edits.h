@@ -65,12 +65,12 @@ void fill_with_fan(Mesh& mesh, typename Mesh::Halfedge_index h, typename Mesh::V
   }
 }
 
-/// Finds the fan of link[0] over link[1], link[2], ..., in the order of Star::link, which runs against the orientation of the faces.
-/// Cost: its size and the degree of link[0].
+/// Finds the fan of so many faces that begins with the halfedge `first` into its apex, in the order of Star::link, which runs
+/// against the orientation of the faces. Cost: its size.
 template <class Mesh>
-void find_fan(const Mesh& mesh, const std::vector<typename Mesh::Vertex_index>& link, Fan<Mesh>& fan) {
-  fan.assign(1, mesh.halfedge(link[1], link[0]));
-  while (fan.size() + 2 < link.size())
+void find_fan(const Mesh& mesh, typename Mesh::Halfedge_index first, std::size_t faces, Fan<Mesh>& fan) {
+  fan.assign(1, first);
+  while (fan.size() < faces)
     fan.push_back(mesh.opposite(mesh.next(fan.back())));
 }
 

@@ -101,6 +101,15 @@ public:
     refit();
   }
 
+  /// Makes room for so many faces in all, and so many insertions: none allocates, nor does a removal.
+  void reserve(std::size_t faces, std::size_t insertions) {
+    slot_of_face_.reserve(faces);
+    overflow_.reserve(insertions);
+    touched_.reserve(std::max(touched_.capacity(), usual_touched));
+    if (queue_.size() < usual_queue)
+      queue_.resize(usual_queue);
+  }
+
   /// Bytes held, capacity included.
   std::size_t memory() const {
     return nodes_.capacity() * sizeof(Node) + slot_of_face_.capacity() * sizeof(std::uint32_t) +
@@ -120,6 +129,8 @@ private:
   /// Levels that begin before this node, at 192 KiB, are taken to be in cache. With more nodes on a level than most_ahead
   /// nothing is fetched: what was guessed is much too large.
   static constexpr std::uint32_t nodes_in_cache = 1024, most_ahead = 64;
+
+  static constexpr std::size_t usual_touched = 256, usual_queue = 4096; ///< room is made for so many
 
   const Mesh* mesh_;
   std::vector<Node> nodes_;                              ///< level by level from the root

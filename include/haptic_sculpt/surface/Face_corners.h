@@ -37,6 +37,29 @@ public:
       corners_[f] = corners_of_face(*mesh_, f);
   }
 
+  /// These faces die.
+  template <class Faces>
+  void forget(const Faces& faces) {
+    for (const Face_index f : faces)
+      corners_[f] = {};
+  }
+
+  /// Makes room for so many faces in all, so that update() allocates nothing.
+  void reserve(std::size_t faces) { corners_.reserve(faces); }
+
+  /// Whether the face is in the mesh as it was when it was made: with the same corners in the same orientation.
+  bool is_as_it_was(Face_index f) const {
+    if (static_cast<std::size_t>(f) >= corners_.size())
+      return mesh_->is_removed(f);
+    const auto& was = corners_[f];
+    if (mesh_->is_removed(f) || !was[0].is_valid())
+      return mesh_->is_removed(f) == !was[0].is_valid();
+    const auto is = corners_of_face(*mesh_, f);
+    // The face may begin with any of its halfedges.
+    return is == was || (is[0] == was[1] && is[1] == was[2] && is[2] == was[0]) ||
+           (is[0] == was[2] && is[1] == was[0] && is[2] == was[1]);
+  }
+
   /// Bytes held, capacity included.
   std::size_t memory() const { return corners_.capacity() * sizeof(corners_[0]); }
 

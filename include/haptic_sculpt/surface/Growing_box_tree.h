@@ -94,6 +94,21 @@ public:
     }
   }
 
+  /// Makes room for so many insertions, whatever is removed meanwhile.
+  ///
+  /// Nodes come by halving alone, and by a new root. A full node is halved at once, another only after at least four more children have
+  /// come: of n insertions n / 4 halve leaves, n / 16 the nodes above, ... together n / 3, besides those that were full before, and
+  /// what these bring about above, a third more. No insertion halves more than one node a level.
+  void reserve(std::size_t insertions) {
+    const std::size_t height = root_ == none ? 0 : node(root_).height;
+    const std::size_t full = std::min<std::size_t>(used_ + used_ / 3, insertions * (height + 1));
+    const std::size_t nodes = used_ + full + insertions / 3 + most_height;
+    while (blocks_.size() * block_size < nodes)
+      blocks_.push_back(std::make_unique<Node[]>(block_size));
+    free_nodes_.reserve(blocks_.size() * block_size);
+    stack_.reserve(Box_node::width * most_height);
+  }
+
   std::size_t memory() const {
     return blocks_.size() * block_size * sizeof(Node) + blocks_.capacity() * sizeof(blocks_[0]) +
            (free_nodes_.capacity() + stack_.capacity()) * sizeof(std::uint32_t);
@@ -106,6 +121,7 @@ private:
     std::uint32_t parent;                 ///< the place of this node, unless it is the root
     std::uint32_t count, height;
   };
+  static constexpr std::size_t most_height = 16; ///< of 2^32 items in nodes of four and more
   static constexpr std::size_t block_size = 256; ///< nodes; blocks never move, so that growing copies nothing
 
   std::vector<std::unique_ptr<Node[]>> blocks_;

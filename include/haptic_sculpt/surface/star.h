@@ -25,6 +25,13 @@ struct Star {
   std::size_t valence() const { return link.size(); }
   std::size_t next(std::size_t i) const { return i + 1 < link.size() ? i + 1 : 0; }
 
+  /// Makes room for a valence, so that collect() allocates nothing for one.
+  void reserve(std::size_t valence) {
+    link.reserve(valence);
+    link_points.reserve(valence);
+    faces.reserve(valence);
+  }
+
   /// A star without faces: a probe.
   void clear() {
     link.clear();

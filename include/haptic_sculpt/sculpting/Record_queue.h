@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_RECORD_QUEUE_H
+#define HAPTIC_SCULPT_SCULPTING_RECORD_QUEUE_H
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Records in the order in which they came: added and taken away at the end, forgotten at the beginning, and read by a number
+/// that a record keeps as long as it is there.
+///
+/// In blocks that are never copied and are used again, so that nothing is allocated while there is room, and no addition takes
+/// longer the more there are.
+template <class Record, std::size_t block_size>
+class Record_queue {
+public:
+  /// Of the first record, and one more than that of the last.
+  std::size_t begin() const { return begin_; }
+  std::size_t end() const { return end_; }
+  std::size_t size() const { return end_ - begin_; }
+
+  const Record& operator[](std::size_t i) const { return block_of(i)[(i - base_) % block_size]; }
+  Record& operator[](std::size_t i) { return const_cast<Record&>(static_cast<const Record_queue&>(*this)[i]); }
+
+  void push_back(const Record& record) {
+    reserve(1);
+    std::vector<Record>& block = blocks_[(end_ - base_) / block_size];
+    const std::size_t place = (end_ - base_) % block_size;
+    if (place < block.size())
+      block[place] = record;
+    else
+      block.push_back(record);
+    ++end_;
+  }
+
+  /// Takes away all from this number on. \pre begin() <= end <= end()
+  void cut(std::size_t end) { end_ = end; }
+
+  /// Forgets all before this number. \pre begin() <= begin <= end()
+  void forget(std::size_t begin) {
+    begin_ = begin;
+    const std::size_t empty = (begin_ - base_) / block_size;
+    std::rotate(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(empty), blocks_.end());
+    base_ += empty * block_size;
+  }
+
+  /// So many additions allocate nothing.
+  void reserve(std::size_t additions) {
+    const std::size_t blocks = (end_ - base_ + additions + block_size - 1) / block_size;
+    while (blocks_.size() < blocks) {
+      blocks_.emplace_back();
+      blocks_.back().reserve(block_size);
+    }
+  }
+
+private:
+  std::vector<std::vector<Record>> blocks_;         ///< each with room for block_size
+  std::size_t begin_ = 0, end_ = 0, base_ = 0; ///< base_: the number of the first place of the first block
+
+  const std::vector<Record>& block_of(std::size_t i) const { return blocks_[(i - base_) / block_size]; }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

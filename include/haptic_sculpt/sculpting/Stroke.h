@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_STROKE_H
+#define HAPTIC_SCULPT_SCULPTING_STROKE_H
+
+#include <cstddef>
+#include <utility>
+
+namespace haptic_sculpt {
+
+/// All drags and edits of a Sculptor while this lives are one step of its history: made by `Sculptor::stroke()`, ended by `end()`
+/// or destruction, an exception included; what was done by then is the step.
+///
+/// A stroke made while there is one joins it, and the step ends with the last of them. `undo()` and `redo()` end the stroke first;
+/// edits after that are steps of their own, though the object lives. Refers to its Sculptor, which must outlive it.
+template <class Sculptor>
+class [[nodiscard]] Stroke {
+public:
+  Stroke(Sculptor& sculptor, std::size_t number) : sculptor_(&sculptor), number_(number) {}
+  ~Stroke() { end(); }
+
+  Stroke(Stroke&& other) noexcept : sculptor_(std::exchange(other.sculptor_, nullptr)), number_(other.number_) {}
+  Stroke& operator=(Stroke&& other) noexcept {
+    if (this != &other) {
+      end();
+      sculptor_ = std::exchange(other.sculptor_, nullptr);
+      number_ = other.number_;
+    }
+    return *this;
+  }
+
+  /// A second call does nothing. Does not end the grab at hand.
+  void end() noexcept {
+    if (sculptor_ != nullptr)
+      sculptor_->end_stroke(number_);
+    sculptor_ = nullptr;
+  }
+
+  /// Whether edits are still added to its step.
+  bool is_open() const { return sculptor_ != nullptr && sculptor_->history().is_in_stroke(number_); }
+
+private:
+  Sculptor* sculptor_; ///< nullptr once it has ended or was moved from
+  std::size_t number_;
+};
+
+} // namespace haptic_sculpt
+
+#endif
