@@ -31,6 +31,7 @@ Json json_of(const Edit_record& edit) {
           {"op", name_of(edit.kind)},
           {"status", name_of(edit.status)},
           {"reason", edit.reason ? Json(edit.reason) : Json()},
+          {"detail", edit.detail.empty() ? Json() : Json(edit.detail)},
           {"elements", edit.elements},
           {"position", edit.motion ? Json(edit.motion->stop) : Json()},
           {"legs", edit.legs},
@@ -61,6 +62,8 @@ std::string cause_of(const Edit_record& edit) {
   };
   if (edit.status == Edit_record::Status::refused)
     name(edit.elements);
+  if (!edit.detail.empty())
+    text += ": " + edit.detail;
   for (const auto& contact : edit.contacts) {
     text += (text.empty() ? "" : ", ") + std::string(contact.kind);
     name(contact.ids);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace haptic_sculpt::sculpt_program {
@@ -41,6 +42,7 @@ struct Edit_record {
   Command::Kind kind = Command::Kind::release;
   Status status = Status::refused;
   const char* reason = nullptr; ///< why it was not reached, or nullptr
+  std::string detail;           ///< for people: what would serve instead, where there is more to say than the reason
   std::vector<std::size_t>
       elements;                 ///< the vertices that the edit names; of a refused `delta`, those of too low triangles
   std::optional<Motion> motion; ///< none where refused; a creation, removal, undo or redo stands still

@@ -51,13 +51,7 @@ private:
     switch (command.kind) {
     case Kind::drag: drag(command); break;
     case Kind::probe: probe(command); break;
-    case Kind::clearance:
-      sculptor_.release();
-      if (command.word == "default")
-        sculptor_.set_default_clearance();
-      else
-        sculptor_.set_clearance(command.length);
-      break;
+    case Kind::clearance: clearance(command); break;
     case Kind::delta: delta(command); break;
     case Kind::insert_face: insert_on_face(command); break;
     case Kind::insert_edge: insert_on_edge(command); break;
@@ -85,10 +79,14 @@ private:
     if (!grab_ || grab_->vertex() != v || !held_)
       grab_.emplace(sculptor_.grab(v));
     held_ = true;
-    const Result done = grab_->drag_to(point(command.points[0]));
-    finish(command, begin, done, coordinates(start), command.points[0], {index});
-    if (done.position != start)
-      moved_.insert(index);
+    try {
+      const Result done = grab_->drag_to(point(command.points[0]));
+      finish(command, begin, done, coordinates(start), command.points[0], {index});
+      if (done.position != start)
+        moved_.insert(index);
+    } catch (const Invalid_parameter& error) { // the scene has outgrown the clearance
+      refuse(command, clearance_of_no_use, {index}).detail = error.what();
+    }
   }
 
   void insert_on_face(const Command& command) {
@@ -128,11 +126,30 @@ private:
 
   void probe(const Command& command) {
     const auto begin = Clock::now();
-    const Result done = sculptor_.probe(point(command.points[0]), point(command.points[1]));
-    if (done.end == Drag_end::refused)
-      refuse(command, "starts-in-clearance", ids(done.contacts[0]));
-    else
-      finish(command, begin, done, command.points[0], command.points[1], {});
+    try {
+      const Result done = sculptor_.probe(point(command.points[0]), point(command.points[1]));
+      if (done.end == Drag_end::refused)
+        refuse(command, "starts-in-clearance", ids(done.contacts[0]));
+      else
+        finish(command, begin, done, command.points[0], command.points[1], {});
+    } catch (const Invalid_parameter& error) {
+      refuse(command, clearance_of_no_use, {}).detail = error.what();
+    }
+  }
+
+  static constexpr const char* clearance_of_no_use = "clearance-of-no-use";
+
+  void clearance(const Command& command) {
+    sculptor_.release();
+    if (command.word == "default") {
+      sculptor_.set_default_clearance();
+      return;
+    }
+    try {
+      sculptor_.set_clearance(command.length);
+    } catch (const Invalid_parameter& error) {
+      refuse(command, clearance_of_no_use, {}).detail = error.what();
+    }
   }
 
   void delta(const Command& command) {
@@ -172,10 +189,10 @@ private:
     return result_.edits.back();
   }
 
-  void refuse(const Command& command, const char* reason, std::vector<std::size_t> elements) {
+  Edit_record& refuse(const Command& command, const char* reason, std::vector<std::size_t> elements) {
     held_ = false;
     ++result_.refused;
-    record(command, Status::refused, reason, std::move(elements));
+    return record(command, Status::refused, reason, std::move(elements));
   }
 
   void finish(const Command& command, Clock::time_point begin, const Result& done, const Edit_record::Coordinates& start,

@@ -102,10 +102,10 @@ Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& 
 
 /// \throw Usage_error
 void check_lengths(const Arguments& arguments) {
-  if (arguments.clearance && !(*arguments.clearance > 0 && std::isfinite(*arguments.clearance)))
-    throw Usage_error("--clearance must be a finite length > 0");
-  if (arguments.delta && !(*arguments.delta >= 0 && std::isfinite(*arguments.delta)))
-    throw Usage_error("--delta must be a finite length >= 0");
+  if (arguments.clearance && !(*arguments.clearance > 0 && internal::is_in_range(*arguments.clearance)))
+    throw Usage_error("--clearance must be a length > 0 and at most 2^1000, about 1.07e301");
+  if (arguments.delta && !(*arguments.delta >= 0 && internal::is_in_range(*arguments.delta)))
+    throw Usage_error("--delta must be a length >= 0 and at most 2^1000, about 1.07e301");
 }
 
 /// What the log adds to the work: what to replay, and where the script goes on.
@@ -211,7 +211,7 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::IsMember({"tree", "six-lists", "brute"}));
   app.add_option("--clearance", arguments.clearance,
-                 "Distance kept from what blocks, > 0; by default 4 ulp of the largest coordinate");
+                 "Distance kept from what blocks, > 0; by default 4 ulp of the largest coordinate of what touches");
   app.add_option("--delta", arguments.delta, "No triangle altitude may be less, >= 0; by default 0");
   app.add_option("--picture", arguments.picture, "Where a picture goes: .png")->check(named);
   try {
@@ -234,6 +234,8 @@ int main(int argc, char** argv) {
   } catch (const Read_error& error) {
     return fail(error, mesh_refused);
   } catch (const Invalid_surface& error) {
+    return fail(error, mesh_refused);
+  } catch (const Out_of_range& error) { // those of lengths and of the script have been found before
     return fail(error, mesh_refused);
   } catch (const Script_error& error) {
     return fail(error, script_error);

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
+#include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/parse_obj.h>
 #include <haptic_sculpt/surface/parse_off.h>
 #include <haptic_sculpt/surface/parse_ply.h>
@@ -92,7 +93,7 @@ Mesh mesh_of(const Face_soup& soup) {
 /// global locale (a comma for a point changes coordinates), do not see data after the last face, and let an OBJ index
 /// one beyond the last vertex pass. Here each number is read to the nearest double in the C locale, sizes are checked
 /// against the file's before anything is allocated, and errors name the line. The tests compare both on good files.
-/// \throw Read_error
+/// \throw Read_error; Out_of_range if a coordinate is
 inline Face_soup read_face_soup(const std::filesystem::path& path) {
   const internal::Rounding_to_nearest rounding;
   try {
@@ -102,6 +103,13 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
     Face_soup soup = internal::parse(internal::bytes_of_file(path), *format);
     if (soup.number_of_faces() == 0)
       throw Read_error("the file holds no faces");
+    for (std::size_t v = 0; v < soup.points.size(); ++v) {
+      const auto& p = soup.points[v];
+      const std::array<double, 3> coordinates = {p.x(), p.y(), p.z()};
+      if (soup.is_finite(v) && !internal::is_in_range(coordinates)) // what is not finite is named by validate_soup()
+        internal::check_range("cannot read " + internal::quoted_path(path) + ": vertex " + std::to_string(v) + " at",
+                              coordinates);
+    }
     return soup;
   } catch (const Read_error& error) {
     throw Read_error("cannot read " + internal::quoted_path(path) + ": " + error.what());
@@ -117,7 +125,7 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param path to the file; its extension tells the format
 /// \param delta the delta rule's length, >= 0
-/// \throw Read_error if the file cannot be read as a mesh
+/// \throw Read_error if the file cannot be read as a mesh; Out_of_range if a coordinate is
 /// \throw Invalid_surface if `validate()` finds fault with it; names every offending vertex, edge and face by index (of
 /// pairs of intersecting faces the first `Validity_report::default_most_intersections`)
 /// \post `validate(mesh, delta).is_valid()`
