@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 #define HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/Editor.h>
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Guarded_star.h>
@@ -206,6 +207,7 @@ public:
   /// clearance to a face, or on it, is refused: `end` is Drag_end::refused and the contact names the face.
   /// \throw Out_of_range, Mesh_changed
   Result probe(const Point& source, const Point& target) {
+    const internal::Rounding_to_nearest rounding;
     internal::check_point("the source", source);
     internal::check_point("the target", target);
     check_clearance_serves();
@@ -382,6 +384,7 @@ private:
   }
 
   Result drag(Vertex_index v, const Point& target) {
+    const internal::Rounding_to_nearest rounding;
     internal::check_point("the target", target);
     if (!v.is_valid()) {
       Result stale;
@@ -405,6 +408,9 @@ private:
       throw;
     }
     if (end != s) {
+      // Whatever the response has proposed: each leg has been proven by the sweeps, which take no end that is not in range.
+      if (!internal::is_in_range(end))
+        throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");
       mesh_->point(v) = Point(end[0], end[1], end[2]);
       watch_.remember(v);
       grow_to(internal::largest_magnitude(end));
@@ -418,6 +424,7 @@ private:
   /// Runs an edit between looking for changes by others and noting what it changed.
   template <class Edit_function>
   Edited edited(const Edit_function& edit) {
+    const internal::Rounding_to_nearest rounding;
     release();
     watch_.check_counts();
     watch_.check_some();
