@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <functional>
+#include <string_view>
 
 namespace haptic_sculpt::benchmark {
 
@@ -135,7 +136,7 @@ private:
     tally_.certificate_nanoseconds += nanoseconds(looked);
     tally_.ways += found.ways;
     tally_.asked += found.asked;
-    const bool gave_up = found.asked && r.end == Drag_end::no_progress;
+    const bool gave_up = found.asked && std::string_view(name_of(r.end)) == "stuck";
     if (found.gain == 0 && !gave_up)
       return;
     const double left = std::sqrt(CGAL::squared_distance(target, r.position));
