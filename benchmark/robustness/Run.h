@@ -4,6 +4,7 @@
 
 #include "Drag_batch.h"
 #include "Edit_batch.h"
+#include "Extreme_batch.h"
 
 #include <haptic_sculpt/surface.h>
 
@@ -24,12 +25,15 @@ enum Exit {
   undo_differs = 16,     ///< undoing everything did not give back the input, bit for bit
   redo_differs = 17,     ///< redoing everything did not give back the end, bit for bit
   lazy_creation = 18,    ///< more than 1 % of the feasible creations were refused
-  jumped_over = 19       ///< a creation was accepted that crosses or jumps over a part of the surface
+  jumped_over = 19,      ///< a creation was accepted that crosses or jumps over a part of the surface
+  not_finite = 20,       ///< an extreme drag left a coordinate that is no finite number
+  went_away = 21,        ///< an extreme drag ended farther from its target than it began
+  moved_though_refused = 22 ///< an extreme drag was refused with an error, and something had moved
 };
 
 struct Options {
   std::string folder, json, shard = "0/1", response = "slide";
-  std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, batch = 1000, edit_batch = 5000;
+  std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 1000, batch = 1000, edit_batch = 5000;
   std::uint64_t seed = 1;
   std::vector<std::string> refuse;
 };
@@ -51,6 +55,20 @@ public:
     const bool has_drags = drag(name, mesh, row), has_edits = edit(name, mesh, row);
     if (has_drags || has_edits)
       rows_.push_back(row);
+  }
+
+  /// Drags with extreme targets, clearances and deltas.
+  void extreme(const std::string& name, const Mesh& mesh) {
+    Extreme_tally tally;
+    for (std::size_t done = 0; done < options_.extreme; done += options_.batch)
+      if (is_ours())
+        tally += Extreme_batch(mesh, response_, seed_of_batch()).run(std::min(options_.batch, options_.extreme - done));
+    if (tally.drags + tally.refused == 0)
+      return;
+    extremes_ += tally;
+    Json row = {{"mesh", name}, {"faces", mesh.number_of_faces()}, {"extreme", tally.json()}};
+    rows_.push_back(row);
+    std::cout << name << ": extreme: " << tally.json().dump() << '\n' << std::flush;
   }
 
   void folder() {
@@ -75,7 +93,8 @@ public:
 
   Exit finish() const {
     const Exit exit = broken_promise();
-    std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, response " << options_.response
+    std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, "
+              << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response
               << ", seed " << options_.seed << ", exit " << exit << '\n';
     for (const auto& [kind, counts] : edits_.rows) {
       std::cout << "  " << kind << ": " << counts.asked << " asked, " << counts.done << " done";
@@ -85,7 +104,7 @@ public:
     }
     if (!options_.json.empty())
       replace_file(options_.json, Json{{"seed", options_.seed}, {"shard", options_.shard}, {"response", options_.response},
-                                       {"meshes", rows_}, {"total", drags_.json()}, {"total_of_edits", edits_.json()},
+                                       {"meshes", rows_}, {"total", drags_.json()}, {"total_of_edits", edits_.json()}, {"total_of_extreme_drags", extremes_.json()},
                                        {"wrongly_accepted", wrongly_accepted_}, {"wrongly_refused", wrongly_refused_},
                                        {"exit", static_cast<int>(exit)}}
                                           .dump(1) + '\n');
@@ -98,6 +117,7 @@ private:
   std::size_t shard_ = 0, shards_ = 1, unit_ = 0, wrongly_accepted_ = 0, wrongly_refused_ = 0;
   Drag_tally drags_;
   Edit_tally edits_;
+  Extreme_tally extremes_;
   Json rows_ = Json::array();
 
   /// Whether the next batch belongs to this shard.
@@ -142,8 +162,14 @@ private:
   }
 
   Exit broken_promise() const {
-    if (drags_.invalid + edits_.invalid > 0)
+    if (drags_.invalid + edits_.invalid + extremes_.invalid > 0)
       return not_embedded;
+    if (extremes_.not_finite > 0)
+      return not_finite;
+    if (extremes_.moved_though_refused > 0)
+      return moved_though_refused;
+    if (extremes_.farther > 0)
+      return went_away;
     if (edits_.creations_wrongly_accepted > 0)
       return jumped_over;
     if (drags_.changed + edits_.changed > 0)

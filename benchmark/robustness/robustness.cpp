@@ -12,13 +12,15 @@ int main(int argc, char** argv) {
                "drags arrived, 12 a push through the object did not move without reason, 13 a mesh that has to be refused "
                "was accepted, 14 one was refused without being named by --refuse, 15 an element not in hand has changed, 16 undoing "
                "everything does not give back the input, 17 redoing everything does not give back the end, 18 more than 1 % of the "
-               "feasible creations were refused, 19 a creation was accepted that crosses or jumps over a part of the surface.");
+               "feasible creations were refused, 19 a creation was accepted that crosses or jumps over a part of the surface, 20 an extreme drag "
+               "left a coordinate that is not finite, 21 one ended farther from its target than it began, 22 one was refused but moved something.");
   app.add_option("--meshes", options.folder, "Folder of meshes to work on, beside the generated ones")->check(CLI::ExistingDirectory);
   app.add_option("--refuse", options.refuse, "File names in the folder that have to be refused");
   app.add_option("--drags", options.drags, "Drags on each mesh")->capture_default_str();
   app.add_option("--drags-on-large", options.drags_on_large, "Drags on meshes of 200,000 faces or more")->capture_default_str();
   app.add_option("--edits", options.edits, "Mixed edits on each mesh, in batches of 5000, each undone and redone whole")->capture_default_str();
   app.add_option("--edits-on-large", options.edits_on_large, "Mixed edits on meshes of 200,000 faces or more")->capture_default_str();
+  app.add_option("--extreme", options.extreme, "Drags on each of some small meshes with targets, clearances and deltas anywhere among the doubles")->capture_default_str();
   app.add_option("--response", options.response, "What a blocked vertex does")
       ->check(CLI::IsMember({"slide", "stop", "paper"}))
       ->capture_default_str();
@@ -34,6 +36,8 @@ int main(int argc, char** argv) {
     robustness::Run run(options);
     for (const auto& [name, mesh] : robustness::robustness_meshes())
       run.mesh(name, mesh);
+    for (const auto& [name, mesh] : robustness::small_meshes())
+      run.extreme(name, mesh);
     if (!options.folder.empty())
       run.folder();
     return run.finish();

@@ -35,6 +35,19 @@ inline std::vector<std::pair<std::string, Mesh>> robustness_meshes() {
   return list;
 }
 
+/// Small ones, for drags with extreme targets and lengths.
+inline std::vector<std::pair<std::string, Mesh>> small_meshes() {
+  using namespace meshes;
+  std::vector<std::pair<std::string, Mesh>> list;
+  list.emplace_back("tetrahedron", to_mesh(tetrahedron()));
+  list.emplace_back("cube", to_mesh(cube()));
+  list.emplace_back("split cube far off", to_mesh(box(2).scale_and_move(1, 1e6, -1e6, 0)));
+  list.emplace_back("sliver stack", to_mesh(sliver_stack(4, 1e-9)));
+  list.emplace_back("nearly pinched", to_mesh(nearly_pinched(1e-9)));
+  list.emplace_back("bipyramid", to_mesh(bipyramid(7)));
+  return list;
+}
+
 } // namespace haptic_sculpt::robustness
 
 #endif

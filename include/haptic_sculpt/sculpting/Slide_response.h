@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_SLIDE_RESPONSE_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
+#include <haptic_sculpt/sculpting/Free_ways.h>
 #include <haptic_sculpt/sculpting/Unmet_planes.h>
 #include <haptic_sculpt/sculpting/Way_out.h>
 #include <haptic_sculpt/sculpting/is_farther.h>
@@ -38,6 +39,7 @@ public:
   void forget() {
     walk_.facets.clear();
     way_out_.forget();
+    free_ways_.forget();
     unmet_planes_.forget();
   }
 
@@ -87,6 +89,12 @@ public:
                  !way_out_.take(walk_, guard, target, most_legs))
         break;
     }
+    if (end != Walk_end::reached) {
+      if (walk_.legs() + internal::Free_ways<Mesh>::trial_legs > most_legs)
+        walk_.path.shorten(target, is_free, Ways::straight_and_bent);
+      if (free_ways_.take(walk_, guard, target, lengths, most_legs))
+        end = walk_.x == target ? Walk_end::reached : Walk_end::settled;
+    }
     if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
     // To keep a clearance from what was nearer J may have gone back: then it had better stay.
@@ -106,6 +114,7 @@ private:
   Walk walk_, trial_;
   internal::Unmet_planes<Mesh> unmet_planes_;
   internal::Way_out<Mesh> way_out_;
+  internal::Free_ways<Mesh> free_ways_;
 
   /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many
   /// times as far, and takes it if that, when J has come down, has brought it nearer than these did.

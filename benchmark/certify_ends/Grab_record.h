@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_CERTIFY_ENDS_GRAB_RECORD_H
+#define HAPTIC_SCULPT_BENCHMARK_CERTIFY_ENDS_GRAB_RECORD_H
+
+#include "sculpting/scene_parts.h"
+
+#include <haptic_sculpt/surface.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace haptic_sculpt::benchmark {
+
+/// One grab, so that it can be made again: the mesh before, and the targets.
+struct Grab_record {
+  using Mesh = meshes::Mesh;
+  using Point_3 = meshes::Point_3;
+
+  Mesh mesh;
+  Mesh::Vertex_index vertex;
+  std::vector<Point_3> targets;
+  double clearance = 0, delta = 0; ///< the clearance set, 0: the default
+
+  static std::string hexadecimal(const Point_3& p) {
+    char text[128];
+    std::snprintf(text, sizeof text, "%a %a %a", p.x(), p.y(), p.z());
+    return text;
+  }
+
+  /// NAME.off and NAME.script, a script for `sculpt`. Probes are vertices without faces. \pre no vertex is removed
+  void write(const std::filesystem::path& folder, const std::string& name, const std::string& what) const {
+    std::ostringstream off, script;
+    off.precision(17);
+    off << "OFF\n" << mesh.number_of_vertices() << ' ' << mesh.number_of_faces() << " 0\n";
+    for (const auto v : mesh.vertices())
+      off << mesh.point(v) << '\n';
+    for (const auto f : mesh.faces()) {
+      off << 3;
+      for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+        off << ' ' << static_cast<std::size_t>(v);
+      off << '\n';
+    }
+    script << "# " << what << '\n';
+    script << std::hexfloat;
+    if (clearance > 0)
+      script << "clearance " << clearance << '\n';
+    if (delta > 0)
+      script << "delta " << delta << '\n';
+    for (const Point_3& t : targets)
+      script << "drag " << static_cast<std::size_t>(vertex) << ' ' << hexadecimal(t) << '\n';
+    std::filesystem::create_directories(folder);
+    replace_file(folder / (name + ".off"), off.str());
+    replace_file(folder / (name + ".script"), script.str());
+  }
+
+  /// What write() wrote. \throw Error
+  static Grab_record read(const std::filesystem::path& off, const std::filesystem::path& script) {
+    Grab_record record;
+    record.mesh = read_surface<Mesh>(off);
+    std::ifstream lines(script);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string op, number;
+      std::vector<double> numbers;
+      for (words >> op; words >> number;)
+        numbers.push_back(std::strtod(number.c_str(), nullptr));
+      if (op == "clearance" && numbers.size() == 1)
+        record.clearance = numbers[0];
+      else if (op == "delta" && numbers.size() == 1)
+        record.delta = numbers[0];
+      else if (op == "drag" && numbers.size() == 4) {
+        record.vertex = Mesh::Vertex_index(static_cast<Mesh::size_type>(numbers[0]));
+        record.targets.emplace_back(numbers[1], numbers[2], numbers[3]);
+      } else if (op.empty() || op[0] != '#')
+        throw Error("'" + script.string() + "' is not a script of one grab: " + line);
+    }
+    if (record.targets.empty())
+      throw Error("'" + script.string() + "' has no drag");
+    return record;
+  }
+};
+
+} // namespace haptic_sculpt::benchmark
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EXTREME_TALLY_H
+#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EXTREME_TALLY_H
+
+#include <nlohmann/json.hpp>
+
+namespace haptic_sculpt::robustness {
+
+/// What is counted of drags with extreme targets and lengths.
+struct Extreme_tally {
+  std::size_t drags = 0, reached = 0;
+  std::size_t refused = 0, settings_refused = 0; ///< with an error
+  std::size_t not_finite = 0, invalid = 0, moved_though_refused = 0;
+  std::size_t farther = 0; ///< a vertex ended farther from its target than it began
+
+  Extreme_tally& operator+=(const Extreme_tally& t) {
+    drags += t.drags, reached += t.reached, refused += t.refused, settings_refused += t.settings_refused;
+    not_finite += t.not_finite, invalid += t.invalid, moved_though_refused += t.moved_though_refused,
+        farther += t.farther;
+    return *this;
+  }
+  nlohmann::ordered_json json() const {
+    return {{"drags", drags},           {"reached", reached},
+            {"refused", refused},       {"settings_refused", settings_refused},
+            {"not_finite", not_finite}, {"invalid", invalid},
+            {"farther", farther},       {"moved_though_refused", moved_though_refused}};
+  }
+};
+
+} // namespace haptic_sculpt::robustness
+
+#endif
