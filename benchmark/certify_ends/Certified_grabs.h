@@ -5,6 +5,7 @@
 #include "End_tally.h"
 #include "Grab_record.h"
 
+#include "sculpting/clearances.h"
 #include "sculpting/end_certificate.h"
 #include "sculpting/part_scenes.h"
 
@@ -74,8 +75,12 @@ private:
     Sculptor_parameters options;
     if (scene_.first_mover == 0)
       return options; // replayed
-    if (random_() % 4 == 0)
-      options.clearance((scene_.is_near_degenerate ? 1e-14 : 1e-9) * scene_.size);
+    if (random_() % 4 == 0) {
+      double least = 0; // that serves the scene
+      for (const auto v : scene_.mesh.vertices())
+        least = std::max(least, unit_in_the_last_place(internal::largest_magnitude(vertex_coordinates(scene_.mesh, v))));
+      options.clearance(std::max(least, (scene_.is_near_degenerate ? 1e-14 : 1e-9) * scene_.size));
+    }
     const double delta = 1e-3 * scene_.size;
     if (random_() % 8 == 0 && validate(scene_.mesh, delta).is_valid())
       options.delta(delta);
@@ -121,10 +126,10 @@ private:
     };
     const Vertex_index v = grab.vertex();
     const double way_asked = internal::path_length(vertex_coordinates(mesh_, v), {target.x(), target.y(), target.z()});
-    const double c = sculptor_.clearance(target);
     const auto begin = Clock::now();
     const auto r = grab.drag_to(target);
     tally_.nanoseconds += nanoseconds(begin);
+    const double c = test::clearance_kept(sculptor_, r);
     record_.targets.push_back(target);
     ++tally_.drags;
     tally_.reached += r.reached;

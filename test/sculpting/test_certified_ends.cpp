@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drags on machine parts and near-degenerate solids: no end may have a free straight way to somewhere nearer.
+#include "sculpting/clearances.h"
 #include "sculpting/end_certificate.h"
 #include "sculpting/part_scenes.h"
 
@@ -25,15 +26,15 @@ Ends drag_and_certify(const Part_scene& scene, std::size_t drags, Random& random
     auto grab = sculptor.grab(v);
     for (int i = 0; i < 2; ++i) {
       const Point_3 source = mesh.point(v), target = part_target(scene, mesh, v, random);
-      const double c = sculptor.clearance(target);
       const auto result = grab.drag_to(target);
+      const double c = clearance_kept(sculptor, result);
       ++ends.drags;
       if (result.reached)
         continue;
       const auto found =
           certifier.certify(v, target, std::sqrt(CGAL::squared_distance(source, target)), c, 0, random, 300);
       ends.certified += found.asked;
-      ends.missed += found.gain > 0;
+      ends.missed += found.gain > 0 || result.end == Drag_end::stuck;
       if (found.gain > 0)
         BOOST_TEST_MESSAGE(scene.family << ": nearer by " << found.gain / c << " c");
     }

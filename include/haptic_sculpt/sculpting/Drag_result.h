@@ -12,16 +12,17 @@ namespace haptic_sculpt {
 /// Why a drag ended.
 enum class Drag_end : std::uint8_t {
   reached,     ///< it is at the target
-  held,        ///< contacts hold it where it is
+  held,        ///< contacts hold it where it is; a slide has found no free way nearer (doc/slide.md, "What held means")
   no_progress, ///< no representable point on the way keeps the clearance: it did not move
   leg_limit,   ///< as many legs were made as one drag may make; the next drag to the same target goes on
   refused,     ///< a probe that starts on a face, or nearer to it than the clearance
+  stuck,       ///< the slide gave up on the way: nothing is said about what is nearer
   stale        ///< the vertex has been removed: nothing was moved; undo that revives it makes the grab usable again
 };
 
-/// The name used in reports: "reached", "held", "no-progress", "leg-limit", "refused" or "stale".
+/// The name used in reports: "reached", "held", "no-progress", "leg-limit", "refused", "stuck" or "stale".
 inline const char* name_of(Drag_end end) {
-  constexpr const char* names[] = {"reached", "held", "no-progress", "leg-limit", "refused", "stale"};
+  constexpr const char* names[] = {"reached", "held", "no-progress", "leg-limit", "refused", "stuck", "stale"};
   return names[static_cast<int>(end)];
 }
 

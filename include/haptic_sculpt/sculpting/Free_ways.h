@@ -25,29 +25,34 @@ public:
   /// Something has changed: where none was found there may be one now.
   void forget() { sought_ = false; }
 
+  /// Whether the last look has found nothing, or there was no need for one: as far as is known J is at a nearest point.
+  bool is_settled() const { return is_settled_; }
+
   /// Goes such ways, each followed by a walk, as long as there are any. Returns whether there was one.
   template <class Guard>
-  bool take(Walk& walk, Guard& guard, const Vector& target, const Slide_lengths& lengths, int most_legs) {
+  bool take(Walk& walk, Guard& guard, const Vector& target, int most_legs) {
     bool any = false;
-    for (int times = 0; times < most_times && walk.legs() < most_legs; ++times) {
-      if (is_certain(walk, target, lengths) || was_sought(walk.x, target, lengths))
+    is_settled_ = false;
+    for (int times = 0; times < most_times && walk.legs() < most_legs && !is_settled_; ++times) {
+      is_settled_ = walk.x == target || is_certain(walk, target) || was_sought(walk, target);
+      if (is_settled_)
         break;
-      if (!look(walk, guard, target, lengths)) {
+      if (!look(walk, guard, target)) {
+        is_settled_ = true;
         sought_ = true;
         sought_at_ = walk.x;
         sought_for_ = target;
         if (walk.facets.empty())
-          take_contacts(walk, lengths);
+          take_contacts(walk);
         break;
       }
       any = true;
       trial_.begin_at(walk);
       trial_.step_to(best_);
       trial_.forget_progress();
-      const double left = length(minus(target, best_));
       walk = trial_;
-      trial_.go(guard, target, lengths, std::min(trial_.legs() + trial_legs, most_legs));
-      if (length(minus(target, trial_.x)) < left)
+      trial_.go(guard, target, std::min(trial_.legs() + trial_legs, most_legs));
+      if (nearer_by(target, walk.x, trial_.x) > 0)
         walk = trial_;
     }
     return any;
@@ -68,28 +73,30 @@ private:
 
   Walk trial_;
   Vector x_{}, pull_{}, best_{};
+  Slide_lengths lengths_{}; ///< at x
+  Drag_rules rules_;
   double distance_ = 0, gain_ = 0;
   boost::container::static_vector<Vector, most_planes> normals_;
   boost::container::static_vector<Vector, 4> curved_;        ///< of the delta rule's surfaces
   boost::container::static_vector<Contact_3<Mesh>, 16> met_; ///< near J
-  bool sought_ = false;
+  bool sought_ = false, is_settled_ = false;
   Vector sought_at_{}, sought_for_{}; ///< where no way was found, and to which target
 
-  bool was_sought(const Vector& x, const Vector& target, const Slide_lengths& lengths) const {
-    return sought_ && length(minus(x, sought_at_)) <= lengths.settled() &&
-           length(minus(target, sought_for_)) <= 4 * lengths.clearance;
+  bool was_sought(const Walk& walk, const Vector& target) const {
+    return sought_ && length(minus(walk.x, sought_at_)) <= walk.lengths().settled() &&
+           length(minus(target, sought_for_)) <= 4 * walk.lengths().clearance;
   }
 
   /// Whether what holds J are facets with J so far inside of them, or at borders over which another one goes on as
   /// high, that no way leads round them.
-  bool is_certain(const Walk& walk, const Vector& target, const Slide_lengths& lengths) const {
-    const Vector pull = minus(target, walk.x);
-    const Nearest_permitted held = walk.nearest(pull, length(pull), lengths.clearance, lengths);
+  static bool is_certain(const Walk& walk, const Vector& target) {
+    const Slide_lengths& lengths = walk.lengths();
+    const Nearest_permitted held = walk.nearest(walk.pull_to(target), 1);
     if (!held.exists || held.is_squeezed || held.number_active == 0 ||
         length(held.displacement) > 2 * lengths.settled())
       return false;
     const auto is_solid = [&](const Facet<Mesh>& facet) {
-      if (facet.contact().is_flat || facet.height() > lengths.lifted())
+      if (facet.contact().is_flat || facet.is_over(Slide_lengths::clearances_of_lift))
         return false;
       for (int k = 0; k < facet.borders(); ++k)
         if (facet.beyond_border(k, walk.x) > -near * lengths.clearance && !is_closed(walk, facet, k))
@@ -114,19 +121,21 @@ private:
   }
 
   template <class Guard>
-  bool look(const Walk& walk, Guard& guard, const Vector& target, const Slide_lengths& lengths) {
+  bool look(const Walk& walk, Guard& guard, const Vector& target) {
     x_ = walk.x;
-    pull_ = minus(target, x_);
+    pull_ = walk.pull_to(target);
     distance_ = length(pull_);
+    lengths_ = walk.lengths();
+    rules_ = walk.rules();
     normals_.clear();
     curved_.clear();
     met_.clear();
-    const double least = gain_ = lengths.lifted();
-    if (distance_ <= lengths.shortest_pull())
+    const double least = gain_ = lengths_.lifted();
+    if (distance_ <= lengths_.shortest_pull())
       return false;
     for (const auto& facet : walk.facets)
-      see(facet.contact(), lengths);
-    try_way(guard, pull_, lengths);
+      see(facet.contact());
+    try_way(guard, pull_);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         for (int signs = 0; signs < 4 && i != j; ++signs) {
@@ -134,31 +143,31 @@ private:
           v[static_cast<std::size_t>(i)] = 1;
           v[static_cast<std::size_t>(j)] = (signs & 1) != 0 ? -2 : 2;
           v[static_cast<std::size_t>(3 - i - j)] = (signs & 2) != 0 ? -3 : 3;
-          try_way(guard, v, lengths);
+          try_way(guard, v);
         }
     for (std::size_t i = 0; i < normals_.size(); ++i) { // normals_ grows on the way
       const Vector n = normals_[i];
-      try_way(guard, advanced(pull_, -dot(pull_, n), n), lengths);
+      try_way(guard, advanced(pull_, -dot(pull_, n), n));
       for (std::size_t j = 0; j < i; ++j)
-        try_way(guard, cross(n, normals_[j]), lengths);
+        try_way(guard, cross(n, normals_[j]));
     }
     // What curves towards J lets it go only on ways that rise over the tangent plane.
     for (const Vector& n : curved_)
       for (const Vector& m : curved_) {
         const Vector way = &n == &m ? advanced(pull_, -dot(pull_, n), n) : cross(n, m);
         for (double slope = 0x1p-2; slope > 0x1p-24; slope /= 8)
-          try_way(guard, advanced(dot(way, pull_) < 0 ? scaled(way, -1) : way, slope * length(way), plus(n, m)),
-                  lengths);
+          try_way(guard, advanced(dot(way, pull_) < 0 ? scaled(way, -1) : way, slope * length(way), plus(n, m)));
       }
     return gain_ > least;
   }
 
   /// J rests where it has come by a way that was found here: what holds it is what it has met on the others.
-  void take_contacts(Walk& walk, const Slide_lengths& lengths) const {
+  void take_contacts(Walk& walk) const {
     for (const auto& contact : met_)
-      walk.meet(contact, walk.x, lengths.delta);
+      walk.meet(contact, walk.x);
+    const double resolution = walk.lengths().resolution;
     walk.forget([&](const Facet<Mesh>& facet) {
-      return facet.is_over(lengths.lifted()) || facet.is_past(walk.x, lengths.clearance, lengths.resolution);
+      return facet.is_over(Slide_lengths::clearances_of_lift) || facet.is_past(walk.x, resolution);
     });
   }
 
@@ -169,8 +178,8 @@ private:
   }
 
   template <class Guard>
-  bool take_if_free(Guard& guard, const Vector& y, const Slide_lengths& lengths) {
-    if (y == x_ || !(gain_at(y) > gain_) || !guard.is_free(x_, y, lengths.delta))
+  bool take_if_free(Guard& guard, const Vector& y) {
+    if (y == x_ || !(gain_at(y) > gain_) || !guard.is_free(x_, y, rules_.delta))
       return false;
     best_ = y;
     gain_ = gain_at(y);
@@ -179,7 +188,7 @@ private:
 
   /// Decides the way up to where it is nearest to the target, or up to what is in the way.
   template <class Guard>
-  void try_way(Guard& guard, const Vector& way, const Slide_lengths& lengths) {
+  void try_way(Guard& guard, const Vector& way) {
     Vector direction = normalized(way);
     double along = dot(direction, pull_);
     if (along < 0) {
@@ -192,7 +201,7 @@ private:
                                         : nearest_to_planes(advanced(x_, along, direction), followed);
       if (!(gain_at(y) > gain_))
         return;
-      guard.decide(x_, y, lengths.delta);
+      guard.decide(x_, y, rules_.delta);
       if (!guard.is_blocked()) {
         best_ = y;
         gain_ = gain_at(y);
@@ -207,16 +216,16 @@ private:
       for (const auto& contact : met) {
         if (std::abs(dot(contact.normal, direction)) < parallel && followed.size() < followed.capacity())
           followed.push_back(contact.normal);
-        if (time * along > near * lengths.clearance)
+        if (time * along > near * lengths_.clearance)
           continue;
-        see(contact, lengths);
+        see(contact);
         if (met_.size() < met_.capacity())
           met_.push_back(contact);
       }
-      if (take_if_free(guard, point_of_path(x_, y, 0.9375 * time), lengths) ||
-          take_if_free(guard, point_of_path(x_, y, 0.5 * time), lengths) || followed.size() == followed_before)
+      if (take_if_free(guard, point_of_path(x_, y, 0.9375 * time)) ||
+          take_if_free(guard, point_of_path(x_, y, 0.5 * time)) || followed.size() == followed_before)
         return;
-      if (take_if_free(guard, nearest_to_planes(y, followed), lengths))
+      if (take_if_free(guard, nearest_to_planes(y, followed)))
         return;
     }
   }
@@ -252,7 +261,7 @@ private:
   }
 
   /// Takes in the plane of the contact, and those through x that graze the borders of its facet.
-  void see(const Contact_3<Mesh>& contact, const Slide_lengths& lengths) {
+  void see(const Contact_3<Mesh>& contact) {
     see_plane(contact.normal);
     if (contact.kind == Contact_kind::delta) {
       if (curved_.size() < curved_.capacity() &&
@@ -261,7 +270,7 @@ private:
       return;
     }
     Facet<Mesh> facet(contact, x_);
-    const double c = lengths.clearance;
+    const double c = lengths_.clearance;
     if (contact.is_flat) {
       // The planes of all ways that leave the wall's plane by some clearances where they end.
       const Vector side = facet.normal_of_wall();
@@ -269,7 +278,7 @@ private:
         see_plane(normalized(advanced(scaled(side, distance_), -tilt, scaled(pull_, 1 / distance_))));
       return;
     }
-    facet.measure(x_);
+    facet.measure(x_, rules_);
     const double height = std::fmax(facet.height(), 0.0), beside = c / 8;
     for (int k = 0; k < facet.borders(); ++k) {
       const double inside = -facet.beyond_border(k, x_);

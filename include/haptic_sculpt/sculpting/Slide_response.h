@@ -89,11 +89,13 @@ public:
                  !way_out_.take(walk_, guard, target, most_legs))
         break;
     }
-    if (end != Walk_end::reached) {
+    if (end != Walk_end::reached && !walk_.is_beyond_reach(target)) {
       if (walk_.legs() + internal::Free_ways<Mesh>::trial_legs > most_legs)
         walk_.path.shorten(target, is_free, Ways::straight_and_bent);
-      if (free_ways_.take(walk_, guard, target, lengths, most_legs))
-        end = walk_.x == target ? Walk_end::reached : Walk_end::settled;
+      free_ways_.take(walk_, guard, target, most_legs);
+      end = walk_.x == target         ? Walk_end::reached
+            : free_ways_.is_settled() ? Walk_end::settled
+                                      : Walk_end::stuck;
     }
     if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
@@ -188,10 +190,12 @@ private:
   void report(internal::Walk_end end, const Vector& source, Drag_result<Mesh>& result) const {
     using internal::Walk_end;
     result.legs = walk_.legs();
+    const bool has_contacts = !walk_.facets.empty();
     result.end = end == Walk_end::reached                      ? Drag_end::reached
                  : end == Walk_end::limit                      ? Drag_end::leg_limit
-                 : end == Walk_end::stuck && walk_.x == source ? Drag_end::no_progress
-                                                               : Drag_end::held;
+                 : end == Walk_end::settled && has_contacts    ? Drag_end::held
+                 : walk_.x == source                           ? Drag_end::no_progress
+                                                               : Drag_end::stuck;
     result.stop_error = result.stop_error_along_path = 0;
     if (end == Walk_end::reached)
       return;

@@ -88,6 +88,7 @@ struct Slide_walk {
   int legs() const { return path.legs(); }
   /// Where J is now.
   const Slide_lengths& lengths() const { return lengths_; }
+  const Drag_rules& rules() const { return rules_; }
   double delta() const { return rules_.delta; }
 
   /// Walks until it ends, or `most_legs` have been made.
