@@ -20,6 +20,7 @@
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -126,7 +127,9 @@ Plan plan_of(const Script& script, const Log_file* log, const Arguments& argumen
     plan.commands = logged.commands;
     plan.replayed = plan.commands.size();
   }
-  plan.commands.insert(plan.commands.end(), plan.rest.commands.begin(), plan.rest.commands.end());
+  plan.commands.insert(plan.commands.end(), std::make_move_iterator(plan.rest.commands.begin()),
+                       std::make_move_iterator(plan.rest.commands.end()));
+  plan.rest.commands.clear();
   return plan;
 }
 

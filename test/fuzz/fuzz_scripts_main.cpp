@@ -3,6 +3,7 @@
 // them put together from what scripts are made of, half of those with bytes changed.
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -37,7 +39,8 @@ void keep_input(int signal) {
 
 class Random_scripts {
 public:
-  explicit Random_scripts(std::uint64_t seed) : random_(seed) {}
+  /// \param largest no number is larger, other than by a changed byte
+  Random_scripts(std::uint64_t seed, double largest) : random_(seed), largest_(largest) {}
 
   std::string next() {
     std::string bytes;
@@ -52,6 +55,7 @@ public:
 
 private:
   std::mt19937_64 random_;
+  double largest_;
 
   std::size_t below(std::size_t n) { return random_() % n; }
 
@@ -61,6 +65,11 @@ private:
   }
 
   std::string number() {
+    const std::string text = any_number();
+    return std::abs(std::strtod(text.c_str(), nullptr)) > largest_ ? "1" : text;
+  }
+
+  std::string any_number() {
     static constexpr std::array<const char*, 24> special = {"0",
                                                             "-0",
                                                             "1",
@@ -178,16 +187,19 @@ int run_file(const char* name) {
 
 int main(int argc, char** argv) {
   std::uint64_t runs = 10000, seed = 1;
+  double largest = std::numeric_limits<double>::infinity();
   std::vector<const char*> files;
   for (int i = 1; i < argc; ++i) {
     if (std::strncmp(argv[i], "--runs=", 7) == 0)
       runs = std::strtoull(argv[i] + 7, nullptr, 10);
     else if (std::strncmp(argv[i], "--seed=", 7) == 0)
       seed = std::strtoull(argv[i] + 7, nullptr, 10);
+    else if (std::strncmp(argv[i], "--largest=", 10) == 0)
+      largest = std::strtod(argv[i] + 10, nullptr);
     else if (argv[i][0] == '-') {
       std::fprintf(
           stderr,
-          "usage: fuzz_scripts [--runs=N] [--seed=N] | FILE...\nWith files: tries these. A fault is kept in %s.\n",
+          "usage: fuzz_scripts [--runs=N] [--seed=N] [--largest=X] | FILE...\nWith files: tries these. A fault is kept in %s.\n",
           fault_file);
       return 2;
     } else
@@ -202,7 +214,7 @@ int main(int argc, char** argv) {
     return 0;
   std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
   std::fflush(stdout);
-  Random_scripts scripts(seed);
+  Random_scripts scripts(seed, largest);
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t i = 0; i < runs; ++i) {
     input = scripts.next();
