@@ -14,7 +14,9 @@ namespace {
 
 using Stroke_type = Sculptor<Mesh>::Stroke_type;
 
-Point_3 moved_by(const Mesh& mesh, Vertex_index v, double x) { return mesh.point(v) + meshes::Kernel::Vector_3(x, 0.5 * x, -x); }
+Point_3 moved_by(const Mesh& mesh, Vertex_index v, double x) {
+  return mesh.point(v) + meshes::Kernel::Vector_3(x, 0.5 * x, -x);
+}
 
 /// What a history without limits has to be: the states between steps.
 struct State_list {
@@ -46,7 +48,9 @@ BOOST_AUTO_TEST_CASE(a_stroke_is_one_step) {
     BOOST_TEST(stroke.is_open());
     for (int i = 0; i < 100; ++i)
       for (const std::size_t v : {3, 50, 4})
-        BOOST_TEST(sculptor.grab(Vertex_index(v)).drag_to(moved_by(mesh, Vertex_index(v), i % 2 == 0 ? 0.01 : -0.009)).reached);
+        BOOST_TEST(sculptor.grab(Vertex_index(v))
+                       .drag_to(moved_by(mesh, Vertex_index(v), i % 2 == 0 ? 0.01 : -0.009))
+                       .reached);
     BOOST_TEST(history.number_of_undo_steps() == 1u);
   }
   BOOST_TEST(history.bytes() == 3 * 56 + 16u); // a record a vertex
@@ -56,7 +60,8 @@ BOOST_AUTO_TEST_CASE(a_stroke_is_one_step) {
     sculptor.grab(Vertex_index(3)).drag_to(moved_by(mesh, Vertex_index(3), 0.01));
     {
       const auto inner = sculptor.stroke();
-      BOOST_REQUIRE(static_cast<bool>(sculptor.flip(sculptor.edge_of(0, static_cast<std::size_t>(mesh.source(mesh.halfedge(Vertex_index(0))))))));
+      BOOST_REQUIRE(static_cast<bool>(
+          sculptor.flip(sculptor.edge_of(0, static_cast<std::size_t>(mesh.source(mesh.halfedge(Vertex_index(0))))))));
     }
     BOOST_TEST(outer.is_open());
     sculptor.grab(Vertex_index(3)).drag_to(moved_by(mesh, Vertex_index(3), 0.01));
@@ -114,7 +119,9 @@ BOOST_AUTO_TEST_CASE(the_history_is_bounded) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.05));
   Sculptor<Mesh> sculptor(mesh);
   const Edit_history& history = sculptor.history();
-  const auto drag = [&](std::size_t v) { sculptor.grab(Vertex_index(v)).drag_to(moved_by(mesh, Vertex_index(v), 0.001)); };
+  const auto drag = [&](std::size_t v) {
+    sculptor.grab(Vertex_index(v)).drag_to(moved_by(mesh, Vertex_index(v), 0.001));
+  };
   sculptor.set_history_limit({3, History_limit().bytes});
   std::vector<Mesh_snapshot> states;
   for (std::size_t v = 0; v < 8; ++v) {
@@ -185,7 +192,8 @@ BOOST_AUTO_TEST_CASE(edits_in_strokes_keep_every_promise_and_undo_to_the_bit) {
   std::map<int, std::size_t> done;
   std::size_t differs = 0, invalid = 0, total = 0, strokes = 0, most_steps = 0;
   for (std::size_t batch = 0; total < edits; ++batch) {
-    meshes::Triangle_list list = batch % 2 == 0 ? meshes::bumpy_sphere(1, 0.3, 0.05, static_cast<std::uint32_t>(batch)) : meshes::torus(7, 5);
+    meshes::Triangle_list list =
+        batch % 2 == 0 ? meshes::bumpy_sphere(1, 0.3, 0.05, static_cast<std::uint32_t>(batch)) : meshes::torus(7, 5);
     list += meshes::icosphere(0).scale_and_move(0.4, 2, 0, 0);
     Mesh mesh = meshes::to_mesh(list);
     Sculptor<Mesh> sculptor(mesh);
@@ -203,7 +211,8 @@ BOOST_AUTO_TEST_CASE(edits_in_strokes_keep_every_promise_and_undo_to_the_bit) {
       if (random() % 16 == 0 && !open.empty()) {
         const std::size_t which = random() % open.size(); // in any order
         open.erase(open.begin() + static_cast<std::ptrdiff_t>(which));
-        expected.is_in_stroke = expected.is_in_stroke && std::any_of(open.begin(), open.end(), [](const Stroke_type& s) { return s.is_open(); });
+        expected.is_in_stroke = expected.is_in_stroke &&
+                                std::any_of(open.begin(), open.end(), [](const Stroke_type& s) { return s.is_open(); });
       }
       const std::size_t vertices = mesh.number_of_vertices();
       const Random_edit edit = random_edit(sculptor, random);

@@ -18,8 +18,9 @@ public:
   using Refused = std::optional<Refusal<Mesh>>;
   using Elements = typename Refusal<Mesh>::Elements;
 
-  Collapse_proof(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), counters_(&counters), proof_(counters) {}
+  Collapse_proof(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
+                 Filter_counters& counters)
+      : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), counters_(&counters), proof_(counters) {}
 
   const Star<Mesh>& star() const { return star_; }
   const Coordinates& centre() const { return centre_; }

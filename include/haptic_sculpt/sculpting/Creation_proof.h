@@ -11,8 +11,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Decides whether one or two faces can be replaced by the star of a new vertex: the new faces meet nothing improperly, and nothing
-/// stands between them and the old (doc/edits.md).
+/// Decides whether one or two faces can be replaced by the star of a new vertex: the new faces meet nothing improperly,
+/// and nothing stands between them and the old (doc/edits.md).
 template <class Mesh, class Broad_phase>
 class Creation_proof {
 public:
@@ -23,11 +23,13 @@ public:
   /// One in each of the old faces; of two, those of their common edge.
   using Old_halfedges = boost::container::static_vector<Halfedge_index, 2>;
 
-  Creation_proof(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), proof_(counters) {}
+  Creation_proof(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
+                 Filter_counters& counters)
+      : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), proof_(counters) {}
 
   /// \param isolated the vertices without faces, which may not be between the old and the new faces either
-  Refused refuse(const Old_halfedges& old_halfedges, const Coordinates& p, double delta, const std::vector<Vertex_index>& isolated) {
+  Refused refuse(const Old_halfedges& old_halfedges, const Coordinates& p, double delta,
+                 const std::vector<Vertex_index>& isolated) {
     old_faces_.clear(), new_faces_.clear();
     Box_3 box(p);
     for (const Halfedge_index h : old_halfedges) {

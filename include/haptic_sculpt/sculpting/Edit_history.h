@@ -19,10 +19,11 @@ struct History_limit {
   static History_limit off() { return {0, 0}; }
 };
 
-/// The changes made, and those taken back, in steps: what one undo takes back. A stroke is one step; any other change is one each.
+/// The changes made, and those taken back, in steps: what one undo takes back. A stroke is one step; any other change
+/// is one each.
 ///
-/// Within a stroke the moves between two other edits are kept once a vertex, from where it was first to where it was last. Bytes: a
-/// move 56, another edit 56 and 8 for each vertex around it, a step 16.
+/// Within a stroke the moves between two other edits are kept once a vertex, from where it was first to where it was
+/// last. Bytes: a move 56, another edit 56 and 8 for each vertex around it, a step 16.
 class Edit_history {
 public:
   /// So many drags follow a `make_room()` without an allocation: a quarter of a minute of a hand that drags a thousand
@@ -55,7 +56,8 @@ public:
 
   /// \name Strokes
   ///@{
-  /// Begins a stroke, or joins the one under way. \return its number \param names how many numbers of vertices there are
+  /// Begins a stroke, or joins the one under way. \return its number \param names how many numbers of vertices there
+  /// are
   std::size_t begin_stroke(std::size_t names) {
     if (open_++ == 0) {
       ++stroke_;
@@ -101,7 +103,8 @@ public:
     if (!begin_record())
       return;
     const auto& point = edit.kind == Edit_kind::remove ? edit.before : edit.after;
-    edits_.push_back({edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(edit.around.size()), edit.kind});
+    edits_.push_back(
+        {edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(edit.around.size()), edit.kind});
     for (const std::size_t name : edit.around)
       around_.push_back(name);
     ++edits_done_;
@@ -136,7 +139,8 @@ public:
       ++steps_done_;
     ++(edits_done_ < edits_.end() && edits_[edits_done_].moves_before == moves_done_ ? edits_done_ : moves_done_);
   }
-  /// Whether no step is done in part. One is only while its changes are taken back or made again, and where that was broken off.
+  /// Whether no step is done in part. One is only while its changes are taken back or made again, and where that was
+  /// broken off.
   bool is_between_steps() const { return is_at(begin_of(steps_done_)); }
   ///@}
 
@@ -179,11 +183,11 @@ private:
   Edit current_; ///< what was told last
   History_limit limit_;
 
-  std::size_t open_ = 0;                      ///< how many began the stroke under way and have not ended it
-  std::size_t stroke_ = 0;                    ///< its number
-  bool has_step_ = false, is_lost_ = false;   ///< whether it is the last step; whether it was too large to be kept
-  std::size_t first_of_run_ = 0;              ///< the first move of the stroke since its last other edit
-  std::vector<std::size_t> latest_;           ///< by number of vertex, its last move; maybe one that is no more
+  std::size_t open_ = 0;                    ///< how many began the stroke under way and have not ended it
+  std::size_t stroke_ = 0;                  ///< its number
+  bool has_step_ = false, is_lost_ = false; ///< whether it is the last step; whether it was too large to be kept
+  std::size_t first_of_run_ = 0;            ///< the first move of the stroke since its last other edit
+  std::vector<std::size_t> latest_;         ///< by number of vertex, its last move; maybe one that is no more
 
   bool is_off() const { return limit_.steps == 0 || limit_.bytes == 0; }
 
@@ -196,7 +200,9 @@ private:
 
   Place begin_of(std::size_t step) const { return step == steps_.begin() ? first_ : steps_[step - 1]; }
   bool is_at(const Place& place) const { return place.moves == moves_done_ && place.edits == edits_done_; }
-  bool is_edit_last() const { return edits_done_ > edits_.begin() && edits_[edits_done_ - 1].moves_before == moves_done_; }
+  bool is_edit_last() const {
+    return edits_done_ > edits_.begin() && edits_[edits_done_ - 1].moves_before == moves_done_;
+  }
 
   const Edit* read(const Move& move) {
     current_.kind = Edit_kind::move;

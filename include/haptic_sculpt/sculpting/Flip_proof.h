@@ -10,8 +10,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Decides whether the edge AB between the faces ABC and BAD can be flipped to CD: the new faces meet nothing improperly, and
-/// nothing is in the tetrahedron ABCD between them and the old. Exact; the argument is in doc/edits.md.
+/// Decides whether the edge AB between the faces ABC and BAD can be flipped to CD: the new faces meet nothing
+/// improperly, and nothing is in the tetrahedron ABCD between them and the old. Exact; the argument is in doc/edits.md.
 template <class Mesh, class Broad_phase>
 class Flip_proof {
 public:
@@ -21,7 +21,7 @@ public:
   using Refused = std::optional<Refusal<Mesh>>;
 
   Flip_proof(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), counters_(&counters), proof_(counters) {}
+      : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), counters_(&counters), proof_(counters) {}
 
   /// A, B, C, D of the edge last asked about.
   const std::array<Vertex_index, 4>& corners() const { return vertices_; }
@@ -32,7 +32,8 @@ public:
     const Halfedge_index opposite = mesh_->opposite(h);
     old_faces_ = {mesh_->face(h), mesh_->face(opposite)};
     Mesh_watch<Mesh>::check_faces(*corners_of_, old_faces_);
-    vertices_ = {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h)), mesh_->target(mesh_->next(opposite))};
+    vertices_ = {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h)),
+                 mesh_->target(mesh_->next(opposite))};
     const auto& [a, b, c, d] = vertices_;
     if (mesh_->halfedge(c, d).is_valid())
       return Refusal<Mesh>{Refusal_reason::doubled_edge, {c, d}};
@@ -65,9 +66,9 @@ public:
   }
 
 private:
-  /// Bit k of a point that is not a corner: whether the plane of the tetrahedron's face opposite to corner k parts the two strictly.
-  /// Of a corner: whether it lies in that plane. So three points with a common bit span a triangle that has no point of
-  /// the tetrahedron but what the corners among them span.
+  /// Bit k of a point that is not a corner: whether the plane of the tetrahedron's face opposite to corner k parts the
+  /// two strictly. Of a corner: whether it lies in that plane. So three points with a common bit span a triangle that
+  /// has no point of the tetrahedron but what the corners among them span.
   using Sides = unsigned;
 
   const Mesh* mesh_;
@@ -88,8 +89,10 @@ private:
 
   Sides sides(const Coordinates& p) const {
     const auto& [a, b, c, d] = points_;
-    return Sides(orientation_3(p, b, c, d, *counters_) * volume_ < 0) | Sides(orientation_3(a, p, c, d, *counters_) * volume_ < 0) << 1 |
-           Sides(orientation_3(a, b, p, d, *counters_) * volume_ < 0) << 2 | Sides(orientation_3(a, b, c, p, *counters_) * volume_ < 0) << 3;
+    return Sides(orientation_3(p, b, c, d, *counters_) * volume_ < 0) |
+           Sides(orientation_3(a, p, c, d, *counters_) * volume_ < 0) << 1 |
+           Sides(orientation_3(a, b, p, d, *counters_) * volume_ < 0) << 2 |
+           Sides(orientation_3(a, b, c, p, *counters_) * volume_ < 0) << 3;
   }
 
   /// \pre the tetrahedron is not flat

@@ -9,11 +9,11 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Records in the order in which they came: added and taken away at the end, forgotten at the beginning, and read by a number
-/// that a record keeps as long as it is there.
+/// Records in the order in which they came: added and taken away at the end, forgotten at the beginning, and read by a
+/// number that a record keeps as long as it is there.
 ///
-/// In blocks that are never copied and are used again, so that nothing is allocated while there is room, and no addition takes
-/// longer the more there are.
+/// In blocks that are never copied and are used again, so that nothing is allocated while there is room, and no
+/// addition takes longer the more there are.
 template <class Record, std::size_t block_size>
 class Record_queue {
 public:
@@ -57,7 +57,7 @@ public:
   }
 
 private:
-  std::vector<std::vector<Record>> blocks_;         ///< each with room for block_size
+  std::vector<std::vector<Record>> blocks_;    ///< each with room for block_size
   std::size_t begin_ = 0, end_ = 0, base_ = 0; ///< base_: the number of the first place of the first block
 
   const std::vector<Record>& block_of(std::size_t i) const { return blocks_[(i - base_) / block_size]; }

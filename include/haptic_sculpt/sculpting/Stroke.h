@@ -7,11 +7,12 @@
 
 namespace haptic_sculpt {
 
-/// All drags and edits of a Sculptor while this lives are one step of its history: made by `Sculptor::stroke()`, ended by `end()`
-/// or destruction, an exception included; what was done by then is the step.
+/// All drags and edits of a Sculptor while this lives are one step of its history: made by `Sculptor::stroke()`, ended
+/// by `end()` or destruction, an exception included; what was done by then is the step.
 ///
-/// A stroke made while there is one joins it, and the step ends with the last of them. `undo()` and `redo()` end the stroke first;
-/// edits after that are steps of their own, though the object lives. Refers to its Sculptor, which must outlive it.
+/// A stroke made while there is one joins it, and the step ends with the last of them. `undo()` and `redo()` end the
+/// stroke first; edits after that are steps of their own, though the object lives. Refers to its Sculptor, which must
+/// outlive it.
 template <class Sculptor>
 class [[nodiscard]] Stroke {
 public:

@@ -9,14 +9,15 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Whether a broad phase has `reserve(faces, insertions)`, which makes room for so many faces in all, and for so many that are
-/// inserted (doc/broad_phase.md).
+/// Whether a broad phase has `reserve(faces, insertions)`, which makes room for so many faces in all, and for so many
+/// that are inserted (doc/broad_phase.md).
 template <class Broad_phase, class = void>
 struct Reserves_faces : std::false_type {};
 
 template <class Broad_phase>
-struct Reserves_faces<Broad_phase, std::void_t<decltype(std::declval<Broad_phase&>().reserve(std::size_t(), std::size_t()))>>
-  : std::true_type {};
+struct Reserves_faces<Broad_phase,
+                      std::void_t<decltype(std::declval<Broad_phase&>().reserve(std::size_t(), std::size_t()))>>
+    : std::true_type {};
 
 template <class Broad_phase>
 void reserve_faces(Broad_phase& broad_phase, std::size_t faces, std::size_t insertions) {
