@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "Mpfr_scalar.h"
 #include "populations.h"
-#include <boost/multiprecision/eigen.hpp>
-#include <boost/multiprecision/mpfr.hpp>
 #include <boost/test/unit_test.hpp>
 
 namespace {
@@ -258,7 +257,7 @@ BOOST_AUTO_TEST_CASE(jacobian_and_its_derivative_against_differences) {
 }
 
 BOOST_AUTO_TEST_CASE(every_scalar_solves_the_same_device) {
-  using Precise = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50, boost::multiprecision::allocate_stack>, boost::multiprecision::et_off>;
+  using Precise = Mpfr<50>;
   for (Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
     const Device_description<double> design = named_design<double>(Named_design::D1, form);
     const Vector theta(0.75, 1.0, 1.25);
