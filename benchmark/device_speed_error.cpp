@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Speed against error of the device's kinematics and dynamics, for four number types: ns per call beside the error against 60 digits.
+#include "device/Mpfr_scalar.h"
 #include "device/populations.h"
 #include <CLI/CLI.hpp>
-#include <boost/multiprecision/eigen.hpp>
-#include <boost/multiprecision/mpfr.hpp>
 #include <chrono>
 #include <fstream>
 #include <iostream>
@@ -12,8 +11,6 @@
 namespace {
 
 using namespace device_populations;
-namespace multiprecision = boost::multiprecision;
-template <unsigned digits> using Mpfr = multiprecision::number<multiprecision::mpfr_float_backend<digits, multiprecision::allocate_stack>, multiprecision::et_off>;
 using Exact = Mpfr<60>;
 using nlohmann::json;
 

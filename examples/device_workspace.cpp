@@ -2,6 +2,7 @@
 // Prints the workspace, force and inertia figures of a design, and writes its samples for plot_device_workspace.py to draw.
 #include "device_json.h"
 #include <haptic_sculpt/device.h>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -45,7 +46,7 @@ void figures(Device_description<double> description, const char* name, int per_j
     const auto motion = device_motion(parameters, sample.pose, Device_vector<double>(Device_vector<double>::Zero()));
     const auto planar = planar_dynamics(parameters, *motion);
     const Device_matrix<double> mass = spatial_dynamics(parameters, *motion).mass, position = motion->jacobian.linear;
-    if (!planar || position.jacobiSvd().singularValues()[2] < 1e-3)
+    if (!planar || translation_conditioning(motion->jacobian).least < 1e-3)
       continue;
     const Device_vector<double> felt = eigenvalues(apparent_mass(mass, position));
     light.values.push_back(felt[2] / felt[0]);

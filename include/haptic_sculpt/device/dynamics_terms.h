@@ -2,7 +2,9 @@
 #ifndef HAPTIC_SCULPT_DEVICE_DYNAMICS_TERMS_H
 #define HAPTIC_SCULPT_DEVICE_DYNAMICS_TERMS_H
 
+#include <haptic_sculpt/device/Small_lu.h>
 #include <haptic_sculpt/device/jacobian.h>
+#include <Eigen/LU>
 
 namespace haptic_sculpt {
 
