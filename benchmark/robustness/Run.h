@@ -33,7 +33,7 @@ enum Exit {
 
 struct Options {
   std::string folder, json, shard = "0/1", response = "slide";
-  std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 1000, batch = 1000, edit_batch = 5000;
+  std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000, edit_batch = 5000;
   std::uint64_t seed = 1;
   std::vector<std::string> refuse;
 };
