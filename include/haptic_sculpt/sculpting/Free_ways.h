@@ -61,7 +61,7 @@ public:
 private:
   static constexpr int most_times = 16;
   /// More planes than these are not combined with each other.
-  static constexpr std::size_t most_planes = 40;
+  static constexpr std::size_t most_planes = 16;
   /// In clearances: borders nearer than this are looked past, and what stops a way nearer than this is near.
   static constexpr double near = 1024;
   static constexpr int most_lengths = 8;
