@@ -7,31 +7,35 @@
 #include <mpfr.h>
 #include <type_traits>
 
-/// A multiprecision number for the device's templates, and no more than they ask of one: the four operations, comparisons, a handful of
-/// functions. Boost's numbers serve as well, but their hundred operator templates are looked through at every operator, which takes the
-/// compiler more time than all the rest.
+/// A multiprecision number for the device's templates, and no more than they ask of one: the four operations,
+/// comparisons, a handful of functions. Boost's numbers serve as well, but their hundred operator templates are looked
+/// through at every operator, which takes the compiler more time than all the rest.
 namespace device_populations {
 
-/// MPFR arithmetic of so many bits, rounded to nearest. The significand lives in the object: no allocation.
-template <int bits> class Mpfr_scalar {
+/// MPFR arithmetic of so many bits, rounded to nearest. The significand lives in the object: no allocation. What makes
+/// a number is not inlined: a call more is little beside MPFR's own, and much less to compile.
+template <int bits>
+class Mpfr_scalar {
 public:
   Mpfr_scalar() { initialise(); }
-  template <class T, typename = std::enable_if_t<std::is_arithmetic<T>::value>> Mpfr_scalar(T value) {
+  template <class T, typename = std::enable_if_t<std::is_arithmetic<T>::value>>
+  Mpfr_scalar(T value) {
     initialise();
     if constexpr (std::is_integral<T>::value)
       mpfr_set_si(number_, static_cast<long>(value), MPFR_RNDN);
     else
       mpfr_set_ld(number_, static_cast<long double>(value), MPFR_RNDN);
   }
-  Mpfr_scalar(const Mpfr_scalar& other) {
+  __attribute__((noinline)) Mpfr_scalar(const Mpfr_scalar& other) {
     initialise();
     mpfr_set(number_, other.number_, MPFR_RNDN);
   }
-  template <int other_bits> explicit Mpfr_scalar(const Mpfr_scalar<other_bits>& other) {
+  template <int other_bits>
+  explicit Mpfr_scalar(const Mpfr_scalar<other_bits>& other) {
     initialise();
     mpfr_set(number_, other.number_, MPFR_RNDN);
   }
-  Mpfr_scalar& operator=(const Mpfr_scalar& other) {
+  __attribute__((noinline)) Mpfr_scalar& operator=(const Mpfr_scalar& other) {
     mpfr_set(number_, other.number_, MPFR_RNDN);
     return *this;
   }
@@ -57,7 +61,9 @@ public:
 
   friend bool operator<(const Mpfr_scalar& a, const Mpfr_scalar& b) { return mpfr_less_p(a.number_, b.number_) != 0; }
   friend bool operator>(const Mpfr_scalar& a, const Mpfr_scalar& b) { return b < a; }
-  friend bool operator<=(const Mpfr_scalar& a, const Mpfr_scalar& b) { return mpfr_lessequal_p(a.number_, b.number_) != 0; }
+  friend bool operator<=(const Mpfr_scalar& a, const Mpfr_scalar& b) {
+    return mpfr_lessequal_p(a.number_, b.number_) != 0;
+  }
   friend bool operator>=(const Mpfr_scalar& a, const Mpfr_scalar& b) { return b <= a; }
   friend bool operator==(const Mpfr_scalar& a, const Mpfr_scalar& b) { return mpfr_equal_p(a.number_, b.number_) != 0; }
   friend bool operator!=(const Mpfr_scalar& a, const Mpfr_scalar& b) { return !(a == b); }
@@ -89,17 +95,20 @@ public:
   }
 
 private:
-  template <int> friend class Mpfr_scalar;
+  template <int>
+  friend class Mpfr_scalar;
   void initialise() {
     mpfr_custom_init(limbs_, bits);
     mpfr_custom_init_set(number_, MPFR_ZERO_KIND, 0, bits, limbs_);
   }
-  template <class Operation> static Mpfr_scalar unary(Operation operation, const Mpfr_scalar& a) {
+  template <class Operation>
+  __attribute__((noinline)) static Mpfr_scalar unary(Operation operation, const Mpfr_scalar& a) {
     Mpfr_scalar result;
     operation(result.number_, a.number_, MPFR_RNDN);
     return result;
   }
-  template <class Operation> static Mpfr_scalar binary(Operation operation, const Mpfr_scalar& a, const Mpfr_scalar& b) {
+  template <class Operation>
+  __attribute__((noinline)) static Mpfr_scalar binary(Operation operation, const Mpfr_scalar& a, const Mpfr_scalar& b) {
     Mpfr_scalar result;
     operation(result.number_, a.number_, b.number_, MPFR_RNDN);
     return result;
@@ -110,11 +119,13 @@ private:
 };
 
 /// The number of at least so many decimal digits.
-template <int digits> using Mpfr = Mpfr_scalar<digits * 1000 / 301 + 2>;
+template <int digits>
+using Mpfr = Mpfr_scalar<digits * 1000 / 301 + 2>;
 
 } // namespace device_populations
 
-template <int bits> class std::numeric_limits<device_populations::Mpfr_scalar<bits>> {
+template <int bits>
+class std::numeric_limits<device_populations::Mpfr_scalar<bits>> {
   using Scalar = device_populations::Mpfr_scalar<bits>;
 
 public:
@@ -129,8 +140,17 @@ public:
 };
 
 template <int bits>
-struct Eigen::NumTraits<device_populations::Mpfr_scalar<bits>> : Eigen::GenericNumTraits<device_populations::Mpfr_scalar<bits>> {
-  enum { IsInteger = 0, IsSigned = 1, IsComplex = 0, RequireInitialization = 1, ReadCost = 8, AddCost = 40, MulCost = 80 };
+struct Eigen::NumTraits<device_populations::Mpfr_scalar<bits>>
+    : Eigen::GenericNumTraits<device_populations::Mpfr_scalar<bits>> {
+  enum {
+    IsInteger = 0,
+    IsSigned = 1,
+    IsComplex = 0,
+    RequireInitialization = 1,
+    ReadCost = 8,
+    AddCost = 40,
+    MulCost = 80
+  };
 };
 
 #endif

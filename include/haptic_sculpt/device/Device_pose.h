@@ -13,8 +13,8 @@ namespace haptic_sculpt {
 template <class S> struct Device_pose {
   using Scalar = S;
 
-  Device_form form;
-  int mode;                       ///< di-tetrahedral: +1 apex above the elbow plane (seen along its normal), -1 below; general: 0
+  Device_form form = Device_form::ditetrahedral;
+  int mode = 0;                   ///< di-tetrahedral: +1 apex above the elbow plane (seen along its normal), -1 below; general: 0
   Device_vector<S> theta;         ///< joint angles: 0 radially outward, pi/2 up
   Device_vector<S> cos_theta;
   Device_vector<S> sin_theta;

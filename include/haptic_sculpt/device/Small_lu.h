@@ -15,7 +15,7 @@ public:
   using Matrix = Eigen::Matrix<S, size, size>;
   using Vector = Eigen::Matrix<S, size, 1>;
 
-  void compute(const Matrix& matrix) {
+  EIGEN_DONT_INLINE void compute(const Matrix& matrix) {
     using std::abs;
     lu_ = matrix;
     for (int k = 0; k < size; ++k) {
@@ -55,7 +55,7 @@ public:
   }
 
   /// The solution for one right-hand side; not finite for a singular matrix.
-  Vector solve(const Vector& right) const {
+  EIGEN_DONT_INLINE Vector solve(const Vector& right) const {
     Vector x = right;
     for (int k = 0; k < size; ++k) {
       const S kept = x[k];
