@@ -60,8 +60,40 @@ def directives_and_refusals(folder, mesh):
     empty = run(mesh, "--script", "/dev/null", "--report", report)
     told = json.load(open(report))
     check(empty.returncode == 0 and told["edits"] == [] and told["totals"]["asked"] == 0 and told["time_ns"]["max"] == 0, "empty script")
-    huge = run(mesh, "--script", "/dev/stdin", "--report", report, script="drag 3 1e308 1e308 1e308\ndrag 3 -1e308 -1e308 -1.7e308\n")
+    huge = run(mesh, "--script", "/dev/stdin", "--report", report, script="drag 3 1e300 1e300 1e300\ndrag 3 -1e300 -1e300 -1.07e301\n")
     check(huge.returncode == 0 and len(json.load(open(report))["edits"]) == 2, f"huge coordinates: {huge.stderr}")
+
+
+def extreme_numbers(folder, mesh):
+    """What is out of range is a fault of the script, told before the first edit; what is just in range leaves a valid mesh."""
+    out = f"{folder}/extreme.off"
+    for line in ("drag 3 0 0 1.08e301", "probe 0 0 9 1e308 0 0", "clearance 1e302", "delta 0x1p1001", "insert_edge 0 1 -1e305 0 0"):
+        done = run(mesh, "--script", "/dev/stdin", "-o", out, script=f"drag 3 0 0 2\n{line}\n")
+        check(done.returncode == 4 and "line 2, column" in done.stderr and "out of range" in done.stderr and not os.path.exists(out), f"{line}: {done.stderr}")
+    far = f"{folder}/far.off"
+    with open(far, "w") as file:
+        file.write("OFF\n4 4 0\n0 0 0\n1e302 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+    done = run(far)
+    check(done.returncode == 3 and "vertex 1" in done.stderr and "out of range" in done.stderr, f"a vertex out of range: {done.stderr}")
+    for option in ("--clearance", "--delta"):
+        check(run(mesh, option, "1e302").returncode == 2, f"{option} out of range")
+    done = run(mesh, "--script", "/dev/stdin", "-o", out, script="clearance 1\ndrag 3 0 0 2\nclearance 1e-30\n", )
+    check(done.returncode == 0 and done.stdout.count("clearance-of-no-use") == 2 and "give " in done.stdout, f"clearances of no use: {done.stdout}")
+    cases = f"{SOURCE}/../shared/hard_cases"
+    if not os.path.isdir(cases):
+        return
+    meshes = f"{SOURCE}/../shared/meshes"
+    for script, of in (("grid_far_target", f"{cases}/grid.off"), ("menger_far_target", f"{meshes}/gen_menger1.off"), ("tet_far_then_edit", f"{cases}/tet.off"),
+                       ("grid_huge_clearance", f"{cases}/grid.off"), ("nested_huge_clearance", f"{cases}/nested.off"),
+                       ("extreme_mixed", f"{meshes}/gen_extreme_exponent_tet.off"), ("extreme_delta", f"{meshes}/gen_extreme_exponent_tet.off"),
+                       ("tet_small_delta", f"{cases}/tet.off"), ("menger_probe_huge_clearance", f"{meshes}/gen_menger1.off")):
+        text = open(f"{cases}/{script}.script").read()
+        check(run(of, "--script", "/dev/stdin", "-o", out, script=text).returncode == 4, f"{script} as it is")
+        for beyond, within in (("1.7976931348623157e308", "1e301"), ("0x1.fffffffffffffp1023", "0x1p1000"), ("1e308", "1e300")):
+            text = text.replace(beyond, within)
+        done = run(of, "--script", "/dev/stdin", "-o", out, script=text)
+        check(done.returncode == 0 and run(out).returncode == 0, f"{script} in range: {done.returncode} {done.stderr}")
+    check(run(f"{cases}/grid_near_2p52.off").returncode == 0, "rays in special position")
 
 
 def demo(folder):
@@ -209,6 +241,7 @@ def main():
             file.write(TETRAHEDRON)
         happy_path(folder, mesh)
         directives_and_refusals(folder, mesh)
+        extreme_numbers(folder, mesh)
         demo(folder)
         formats(folder, mesh)
         broad_phases_agree(folder)

@@ -74,7 +74,7 @@ def settings(folder, mesh):
           == [[b"response", b"stop"], [b"clearance", b"0x1p-10"], [b"delta", float(0.01).hex().encode()]], f"settings {begun}")
     for what, arguments in (("no option", ()), ("the same options", options)):
         check(run(mesh, "--log", log, "-o", again, *arguments).returncode == 0 and bytes_of(again) == bytes_of(out), f"replay with {what}")
-    done = run(mesh, "--script", log, "-o", again, "--response", "paper", "--clearance", "0.1")
+    done = run(mesh, "--script", log, "-o", again, "--response", "paper", "--clearance", "0.005")
     check(done.returncode == 0 and bytes_of(again) == bytes_of(out), "the settings of a log that is given as a script hold")
     plain = f"{folder}/plain.log"
     run(mesh, "--script", script, "--log", plain)
@@ -87,11 +87,11 @@ def settings(folder, mesh):
     # What holds at the end is what a further script begins with.
     changes, further = write(f"{folder}/changes.script", "response stop\nclearance default\ndrag 3 0 0 2\n"), write(f"{folder}/further.script", "drag 3 0.2 0.2 -1\n")
     mixed = f"{folder}/mixed.log"
-    check(run(mesh, "--script", changes, "--log", mixed, "--response", "slide", "--clearance", "0.125").returncode == 0, "settings that change")
+    check(run(mesh, "--script", changes, "--log", mixed, "--response", "slide", "--clearance", "0.00390625").returncode == 0, "settings that change")
     fails(2, ["--response slide", "ends with", "response stop"], run(mesh, "--script", further, "--log", mixed, "--response", "slide"), "option against the end")
-    fails(2, ["--clearance 0.125", "ends with", "default"], run(mesh, "--script", further, "--log", mixed, "--clearance", "0.125"), "option against the end")
+    fails(2, ["--clearance 0.00390625", "ends with", "default"], run(mesh, "--script", further, "--log", mixed, "--clearance", "0.00390625"), "option against the end")
     check(run(mesh, "--script", further, "--log", mixed, "-o", out).returncode == 0, "no option")
-    together = "clearance 0.125\nresponse stop\nclearance default\ndrag 3 0 0 2\ndrag 3 0.2 0.2 -1\n"
+    together = "clearance 0.00390625\nresponse stop\nclearance default\ndrag 3 0 0 2\ndrag 3 0.2 0.2 -1\n"
     check(run(mesh, "--script", "/dev/stdin", "-o", again, script=together).returncode == 0 and bytes_of(again) == bytes_of(out), "what the log ends with holds")
 
 
