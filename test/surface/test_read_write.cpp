@@ -47,10 +47,10 @@ bool identical(const Mesh& a, const Mesh& b) {
   return bits(s.points) == bits(t.points) && s.corners == t.corners && s.first_corner == t.first_corner;
 }
 
-/// Coordinates of nearly all exponents, subnormals and negative zero among them, in a valid surface.
+/// Coordinates of nearly all exponents that are in range, subnormals and negative zero among them, in a valid surface.
 Mesh all_exponents() {
   meshes::Triangle_list list;
-  for (int exponent = -1060; exponent < 1020; exponent += 19) {
+  for (int exponent = -1060; exponent < 1000; exponent += 19) {
     auto part = meshes::tetrahedron();
     const double x = std::ldexp(1.1, exponent), s = std::ldexp(1.0 / 7, exponent - 3);
     list += part.transform([=](const meshes::Point_3& p) {
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(random_doubles_come_back) {
       do {
         const std::uint64_t pattern = random();
         std::memcpy(&x, &pattern, sizeof x);
-      } while (!std::isfinite(x));
+      } while (!haptic_sculpt::internal::is_in_range(x));
       return x;
     };
     mesh.add_vertex({any(), any(), any()});
