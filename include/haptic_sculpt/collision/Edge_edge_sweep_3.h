@@ -14,7 +14,7 @@ namespace haptic_sculpt {
 
 /// Does an edge from the moving vertex to `v` touch the closed segment `a`, `b` while the vertex goes from `s` to `t`?
 ///
-/// Exact for all finite doubles (PAPER, test II: triangle stv meets segment ab). s, t, v may coincide or be collinear. The
+/// Exact for all finite doubles (the 1997 paper, 3.2.1, test II: triangle stv meets segment ab). s, t, v may coincide or be collinear. The
 /// time is 0 where `v` itself lies on ab.
 /// \pre All coordinates are finite, and a != b.
 /// Where the checks are compiled out, degenerate static features are still answered exactly, as the hulls they are.

@@ -14,7 +14,7 @@ namespace haptic_sculpt {
 
 /// Does a face from the moving vertex to the edge `g`, `i` touch the point `a` while the vertex goes from `s` to `t`?
 ///
-/// Exact for all finite doubles (PAPER, test III: tetrahedron stgi contains a). The tetrahedron may be flat. The time is 0
+/// Exact for all finite doubles (the 1997 paper, 3.2.1, test III: tetrahedron stgi contains a). The tetrahedron may be flat. The time is 0
 /// where `a` lies on gi.
 /// \pre All coordinates are finite, and g != i.
 /// Where the checks are compiled out, degenerate static features are still answered exactly, as the hulls they are.

@@ -14,7 +14,7 @@ namespace haptic_sculpt {
 
 /// Does a vertex on its way from `s` to `t` touch the closed triangle `a`, `b`, `c`, and when first?
 ///
-/// Exact for all finite doubles (PAPER, test I: segment st meets triangle abc). `s == t` is allowed: then the question is
+/// Exact for all finite doubles (the 1997 paper, 3.2.1, test I: segment st meets triangle abc). `s == t` is allowed: then the question is
 /// whether the point lies in the triangle, and the time is 0.
 /// \pre All coordinates are finite, and a, b, c are not collinear.
 /// Where the checks are compiled out, degenerate static features are still answered exactly, as the hulls they are.

@@ -7,7 +7,7 @@
 
 namespace haptic_sculpt {
 
-/// All three sweeps of a star against a checklist (PAPER B; completeness: doc/exact_sweeps.md).
+/// All three sweeps of a star against a checklist (completeness: doc/exact_sweeps.md).
 ///
 /// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between its
 /// two, when it cannot come first any more, or when it shares a vertex that makes its meeting no collision: faces

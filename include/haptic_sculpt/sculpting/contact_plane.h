@@ -11,7 +11,7 @@ namespace internal {
 
 /// How a path meets the plane in which the moving vertex is held: A, B, C; V, A, B; or G, I, A.
 ///
-/// Formed from exact determinants and rounded once at the end, so it keeps its accuracy on slivers (RULES 2).
+/// Formed from exact determinants and rounded once at the end, so it keeps its accuracy on slivers.
 struct Path_at_plane {
   double time;   ///< u in [0, 1], within an ulp or two
   double sine;   ///< of the angle between the path and the plane, in [0, 1]; 0 where the plane is not determined

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_DELTA_LIMIT_H
 
 /// \file
-/// The delta rule along a drag (PAPER A): when does a moving triangle first get an altitude below delta?
+/// The delta rule along a drag (the 1997 paper, 3.1): when does a moving triangle first get an altitude below delta?
 ///
 /// With J(u) = S + u (T - S) the doubled area vector n(u) = (G - J) x (I - J) is affine in u, so over each side of length
 /// L the condition "altitude >= delta" is q(u) = |n|^2 - delta^2 L^2 >= 0 with q quadratic. The limit is inf { u : q < 0 }:
