@@ -13,7 +13,7 @@ namespace haptic_sculpt {
 enum class Drag_end : std::uint8_t {
   reached,     ///< it is at the target
   held,        ///< contacts hold it where it is; a slide has found no free way nearer (doc/slide.md, "What held means")
-  no_progress, ///< no representable point on the way keeps the clearance: it did not move
+  no_progress, ///< it did not move, and no contact is known that explains it: too little room for the clearance
   leg_limit,   ///< as many legs were made as one drag may make; the next drag to the same target goes on
   refused,     ///< a probe that starts on a face, or nearer to it than the clearance
   stuck,       ///< the slide gave up on the way: nothing is said about what is nearer
