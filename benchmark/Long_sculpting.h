@@ -2,9 +2,9 @@
 #ifndef HAPTIC_SCULPT_BENCHMARK_LONG_SCULPTING_H
 #define HAPTIC_SCULPT_BENCHMARK_LONG_SCULPTING_H
 
-#include "sculpting/Recording_guard.h"
+#include "sculpting/response/Recording_guard.h"
 #include "sculpting/clearances.h"
-#include "sculpting/local_minimum.h"
+#include "sculpting/response/local_minimum.h"
 
 #include <nlohmann/json.hpp>
 

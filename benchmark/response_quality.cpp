@@ -3,8 +3,8 @@
 #include "Long_sculpting.h"
 
 #include "sculpting/clearances.h"
-#include "sculpting/convex_scenes.h"
-#include "sculpting/outside_scenes.h"
+#include "sculpting/response/convex_scenes.h"
+#include "sculpting/response/outside_scenes.h"
 
 #include <CLI/CLI.hpp>
 

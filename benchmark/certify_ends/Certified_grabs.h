@@ -6,8 +6,8 @@
 #include "Grab_record.h"
 
 #include "sculpting/clearances.h"
-#include "sculpting/end_certificate.h"
-#include "sculpting/part_scenes.h"
+#include "sculpting/response/end_certificate.h"
+#include "sculpting/response/part_scenes.h"
 
 #include <chrono>
 #include <functional>

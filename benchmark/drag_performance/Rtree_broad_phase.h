@@ -2,8 +2,8 @@
 #ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RTREE_BROAD_PHASE_H
 #define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RTREE_BROAD_PHASE_H
 
-#include <haptic_sculpt/surface/Swept_star_3.h>
-#include <haptic_sculpt/surface/face_box.h>
+#include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>

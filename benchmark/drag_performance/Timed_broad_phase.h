@@ -4,7 +4,7 @@
 
 #include "drag_performance/Latencies.h"
 
-#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 
 namespace haptic_sculpt::benchmark {
 

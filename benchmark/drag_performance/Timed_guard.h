@@ -4,7 +4,7 @@
 
 #include "drag_performance/Latencies.h"
 
-#include <haptic_sculpt/sculpting/Guarded_star.h>
+#include <haptic_sculpt/sculpting/motion/Guarded_star.h>
 
 namespace haptic_sculpt::benchmark {
 

@@ -2,7 +2,7 @@
 #include "drag_performance/Sculptor_workloads.h"
 #include "drag_performance/run_structures.h"
 
-#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 
 namespace haptic_sculpt::benchmark {
 

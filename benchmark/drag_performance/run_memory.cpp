@@ -3,7 +3,7 @@
 #include "drag_performance/Random_motions.h"
 #include "drag_performance/run_structures.h"
 
-#include <haptic_sculpt/surface/spatial_order.h>
+#include <haptic_sculpt/surface/broad_phase/spatial_order.h>
 
 #include <iostream>
 #include <numeric>

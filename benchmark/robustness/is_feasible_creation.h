@@ -5,7 +5,7 @@
 #include "oracle/exact_triangles.h"
 #include "robustness_meshes.h"
 
-#include <haptic_sculpt/surface/face_box.h>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
 
 #include <map>
 

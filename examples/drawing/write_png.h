@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_DRAWING_WRITE_PNG_H
 
 #include "Scene.h"
-#include <haptic_sculpt/surface/replace_file.h>
+#include <haptic_sculpt/surface/io/replace_file.h>
 #include <filesystem>
 #include <png.h>
 

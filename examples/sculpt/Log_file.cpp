@@ -2,7 +2,7 @@
 #include "Log_file.h"
 
 #include <haptic_sculpt/surface/Write_error.h>
-#include <haptic_sculpt/surface/replace_file.h>
+#include <haptic_sculpt/surface/io/replace_file.h>
 
 #include <cerrno>
 #include <cstring>

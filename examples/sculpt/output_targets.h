@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_EXAMPLES_OUTPUT_TARGETS_H
 
 #include <haptic_sculpt/surface/Write_error.h>
-#include <haptic_sculpt/surface/replace_file.h>
+#include <haptic_sculpt/surface/io/replace_file.h>
 
 #include <filesystem>
 #include <string>

@@ -7,9 +7,9 @@
 #include "sha256_of_file.h"
 #include "write_results.h"
 
-#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
-#include <haptic_sculpt/surface/Brute_force_broad_phase.h>
-#include <haptic_sculpt/surface/Six_list_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/read_surface.h>
 
 #include <CLI/CLI.hpp>

@@ -9,7 +9,7 @@
 #include "../drawing/surface_mesh_arrays.h"
 #include "../drawing/write_picture.h"
 
-#include <haptic_sculpt/surface/replace_file.h>
+#include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/surface/write_surface.h>
 
 #include <iostream>

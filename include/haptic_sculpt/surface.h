@@ -3,11 +3,11 @@
 #define HAPTIC_SCULPT_SURFACE_H
 
 #include <haptic_sculpt/no_fast_math.h>
-#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
-#include <haptic_sculpt/surface/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
-#include <haptic_sculpt/surface/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/Validity_report.h>
+#include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/delta_rule.h>
 #include <haptic_sculpt/surface/read_surface.h>
 #include <haptic_sculpt/surface/star.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fixed-width integers and the doubles they come from, against GMP.
-#include <haptic_sculpt/collision/exact_integers.h>
+#include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -182,11 +182,11 @@ BOOST_AUTO_TEST_CASE(all_assembly_modes_agree_with_a_multi_start_on_the_nine_equ
     for (int m = 0; m < modes->count; ++m) {
       ours.push_back(joints_of(parameters, theta, modes->modes[m]));
       Device_pose<double> pose;
-      device_detail::place_elbows(parameters, theta, pose);
+      internal::place_elbows(parameters, theta, pose);
       BOOST_TEST(nine_equation_residual(parameters, pose.elbows, ours.back()).cwiseAbs().maxCoeff() < 1e-9);
     }
     Device_pose<double> pose;
-    device_detail::place_elbows(parameters, theta, pose);
+    internal::place_elbows(parameters, theta, pose);
     for (int start = 0; start < 4000 && (start < 100 || theirs.size() < ours.size()); ++start) {
       Device_matrix<double> joints;
       for (int leg = 0; leg < 3; ++leg)
@@ -231,7 +231,7 @@ BOOST_AUTO_TEST_CASE(eigenvalues_of_companion_matrices_are_the_roots_they_were_m
       companion(0, n) = -coefficients[n + 1];
     for (int n = 1; n < 8; ++n)
       companion(n, n - 1) = 1;
-    device_detail::Hessenberg_eigenvalues<double, 8> found;
+    internal::Hessenberg_eigenvalues<double, 8> found;
     BOOST_REQUIRE(found.compute(companion));
     for (int root = 0; root < 8; ++root) { // how near each root comes to an eigenvalue, over how well it is determined
       double nearest = HUGE_VAL, separation = 1;
@@ -305,9 +305,9 @@ BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_finds_what_a_denser_search_find
       Device_pose<double> trial;
       trial.theta = random_angles(random, -0.5, 2.5);
       trial.orientation = (Eigen::AngleAxisd(uniform(random, 0, 1.5), random_vector(random, 1).normalized())).toRotationMatrix();
-      if (!device_detail::inverse_newton<double>(parameters, pose->position, trial, 60))
+      if (!internal::inverse_newton<double>(parameters, pose->position, trial, 60))
         continue;
-      device_detail::reduce_angles(trial.theta);
+      internal::reduce_angles(trial.theta);
       if (!within_joint_limits<double>(parameters, trial.theta) || !platform_above_elbows(trial))
         continue;
       ++found;

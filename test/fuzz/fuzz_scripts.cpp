@@ -7,7 +7,7 @@
 
 #include <meshes/generated_meshes.h>
 
-#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/validate.h>
 
 #include <cstdint>

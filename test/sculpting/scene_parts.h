@@ -5,7 +5,7 @@
 /// \file
 /// What the scenes of slides are put together from: random numbers and motions, solids with corners, things to drag.
 
-#include "Random_scene.h"
+#include "sculpting/Random_scene.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the facade promises beside geometry.
-#include "Random_scene.h"
+#include "sculpting/Random_scene.h"
 
 #include <boost/test/unit_test.hpp>
 

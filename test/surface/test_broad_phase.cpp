@@ -4,9 +4,9 @@
 
 #include <haptic_sculpt/collision.h>
 #include <haptic_sculpt/sculpting.h>
-#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
-#include <haptic_sculpt/surface/Brute_force_broad_phase.h>
-#include <haptic_sculpt/surface/Six_list_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/star.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>

@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_COLLISION_EDGE_EDGE_SWEEP_3_H
 
 #include <haptic_sculpt/collision/Impact_3.h>
-#include <haptic_sculpt/collision/sweep_decision.h>
-#include <haptic_sculpt/collision/sweep_points.h>
+#include <haptic_sculpt/collision/arithmetic/sweep_decision.h>
+#include <haptic_sculpt/collision/arithmetic/sweep_points.h>
 
 #include <CGAL/assertions.h>
 

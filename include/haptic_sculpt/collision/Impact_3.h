@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_COLLISION_IMPACT_3_H
 #define HAPTIC_SCULPT_COLLISION_IMPACT_3_H
 
-#include <haptic_sculpt/collision/sweep_time.h>
+#include <haptic_sculpt/collision/arithmetic/sweep_time.h>
 
 #include <CGAL/enum.h>
 

@@ -67,7 +67,7 @@ private:
 /// Lengths and masses must leave room for their eighth powers in the scalar's range, because the kinematics forms products of
 /// four lengths squared: between 1e-37 and 1e37 for double, 2e-5 and 5e4 for float.
 template <class S> std::vector<std::string> violations(const Device_description<S>& d) {
-  using device_detail::is_finite;
+  using internal::is_finite;
   using std::abs;
   using std::sqrt;
   std::vector<std::string> found;

@@ -58,7 +58,7 @@ template <class S> struct Device_pose {
   }
 };
 
-namespace device_detail {
+namespace internal {
 
 /// Fills in angles and elbows. False if an angle is not finite.
 template <class S> inline bool place_elbows(const Device_parameters<S>& parameters, const Device_vector<S>& theta, Device_pose<S>& pose) {
@@ -84,7 +84,7 @@ template <class S> bool spans_a_plane(const S& normal_squared, const S& aa, cons
   return normal_squared > limit * limit * (aa > bb ? aa : bb);
 }
 
-} // namespace device_detail
+} // namespace internal
 
 /// Moving state of the mechanism: angles, their rates, and the pose they belong to (which carries the assembly mode on).
 template <class S = double> struct Device_state {

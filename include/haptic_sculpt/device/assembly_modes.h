@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_DEVICE_ASSEMBLY_MODES_H
 
 #include <haptic_sculpt/device/ditetrahedral_kinematics.h>
-#include <haptic_sculpt/device/hessenberg_eigenvalues.h>
+#include <haptic_sculpt/device/linear_algebra/hessenberg_eigenvalues.h>
 #include <haptic_sculpt/device/platform_closure.h>
 #include <array>
 
@@ -26,7 +26,7 @@ template <class S> struct Assembly_modes {
   std::array<Link_angles<S>, 16> modes;
 };
 
-namespace device_detail {
+namespace internal {
 
 /// The closure with one angle held at cosine c: what the other two angles can be.
 template <class S> struct Held_angle {
@@ -235,7 +235,7 @@ template <class S> Outcome<Assembly_modes<S>> assembly_modes(const Platform_clos
   return outcome;
 }
 
-} // namespace device_detail
+} // namespace internal
 
 /// All real assembly modes of the general form: 0, 4, 8, 12 or 16 in general position, in pairs mirrored by the elbow plane.
 ///
@@ -244,12 +244,12 @@ template <class S> Outcome<Assembly_modes<S>> assembly_modes(const Platform_clos
 /// \pre `parameters.form() == Device_form::general`
 template <class S> inline Outcome<Assembly_modes<S>> assembly_modes(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
   Device_pose<S> pose;
-  if (!device_detail::place_elbows(parameters, theta, pose))
+  if (!internal::place_elbows(parameters, theta, pose))
     return Outcome<Assembly_modes<S>>(Device_status::not_finite, S(0));
   const Device_vector<S> a = pose.elbows.col(1) - pose.elbows.col(0), b = pose.elbows.col(2) - pose.elbows.col(0);
-  if (!device_detail::spans_a_plane<S>(a.cross(b).squaredNorm(), a.squaredNorm(), b.squaredNorm(), parameters.base_radius() + parameters.primary_length()))
+  if (!internal::spans_a_plane<S>(a.cross(b).squaredNorm(), a.squaredNorm(), b.squaredNorm(), parameters.base_radius() + parameters.primary_length()))
     return Outcome<Assembly_modes<S>>(Device_status::singular, S(0));
-  return device_detail::assembly_modes(device_detail::Platform_closure<S>(parameters, pose.elbows));
+  return internal::assembly_modes(internal::Platform_closure<S>(parameters, pose.elbows));
 }
 
 } // namespace haptic_sculpt

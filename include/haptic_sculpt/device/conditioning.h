@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_DEVICE_CONDITIONING_H
 
 #include <haptic_sculpt/device/jacobian.h>
-#include <haptic_sculpt/device/singular_values.h>
+#include <haptic_sculpt/device/linear_algebra/singular_values.h>
 
 namespace haptic_sculpt {
 
@@ -15,7 +15,7 @@ template <class S> struct Conditioning {
   S least_transmission;     ///< least |u_i.b_i'| / l1 = |cos gamma sin(beta - theta)|: 0 where a joint can turn without moving the platform
 };
 
-namespace device_detail {
+namespace internal {
 
 /// The matrix of the velocity equations; 3 by 3 in the di-tetrahedral form, where the lower rows and right columns are unused.
 template <class S> Eigen::Matrix<S, 6, 6> constraint_matrix(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
@@ -29,7 +29,7 @@ template <class S> Eigen::Matrix<S, 6, 6> constraint_matrix(const Device_paramet
   return a;
 }
 
-} // namespace device_detail
+} // namespace internal
 
 /// Condition number and distances of a pose. A few microseconds. Failure: `singular` where the condition number is infinite.
 template <class S> Outcome<Conditioning<S>> conditioning(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
@@ -39,10 +39,10 @@ template <class S> Outcome<Conditioning<S>> conditioning(const Device_parameters
   S greatest;
   if (parameters.form() == Device_form::ditetrahedral) {
     const Device_matrix<S> a = pose.links.transpose();
-    const Device_vector<S> values = device_detail::singular_values<S, 3>(a);
+    const Device_vector<S> values = internal::singular_values<S, 3>(a);
     greatest = values[0], c.distance_to_singular = values[2];
   } else {
-    const Eigen::Matrix<S, 6, 1> values = device_detail::singular_values<S, 6>(device_detail::constraint_matrix(parameters, pose));
+    const Eigen::Matrix<S, 6, 1> values = internal::singular_values<S, 6>(internal::constraint_matrix(parameters, pose));
     greatest = values[0], c.distance_to_singular = values[5];
   }
   for (int leg = 0; leg < 3; ++leg) {
@@ -50,7 +50,7 @@ template <class S> Outcome<Conditioning<S>> conditioning(const Device_parameters
     c.least_transmission = leg == 0 || transmission < c.least_transmission ? transmission : c.least_transmission;
   }
   c.constraint_condition = greatest / c.distance_to_singular;
-  if (device_detail::is_finite(c.constraint_condition))
+  if (internal::is_finite(c.constraint_condition))
     outcome.succeed();
   else
     outcome.fail(Device_status::singular, S(0));
@@ -72,7 +72,7 @@ template <class S> struct Translation_conditioning {
 /// Extreme singular values and condition number of the position Jacobian. About a microsecond in double; no allocation.
 /// \pre the Jacobian is finite, as that of a success is
 template <class S> Translation_conditioning<S> translation_conditioning(const Device_jacobian<S>& jacobian) {
-  const Device_vector<S> values = device_detail::singular_values<S, 3>(jacobian.linear);
+  const Device_vector<S> values = internal::singular_values<S, 3>(jacobian.linear);
   const S condition = values[2] > S(0) ? S(values[0] / values[2]) : std::numeric_limits<S>::infinity();
   return {values[0], values[2], condition};
 }

@@ -8,7 +8,7 @@
 /// Closed-form kinematics of the di-tetrahedral form (paper section 2, Fig. 2): the apex is at distance l2 from three elbows.
 
 namespace haptic_sculpt {
-namespace device_detail {
+namespace internal {
 
 /// The next wider built-in number, to recompute what cancellation has eaten; user-defined scalars stay themselves.
 template <class S> struct Wider { using type = S; };
@@ -57,7 +57,7 @@ inline Device_vector<W> apex_pair_widened(const Device_parameters<S>& parameters
   return elbows.col(0);
 }
 
-} // namespace device_detail
+} // namespace internal
 
 /// The apex for given joint angles, in closed form.
 ///
@@ -70,20 +70,20 @@ template <class S>
 inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta, int mode) {
   Outcome<Device_pose<S>> outcome;
   Device_pose<S>& pose = outcome.value_to_fill();
-  if (!device_detail::place_elbows(parameters, theta, pose)) {
+  if (!internal::place_elbows(parameters, theta, pose)) {
     outcome.fail(Device_status::not_finite, S(0));
     return outcome;
   }
   pose.mode = mode;
-  device_detail::Apex_pair<S> pair;
-  device_detail::apex_pair(pose.elbows, parameters.secondary_length(), S(parameters.base_radius() + parameters.primary_length()), pair);
-  if (!pair.collinear && pair.height_squared > device_detail::cancelled_height<S>() * pair.full_height) {
+  internal::Apex_pair<S> pair;
+  internal::apex_pair(pose.elbows, parameters.secondary_length(), S(parameters.base_radius() + parameters.primary_length()), pair);
+  if (!pair.collinear && pair.height_squared > internal::cancelled_height<S>() * pair.full_height) {
     pose.position = pose.elbows.col(0) + pair.apex(mode);
   } else {
     using std::sqrt;
-    using W = typename device_detail::Wider<S>::type;
-    device_detail::Apex_pair<W> wide;
-    const Device_vector<W> first = device_detail::apex_pair_widened<W, S>(parameters, theta, wide);
+    using W = typename internal::Wider<S>::type;
+    internal::Apex_pair<W> wide;
+    const Device_vector<W> first = internal::apex_pair_widened<W, S>(parameters, theta, wide);
     if (pair.collinear || wide.collinear) {
       outcome.fail(Device_status::singular, S(0));
       return outcome;
@@ -102,7 +102,7 @@ inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>&
     pose.links.col(leg) = (pose.position - pose.elbows.col(leg)) * parameters.inverse_secondary_length();
   }
   pose.orientation.setIdentity();
-  if (device_detail::all_finite(pose.position))
+  if (internal::all_finite(pose.position))
     outcome.succeed();
   else
     outcome.fail(Device_status::not_finite, S(0));
@@ -118,7 +118,7 @@ template <class S> struct Ditetrahedral_inverse {
   bool leg_reaches[3];               ///< legs that do not reach have no angles: their `minus` and `plus` are 0
 };
 
-namespace device_detail {
+namespace internal {
 
 /// The triangle shoulder, elbow, point in the leg plane: (1 - c) and (1 + c) of the half-opening's cosine c, each without cancellation.
 template <class S> struct Leg_triangle {
@@ -147,7 +147,7 @@ template <class S> inline Leg_triangle<S> leg_triangle(const Device_parameters<S
   return t;
 }
 
-} // namespace device_detail
+} // namespace internal
 
 /// All solutions of the inverse kinematics: two angles a leg, eight in combination.
 ///
@@ -161,8 +161,8 @@ template <class S> inline Outcome<Ditetrahedral_inverse<S>> ditetrahedral_invers
   Ditetrahedral_inverse<S> inverse;
   S shortfall(-1);
   for (int leg = 0; leg < 3; ++leg) {
-    const auto t = device_detail::leg_triangle(parameters, point, leg);
-    if (!device_detail::is_finite(t.one_minus) || !device_detail::is_finite(t.one_plus)) {
+    const auto t = internal::leg_triangle(parameters, point, leg);
+    if (!internal::is_finite(t.one_minus) || !internal::is_finite(t.one_plus)) {
       outcome.fail(t.distance == S(0) ? Device_status::singular : Device_status::not_finite, S(0));
       return outcome;
     }
@@ -207,9 +207,9 @@ inline Outcome<Joint_angles<S>> ditetrahedral_inverse(const Device_parameters<S>
   S shortfall(-1);
   bool finite = true, at_shoulder = false;
   for (int leg = 0; leg < 3; ++leg) {
-    const auto t = device_detail::leg_triangle(parameters, point, leg);
+    const auto t = internal::leg_triangle(parameters, point, leg);
     const S least = t.one_minus < t.one_plus ? t.one_minus : t.one_plus;
-    finite = finite && device_detail::is_finite(t.one_minus) && device_detail::is_finite(t.one_plus);
+    finite = finite && internal::is_finite(t.one_minus) && internal::is_finite(t.one_plus);
     at_shoulder = at_shoulder || t.distance == S(0);
     if (!(least >= S(0))) {
       if (-least > shortfall)
@@ -241,7 +241,7 @@ template <class S> inline Eigen::Vector3i working_mode(const Device_parameters<S
 template <class S>
 inline int ditetrahedral_mode(const Device_parameters<S>& parameters, const Device_vector<S>& theta, const Device_vector<S>& point) {
   Device_pose<S> pose;
-  device_detail::place_elbows(parameters, theta, pose);
+  internal::place_elbows(parameters, theta, pose);
   const Device_vector<S> a = pose.elbows.col(1) - pose.elbows.col(0), b = pose.elbows.col(2) - pose.elbows.col(0);
   return a.cross(b).dot(point - pose.elbows.col(0)) >= S(0) ? 1 : -1;
 }

@@ -41,7 +41,7 @@ Outcome<Joint_accelerations<S>> forward_dynamics(const Device_parameters<S>& par
   if (!terms)
     return Outcome<Joint_accelerations<S>>(terms.status(), terms.shortfall());
   const Joint_accelerations<S> found{terms->acceleration(rate, torque)};
-  if (!device_detail::all_finite(found.acceleration))
+  if (!internal::all_finite(found.acceleration))
     return Outcome<Joint_accelerations<S>>(Device_status::singular, S(0));
   return found;
 }

@@ -2,8 +2,8 @@
 #ifndef HAPTIC_SCULPT_DEVICE_DYNAMICS_TERMS_H
 #define HAPTIC_SCULPT_DEVICE_DYNAMICS_TERMS_H
 
-#include <haptic_sculpt/device/Small_lu.h>
 #include <haptic_sculpt/device/jacobian.h>
+#include <haptic_sculpt/device/linear_algebra/Small_lu.h>
 #include <Eigen/LU>
 
 namespace haptic_sculpt {
@@ -27,7 +27,7 @@ template <class S> struct Dynamics_terms {
   }
   /// M^-1 times a vector.
   Device_vector<S> solve_mass(const Device_vector<S>& right) const {
-    device_detail::Small_lu<S, 3> lu;
+    internal::Small_lu<S, 3> lu;
     lu.compute(mass);
     return lu.solve(right);
   }
@@ -51,7 +51,7 @@ template <class S> Device_matrix<S> apparent_mass(const Device_matrix<S>& mass, 
   return inverse.transpose() * mass * inverse;
 }
 
-namespace device_detail {
+namespace internal {
 
 /// Adds a slender rod between two moving points, whose Jacobians are `a` and `b` with time derivatives `da`, `db`:
 /// a uniform rod's kinetic energy is m/6 (|a'|^2 + a'.b' + |b'|^2).
@@ -108,7 +108,7 @@ template <class S> Device_matrix<S> single_column(const Device_vector<S>& column
   return m;
 }
 
-} // namespace device_detail
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

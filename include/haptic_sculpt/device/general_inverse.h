@@ -10,7 +10,7 @@
 /// for the three link lengths and the three right angles between links and platform axes.
 
 namespace haptic_sculpt {
-namespace device_detail {
+namespace internal {
 
 /// Newton's method at a fixed platform position from the angles and rotation in `pose`; steps are cut to 0.3 rad. On success the pose
 /// is complete. False if it does not settle within `most_iterations`.
@@ -87,7 +87,7 @@ template <class S> void reduce_angles(Device_vector<S>& theta) {
       theta[leg] = atan2(S(sin(theta[leg])), S(cos(theta[leg])));
 }
 
-} // namespace device_detail
+} // namespace internal
 
 /// Whether the platform's centre is on the side of the elbow plane its normal (B_1 - B_0) x (B_2 - B_0) points to.
 template <class S> bool platform_above_elbows(const Device_pose<S>& pose) {
@@ -108,7 +108,7 @@ template <class S> std::vector<Device_pose<S>> general_inverse_all(const Device_
 /// Cost: some microseconds; more at the workspace's edge. No allocation.
 template <class S>
 Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, const Device_vector<S>& position, const Device_pose<S>& previous) {
-  using namespace device_detail;
+  using namespace internal;
   Outcome<Device_pose<S>> outcome;
   if (!all_finite(position)) {
     outcome.fail(Device_status::not_finite, S(0));
@@ -148,7 +148,7 @@ Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, 
 /// By Newton's method from a grid of platform rotations and all eight knee choices; a search, not a proof of completeness, compared with random
 /// multi-starts in the tests. Tens of milliseconds, allocates: not for a tick. Empty if there is none.
 template <class S> std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& parameters, const Device_vector<S>& position) {
-  using namespace device_detail;
+  using namespace internal;
   using std::cos;
   using std::sin;
   std::vector<Device_pose<S>> found;
@@ -205,8 +205,8 @@ template <class S> Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device
   for (int leg = 0; leg < 3; ++leg) {
     const S x = Leg_frame<S>::along_radial(leg, position), z = position[2], length = sqrt(x * x + z * z);
     const S cosine = (position.squaredNorm() / S(2) - parameters.base_radius() * x) / (parameters.primary_length() * length);
-    if (!device_detail::is_finite(cosine)) {
-      outcome.fail(device_detail::all_finite(position) ? Device_status::singular : Device_status::not_finite, S(0));
+    if (!internal::is_finite(cosine)) {
+      outcome.fail(internal::all_finite(position) ? Device_status::singular : Device_status::not_finite, S(0));
       return outcome;
     }
     const S least = cosine > S(0) ? S(1 - cosine) : S(1 + cosine);

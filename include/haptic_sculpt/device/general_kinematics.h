@@ -8,7 +8,7 @@
 /// Forward kinematics of the general form: warm (continuing a pose), from a seed, and cold (the home mode).
 
 namespace haptic_sculpt {
-namespace device_detail {
+namespace internal {
 
 /// Completes a pose whose elbows and link angles are known: the one rotation and translation that lay the elbow triangle, as
 /// seen from the platform, on the elbow triangle in the world. False where the elbows are on a line.
@@ -146,7 +146,7 @@ template <class S> bool nearest_mode(const Platform_closure<S>& closure, const A
   return true;
 }
 
-} // namespace device_detail
+} // namespace internal
 
 /// The pose at `theta` reached from `previous` by moving the joints straight there, its assembly mode kept.
 ///
@@ -155,7 +155,7 @@ template <class S> bool nearest_mode(const Platform_closure<S>& closure, const A
 /// No allocation; about 0.3 microseconds in double for the moves of a 1 kHz loop, at worst (a fold on the way) tens of them.
 template <class S>
 inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta, const Device_pose<S>& previous) {
-  using namespace device_detail;
+  using namespace internal;
   Outcome<Device_pose<S>> outcome;
   Device_pose<S>& pose = outcome.value_to_fill();
   if (!place_elbows(parameters, theta, pose)) {
@@ -197,7 +197,7 @@ template <class S> inline Outcome<Device_pose<S>> general_forward(const Device_p
 /// Failures: `not_finite`; `singular`: elbows on a line.
 /// \pre `parameters.is_mirror()`
 template <class S> inline Outcome<Device_pose<S>> mirror_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
-  using namespace device_detail;
+  using namespace internal;
   using std::sqrt;
   Outcome<Device_pose<S>> outcome;
   Device_pose<S>& pose = outcome.value_to_fill();
@@ -236,7 +236,7 @@ template <class S> inline Outcome<Device_pose<S>> mirror_forward(const Device_pa
 
 template <class S>
 inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters<S>& parameters, const Device_vector<S>& theta, const Device_vector<S>& phi) {
-  using namespace device_detail;
+  using namespace internal;
   Outcome<Device_pose<S>> outcome;
   Device_pose<S>& pose = outcome.value_to_fill();
   if (!all_finite(phi) || !place_elbows(parameters, theta, pose)) {
@@ -263,7 +263,7 @@ inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters
 }
 
 template <class S> inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
-  using namespace device_detail;
+  using namespace internal;
   if (parameters.is_mirror())
     return mirror_forward(parameters, theta);
   Outcome<Device_pose<S>> outcome;

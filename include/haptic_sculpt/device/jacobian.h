@@ -18,7 +18,7 @@ template <class S> struct Device_jacobian {
   }
 };
 
-namespace device_detail {
+namespace internal {
 
 template <class S>
 void jacobian_columns(const Device_parameters<S>& parameters, const Device_pose<S>& pose, const Velocity_map<S>& map, Device_jacobian<S>& jacobian) {
@@ -34,7 +34,7 @@ void jacobian_columns(const Device_parameters<S>& parameters, const Device_pose<
   }
 }
 
-} // namespace device_detail
+} // namespace internal
 
 /// The Jacobian of a pose. Failure: `singular`.
 template <class S> Outcome<Device_jacobian<S>> jacobian(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
@@ -44,8 +44,8 @@ template <class S> Outcome<Device_jacobian<S>> jacobian(const Device_parameters<
     outcome.fail(Device_status::singular, S(0));
     return outcome;
   }
-  device_detail::jacobian_columns(parameters, pose, map, outcome.value_to_fill());
-  if (device_detail::all_finite(outcome->linear) && device_detail::all_finite(outcome->angular))
+  internal::jacobian_columns(parameters, pose, map, outcome.value_to_fill());
+  if (internal::all_finite(outcome->linear) && internal::all_finite(outcome->angular))
     outcome.succeed();
   else
     outcome.fail(Device_status::singular, S(0));
@@ -100,7 +100,7 @@ Outcome<Device_motion<S>> device_motion(const Device_parameters<S>& parameters, 
   Device_motion<S>& m = outcome.value_to_fill();
   m.pose = pose;
   m.rate = rate;
-  if (!device_detail::all_finite(rate)) {
+  if (!internal::all_finite(rate)) {
     outcome.fail(Device_status::not_finite, S(0));
     return outcome;
   }
@@ -110,7 +110,7 @@ Outcome<Device_motion<S>> device_motion(const Device_parameters<S>& parameters, 
     return outcome;
   }
   const bool general = parameters.form() == Device_form::general;
-  device_detail::jacobian_columns(parameters, pose, map, m.jacobian);
+  internal::jacobian_columns(parameters, pose, map, m.jacobian);
   m.velocity.linear = m.jacobian.linear * rate;
   m.velocity.angular = m.jacobian.angular * rate;
   const Device_vector<S>& v = m.velocity.linear;
@@ -146,7 +146,7 @@ Outcome<Device_motion<S>> device_motion(const Device_parameters<S>& parameters, 
     m.jacobian_rate.linear.col(j) = twist.linear;
     m.jacobian_rate.angular.col(j) = twist.angular;
   }
-  if (device_detail::all_finite(m.jacobian_rate.linear) && device_detail::all_finite(m.jacobian_rate.angular))
+  if (internal::all_finite(m.jacobian_rate.linear) && internal::all_finite(m.jacobian_rate.angular))
     outcome.succeed();
   else
     outcome.fail(Device_status::singular, S(0));

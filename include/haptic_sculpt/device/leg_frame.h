@@ -59,7 +59,7 @@ template <class S> struct Leg_frame {
   }
 };
 
-namespace device_detail {
+namespace internal {
 
 /// True where every entry is a number: neither infinite nor not-a-number. Overflow of the sum of squares counts as infinite.
 template <class V> bool all_finite(const Eigen::MatrixBase<V>& values) {
@@ -81,7 +81,7 @@ template <class S> void adjugate(const Device_matrix<S>& a, Device_matrix<S>& ad
   determinant = adjugate.row(0).dot(a.col(0).transpose());
 }
 
-} // namespace device_detail
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

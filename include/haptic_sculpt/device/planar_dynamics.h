@@ -58,7 +58,7 @@ template <class S> Outcome<Projected_links<S>> projected_links(const Device_para
 
 /// M, C, gravity and the energies of the paper's planar model. Failure: `singular`, see projected_links().
 template <class S> Outcome<Dynamics_terms<S>> planar_dynamics(const Device_parameters<S>& parameters, const Device_motion<S>& motion) {
-  using namespace device_detail;
+  using namespace internal;
   const Outcome<Projected_links<S>> links = projected_links(parameters, motion);
   if (!links)
     return Outcome<Dynamics_terms<S>>(links.status(), links.shortfall());

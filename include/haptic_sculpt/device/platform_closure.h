@@ -49,7 +49,7 @@ template <class S> struct Link_angles {
   }
 };
 
-namespace device_detail {
+namespace internal {
 
 /// The largest of three magnitudes.
 template <class S> S largest_magnitude(const Device_vector<S>& v) {
@@ -195,7 +195,7 @@ template <class S> inline bool free_newton(const Platform_closure<S>& closure, L
   return false;
 }
 
-} // namespace device_detail
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

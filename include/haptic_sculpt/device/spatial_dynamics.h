@@ -11,7 +11,7 @@ namespace haptic_sculpt {
 
 /// M, C, gravity and the energies of the spatial model.
 template <class S> Dynamics_terms<S> spatial_dynamics(const Device_parameters<S>& parameters, const Device_motion<S>& motion) {
-  using namespace device_detail;
+  using namespace internal;
   Dynamics_terms<S> terms;
   shared_terms(parameters, motion, terms);
   const S weight = parameters.secondary_mass() * parameters.gravity() / S(2);
@@ -41,7 +41,7 @@ Outcome<Joint_torques<S>> spatial_inverse_dynamics(const Device_parameters<S>& p
   const S& l1 = parameters.primary_length();
   const S& g = parameters.gravity();
   Device_jacobian<S> jacobian;
-  device_detail::jacobian_columns(parameters, pose, map, jacobian);
+  internal::jacobian_columns(parameters, pose, map, jacobian);
   const Device_vector<S> v = jacobian.linear * rate, w = jacobian.angular * rate;
 
   // Accelerations: |P - B| = l2 and (B - p).Q t = 0, differentiated twice.
@@ -89,10 +89,10 @@ Outcome<Joint_torques<S>> spatial_inverse_dynamics(const Device_parameters<S>& p
     moment += pose.orientation * (moments.cwiseProduct(turn_rate) + turn.cross(momentum));
   }
   torque += jacobian.torque(force, moment);
-  if (device_detail::all_finite(torque))
+  if (internal::all_finite(torque))
     outcome.succeed();
   else
-    outcome.fail(device_detail::all_finite(rate) && device_detail::all_finite(acceleration) ? Device_status::singular : Device_status::not_finite, S(0));
+    outcome.fail(internal::all_finite(rate) && internal::all_finite(acceleration) ? Device_status::singular : Device_status::not_finite, S(0));
   return outcome;
 }
 

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_DEVICE_VELOCITY_MAP_H
 
 #include <haptic_sculpt/device/Device_pose.h>
-#include <haptic_sculpt/device/Small_lu.h>
+#include <haptic_sculpt/device/linear_algebra/Small_lu.h>
 
 /// \file
 /// The linear equations that tie the platform's velocity to what the legs do, factored once a pose.
@@ -68,7 +68,7 @@ private:
     point_ = true;
     const Device_matrix<S> rows = pose.links.transpose();
     S determinant;
-    device_detail::adjugate(rows, inverse_, determinant);
+    internal::adjugate(rows, inverse_, determinant);
     using std::abs;
     regular_ = abs(determinant) > S(16) * std::numeric_limits<S>::epsilon(); // rows are unit vectors, so this is their volume
     if (regular_)
@@ -107,7 +107,7 @@ private:
   Device_matrix<S> inverse_, orientation_;
   Device_vector<S> cosine_, x_, z_;
   S inverse_length_;
-  device_detail::Small_lu<S, 4> lu_;
+  internal::Small_lu<S, 4> lu_;
 };
 
 } // namespace haptic_sculpt

@@ -3,18 +3,18 @@
 #define HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
-#include <haptic_sculpt/sculpting/Editor.h>
 #include <haptic_sculpt/sculpting/Grab.h>
-#include <haptic_sculpt/sculpting/Guarded_star.h>
-#include <haptic_sculpt/sculpting/Mesh_watch.h>
-#include <haptic_sculpt/sculpting/Responses.h>
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
+#include <haptic_sculpt/sculpting/contact/is_within_distance.h>
+#include <haptic_sculpt/sculpting/edits/Editor.h>
+#include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
-#include <haptic_sculpt/sculpting/is_within_distance.h>
-#include <haptic_sculpt/surface/Box_tree_broad_phase.h>
+#include <haptic_sculpt/sculpting/motion/Guarded_star.h>
+#include <haptic_sculpt/sculpting/response/Responses.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
-#include <haptic_sculpt/surface/reserve_faces.h>
+#include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
+#include <haptic_sculpt/surface/broad_phase/reserve_faces.h>
 #include <haptic_sculpt/surface/validate.h>
 
 #include <CGAL/Surface_mesh.h>

@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_SCULPTING_FIRST_IMPACT_H
 
 #include <haptic_sculpt/Error.h>
-#include <haptic_sculpt/sculpting/Narrow_phase.h>
-#include <haptic_sculpt/surface/Brute_force_broad_phase.h>
+#include <haptic_sculpt/sculpting/motion/Narrow_phase.h>
+#include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 
 namespace haptic_sculpt {

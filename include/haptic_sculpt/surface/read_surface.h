@@ -6,11 +6,11 @@
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
-#include <haptic_sculpt/surface/parse_obj.h>
-#include <haptic_sculpt/surface/parse_off.h>
-#include <haptic_sculpt/surface/parse_ply.h>
-#include <haptic_sculpt/surface/parse_stl.h>
-#include <haptic_sculpt/surface/quoted.h>
+#include <haptic_sculpt/surface/io/parse_obj.h>
+#include <haptic_sculpt/surface/io/parse_off.h>
+#include <haptic_sculpt/surface/io/parse_ply.h>
+#include <haptic_sculpt/surface/io/parse_stl.h>
+#include <haptic_sculpt/surface/io/quoted.h>
 #include <haptic_sculpt/surface/validate.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>

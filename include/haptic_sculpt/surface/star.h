@@ -2,8 +2,8 @@
 #ifndef HAPTIC_SCULPT_SURFACE_STAR_H
 #define HAPTIC_SCULPT_SURFACE_STAR_H
 
-#include <haptic_sculpt/surface/Swept_star_3.h>
-#include <haptic_sculpt/surface/face_box.h>
+#include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
 
 namespace haptic_sculpt {
 

@@ -4,12 +4,12 @@
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/Rounding_to_nearest.h>
-#include <haptic_sculpt/surface/Face_soup.h>
 #include <haptic_sculpt/surface/Validity_report.h>
-#include <haptic_sculpt/surface/component_orientation.h>
 #include <haptic_sculpt/surface/delta_rule.h>
-#include <haptic_sculpt/surface/improper_intersection.h>
-#include <haptic_sculpt/surface/soup_connectivity.h>
+#include <haptic_sculpt/surface/validity/Face_soup.h>
+#include <haptic_sculpt/surface/validity/component_orientation.h>
+#include <haptic_sculpt/surface/validity/improper_intersection.h>
+#include <haptic_sculpt/surface/validity/soup_connectivity.h>
 
 #include <CGAL/Kernel_traits.h>
 

@@ -5,7 +5,7 @@
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
-#include <haptic_sculpt/surface/replace_file.h>
+#include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/surface/validate.h>
 
 #include <boost/range/iterator_range.hpp>

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_COLLISION_SWEEP_SIGNS_H
+#define HAPTIC_SCULPT_COLLISION_SWEEP_SIGNS_H
+
+#include <haptic_sculpt/collision/arithmetic/Sweep_verdict.h>
+#include <haptic_sculpt/collision/arithmetic/orientation_filter.h>
+
+#include <variant>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Exact signs among the five points of one sweep, by index. The points become integers once, when the first sign needs it:
+/// on degenerate inputs several do.
+template <class Counters>
+class Sweep_signs {
+public:
+  Sweep_signs(const Sweep_points& points, Counters& counters) : p_(points), counters_(counters) {}
+
+  Counters& counters() const { return counters_; }
+
+  /// The sign of the determinant of (b - a, c - a, d - a).
+  int orientation_3(int a, int b, int c, int d) {
+    const Coordinates rb = difference(p_[b], p_[a]), rc = difference(p_[c], p_[a]), rd = difference(p_[d], p_[a]);
+    const Enclosed_determinant determinant = enclosed_determinant_3(rb, rc, rd);
+    if (determinant.is_certain())
+      return determinant.sign();
+    const int sign = sign_by_permanent(rb, rc, rd, determinant.is_safe);
+    if (sign != 0) {
+      counters_.count_permanent();
+      return sign;
+    }
+    return exact([&](const auto& q) { return sign_of(orientation_determinant_3(q[a], q[b], q[c], q[d])); });
+  }
+
+  /// The sign of the determinant of (b - a, c - a) in the projection that drops coordinate `axis`.
+  int orientation_2(int a, int b, int c, int axis) {
+    const Enclosed_determinant determinant = enclosed_orientation_2(p_[a], p_[b], p_[c], axis);
+    if (determinant.is_certain())
+      return determinant.sign();
+    return exact([&](const auto& q) { return sign_of(orientation_determinant_2(q[a], q[b], q[c], axis)); });
+  }
+
+private:
+  template <class Integer>
+  using Integer_points = std::array<std::array<Integer, 3>, 5>;
+
+  const Sweep_points& p_;
+  Counters& counters_;
+  std::variant<std::monostate, Integer_points<Fixed_integer<1>>, Integer_points<Fixed_integer<2>>,
+               Integer_points<Fixed_integer<4>>, Integer_points<Big_integer>>
+      integers_;
+
+  template <class Integer>
+  void convert(int lowest) {
+    auto& q = integers_.template emplace<Integer_points<Integer>>();
+    for (int i = 0; i < 5; ++i)
+      q[i] = to_integers<Integer>(p_[i], lowest);
+  }
+
+  template <class Sign>
+  HAPTIC_SCULPT_NOINLINE int exact(const Sign& sign) {
+    if (integers_.index() == 0) {
+      Exponent_range range;
+      for (const Coordinates& point : p_)
+        range.include(point);
+      if (range.spread() <= one_limb_spread)
+        convert<Fixed_integer<1>>(range.lowest);
+      else if (range.spread() <= two_limb_spread)
+        convert<Fixed_integer<2>>(range.lowest);
+      else if (range.spread() <= four_limb_spread)
+        convert<Fixed_integer<4>>(range.lowest);
+      else
+        convert<Big_integer>(range.lowest);
+    }
+    switch (integers_.index()) {
+    case 1:
+      counters_.count_integer_64();
+      return sign(std::get<1>(integers_));
+    case 2:
+      counters_.count_integer_128();
+      return sign(std::get<2>(integers_));
+    case 3:
+      counters_.count_integer_256();
+      return sign(std::get<3>(integers_));
+    default:
+      counters_.count_big_integer();
+      return sign(std::get<4>(integers_));
+    }
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

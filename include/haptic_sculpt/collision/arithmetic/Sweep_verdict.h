@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_COLLISION_SWEEP_VERDICT_H
+#define HAPTIC_SCULPT_COLLISION_SWEEP_VERDICT_H
+
+#include <haptic_sculpt/collision/arithmetic/exact_integers.h>
+
+#include <array>
+#include <cstdint>
+
+namespace haptic_sculpt {
+
+/// Where on the static triangle A, B, C a vertex-face impact happens; exact.
+enum class Triangle_location : std::uint8_t { face, edge_ab, edge_bc, edge_ca, vertex_a, vertex_b, vertex_c };
+
+namespace internal {
+
+/// The five points of a sweep: start and target of the moving vertex, then the static points in the functor's order.
+using Sweep_points = std::array<Coordinates, 5>;
+
+/// What makes an affine function along the path that vanishes at the time of impact.
+enum class Time_form : std::uint8_t {
+  at_start, ///< the time is 0
+  plane,    ///< the moving vertex enters the plane of three static points
+  line,     ///< in a plane, dropped to coordinates without `axis`: it enters the line of two static points
+  point     ///< on a line, along coordinate `axis`: it reaches a static point
+};
+
+/// The answer of a sweep: a few bytes, and with the five points everything there is to know about the impact.
+struct Sweep_verdict {
+  bool hits = false;
+  Time_form form = Time_form::at_start;
+  std::uint8_t axis = 0;
+  std::array<std::uint8_t, 3> through{}; ///< indices into Sweep_points of the plane's, line's or point's static points
+  Triangle_location location = Triangle_location::face; ///< vertex-face sweeps only
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

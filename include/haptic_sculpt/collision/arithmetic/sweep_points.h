@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_COLLISION_SWEEP_POINTS_H
+#define HAPTIC_SCULPT_COLLISION_SWEEP_POINTS_H
+
+#include <haptic_sculpt/collision/arithmetic/Sweep_verdict.h>
+
+#include <cmath>
+
+namespace haptic_sculpt {
+namespace internal {
+
+template <class Point_3>
+Coordinates coordinates(const Point_3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+template <class Point_3>
+Sweep_points sweep_points(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b, const Point_3& c) {
+  return {coordinates(s), coordinates(t), coordinates(a), coordinates(b), coordinates(c)};
+}
+
+inline bool are_finite(const Sweep_points& points) {
+  for (const Coordinates& p : points)
+    for (double x : p)
+      if (!std::isfinite(x))
+        return false;
+  return true;
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

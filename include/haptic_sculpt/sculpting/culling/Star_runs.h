@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_STAR_RUNS_H
+#define HAPTIC_SCULPT_SCULPTING_STAR_RUNS_H
+
+#include <haptic_sculpt/sculpting/culling/Star_run.h>
+#include <haptic_sculpt/sculpting/motion/Star_motion.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Goes through the faces of a star in runs of a few, each with the candidates that are near it.
+///
+/// A star of usual valence is one run, of up to twice as much two. A larger one is divided into narrow parts, and these
+/// again, and each part keeps those of the whole's candidates that no plane parts from it. So a star of a thousand
+/// faces, each near few candidates, costs n log n, not n^2. Keeps its memory, to allocate no more.
+template <class Mesh>
+class Star_runs {
+public:
+  using Coordinates = std::array<double, 3>;
+  using Run = Star_run<Mesh>;
+
+  /// Calls `visit(run)` until it returns false; returns whether it never did. In no run are pairs that certainly do not
+  /// touch in the part of the motion that is of interest, and are then farther than `margin` (rounded) from each other;
+  /// of those that may, none is left out. The visitor may shorten the motion. \pre it does not keep the run, nor ask for
+  /// other runs meanwhile: they share their memory
+  template <class Visit>
+  bool for_each_run(const Star<Mesh>& star, const Checklist<Mesh>& list, Star_motion& motion, double margin,
+                    const Visit& visit) {
+    place(star, list, motion);
+    const Scene scene{star, list, motion, margin};
+    const std::size_t valence = star.valence(), half = valence / 2;
+    constexpr std::size_t most = Separating_planes::most_faces;
+    if (valence <= most)
+      return visit(run_of_few(scene, 0, valence));
+    if (valence <= most_undivided)
+      return visit(run_of_few(scene, 0, half)) && visit(run_of_few(scene, half, valence));
+    return divide(scene, 0, valence, 0, visit);
+  }
+
+  /// Stars of up to so many faces are not divided.
+  static constexpr std::size_t most_undivided = 2 * Separating_planes::most_faces;
+
+  /// Makes room for such a star and so many candidates.
+  void reserve(std::size_t vertices, std::size_t edges) {
+    Near_candidates& all = levels_[0].near;
+    all.edges.reserve(edges);
+    all.places.reserve(vertices);
+    all.positions.reserve(vertices);
+    spokes_.reserve(most_undivided);
+  }
+
+private:
+  struct Scene {
+    const Star<Mesh>& star;
+    const Checklist<Mesh>& list;
+    Star_motion& motion;
+    double margin;
+  };
+
+  /// The candidates near some faces that are divided into parts, and which of them are near each part.
+  struct Level {
+    Near_candidates near;
+    struct Part {
+      std::vector<std::uint32_t> edges, places; ///< which of near's, as many as are counted
+      std::size_t number_of_edges, number_of_places;
+    };
+    std::array<Part, Swept_fan::most_fans> parts;
+  };
+
+  std::vector<Level> levels_ = std::vector<Level>(1); ///< by how often the star has been divided
+  std::vector<Vector> spokes_;                        ///< from where the motion starts, like all places
+  double reach_ = 0;                                  ///< of the coordinates of spokes and places
+  Separating_planes planes_;
+  Spoke_planes spoke_planes_;
+  static constexpr std::uint32_t nowhere = 0xffffffff;
+  std::vector<std::uint32_t> kept_;   ///< the places that are copied
+  std::vector<std::uint32_t> copies_; ///< where to; nowhere for all others
+
+  /// Of a run.
+  static constexpr std::size_t most_faces = std::min(Separating_planes::most_faces, Spoke_planes::most_faces);
+  /// A large star is divided into so many parts at least: hardly anything is apart from a third of a star.
+  static constexpr std::size_t least_parts = 4;
+  /// Into so many where there are more runs than parts can be: more take more planes, fewer more divisions.
+  static constexpr std::size_t usual_parts = 8;
+
+  /// Faces of a star that is not large, or on a long way.
+  Run run_of_few(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth = 0) {
+    Near_candidates& near = levels_[depth].near;
+    planes_.assign(scene.motion.way(), spokes_, first, last, reach_, scene.margin, box_of(scene, first, last));
+    planes_.compare(near.places);
+    return Run(scene.list, scene.star.valence(), near, first, last, planes_);
+  }
+  /// A narrow part of a large star.
+  Run run_of_many(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth) {
+    Near_candidates& near = levels_[depth].near;
+    spoke_planes_.assign(scene.motion.way(), spokes_, first, last, reach_, scene.margin);
+    spoke_planes_.compare(near.places);
+    return Run(scene.list, scene.star.valence(), near, first, last);
+  }
+
+  /// Parts are made as even as possible, and parts of them, until each is a run.
+  template <class Visit>
+  bool divide(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth, const Visit& visit) {
+    const std::size_t faces = last - first, runs = (faces + most_faces - 1) / most_faces;
+    if (runs == 1)
+      return visit(is_long(scene, first) ? run_of_few(scene, first, last, depth)
+                                         : run_of_many(scene, first, last, depth));
+    const std::size_t few = depth == 0 ? std::max(least_parts, runs) : runs,
+                      parts = runs > Swept_fan::most_fans ? usual_parts : few;
+    const auto begin = [&](std::size_t part) { return first + faces * part / parts; };
+    find_near(scene, parts, begin, depth);
+    for (std::size_t part = 0; part < parts; ++part) {
+      keep_near(part, depth);
+      if (!divide(scene, begin(part), begin(part + 1), depth + 1, visit))
+        return false;
+    }
+    return true;
+  }
+
+  /// Whether the motion is longer than a spoke: what is swept over is a cone then, which planes to its tip fit best.
+  bool is_long(const Scene& scene, std::size_t spoke) const {
+    return quick_magnitude(scene.motion.way()) > quick_magnitude(spokes_[spoke]);
+  }
+
+  /// Finds which of the candidates kept at this depth are near which part.
+  template <class Begin>
+  void find_near(const Scene& scene, std::size_t parts, const Begin& begin, std::size_t depth) {
+    Level& level = levels_[depth];
+    Places& places = level.near.places;
+    const auto& edges = level.near.edges;
+    places.clear_sides();
+    for (std::size_t k = 0; k < parts; ++k) {
+      // What is beyond the ends of a part has been left out before.
+      const std::array<bool, 2> ends = {depth == 0 || k > 0, depth == 0 || k + 1 < parts};
+      Swept_fan(scene.motion.way(), spokes_, begin(k), begin(k + 1), reach_, scene.margin, ends).compare(places, k);
+      typename Level::Part& part = level.parts[k];
+      if (part.edges.size() < edges.size())
+        part.edges.resize(edges.size());
+      if (part.places.size() < places.size())
+        part.places.resize(places.size());
+      part.number_of_edges = part.number_of_places = 0;
+    }
+    const unsigned all = (1u << parts) - 1;
+    for (std::uint32_t v = 0; v < places.size(); ++v)
+      for (unsigned near = all & ~Swept_fan::apart_from_fans(places.sides(v)); near != 0; near &= near - 1) {
+        typename Level::Part& part = level.parts[lowest_bit(near)];
+        part.places[part.number_of_places++] = v;
+      }
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      const Places::Sides sides = places.sides(edges[e].ends[0]) & places.sides(edges[e].ends[1]);
+      for (unsigned near = all & ~Swept_fan::apart_from_fans(sides); near != 0; near &= near - 1) {
+        typename Level::Part& part = level.parts[lowest_bit(near)];
+        part.edges[part.number_of_edges++] = e;
+      }
+    }
+  }
+
+  /// Copies the candidates near this part to the next depth.
+  void keep_near(std::size_t which, std::size_t depth) {
+    if (levels_.size() <= depth + 1)
+      levels_.resize(depth + 2);
+    const Near_candidates& from = levels_[depth].near;
+    Near_candidates& near = levels_[depth + 1].near;
+    const typename Level::Part& part = levels_[depth].parts[which];
+    // Whatever is near another time, nothing is allocated then.
+    near.edges.reserve(from.edges.size());
+    near.places.reserve(from.places.size());
+    near.positions.reserve(from.places.size());
+    kept_.reserve(from.places.size());
+    if (copies_.size() < from.places.size())
+      copies_.resize(from.places.size(), nowhere);
+    kept_.assign(part.places.begin(), part.places.begin() + part.number_of_places);
+    for (std::uint32_t k = 0; k < kept_.size(); ++k)
+      copies_[kept_[k]] = k;
+    // As a rule an edge that is near has ends that are, but not each.
+    const auto copied = [&](std::uint32_t place) {
+      if (copies_[place] == nowhere) {
+        copies_[place] = static_cast<std::uint32_t>(kept_.size());
+        kept_.push_back(place);
+      }
+      return copies_[place];
+    };
+    near.edges.resize(part.number_of_edges);
+    for (std::size_t k = 0; k < part.number_of_edges; ++k) {
+      const auto& edge = from.edges[part.edges[k]];
+      near.edges[k] = {{copied(edge.ends[0]), copied(edge.ends[1])}, edge.position};
+    }
+    near.places.assign(from.places, kept_);
+    near.positions.resize(kept_.size());
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+      near.positions[k] = from.positions[kept_[k]];
+      copies_[kept_[k]] = nowhere;
+    }
+  }
+
+  /// Around what these faces sweep over, in coordinates from the start of the motion. Rounded like those of the
+  /// candidates, so comparisons with them lose nothing: differences grow with what is subtracted from, in any rounding
+  /// mode.
+  Box_3 box_of(const Scene& scene, std::size_t first, std::size_t last) const {
+    Box_3 box = scene.motion.path();
+    for (std::size_t i = first; i <= last; ++i)
+      box.include(scene.star.link_points[i < scene.star.valence() ? i : 0]);
+    const Coordinates& start = scene.motion.source();
+    for (int i = 0; i < 3; ++i) {
+      box.lower[i] = box.lower[i] - scene.margin - start[i];
+      box.upper[i] = box.upper[i] + scene.margin - start[i];
+    }
+    return box;
+  }
+
+  void place(const Star<Mesh>& star, const Checklist<Mesh>& list, const Star_motion& motion) {
+    reach_ = quick_magnitude(minus(motion.target(), motion.source()));
+    const auto from_source = [&](const Coordinates& p) {
+      const Vector place = minus(p, motion.source());
+      reach_ = larger(reach_, quick_magnitude(place));
+      return place;
+    };
+    spokes_.clear();
+    for (const Coordinates& p : star.link_points)
+      spokes_.push_back(from_source(p));
+    Near_candidates& all = levels_[0].near;
+    all.places.resize(list.vertices().size());
+    all.positions.resize(list.vertices().size());
+    for (std::size_t v = 0; v < all.positions.size(); ++v) {
+      all.places.set(v, from_source(list.vertices()[v].point));
+      all.positions[v] = static_cast<std::uint32_t>(v);
+    }
+    all.edges.resize(list.edges().size());
+    for (std::size_t e = 0; e < all.edges.size(); ++e)
+      all.edges[e] = {list.edges()[e], static_cast<std::uint32_t>(e)};
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

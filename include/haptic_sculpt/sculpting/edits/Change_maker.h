@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_CHANGE_MAKER_H
+#define HAPTIC_SCULPT_SCULPTING_CHANGE_MAKER_H
+
+#include <haptic_sculpt/sculpting/Edit_visitor.h>
+#include <haptic_sculpt/sculpting/edits/Edit.h>
+#include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
+#include <haptic_sculpt/sculpting/edits/Vertex_names.h>
+#include <haptic_sculpt/sculpting/edits/star_edits.h>
+
+#include <type_traits>
+
+namespace haptic_sculpt {
+
+/// Makes changes of a mesh and takes them back, and keeps the broad phase, the numbers of the vertices and a visitor told. Nothing
+/// is proven here: what comes in has been, or restores what was.
+///
+/// Every change but a move and a flip replaces the fan of one vertex over a polygon by the star of another, or the other way round.
+/// Cost: the size of the polygon, the degree of the fan's vertex to find it, and the broad phase.
+///
+/// The visitor is told of what dies before anything is changed, and of what was made when all is, `noted` included: an
+/// exception of it leaves a change not begun, or complete.
+template <class Mesh, class Broad_phase, class Visitor>
+class Change_maker {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
+  using Halfedge_index = typename Mesh::Halfedge_index;
+  using Coordinates = internal::Coordinates;
+
+  Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Visitor visitor)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), names_(mesh), visitor_(std::move(visitor)) {}
+
+  const Vertex_names<Mesh>& names() const { return names_; }
+  Visitor& visitor() { return visitor_; }
+
+  /// \param noted called as `noted(v)` when the change is made and the visitor has not been told yet; v has moved or is new, or is the null index
+  /// \return the vertex moved or created; of a removal, the neighbour it went into; of a flip, an end of the new edge
+  /// \throw Mesh_changed where the faces to be replaced are not those known
+  template <class Noted>
+  Vertex_index make(const Edit& edit, const Noted& noted) {
+    switch (edit.kind) {
+    case Edit_kind::move:
+      return put(edit.vertex, edit.after, noted);
+    case Edit_kind::insert_on_face:
+      return create_on_face(edit, noted);
+    case Edit_kind::insert_on_edge:
+      return create_on_edge(edit, noted);
+    case Edit_kind::flip:
+      return flip(edit, 0, noted);
+    default:
+      return fan_instead_of_star(edit, noted);
+    }
+  }
+
+  /// \return the vertex moved or revived; of a creation, a neighbour of what was created; of a flip, an end of the old edge
+  template <class Noted>
+  Vertex_index take_back(const Edit& edit, const Noted& noted) {
+    switch (edit.kind) {
+    case Edit_kind::move:
+      return put(edit.vertex, edit.before, noted);
+    case Edit_kind::remove:
+      return star_instead_of_fan(edit, noted);
+    case Edit_kind::flip:
+      return flip(edit, 2, noted);
+    default:
+      return fan_instead_of_star(edit, noted);
+    }
+  }
+
+  /// The visitor is told of a move that was made elsewhere.
+  void tell_moved(Vertex_index v) { visitor_.vertex_moved(v); }
+
+  /// Room for so many more vertices.
+  void reserve(std::size_t vertices, std::size_t usual_valence) {
+    names_.reserve(vertices);
+    star_.reserve(usual_valence);
+    fan_.reserve(usual_valence);
+    link_.reserve(usual_valence);
+    faces_.reserve(usual_valence);
+  }
+
+private:
+  static constexpr bool has_visitor = !std::is_same<Visitor, Default_edit_visitor>::value;
+
+  Mesh* mesh_;
+  Broad_phase* broad_phase_;
+  Face_corners<Mesh>* corners_of_;
+  Vertex_names<Mesh> names_;
+  Visitor visitor_;
+  Star<Mesh> star_;
+  internal::Fan<Mesh> fan_;
+  std::vector<Vertex_index> link_;
+  std::vector<Face_index> faces_;
+
+  Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
+  static typename Mesh::Point to_point(const Coordinates& p) { return {p[0], p[1], p[2]}; }
+
+  /// \throw Mesh_changed where there is none: whoever calls knows that there was
+  Halfedge_index halfedge(Vertex_index v, Vertex_index w) const {
+    const Halfedge_index h = mesh_->halfedge(v, w);
+    if (!h.is_valid())
+      throw Mesh_changed("vertices " + std::to_string(static_cast<std::size_t>(v)) + " and " +
+                         std::to_string(static_cast<std::size_t>(w)) + " are not joined any more");
+    return h;
+  }
+
+  template <class Noted>
+  Vertex_index put(std::size_t name, const Coordinates& p, const Noted& noted) {
+    const Vertex_index v = vertex(name);
+    mesh_->point(v) = to_point(p);
+    star_.collect(*mesh_, v);
+    broad_phase_->faces_moved(star_.faces);
+    noted(v);
+    visitor_.vertex_moved(v);
+    return v;
+  }
+
+  template <class Noted>
+  Vertex_index create_on_face(const Edit& edit, const Noted& noted) {
+    const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
+    fan_.assign(1, h);
+    fan_dies();
+    return star_created(internal::insert_star_in_face(*mesh_, h, to_point(edit.after)), edit, noted);
+  }
+
+  template <class Noted>
+  Vertex_index create_on_edge(const Edit& edit, const Noted& noted) {
+    const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
+    fan_.assign(1, mesh_->opposite(h));
+    fan_.push_back(h);
+    fan_dies();
+    return star_created(internal::insert_star_in_edge(*mesh_, h, to_point(edit.after)), edit, noted);
+  }
+
+  template <class Noted>
+  Vertex_index star_instead_of_fan(const Edit& edit, const Noted& noted) {
+    link_.clear();
+    for (const std::size_t name : edit.around)
+      link_.push_back(vertex(name));
+    internal::find_fan(*mesh_, halfedge(link_[1], link_[0]), link_.size() - 2, fan_);
+    fan_dies();
+    return star_created(internal::insert_star_in_face(*mesh_, internal::merge_fan(*mesh_, fan_), to_point(edit.before)), edit, noted);
+  }
+
+  template <class Noted>
+  Vertex_index fan_instead_of_star(const Edit& edit, const Noted& noted) {
+    const Vertex_index v = vertex(edit.vertex), apex = vertex(edit.around[0]);
+    star_dies(v);
+    names_.take(edit.vertex);
+    internal::fill_with_fan(*mesh_, internal::remove_star(*mesh_, v), apex, fan_);
+    fan_created(noted);
+    return apex;
+  }
+
+  /// \param old where in edit.around the ends of the edge that dies are: 0 or 2
+  template <class Noted>
+  Vertex_index flip(const Edit& edit, std::size_t old, const Noted& noted) {
+    const Halfedge_index h = halfedge(vertex(edit.around[old]), vertex(edit.around[old + 1]));
+    faces_.assign(1, mesh_->face(h));
+    faces_.push_back(mesh_->face(mesh_->opposite(h)));
+    Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
+    if constexpr (has_visitor) {
+      for (const Face_index f : faces_)
+        visitor_.face_dies(f);
+      visitor_.edge_dies(mesh_->edge(h));
+    }
+    CGAL::Euler::flip_edge(h, *mesh_);
+    corners_of_->update(faces_);
+    broad_phase_->faces_moved(faces_); // they keep their descriptors
+    noted(Vertex_index());
+    if constexpr (has_visitor) {
+      visitor_.edge_created(mesh_->edge(h));
+      for (const Face_index f : faces_)
+        visitor_.face_created(f);
+    }
+    return vertex(edit.around[2 - old]);
+  }
+
+  void collect_fan_faces() {
+    faces_.clear();
+    for (const Halfedge_index h : fan_)
+      faces_.push_back(mesh_->face(h));
+  }
+
+  void fan_dies() {
+    collect_fan_faces();
+    Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
+    if constexpr (has_visitor) {
+      for (const Face_index f : faces_)
+        visitor_.face_dies(f);
+      for (std::size_t i = 1; i < fan_.size(); ++i)
+        visitor_.edge_dies(mesh_->edge(fan_[i]));
+    }
+    broad_phase_->faces_removed(faces_);
+    corners_of_->forget(faces_);
+  }
+
+  template <class Noted>
+  void fan_created(const Noted& noted) {
+    collect_fan_faces();
+    corners_of_->update(faces_);
+    broad_phase_->faces_inserted(faces_);
+    noted(Vertex_index());
+    if constexpr (has_visitor) {
+      for (std::size_t i = 1; i < fan_.size(); ++i)
+        visitor_.edge_created(mesh_->edge(fan_[i]));
+      for (const Face_index f : faces_)
+        visitor_.face_created(f);
+    }
+  }
+
+  void star_dies(Vertex_index v) {
+    star_.collect(*mesh_, v);
+    Mesh_watch<Mesh>::check_faces(*corners_of_, star_.faces);
+    if constexpr (has_visitor) {
+      for (const Face_index f : star_.faces)
+        visitor_.face_dies(f);
+      for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))
+        visitor_.edge_dies(mesh_->edge(h));
+      visitor_.vertex_dies(v, names_.name(v));
+    }
+    broad_phase_->faces_removed(star_.faces);
+    corners_of_->forget(star_.faces);
+  }
+
+  template <class Noted>
+  Vertex_index star_created(Vertex_index v, const Edit& edit, const Noted& noted) {
+    names_.give(edit.vertex, v);
+    star_.collect(*mesh_, v);
+    corners_of_->update(star_.faces);
+    broad_phase_->faces_inserted(star_.faces);
+    noted(v);
+    if constexpr (has_visitor) {
+      visitor_.vertex_created(v, edit.vertex);
+      for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))
+        visitor_.edge_created(mesh_->edge(h));
+      for (const Face_index f : star_.faces)
+        visitor_.face_created(f);
+    }
+    return v;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

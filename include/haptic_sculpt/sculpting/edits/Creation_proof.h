@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_CREATION_PROOF_H
+#define HAPTIC_SCULPT_SCULPTING_CREATION_PROOF_H
+
+#include <haptic_sculpt/sculpting/Edit_result.h>
+#include <haptic_sculpt/sculpting/edits/Edit_proof.h>
+#include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
+
+#include <boost/container/static_vector.hpp>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Decides whether one or two faces can be replaced by the star of a new vertex: the new faces meet nothing improperly,
+/// and nothing stands between them and the old (doc/edits.md).
+template <class Mesh, class Broad_phase>
+class Creation_proof {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
+  using Halfedge_index = typename Mesh::Halfedge_index;
+  using Refused = std::optional<Refusal<Mesh>>;
+  /// One in each of the old faces; of two, those of their common edge.
+  using Old_halfedges = boost::container::static_vector<Halfedge_index, 2>;
+
+  Creation_proof(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
+                 Filter_counters& counters)
+      : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), proof_(counters) {}
+
+  /// \param isolated the vertices without faces, which may not be between the old and the new faces either
+  Refused refuse(const Old_halfedges& old_halfedges, const Coordinates& p, double delta,
+                 const std::vector<Vertex_index>& isolated) {
+    old_faces_.clear(), new_faces_.clear();
+    Box_3 box(p);
+    for (const Halfedge_index h : old_halfedges) {
+      Mesh_watch<Mesh>::check_face(*corners_of_, mesh_->face(h));
+      const Corners<Mesh> old = corners_at(*mesh_, h);
+      old_faces_.push_back(old);
+      for (int i = 0; i < 3; ++i) {
+        box.include(old[i].point);
+        if (old[i].point == p)
+          return Refusal<Mesh>{Refusal_reason::coincident_vertex, {old[i].index}};
+        if (i > 0 || old_halfedges.size() == 1) // the side that two old faces share is split
+          new_faces_.push_back({Corner<Mesh>{Vertex_index(), p}, old[i], old[(i + 1) % 3]});
+      }
+    }
+    for (const Corners<Mesh>& f : new_faces_)
+      if (!keeps_delta<Mesh>(f[0].point, f[1].point, f[2].point, delta))
+        return Refusal<Mesh>{Refusal_reason::delta, {f[1].index, f[2].index}};
+    for (std::size_t i = 0; i < new_faces_.size(); ++i)
+      for (std::size_t j = i + 1; j < new_faces_.size(); ++j)
+        if (proof_.meet_improperly(new_faces_[i], new_faces_[j]))
+          return Refusal<Mesh>{Refusal_reason::blocked, {new_faces_[j][1].index, new_faces_[j][2].index}};
+    if (Refused refused = refuse_what_is_near(old_halfedges, p, box))
+      return refused;
+    for (const Vertex_index v : isolated)
+      if (stands_between(vertex_coordinates(*mesh_, v), p))
+        return Refusal<Mesh>{Refusal_reason::blocked, {v}};
+    return std::nullopt;
+  }
+
+  void reserve(std::size_t usual_candidates) { candidates_.reserve(usual_candidates); }
+
+private:
+  const Mesh* mesh_;
+  Broad_phase* broad_phase_;
+  const Face_corners<Mesh>* corners_of_;
+  Edit_proof<Mesh, Filter_counters> proof_;
+  boost::container::static_vector<Corners<Mesh>, 2> old_faces_;
+  boost::container::static_vector<Corners<Mesh>, 4> new_faces_;
+  std::vector<Face_index> candidates_;
+
+  bool stands_between(const Coordinates& vertex, const Coordinates& p) const {
+    for (const Corners<Mesh>& old : old_faces_)
+      if (proof_.contains(old, p, vertex))
+        return true;
+    return false;
+  }
+
+  Refused refuse_what_is_near(const Old_halfedges& old_halfedges, const Coordinates& p, const Box_3& box) {
+    candidates_.clear();
+    broad_phase_->query(box, candidates_);
+    std::sort(candidates_.begin(), candidates_.end());
+    for (const Face_index f : candidates_) {
+      bool is_old = false;
+      for (const Halfedge_index h : old_halfedges)
+        is_old |= mesh_->face(h) == f;
+      if (is_old)
+        continue;
+      const Corners<Mesh> other = corners_at(*mesh_, mesh_->halfedge(f));
+      for (const Corner<Mesh>& corner : other)
+        if (corner.point == p)
+          return Refusal<Mesh>{Refusal_reason::coincident_vertex, {corner.index}};
+      for (const Corners<Mesh>& g : new_faces_)
+        if (proof_.meet_improperly(g, other))
+          return Refusal<Mesh>{Refusal_reason::blocked, {other[0].index, other[1].index, other[2].index}};
+      for (const Corners<Mesh>& old : old_faces_)
+        for (const Corner<Mesh>& corner : other)
+          if (corner.index != old[0].index && corner.index != old[1].index && corner.index != old[2].index &&
+              proof_.contains(old, p, corner.point))
+            return Refusal<Mesh>{Refusal_reason::blocked, {corner.index}};
+    }
+    return std::nullopt;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_H
+#define HAPTIC_SCULPT_SCULPTING_EDIT_H
+
+#include <haptic_sculpt/collision/arithmetic/exact_integers.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace haptic_sculpt {
+
+/// What kind of change an edit is. `remove` is a collapse, whoever has chosen where to.
+enum class Edit_kind : std::uint8_t { move, insert_on_face, insert_on_edge, remove, flip };
+
+/// One change of the mesh, in numbers of vertices that last: enough to make it and to take it back.
+struct Edit {
+  Edit_kind kind = Edit_kind::move;
+  std::size_t vertex = 0;         ///< the vertex moved, created or removed; of a flip, the first of `around`
+  internal::Coordinates before{}; ///< where it was: move, remove
+  internal::Coordinates after{};  ///< where it is: move, insert
+  /// insert_on_face: the corners; insert_on_edge: the ends; remove: the link, beginning with the neighbour it went
+  /// into; flip: the ends of the old edge, then those of the new one. Of a move none.
+  std::vector<std::size_t> around;
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_HISTORY_H
+#define HAPTIC_SCULPT_SCULPTING_EDIT_HISTORY_H
+
+#include <haptic_sculpt/sculpting/edits/Edit.h>
+#include <haptic_sculpt/sculpting/edits/Record_queue.h>
+
+#include <limits>
+
+namespace haptic_sculpt {
+
+/// How much is kept for undo and redo together. Where there is more, the oldest steps are forgotten, each as a whole.
+struct History_limit {
+  std::size_t steps = std::numeric_limits<std::size_t>::max();
+  std::size_t bytes = std::numeric_limits<std::size_t>::max();
+
+  static History_limit none() { return {}; }
+  /// Nothing is kept.
+  static History_limit off() { return {0, 0}; }
+};
+
+/// The changes made, and those taken back, in steps: what one undo takes back. A stroke is one step; any other change
+/// is one each.
+///
+/// Within a stroke the moves between two other edits are kept once a vertex, from where it was first to where it was
+/// last. Bytes: a move 56, another edit 56 and 8 for each vertex around it, a step 16.
+class Edit_history {
+public:
+  /// So many drags follow a `make_room()` without an allocation: a quarter of a minute of a hand that drags a thousand
+  /// times a second. Of drags beyond, one in so many allocates. 1.2 MB.
+  static constexpr std::size_t room = std::size_t{1} << 14;
+
+  /// To be called where time does not matter: before a drag begins.
+  void make_room() { reserve_records(0, is_off() ? 0 : room); }
+
+  /// So many edits, of which each has up to eight vertices around in the mean, and so many moves allocate nothing.
+  /// \param names how many numbers of vertices there are then
+  void reserve(std::size_t edits, std::size_t moves, std::size_t names) {
+    if (is_off())
+      return;
+    reserve_records(edits, moves);
+    latest_.reserve(names);
+    current_.around.reserve(usual_around * usual_around);
+  }
+
+  /// Where there is more already, the oldest is forgotten.
+  void set_limit(const History_limit& limit) {
+    limit_ = limit;
+    if (!is_between_steps())
+      forget_redo();
+    enforce();
+    while (is_over())
+      cut_last_step();
+  }
+  const History_limit& limit() const { return limit_; }
+
+  /// \name Strokes
+  ///@{
+  /// Begins a stroke, or joins the one under way. \return its number \param names how many numbers of vertices there
+  /// are
+  std::size_t begin_stroke(std::size_t names) {
+    if (open_++ == 0) {
+      ++stroke_;
+      has_step_ = is_lost_ = false;
+      first_of_run_ = moves_done_;
+    }
+    if (!is_off() && latest_.size() < names)
+      latest_.resize(names, no_move);
+    return stroke_;
+  }
+  /// Of those that began it, one ends the stroke of this number. Nothing, where it has ended already.
+  void end_stroke(std::size_t number) {
+    if (open_ != 0 && number == stroke_)
+      --open_;
+  }
+  /// Whoever began it.
+  void end_stroke() { open_ = 0; }
+  bool is_in_stroke() const { return open_ != 0; }
+  bool is_in_stroke(std::size_t number) const { return open_ != 0 && number == stroke_; }
+  ///@}
+
+  /// A new change. Clears what could be redone. Allocates nothing while there is room.
+  void push_move(std::size_t vertex, const internal::Coordinates& before, const internal::Coordinates& after) {
+    if (!begin_record())
+      return;
+    if (is_in_stroke()) {
+      if (latest_.size() <= vertex)
+        latest_.resize(vertex + 1, no_move);
+      const std::size_t latest = latest_[vertex]; // maybe of another time
+      if (latest >= first_of_run_ && latest < moves_.end() && moves_[latest].vertex == vertex) {
+        moves_[latest].after = after;
+        return;
+      }
+      latest_[vertex] = moves_done_;
+    }
+    moves_.push_back({vertex, before, after});
+    ++moves_done_;
+    end_record();
+  }
+  void push(const Edit& edit) {
+    if (edit.kind == Edit_kind::move)
+      return push_move(edit.vertex, edit.before, edit.after);
+    if (!begin_record())
+      return;
+    const auto& point = edit.kind == Edit_kind::remove ? edit.before : edit.after;
+    edits_.push_back(
+        {edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(edit.around.size()), edit.kind});
+    for (const std::size_t name : edit.around)
+      around_.push_back(name);
+    ++edits_done_;
+    first_of_run_ = moves_done_;
+    end_record();
+  }
+
+  /// \name Going back and forth, change by change
+  /// What is told here is good until something is told again.
+  ///@{
+  /// The change that was made last and not taken back; nullptr where there is none.
+  const Edit* to_undo() {
+    if (number_of_undo_steps() == 0)
+      return nullptr;
+    return is_edit_last() ? read(edits_[edits_done_ - 1]) : read(moves_[moves_done_ - 1]);
+  }
+  /// The change that was taken back last; nullptr where there is none.
+  const Edit* to_redo() {
+    if (edits_done_ < edits_.end() && edits_[edits_done_].moves_before == moves_done_)
+      return read(edits_[edits_done_]);
+    return moves_done_ < moves_.end() ? read(moves_[moves_done_]) : nullptr;
+  }
+  /// It has been taken back.
+  void undone() {
+    --(is_edit_last() ? edits_done_ : moves_done_);
+    if (is_at(begin_of(steps_done_ - 1)))
+      --steps_done_;
+  }
+  /// It has been made again.
+  void redone() {
+    if (is_between_steps())
+      ++steps_done_;
+    ++(edits_done_ < edits_.end() && edits_[edits_done_].moves_before == moves_done_ ? edits_done_ : moves_done_);
+  }
+  /// Whether no step is done in part. One is only while its changes are taken back or made again, and where that was
+  /// broken off.
+  bool is_between_steps() const { return is_at(begin_of(steps_done_)); }
+  ///@}
+
+  /// One that is done in part counts.
+  std::size_t number_of_undo_steps() const { return steps_done_ - steps_.begin(); }
+  std::size_t number_of_redo_steps() const { return steps_.end() - steps_done_; }
+
+  /// Of all that can be undone and redone.
+  std::size_t bytes() const {
+    return moves_.size() * sizeof(Move) + edits_.size() * sizeof(Other) + around_.size() * sizeof(std::size_t) +
+           steps_.size() * sizeof(Place);
+  }
+
+private:
+  struct Move {
+    std::size_t vertex;
+    internal::Coordinates before, after;
+  };
+  /// An edit that is not a move.
+  struct Other {
+    std::size_t vertex;
+    internal::Coordinates point;
+    std::size_t moves_before; ///< the number of the first move that came later
+    std::size_t around;       ///< where the vertices around begin
+    std::uint32_t valence;    ///< how many these are
+    Edit_kind kind;
+  };
+  /// Between two records.
+  struct Place {
+    std::size_t moves, edits;
+  };
+  static constexpr std::size_t usual_around = 8, no_move = std::numeric_limits<std::size_t>::max();
+
+  internal::Record_queue<Move, room> moves_;
+  internal::Record_queue<Other, 1024> edits_;
+  internal::Record_queue<std::size_t, 1024 * usual_around> around_;
+  internal::Record_queue<Place, room> steps_; ///< the end of each
+  Place first_{0, 0};                         ///< the begin of the first step
+  std::size_t moves_done_ = 0, edits_done_ = 0, steps_done_ = 0;
+  Edit current_; ///< what was told last
+  History_limit limit_;
+
+  std::size_t open_ = 0;                    ///< how many began the stroke under way and have not ended it
+  std::size_t stroke_ = 0;                  ///< its number
+  bool has_step_ = false, is_lost_ = false; ///< whether it is the last step; whether it was too large to be kept
+  std::size_t first_of_run_ = 0;            ///< the first move of the stroke since its last other edit
+  std::vector<std::size_t> latest_;         ///< by number of vertex, its last move; maybe one that is no more
+
+  bool is_off() const { return limit_.steps == 0 || limit_.bytes == 0; }
+
+  void reserve_records(std::size_t edits, std::size_t moves) {
+    moves_.reserve(moves);
+    edits_.reserve(edits);
+    around_.reserve(edits * usual_around);
+    steps_.reserve(edits + moves);
+  }
+
+  Place begin_of(std::size_t step) const { return step == steps_.begin() ? first_ : steps_[step - 1]; }
+  bool is_at(const Place& place) const { return place.moves == moves_done_ && place.edits == edits_done_; }
+  bool is_edit_last() const {
+    return edits_done_ > edits_.begin() && edits_[edits_done_ - 1].moves_before == moves_done_;
+  }
+
+  const Edit* read(const Move& move) {
+    current_.kind = Edit_kind::move;
+    current_.vertex = move.vertex;
+    current_.before = move.before;
+    current_.after = move.after;
+    current_.around.clear();
+    return &current_;
+  }
+  const Edit* read(const Other& other) {
+    current_.kind = other.kind;
+    current_.vertex = other.vertex;
+    current_.before = current_.after = other.point;
+    current_.around.clear();
+    for (std::size_t k = 0; k < other.valence; ++k)
+      current_.around.push_back(around_[other.around + k]);
+    return &current_;
+  }
+
+  /// \return false where nothing is to be kept of it
+  bool begin_record() {
+    forget_redo();
+    return !is_off() && !(is_in_stroke() && is_lost_);
+  }
+
+  /// Of a step that is done in part the rest, too.
+  void forget_redo() {
+    cut_to(moves_done_, edits_done_);
+    steps_.cut(steps_done_);
+    if (number_of_undo_steps() != 0)
+      steps_[steps_done_ - 1] = {moves_done_, edits_done_};
+  }
+
+  void end_record() {
+    const Place end{moves_done_, edits_done_};
+    if (is_in_stroke() && has_step_) {
+      steps_[steps_done_ - 1] = end;
+    } else {
+      steps_.push_back(end);
+      ++steps_done_;
+      has_step_ = is_in_stroke();
+    }
+    enforce();
+  }
+
+  void cut_to(std::size_t moves, std::size_t edits) {
+    if (edits < edits_.end())
+      around_.cut(edits_[edits].around);
+    moves_.cut(moves);
+    edits_.cut(edits);
+  }
+
+  bool is_over() const { return steps_.size() != 0 && (steps_.size() > limit_.steps || bytes() > limit_.bytes); }
+
+  /// Forgets what was done first, until the rest is within the limit. \pre is_between_steps()
+  void enforce() {
+    while (number_of_undo_steps() != 0 && is_over()) {
+      // What comes after a change that cannot be undone cannot be either, so a stroke too large is not kept in part.
+      is_lost_ |= is_in_stroke() && has_step_ && number_of_undo_steps() == 1;
+      has_step_ &= !is_lost_;
+      first_ = steps_[steps_.begin()];
+      moves_.forget(first_.moves);
+      around_.forget(first_.edits < edits_.end() ? edits_[first_.edits].around : around_.end());
+      edits_.forget(first_.edits);
+      steps_.forget(steps_.begin() + 1);
+    }
+  }
+
+  /// \pre it can be redone
+  void cut_last_step() {
+    steps_.cut(steps_.end() - 1);
+    const Place end = begin_of(steps_.end());
+    cut_to(end.moves, end.edits);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

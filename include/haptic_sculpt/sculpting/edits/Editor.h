@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_EDITOR_H
+#define HAPTIC_SCULPT_SCULPTING_EDITOR_H
+
+#include <haptic_sculpt/sculpting/Edit_result.h>
+#include <haptic_sculpt/sculpting/edits/Change_maker.h>
+#include <haptic_sculpt/sculpting/edits/Collapse_proof.h>
+#include <haptic_sculpt/sculpting/edits/Creation_proof.h>
+#include <haptic_sculpt/sculpting/edits/Edit_history.h>
+#include <haptic_sculpt/sculpting/edits/Flip_proof.h>
+#include <haptic_sculpt/sculpting/edits/Pivot_order.h>
+
+namespace haptic_sculpt {
+
+/// Creates and removes vertices of a mesh and flips edges by Euler operations: each is proven and then done, or refused and nothing
+/// has changed. Also takes changes back and makes them again, in the steps of the history. Change_maker makes what is decided here.
+/// See doc/edits.md.
+template <class Mesh, class Broad_phase, class Visitor = Default_edit_visitor>
+class Editor {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
+  using Halfedge_index = typename Mesh::Halfedge_index;
+  using Point = typename Mesh::Point;
+  using Coordinates = internal::Coordinates;
+  using Result = Edit_result<Mesh>;
+
+  /// \param watch is told of what has changed
+  Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters, Mesh_watch<Mesh>& watch,
+         Visitor visitor = Visitor())
+    : mesh_(&mesh), watch_(&watch), changes_(mesh, broad_phase, corners, std::move(visitor)),
+      creation_(mesh, broad_phase, corners, counters), collapse_(mesh, broad_phase, corners, counters),
+      flip_(mesh, broad_phase, corners, counters) {
+    for (const Vertex_index v : mesh.vertices())
+      if (mesh.is_isolated(v))
+        isolated_.push_back(v);
+  }
+
+  const Vertex_names<Mesh>& names() const { return changes_.names(); }
+  Visitor& visitor() { return changes_.visitor(); }
+  Edit_history& history() { return history_; }
+  const Edit_history& history() const { return history_; }
+
+  /// Many drags may follow: what they need for undo is allocated now.
+  void prepare_for_moves() { history_.make_room(); }
+
+  /// So many edits and moves follow: what they need is allocated now, for stars and surroundings of usual size.
+  void reserve(std::size_t edits, std::size_t moves) {
+    history_.reserve(edits, moves, names().size() + edits);
+    changes_.reserve(edits, usual_valence);
+    creation_.reserve(usual_candidates);
+    collapse_.reserve(usual_valence, usual_candidates);
+    flip_.reserve(usual_candidates);
+    order_.reserve(usual_valence);
+    edit_.around.reserve(usual_valence);
+  }
+
+  /// A drag that has been made.
+  void note_move(Vertex_index v, const Coordinates& before, const Coordinates& after) {
+    history_.push_move(names().name(v), before, after);
+    changes_.tell_moved(v);
+  }
+
+  Result insert_on_face(Face_index f, const Coordinates& p, double delta) {
+    const Halfedge_index h = mesh_->halfedge(f);
+    if (auto refusal = creation_.refuse({h}, p, delta, isolated_))
+      return {std::nullopt, std::move(refusal)};
+    describe(Edit_kind::insert_on_face, names().size(), p, {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))});
+    return make();
+  }
+
+  Result insert_on_edge(Halfedge_index h, const Coordinates& p, double delta) {
+    if (auto refusal = creation_.refuse({h, mesh_->opposite(h)}, p, delta, isolated_))
+      return {std::nullopt, std::move(refusal)};
+    describe(Edit_kind::insert_on_edge, names().size(), p, {mesh_->source(h), mesh_->target(h)});
+    return make();
+  }
+
+  /// Draws the source of h into its target.
+  Result collapse(Halfedge_index h, double delta) {
+    auto refusal = collapse_.begin(mesh_->source(h), isolated_);
+    const std::vector<Vertex_index>& link = collapse_.star().link;
+    const auto pivot = static_cast<std::size_t>(std::find(link.begin(), link.end(), mesh_->target(h)) - link.begin());
+    if (!refusal)
+      refusal = collapse_.refuse(pivot, delta);
+    return refusal ? Result{std::nullopt, std::move(refusal)} : collapse_into(pivot);
+  }
+
+  /// Draws v into each neighbour in turn, the one first whose fan has the largest least angle, until one is free.
+  Result remove(Vertex_index v, double delta) {
+    if (auto refusal = collapse_.begin(v, isolated_))
+      return {std::nullopt, std::move(refusal)};
+    order_.begin(collapse_.star());
+    std::optional<Refusal<Mesh>> gravest;
+    while (const auto pivot = order_.next()) {
+      auto refusal = collapse_.refuse(*pivot, delta);
+      if (!refusal)
+        return collapse_into(*pivot);
+      // Of those for the several pivots, the last in the order of the checks says most.
+      if (!gravest || refusal->reason > gravest->reason)
+        gravest = std::move(refusal);
+    }
+    return {std::nullopt, std::move(gravest)};
+  }
+
+  Result flip(Halfedge_index h, double delta) {
+    if (auto refusal = flip_.refuse(h, delta, isolated_))
+      return {std::nullopt, std::move(refusal)};
+    const auto& [a, b, c, d] = flip_.corners();
+    describe(Edit_kind::flip, names().name(a), {}, {a, b, c, d});
+    return make();
+  }
+
+  /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again.
+  Result undo() {
+    history_.end_stroke();
+    if (history_.to_undo() == nullptr)
+      return Result::refused(Refusal_reason::nothing_to_undo);
+    for (;;) {
+      const Vertex_index v = changes_.take_back(*history_.to_undo(), [this](Vertex_index changed) {
+        watch(changed);
+        history_.undone();
+      });
+      if (history_.is_between_steps())
+        return Result::done(v);
+    }
+  }
+
+  /// Makes the last step that was taken back again.
+  Result redo() {
+    history_.end_stroke();
+    if (history_.to_redo() == nullptr)
+      return Result::refused(Refusal_reason::nothing_to_redo);
+    for (;;) {
+      const Vertex_index v = changes_.make(*history_.to_redo(), [this](Vertex_index changed) {
+        watch(changed);
+        history_.redone();
+      });
+      if (history_.is_between_steps())
+        return Result::done(v);
+    }
+  }
+
+  /// The face with these three corners, by number and in any order; the null index where there is none.
+  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const {
+    const Halfedge_index h = halfedge_of(a, b);
+    const Vertex_index third = names().vertex(c);
+    if (!h.is_valid() || !third.is_valid())
+      return Face_index();
+    for (const Halfedge_index g : {h, mesh_->opposite(h)})
+      if (mesh_->target(mesh_->next(g)) == third)
+        return mesh_->face(g);
+    return Face_index();
+  }
+
+  /// The halfedge from a to b, by number; the null index where there is none.
+  Halfedge_index halfedge_of(std::size_t a, std::size_t b) const {
+    const Vertex_index v = names().vertex(a), w = names().vertex(b);
+    if (!v.is_valid() || !w.is_valid() || v == w || mesh_->is_isolated(v) || mesh_->is_isolated(w))
+      return Halfedge_index();
+    return mesh_->halfedge(v, w);
+  }
+
+  /// reserve() makes room for stars of so many faces, and for so many faces about them.
+  static constexpr std::size_t usual_valence = internal::Star_runs<Mesh>::most_undivided, usual_candidates = 512;
+
+private:
+
+  Mesh* mesh_;
+  Mesh_watch<Mesh>* watch_;
+  Change_maker<Mesh, Broad_phase, Visitor> changes_;
+  Edit_history history_;
+  internal::Creation_proof<Mesh, Broad_phase> creation_;
+  internal::Collapse_proof<Mesh, Broad_phase> collapse_;
+  internal::Flip_proof<Mesh, Broad_phase> flip_;
+  internal::Pivot_order<Mesh> order_;
+  std::vector<Vertex_index> isolated_; ///< they neither come nor go
+  Edit edit_;                          ///< the one that is made, kept to allocate no more
+
+  void describe(Edit_kind kind, std::size_t vertex, const Coordinates& p, std::initializer_list<Vertex_index> around) {
+    edit_.kind = kind;
+    edit_.vertex = vertex;
+    edit_.before = edit_.after = p;
+    edit_.around.clear();
+    for (const Vertex_index v : around)
+      edit_.around.push_back(names().name(v));
+  }
+
+  Result collapse_into(std::size_t pivot) {
+    const Star<Mesh>& star = collapse_.star();
+    describe(Edit_kind::remove, names().name(star.centre), collapse_.centre(), {});
+    for (std::size_t i = 0; i < star.valence(); ++i)
+      edit_.around.push_back(names().name(star.link[(pivot + i) % star.valence()]));
+    return make();
+  }
+
+  Result make() {
+    return Result::done(changes_.make(edit_, [this](Vertex_index changed) {
+      watch(changed);
+      history_.push(edit_);
+    }));
+  }
+
+  void watch(Vertex_index changed) {
+    watch_->remember_counts();
+    if (changed.is_valid())
+      watch_->remember(changed);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

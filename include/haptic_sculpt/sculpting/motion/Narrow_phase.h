@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
+#define HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
+
+#include <haptic_sculpt/sculpting/culling/Near_pairs.h>
+#include <haptic_sculpt/sculpting/motion/Star_impact.h>
+
+namespace haptic_sculpt {
+
+/// All three sweeps of a star against a checklist (completeness: doc/exact_sweeps.md).
+///
+/// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between its
+/// two, when it cannot come first any more, or when it shares a vertex that makes its meeting no collision: faces
+/// incident to the moving vertex, edges at the far end of the moving edge.
+template <class Mesh, class Counters = Filter_counters>
+class Narrow_phase {
+public:
+  using Coordinates = internal::Coordinates;
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  explicit Narrow_phase(Counters& counters) : counters_(&counters) {}
+
+  /// Whether nothing is touched on the closed way from source to target.
+  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
+               const Coordinates& target) {
+    return for_each_hit({star, list, {source, target}}, Any());
+  }
+
+  /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
+  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs,
+               const Coordinates& source, const Coordinates& target) {
+    return for_each_hit({star, list, {source, target}}, pairs, Any());
+  }
+
+  /// Fills `firsts` with the impacts that come exactly first; leaves it empty when the way is free.
+  void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
+                     const Coordinates& target, Star_impacts<Mesh>& firsts) {
+    first_impacts_near(star, list, source, target, Box_3(source).include(target), firsts);
+  }
+
+  /// The same among the pairs that may meet while J is in the box `path`: what comes first while it is there comes
+  /// first of all.
+  void first_impacts_near(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
+                          const Coordinates& target, const Box_3& path, Star_impacts<Mesh>& firsts) {
+    firsts.clear();
+    for_each_hit({star, list, {source, target, path}}, Keep_first{firsts, *counters_});
+    std::sort(firsts.begin(), firsts.end());
+  }
+
+  /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
+  void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs,
+                     const Coordinates& source, const Coordinates& target, Star_impacts<Mesh>& firsts) {
+    firsts.clear();
+    for_each_hit({star, list, {source, target}}, pairs, Keep_first{firsts, *counters_});
+    std::sort(firsts.begin(), firsts.end());
+  }
+
+  /// Working memory, to be shared.
+  internal::Star_runs<Mesh>& runs() { return runs_; }
+
+private:
+  using Vertices = std::array<Vertex_index, 3>;
+
+  Counters* counters_;
+  internal::Star_runs<Mesh> runs_;
+
+  /// One motion, and what is in its way.
+  struct Scene {
+    const Star<Mesh>& star;
+    const Checklist<Mesh>& list;
+    internal::Star_motion motion;
+  };
+
+  /// What is done with a hit, `hit(feature, vertices, points, verdict)`: it tells up to what fraction of the way hits
+  /// are of interest from then on (later ones may be told or not), or that it has enough.
+  static constexpr double enough = -1;
+
+  struct Any {
+    double operator()(Impact_feature, const Vertices&, const internal::Sweep_points&,
+                      const internal::Sweep_verdict&) const {
+      return enough;
+    }
+  };
+  struct Keep_first {
+    Star_impacts<Mesh>& firsts;
+    Counters& counters;
+
+    double operator()(Impact_feature feature, const Vertices& vertices, const internal::Sweep_points& points,
+                      const internal::Sweep_verdict& verdict) const {
+      const int order = firsts.empty() ? -1
+                                       : internal::compare_times(points, verdict, firsts[0].impact().coordinates(),
+                                                                 firsts[0].impact().verdict(), counters);
+      if (order < 0)
+        firsts.clear();
+      if (order <= 0)
+        firsts.emplace_back(feature, vertices, points, verdict);
+      return order < 0 ? internal::filtered_time(points, verdict).second : 1;
+    }
+  };
+
+  /// Tells of every pair that meets; returns whether no telling ended it.
+  template <class Hit>
+  bool for_each_hit(Scene scene, const Hit& hit) {
+    if (stands_still(scene))
+      return true;
+    const auto vertex = [&](std::uint32_t f) { return vertex_on_face(scene, f, hit); };
+    if (scene.star.valence() == 0 || scene.star.valence() > internal::Separating_planes::most_faces)
+      for (std::uint32_t f = 0; f < scene.list.faces().size(); ++f)
+        if (!vertex(f))
+          return false;
+    return scene.star.valence() == 0 ||
+           runs_.for_each_run(scene.star, scene.list, scene.motion, 0, [&](const auto& run) {
+             return (!run.is_whole || run.for_each_face(vertex)) &&
+                    run.for_each_edge_pair(
+                        [&](std::size_t i, std::uint32_t e) { return moving_edge(scene, i, e, hit); }) &&
+                    run.for_each_vertex_pair(
+                        [&](std::size_t i, std::uint32_t v) { return moving_face(scene, i, v, hit); });
+           });
+  }
+
+  template <class Hit>
+  bool for_each_hit(Scene scene, const Near_pairs<Mesh>& pairs, const Hit& hit) {
+    return stands_still(scene) ||
+           pairs.for_each_near(scene.motion.source(), scene.motion.target(),
+                               [&](const typename Near_pairs<Mesh>::Pair& pair) {
+                                 switch (pair.feature) {
+                                 case Impact_feature::vertex_face:
+                                   return vertex_on_face(scene, pair.candidate, hit);
+                                 case Impact_feature::edge_edge:
+                                   return moving_edge(scene, pair.spoke, pair.candidate, hit);
+                                 default:
+                                   return moving_face(scene, pair.spoke, pair.candidate, hit);
+                                 }
+                               });
+  }
+
+  /// An embedded star that stands still touches nothing new.
+  static bool stands_still(const Scene& scene) {
+    return scene.motion.source() == scene.motion.target() && scene.star.valence() != 0;
+  }
+
+  static bool goes_on(Scene& scene, double until) {
+    if (until == enough)
+      return false;
+    scene.motion.shorten(until);
+    return true;
+  }
+
+  template <class Hit>
+  bool vertex_on_face(Scene& scene, std::uint32_t f, const Hit& hit) const {
+    const auto& face = scene.list.faces()[f];
+    if (!do_meet(scene.list.box(face), scene.motion.path()))
+      return true;
+    const auto& vertices = scene.list.vertices();
+    const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
+    const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), a.point, b.point, c.point};
+    const internal::Sweep_verdict verdict = internal::vertex_face_verdict(points, *counters_);
+    return !verdict.hits ||
+           goes_on(scene, hit(Impact_feature::vertex_face, Vertices{a.index, b.index, c.index}, points, verdict));
+  }
+
+  /// The edge to link vertex i against a candidate.
+  template <class Hit>
+  bool moving_edge(Scene& scene, std::size_t i, std::uint32_t e, const Hit& hit) const {
+    const auto& edge = scene.list.edges()[e];
+    const auto& vertices = scene.list.vertices();
+    const Vertex_index far_end = scene.star.link[i];
+    const Coordinates& far_point = scene.star.link_points[i];
+    const auto &a = vertices[edge[0]], &b = vertices[edge[1]];
+    if (!do_meet(scene.list.box(edge), Box_3(scene.motion.path()).include(far_point)))
+      return true;
+    // The smaller name first, whatever the list's order: what is told does not depend on the broad phase.
+    const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
+    const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point,
+                                           high.point};
+    const internal::Sweep_verdict verdict = internal::edge_edge_verdict(points, *counters_);
+    return !verdict.hits ||
+           goes_on(scene, hit(Impact_feature::edge_edge, Vertices{far_end, low.index, high.index}, points, verdict));
+  }
+
+  /// Face i against a candidate.
+  template <class Hit>
+  bool moving_face(Scene& scene, std::size_t i, std::uint32_t v, const Hit& hit) const {
+    const Star<Mesh>& star = scene.star;
+    const std::size_t j = star.next(i);
+    const auto& vertex = scene.list.vertices()[v];
+    if (!contains(Box_3(scene.motion.path()).include(star.link_points[i]).include(star.link_points[j]), vertex.point))
+      return true;
+    const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i],
+                                           star.link_points[j], vertex.point};
+    const internal::Sweep_verdict verdict = internal::face_vertex_verdict(points, *counters_);
+    return !verdict.hits || goes_on(scene, hit(Impact_feature::face_vertex,
+                                               Vertices{star.link[i], star.link[j], vertex.index}, points, verdict));
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

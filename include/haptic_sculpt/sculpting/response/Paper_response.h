@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_PAPER_RESPONSE_H
+#define HAPTIC_SCULPT_SCULPTING_PAPER_RESPONSE_H
+
+#include <haptic_sculpt/sculpting/Drag_result.h>
+#include <haptic_sculpt/sculpting/contact/clearance.h>
+#include <haptic_sculpt/sculpting/response/is_farther.h>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace haptic_sculpt {
+
+/// The walk of the 1997 paper (3.2.2, rules a to e), kept to be compared with: from face to edge to vertex, each time to the
+/// point nearest to the target on the triangles at the feature in contact; edge on edge and face on vertex stick.
+///
+/// The paper's sub-cases of (b) and (c) are in a figure only. Here: among the triangles at the feature, the nearest point
+/// decides which face, edge or vertex is next; J lifts off where the target is on its free side of that triangle. Every leg stops
+/// and is proven like any motion. Does not reach a nearest point everywhere; that is the paper's.
+template <class Mesh>
+class Paper_response {
+public:
+  using Coordinates = internal::Coordinates;
+  using Vector = internal::Vector;
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  static constexpr int most_legs = 32;
+
+  void forget() { touched_.number = 0; }
+
+  template <class Guard>
+  Coordinates move(Guard& guard, const Mesh& mesh, const Coordinates& source, const Coordinates& target,
+                   const Drag_rules& rules, Drag_result<Mesh>& result) {
+    if (place_ != source)
+      forget();
+    place_ = source;
+    result.end = Drag_end::leg_limit;
+    held_.clear();
+    bool stands = false; // did not move in the turn before
+    for (int legs = 0; legs < most_legs; ++legs) {
+      const std::optional<Aim> aim = next_aim(guard, mesh, target, rules.clearance);
+      if (aim && !aim->lifts_off && is_at(*aim)) {
+        result.end = Drag_end::held;
+        break;
+      }
+      const Vector goal = aim && !aim->lifts_off ? aim->place : target;
+      Drag_result<Mesh>& leg = leg_;
+      const Coordinates end = guard.leg(place_, goal, rules, leg);
+      result.legs += end != place_;
+      const bool moved = end != place_;
+      place_ = end;
+      if (end == target) {
+        forget();
+        held_.clear();
+        result.end = Drag_end::reached;
+        break;
+      }
+      if (end == goal) { // on the way over the surface
+        touched_ = aim->touched;
+        continue;
+      }
+      held_ = leg.contacts;
+      result.stop_error = leg.stop_error;
+      result.stop_error_along_path = leg.stop_error_along_path;
+      touched_ = touched_by(leg);
+      if (touched_.number == 0 || (!moved && stands)) { // (d), (e): it sticks; or two features send it to each other
+        result.end = place_ == source ? Drag_end::no_progress : Drag_end::held;
+        break;
+      }
+      stands = !moved;
+    }
+    result.contacts = held_;
+    if (internal::is_farther(target, place_, source)) {
+      place_ = source;
+      result.legs = 0;
+    }
+    return place_;
+  }
+
+private:
+  /// A face, edge or vertex of the mesh, and the side of its faces J is on: +1 where their normals point.
+  struct Touched {
+    std::array<Vertex_index, 3> vertices{};
+    int number = 0; ///< of vertices; 0: nothing is touched
+    int side = 0;
+
+    Touched() = default;
+    Touched(const std::array<Vertex_index, 3>& corners, int count, int on_side) : vertices(corners), number(count), side(on_side) {
+      std::sort(vertices.begin(), vertices.begin() + number); // a set: faces are met from any corner
+    }
+
+    friend bool operator==(const Touched& a, const Touched& b) {
+      return a.number == b.number && a.side == b.side && a.vertices == b.vertices;
+    }
+  };
+  struct Aim {
+    Touched touched;
+    Vector place;
+    bool lifts_off;
+    double clearance;
+  };
+
+  Touched touched_;
+  Coordinates place_{};
+  Drag_result<Mesh> leg_;                      ///< of the last leg; kept to allocate no more
+  typename Drag_result<Mesh>::Contacts held_; ///< of the last leg that was stopped
+
+  bool is_at(const Aim& aim) const {
+    // A clearance is what separates stops of one place from each other.
+    return aim.touched == touched_ && internal::length(internal::minus(aim.place, place_)) <= aim.clearance;
+  }
+
+  static Touched touched_by(const Drag_result<Mesh>& leg) {
+    for (const Contact_3<Mesh>& contact : leg.contacts) {
+      if (contact.kind != Contact_kind::vertex_face || contact.is_flat)
+        continue;
+      const auto& [a, b, c] = contact.vertices;
+      const Vertex_index none;
+      const int side = contact.side;
+      switch (contact.location) {
+      case Triangle_location::edge_ab: return Touched({a, b, none}, 2, side);
+      case Triangle_location::edge_bc: return Touched({b, c, none}, 2, side);
+      case Triangle_location::edge_ca: return Touched({c, a, none}, 2, side);
+      case Triangle_location::vertex_a: return Touched({a, none, none}, 1, side);
+      case Triangle_location::vertex_b: return Touched({b, none, none}, 1, side);
+      case Triangle_location::vertex_c: return Touched({c, none, none}, 1, side);
+      default: return Touched({a, b, c}, 3, side);
+      }
+    }
+    return {};
+  }
+
+  /// The nearest point to the target on the faces at the feature; nothing where none is touched.
+  template <class Guard>
+  std::optional<Aim> next_aim(const Guard& guard, const Mesh& mesh, const Vector& target,
+                              const Clearance_rule& clearances) const {
+    std::optional<Aim> best;
+    double least = std::numeric_limits<double>::infinity();
+    for_each_face(guard, mesh, [&](const std::array<Vertex_index, 3>& corners) {
+      const std::array<Vector, 3> p = {vertex_coordinates(mesh, corners[0]), vertex_coordinates(mesh, corners[1]),
+                                       vertex_coordinates(mesh, corners[2])};
+      const Vector normal =
+          internal::scaled(internal::normalized(internal::cross(internal::minus(p[1], p[0]), internal::minus(p[2], p[0]))),
+                           touched_.side);
+      Touched touched;
+      const Vector nearest = nearest_on_triangle(target, corners, p, normal, touched_.side, touched);
+      const double distance = internal::length(internal::minus(target, nearest));
+      if (distance >= least)
+        return;
+      least = distance;
+      double reach = internal::largest_magnitude(nearest);
+      for (const Vector& corner : p)
+        reach = std::fmax(reach, internal::largest_magnitude(corner));
+      const double clearance = clearances.at(reach);
+      best = Aim{touched, internal::advanced(nearest, clearance, normal),
+                 internal::dot(internal::minus(target, p[0]), normal) > 0, clearance};
+    });
+    return best;
+  }
+
+  /// Also tells on what feature of the triangle it lies.
+  static Vector nearest_on_triangle(const Vector& target, const std::array<Vertex_index, 3>& corners,
+                                    const std::array<Vector, 3>& p, const Vector& normal, int side, Touched& touched) {
+    using namespace internal;
+    const Vertex_index none;
+    const Vector foot = advanced(target, -dot(minus(target, p[0]), normal), normal);
+    const Vector up = scaled(normal, side);
+    bool inside = true;
+    for (int i = 0; i < 3; ++i)
+      inside = inside && dot(cross(up, minus(p[(i + 1) % 3], p[i])), minus(foot, p[i])) >= 0;
+    if (inside) {
+      touched = Touched(corners, 3, side);
+      return foot;
+    }
+    Vector best = p[0];
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const Vector edge = minus(p[j], p[i]);
+      const double along = std::fmin(1.0, std::fmax(0.0, dot(minus(target, p[i]), edge) / dot(edge, edge)));
+      const Vector q = along == 1 ? p[j] : advanced(p[i], along, edge);
+      const double distance = length(minus(target, q));
+      if (distance >= least)
+        continue;
+      least = distance, best = q;
+      touched = along == 0   ? Touched({corners[i], none, none}, 1, side)
+                : along == 1 ? Touched({corners[j], none, none}, 1, side)
+                             : Touched({corners[i], corners[j], none}, 2, side);
+    }
+    return best;
+  }
+
+  /// The faces at the feature that are not J's own.
+  template <class Guard, class Function>
+  void for_each_face(const Guard& guard, const Mesh& mesh, const Function& function) const {
+    if (touched_.number == 0)
+      return;
+    const Vertex_index a = touched_.vertices[0];
+    const auto first = mesh.halfedge(a);
+    auto h = first; // runs over the halfedges to a
+    do {
+      const std::array<Vertex_index, 3> corners = {a, mesh.target(mesh.next(h)), mesh.source(h)};
+      const auto has = [&](Vertex_index v) { return v == corners[0] || v == corners[1] || v == corners[2]; };
+      bool meets = true;
+      for (int i = 1; i < touched_.number; ++i)
+        meets = meets && has(touched_.vertices[i]);
+      if (meets && !(guard.star().valence() != 0 && has(guard.star().centre)))
+        function(corners);
+      h = mesh.opposite(mesh.next(h));
+    } while (h != first);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_RESPONSES_H
+#define HAPTIC_SCULPT_SCULPTING_RESPONSES_H
+
+#include <haptic_sculpt/sculpting/contact/clearance.h>
+#include <haptic_sculpt/sculpting/response/Paper_response.h>
+#include <haptic_sculpt/sculpting/response/Slide_response.h>
+#include <haptic_sculpt/sculpting/response/kkt_residual.h>
+
+namespace haptic_sculpt {
+
+/// The three responses to a blocked way behind one call, with the contacts they carry along.
+template <class Mesh>
+class Responses {
+public:
+  using Coordinates = internal::Coordinates;
+
+  Responses() { normals_.reserve(Drag_result<Mesh>::usual_contacts); }
+
+  /// The vertex was let go: the next drag begins without contacts.
+  void forget() {
+    slide_.forget();
+    paper_.forget();
+  }
+
+  /// Moves from source towards target and fills in the result. Returns where the vertex is then: no farther from the target than it
+  /// was, exactly. \pre source != target, both in range
+  template <class Guard>
+  Coordinates move(Response response, Guard& guard, const Mesh& mesh, const Coordinates& source,
+                   const Coordinates& target, const Drag_rules& rules, Drag_result<Mesh>& result) {
+    Coordinates end;
+    if (response == Response::slide)
+      end = slide_.move(guard, source, target, rules, result);
+    else if (response == Response::paper)
+      end = paper_.move(guard, mesh, source, target, rules, result);
+    else {
+      end = guard.leg(source, target, rules, result);
+      result.end = end == target ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
+    }
+    const internal::Vector pull = internal::minus(target, end);
+    if (result.contacts.empty())
+      result.kkt_residual = end == target ? 0 : 1;
+    if (!result.contacts.empty() && internal::length(pull) > shortest_pull(rules, end, result))
+      measure_residual(pull, result);
+    return end;
+  }
+
+private:
+  Slide_response<Mesh> slide_;
+  Paper_response<Mesh> paper_;
+  std::vector<internal::Vector> normals_;
+
+  static double shortest_pull(const Drag_rules& rules, const Coordinates& end, const Drag_result<Mesh>& result) {
+    double reach = internal::largest_magnitude(end);
+    for (const Contact_3<Mesh>& contact : result.contacts)
+      reach = std::fmax(reach, internal::largest_coordinate_of(contact));
+    return internal::Slide_lengths{rules.clearance.at(reach), 0}.shortest_pull();
+  }
+
+  void measure_residual(const internal::Vector& pull, Drag_result<Mesh>& result) {
+    normals_.clear();
+    for (const Contact_3<Mesh>& contact : result.contacts)
+      normals_.push_back(contact.normal);
+    result.kkt_residual = internal::kkt_residual(pull, normals_);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

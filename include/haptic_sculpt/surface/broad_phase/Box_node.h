@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_BOX_NODE_H
+#define HAPTIC_SCULPT_SURFACE_BOX_NODE_H
+
+#include <haptic_sculpt/surface/broad_phase/bits.h>
+#include <haptic_sculpt/surface/broad_phase/outward_float.h>
+#include <haptic_sculpt/surface/broad_phase/prefetch.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// The boxes of eight children, bound by bound, so that compilers compare four or eight at once. Three cache lines.
+struct alignas(64) Box_node {
+  static constexpr unsigned width = 8;
+
+  float bounds[6][width]; ///< lower x, y, z; upper x, y, z
+
+  /// Eight boxes of nothing.
+  Box_node() {
+    for (unsigned j = 0; j < width; ++j)
+      set(j, Float_box());
+  }
+
+  void set(unsigned j, const Float_box& box) {
+    for (int i = 0; i < 3; ++i)
+      bounds[i][j] = box.lower[i], bounds[i + 3][j] = box.upper[i];
+  }
+
+  Float_box box(unsigned j) const {
+    Float_box result;
+    for (int i = 0; i < 3; ++i)
+      result.lower[i] = bounds[i][j], result.upper[i] = bounds[i + 3][j];
+    return result;
+  }
+
+  bool is(unsigned j, const Float_box& box) const {
+    bool same = true;
+    for (int i = 0; i < 3; ++i)
+      same &= (bounds[i][j] == box.lower[i]) & (bounds[i + 3][j] == box.upper[i]);
+    return same;
+  }
+
+  /// The smallest box around all eight. Halves, so that the first step of each bound is one instruction.
+  Float_box all() const {
+    Float_box result;
+    for (int i = 0; i < 3; ++i) {
+      float low[4], high[4];
+      for (int j = 0; j < 4; ++j) {
+        const float *l = bounds[i], *u = bounds[i + 3];
+        low[j] = l[j] < l[j + 4] ? l[j] : l[j + 4];
+        high[j] = u[j] > u[j + 4] ? u[j] : u[j + 4];
+      }
+      for (int j = 0; j < 2; ++j) {
+        low[j] = low[j] < low[j + 2] ? low[j] : low[j + 2];
+        high[j] = high[j] > high[j + 2] ? high[j] : high[j + 2];
+      }
+      result.lower[i] = low[0] < low[1] ? low[0] : low[1];
+      result.upper[i] = high[0] > high[1] ? high[0] : high[1];
+    }
+    return result;
+  }
+
+  /// Bit j: whether box j meets the query.
+  unsigned meeting(const Float_box& query) const {
+    static constexpr int bits[width] = {1, 2, 4, 8, 16, 32, 64, 128};
+    int mask = 0;
+    for (unsigned j = 0; j < width; ++j) {
+      const bool meets = (bounds[0][j] <= query.upper[0]) & (bounds[1][j] <= query.upper[1]) &
+                         (bounds[2][j] <= query.upper[2]) & (bounds[3][j] >= query.lower[0]) &
+                         (bounds[4][j] >= query.lower[1]) & (bounds[5][j] >= query.lower[2]);
+      mask |= meets ? bits[j] : 0;
+    }
+    return static_cast<unsigned>(mask);
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

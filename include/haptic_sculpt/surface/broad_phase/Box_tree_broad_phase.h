@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_BOX_TREE_BROAD_PHASE_H
+#define HAPTIC_SCULPT_SURFACE_BOX_TREE_BROAD_PHASE_H
+
+#include <haptic_sculpt/surface/broad_phase/Growing_box_tree.h>
+#include <haptic_sculpt/surface/broad_phase/Star_filter.h>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/broad_phase/spatial_order.h>
+
+namespace haptic_sculpt {
+
+/// The default broad phase: an implicit 8-wide tree of boxes over the faces in a spatial order.
+///
+/// Boxes are floats rounded outward, so that every box contains what it stands for; answers are supersets. Node k of a
+/// level has the children 8k ... 8k + 7 of the level below, and the children of the lowest level are the slots, one a
+/// face: no pointers. Moves refit the boxes above the faces that moved, up to the first that does not change. A new
+/// face takes a slot that was freed beside a face it shares an edge with; if there is none it goes to an overflow tree
+/// that grows. Nothing is ever built anew. A model of BroadPhase (doc/broad_phase.md).
+///
+/// Cost: build n log n; a query log n plus its answer; an update log n. 35.4 bytes a face, about 60 for one in the
+/// overflow. A query allocates nothing once its output has grown; neither do moves.
+template <class Mesh>
+class Box_tree_broad_phase {
+public:
+  using Face_index = typename Mesh::Face_index;
+
+  explicit Box_tree_broad_phase(const Mesh& mesh) : mesh_(&mesh) { build(); }
+
+  void query(const Box_3& box, std::vector<Face_index>& faces) {
+    const internal::Float_box around = internal::Float_box::query(box);
+    descend([&around](const Node& node) { return node.meeting(around); }, faces);
+  }
+
+  void query(const Swept_star_3& star, std::vector<Face_index>& faces) {
+    const internal::Star_filter filter(star);
+    if (filter.is_thin())
+      descend([&filter](const Node& node) { return filter.meeting(node); }, faces);
+    else // a box costs less to ask
+      descend([&filter](const Node& node) { return node.meeting(filter.box()); }, faces);
+  }
+
+  /// Begins to fetch from memory what a query about here will read. Changes no answer. Cost: log n.
+  void fetch_ahead(const Box_3& box) {
+    if (levels_ == 0 || level_begin_[0] < nodes_in_cache)
+      return;
+    ahead_ = internal::Float_box::query(box);
+    to_root();
+    while (is_worth_fetching() && level_begin_[level_ - 1] < nodes_in_cache)
+      fetch_on();
+  }
+  /// Goes on with that for a level, whose nodes have come by now.
+  void fetch_on() {
+    if (is_worth_fetching())
+      go_down([this](const Node& node) { return node.meeting(ahead_); });
+  }
+
+  /// \pre each of the faces is known: it was there at the construction or has been inserted.
+  template <class Faces>
+  void faces_moved(const Faces& faces) {
+    touched_.clear();
+    for (const Face_index f : faces)
+      place(slot_of_face_[f], internal::Float_box(face_box(*mesh_, f)));
+    refit();
+  }
+
+  template <class Faces>
+  void faces_inserted(const Faces& faces) {
+    touched_.clear();
+    const std::size_t size = mesh_->num_faces();
+    if (size > slot_of_face_.capacity())
+      slot_of_face_.reserve(size + size / 16); // not doubled: memory is promised
+    slot_of_face_.resize(std::max(size, slot_of_face_.size()), no_slot);
+    for (const Face_index f : faces) {
+      const internal::Float_box box(face_box(*mesh_, f));
+      std::uint32_t& slot = slot_of_face_[f];
+      if (slot == no_slot)
+        slot = free_slot_beside(f);
+      if (slot != no_slot)
+        take(slot, f, box);
+      else
+        insert_into_overflow(f, box);
+    }
+    refit();
+  }
+
+  template <class Faces>
+  void faces_removed(const Faces& faces) {
+    touched_.clear();
+    for (const Face_index f : faces) {
+      if (static_cast<std::size_t>(f) >= slot_of_face_.size() || slot_of_face_[f] == no_slot)
+        continue;
+      const std::uint32_t slot = slot_of_face_[f];
+      if (is_in_overflow(slot)) {
+        overflow_.remove(slot - first_overflow);
+      } else {
+        face_of_slot_[slot] = no_face;
+        place(slot, internal::Float_box());
+      }
+      slot_of_face_[f] = no_slot;
+    }
+    refit();
+  }
+
+  /// Makes room for so many faces in all, and so many insertions: none allocates, nor does a removal.
+  void reserve(std::size_t faces, std::size_t insertions) {
+    slot_of_face_.reserve(faces);
+    overflow_.reserve(insertions);
+    touched_.reserve(std::max(touched_.capacity(), usual_touched));
+    if (queue_.size() < usual_queue)
+      queue_.resize(usual_queue);
+  }
+
+  /// Bytes held, capacity included.
+  std::size_t memory() const {
+    return nodes_.capacity() * sizeof(Node) + slot_of_face_.capacity() * sizeof(std::uint32_t) +
+           face_of_slot_.capacity() * sizeof(std::uint32_t) + (touched_.capacity() + queue_.capacity()) * sizeof(std::uint32_t) +
+           overflow_.memory() + sizeof *this;
+  }
+
+private:
+  using Node = internal::Box_node;
+
+  static constexpr std::uint32_t width = Node::width;
+  static constexpr std::uint32_t no_slot = ~std::uint32_t{0}, no_face = no_slot;
+  static constexpr std::uint32_t first_overflow = std::uint32_t{1}
+                                                  << 31; ///< slots from here on are places of the overflow
+  static constexpr int most_levels = 11;                 ///< 8^11 > 2^31
+
+  /// Levels that begin before this node, at 192 KiB, are taken to be in cache. With more nodes on a level than most_ahead
+  /// nothing is fetched: what was guessed is much too large.
+  static constexpr std::uint32_t nodes_in_cache = 1024, most_ahead = 64;
+
+  static constexpr std::size_t usual_touched = 256, usual_queue = 4096; ///< room is made for so many
+
+  const Mesh* mesh_;
+  std::vector<Node> nodes_;                              ///< level by level from the root
+  std::array<std::uint32_t, most_levels> level_begin_{}; ///< of the lowest level first; the last is the root's, 0
+  int levels_ = 0;
+  std::vector<std::uint32_t> face_of_slot_; ///< eight for each node of the lowest level
+  std::vector<std::uint32_t> slot_of_face_;
+  internal::Growing_box_tree overflow_;
+  std::vector<std::uint32_t> touched_; ///< nodes of one level with a box that has changed
+  std::vector<std::uint32_t> queue_;   ///< nodes that a query goes through, level by level
+  std::size_t begin_ = 0, end_ = 0;    ///< those of the level at hand
+  int level_ = 0;                      ///< of which the nodes at hand are
+  internal::Float_box ahead_;          ///< what is fetched ahead
+
+  static bool is_in_overflow(std::uint32_t slot) { return slot >= first_overflow && slot != no_slot; }
+
+  void build() {
+    slot_of_face_.assign(mesh_->num_faces(), no_slot);
+    const std::vector<internal::Face_middle> order = internal::faces_in_spatial_order(*mesh_);
+    if (order.empty())
+      return;
+    std::array<std::uint32_t, most_levels> sizes{};
+    std::size_t size = order.size();
+    do
+      size = sizes[levels_++] = static_cast<std::uint32_t>((size + width - 1) / width);
+    while (size > 1);
+    std::uint32_t begin = 0;
+    for (int level = levels_ - 1; level >= 0; --level)
+      level_begin_[level] = begin, begin += sizes[level];
+    nodes_.resize(begin);
+    face_of_slot_.assign(std::size_t{sizes[0]} * width, no_face);
+    for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
+      const Face_index f(order[slot].face);
+      face_of_slot_[slot] = order[slot].face;
+      slot_of_face_[f] = slot;
+      nodes_[level_begin_[0] + slot / width].set(slot % width, internal::Float_box(face_box(*mesh_, f)));
+    }
+    for (int level = 1; level < levels_; ++level)
+      for (std::uint32_t k = 0; k < sizes[level - 1]; ++k)
+        nodes_[level_begin_[level] + k / width].set(k % width, nodes_[level_begin_[level - 1] + k].all());
+  }
+
+  /// Sets the box of a slot and notes what is to be refitted.
+  void place(std::uint32_t slot, const internal::Float_box& box) {
+    if (is_in_overflow(slot)) {
+      overflow_.set(slot - first_overflow, box);
+    } else {
+      touched_.push_back(0);
+      touched_.resize(set(0, slot, box, touched_.size() - 1));
+    }
+  }
+
+  /// Sets the box of child `index` of a level. Where that changes anything notes its node behind the first `count`
+  /// touched ones, unless it is among the last of them: the faces of a star share nodes. \return how many are noted
+  std::size_t set(int level, std::uint32_t index, const internal::Float_box& box, std::size_t count) {
+    Node& node = nodes_[level_begin_[level] + index / width];
+    if (node.is(index % width, box))
+      return count;
+    node.set(index % width, box);
+    const std::size_t looked_at = std::min<std::size_t>(count, 8); // a node noted twice costs time only
+    const auto end = touched_.begin() + count;
+    if (std::find(end - looked_at, end, index / width) == end)
+      touched_[count++] = index / width;
+    return count;
+  }
+
+  /// Brings the boxes above the touched nodes up to date.
+  void refit() {
+    for (int level = 1; level < levels_ && !touched_.empty(); ++level) {
+      std::size_t count = 0; // nodes of this level are written over those of the level below that have been read
+      for (std::size_t k = 0; k < touched_.size(); ++k)
+        count = set(level, touched_[k], nodes_[level_begin_[level - 1] + touched_[k]].all(), count);
+      touched_.resize(count);
+    }
+  }
+
+  void take(std::uint32_t slot, Face_index f, const internal::Float_box& box) {
+    if (!is_in_overflow(slot))
+      face_of_slot_[slot] = static_cast<std::uint32_t>(f);
+    place(slot, box);
+  }
+
+  void insert_into_overflow(Face_index f, const internal::Float_box& box) {
+    overflow_.insert(static_cast<std::uint32_t>(f), box,
+                     [this](std::uint32_t face, std::uint32_t place) { slot_of_face_[face] = first_overflow + place; });
+  }
+
+  /// A free slot in the node of a face that shares an edge with f, or no_slot.
+  std::uint32_t free_slot_beside(Face_index f) const {
+    auto h = mesh_->halfedge(f);
+    for (int i = 0; i < 3; ++i, h = mesh_->next(h)) {
+      const Face_index g = mesh_->face(mesh_->opposite(h));
+      if (static_cast<std::size_t>(g) >= slot_of_face_.size() || slot_of_face_[g] >= first_overflow)
+        continue;
+      const auto begin = face_of_slot_.begin() + slot_of_face_[g] / width * width, end = begin + width;
+      const auto found = std::find(begin, end, no_face);
+      if (found != end)
+        return static_cast<std::uint32_t>(found - face_of_slot_.begin());
+    }
+    return no_slot;
+  }
+
+  /// Visits the children that pass, `passing(node)` being a mask of eight; at the lowest level they are faces.
+  template <class Passing>
+  void descend(const Passing& passing, std::vector<Face_index>& faces) {
+    const auto found = [&faces](std::uint32_t f) { faces.push_back(Face_index(f)); };
+    to_root();
+    while (level_ > 0)
+      go_down(passing);
+    for (; begin_ != end_; ++begin_)
+      for (unsigned mask = passing(nodes_[level_begin_[0] + queue_[begin_]]); mask != 0; mask &= mask - 1)
+        found(face_of_slot_[std::size_t{queue_[begin_]} * width + internal::lowest_bit(mask)]);
+    overflow_.visit(passing, found);
+  }
+
+  void to_root() {
+    queue_.resize(std::max<std::size_t>(queue_.size(), 1));
+    queue_[0] = 0;
+    begin_ = 0, end_ = levels_ != 0 ? 1 : 0;
+    level_ = levels_ - 1;
+  }
+
+  bool is_worth_fetching() const { return level_ > 0 && end_ - begin_ <= most_ahead; }
+
+  /// Puts the children that pass in the place of the nodes of a level.
+  ///
+  /// All are asked for before the first is read, so that memory is waited for once a level; on the way to one leaf after
+  /// the other it would be waited for on each.
+  template <class Passing>
+  void go_down(const Passing& passing) {
+    const Node* const nodes = &nodes_[level_begin_[level_]];
+    const Node* const children = &nodes_[level_begin_[level_ - 1]];
+    std::size_t count = end_;
+    for (; begin_ != end_; ++begin_) {
+      if (queue_.size() < count + width)
+        queue_.resize(2 * (count + width));
+      const std::uint32_t first = queue_[begin_] * width;
+      for (unsigned mask = passing(nodes[queue_[begin_]]); mask != 0; mask &= mask - 1) {
+        const std::uint32_t child = first + internal::lowest_bit(mask);
+        internal::prefetch(children + child, sizeof(Node));
+        if (level_ == 1)
+          internal::prefetch(&face_of_slot_[std::size_t{child} * width], width * sizeof(std::uint32_t));
+        queue_[count++] = child;
+      }
+    }
+    end_ = count;
+    --level_;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

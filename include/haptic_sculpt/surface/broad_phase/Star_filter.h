@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_STAR_FILTER_H
+#define HAPTIC_SCULPT_SURFACE_STAR_FILTER_H
+
+#include <haptic_sculpt/surface/broad_phase/Cone_of_boxes.h>
+#include <haptic_sculpt/surface/broad_phase/Slab_of_points.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Which boxes of a node may meet what a star sweeps: those in the box around it, in the cone from its start to the
+/// target, in the cone from its link to where its centre is, and in the slab around all; where these are thin.
+class Star_filter {
+public:
+  explicit Star_filter(const Swept_star_3& star) {
+    Box_3 link, around = star.path();
+    for (std::size_t i = 0; i < star.valence; ++i)
+      link.include(star.link[i]);
+    if (star.valence != 0)
+      from_link_ = Cone_of_boxes(link, around, 1);
+    if (!star.is_box) {
+      from_start_ = Cone_of_boxes(Box_3(link).include(star.source), Box_3(star.target), star.until);
+      if (from_link_.is_long() || from_start_.is_long())
+        slab_ = Slab_of_points(star);
+    }
+    around_ = Float_box::query(around.include(link));
+  }
+
+  unsigned meeting(const Box_node& node) const {
+    unsigned mask = node.meeting(around_);
+    if (mask != 0 && from_start_.is_long())
+      mask &= from_start_.meeting(node);
+    if (mask != 0 && from_link_.is_long())
+      mask &= from_link_.meeting(node);
+    if (mask != 0 && slab_.is_thin())
+      mask &= slab_.meeting(node);
+    return mask;
+  }
+
+  /// Whether there is more to it than the box.
+  bool is_thin() const { return from_start_.is_long() || from_link_.is_long() || slab_.is_thin(); }
+  const Float_box& box() const { return around_; }
+
+private:
+  Cone_of_boxes from_start_, from_link_;
+  Slab_of_points slab_{Swept_star_3()};
+  Float_box around_;
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

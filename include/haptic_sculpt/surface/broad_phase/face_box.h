@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_FACE_BOX_H
+#define HAPTIC_SCULPT_SURFACE_FACE_BOX_H
+
+#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+
+namespace haptic_sculpt {
+
+/// The coordinates of a vertex. \pre the mesh's points have double coordinates.
+template <class Mesh>
+std::array<double, 3> vertex_coordinates(const Mesh& mesh, typename Mesh::Vertex_index v) {
+  const auto& p = mesh.point(v);
+  return {p.x(), p.y(), p.z()};
+}
+
+/// The smallest box around a triangle. \pre f is a triangle.
+template <class Mesh>
+Box_3 face_box(const Mesh& mesh, typename Mesh::Face_index f) {
+  const auto h = mesh.halfedge(f);
+  Box_3 box(vertex_coordinates(mesh, mesh.target(h)));
+  box.include(vertex_coordinates(mesh, mesh.target(mesh.next(h))));
+  box.include(vertex_coordinates(mesh, mesh.source(h)));
+  return box;
+}
+
+} // namespace haptic_sculpt
+
+#endif

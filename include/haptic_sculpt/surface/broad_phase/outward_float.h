@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_OUTWARD_FLOAT_H
+#define HAPTIC_SCULPT_SURFACE_OUTWARD_FLOAT_H
+
+#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+
+#include <cstdint>
+#include <cstring>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// The float next to x towards -infinity. \pre x is neither NaN nor -infinity
+inline float next_down(float x) {
+  if (x == 0)
+    return -std::numeric_limits<float>::denorm_min();
+  std::int32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  bits += bits < 0 ? 1 : -1;
+  std::memcpy(&x, &bits, sizeof bits);
+  return x;
+}
+
+/// A float that is not above x. The conversion may round either way; a comparison, which does not round, tells.
+inline float float_below(double x) {
+  const float f = static_cast<float>(x);
+  return static_cast<double>(f) > x ? next_down(f) : f;
+}
+
+/// A float that is not below x.
+inline float float_above(double x) {
+  return -float_below(-x);
+}
+
+/// A closed box of floats.
+struct Float_box {
+  std::array<float, 3> lower, upper;
+
+  /// The box that holds nothing. It meets no `query()` box, and grows.
+  Float_box() {
+    lower.fill(std::numeric_limits<float>::infinity());
+    upper.fill(-std::numeric_limits<float>::infinity());
+  }
+  /// A box around a box of doubles.
+  explicit Float_box(const Box_3& box) {
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = float_below(box.lower[i]);
+      upper[i] = float_above(box.upper[i]);
+    }
+  }
+
+  /// The box to ask with: it meets what Float_box(box) meets, except the box of nothing. For the lower bound of a box
+  /// around finite doubles is never +infinity: no such box is lost where an upper bound asked with is at most the
+  /// largest float.
+  static Float_box query(const Box_3& box) {
+    constexpr float largest = std::numeric_limits<float>::max();
+    Float_box result(box);
+    for (int i = 0; i < 3; ++i) {
+      result.lower[i] = result.lower[i] < -largest ? -largest : result.lower[i];
+      result.upper[i] = result.upper[i] > largest ? largest : result.upper[i];
+    }
+    return result;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

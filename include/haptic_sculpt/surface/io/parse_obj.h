@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_PARSE_OBJ_H
+#define HAPTIC_SCULPT_SURFACE_PARSE_OBJ_H
+
+#include <haptic_sculpt/surface/io/Text_scanner.h>
+#include <haptic_sculpt/surface/validity/Face_soup.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Reads the text of a Wavefront OBJ file: its `v` and `f` lines. Texture coordinates, normals, colours, materials,
+/// groups and lines are skipped; free-form surfaces and lines continued by a backslash are refused. \throw Read_error
+inline Face_soup parse_obj(std::string_view text) {
+  constexpr std::array<std::string_view, 12> skipped{"vt", "vn", "vp", "g",      "o",      "s",
+                                                     "mg", "l",  "p",  "usemtl", "mtllib", "usemap"};
+  Text_scanner scan(text);
+  Face_soup soup;
+  std::int64_t highest = -1;
+  std::size_t face_with_highest = 0;
+  while (scan.next_line()) {
+    const std::string_view keyword = scan.word("a keyword");
+    if (keyword == "v") {
+      std::array<double, 7> x{};
+      std::size_t n = 0;
+      for (; scan.has_word(); ++n) {
+        if (n == x.size())
+          scan.fail("a vertex has 3 coordinates, and a weight or a colour");
+        x[n] = scan.to_number(scan.word(""), "a coordinate");
+      }
+      if (n < 3 || n == 5)
+        scan.fail("a vertex has 3 coordinates, not " + std::to_string(n));
+      if (n % 3 == 1 && x[3] != 1)
+        scan.fail("vertices with a weight other than 1 are not supported; divide the coordinates by it");
+      soup.add_point(x[0], x[1], x[2]);
+    } else if (keyword == "f") {
+      const auto face = std::to_string(soup.number_of_faces());
+      while (scan.has_word()) {
+        const std::string_view corner = scan.word("");
+        const auto index = scan.to_number<std::int64_t>(corner.substr(0, corner.find('/')), "the index of a vertex");
+        const std::int64_t points = static_cast<std::int64_t>(soup.points.size());
+        const std::int64_t v = index > 0 ? index - 1 : points + index; // negative: counted back from here
+        if (index == 0 || v < 0 || v >= std::int64_t(UINT32_MAX))
+          scan.fail("face " + face + " (counted from 0) names vertex " + std::to_string(index) +
+                    ", which cannot be: indices count from 1, or backwards from -1");
+        if (v > highest) {
+          highest = v;
+          face_with_highest = soup.number_of_faces();
+        }
+        soup.corners.push_back(static_cast<Face_soup::Index>(v));
+      }
+      soup.close_face();
+    } else if (std::find(skipped.begin(), skipped.end(), keyword) != skipped.end()) {
+      scan.skip_rest_of_line();
+    } else {
+      scan.fail(in_quotes(keyword) + " is no line of an OBJ mesh");
+    }
+  }
+  if (highest >= static_cast<std::int64_t>(soup.points.size()))
+    throw Read_error("face " + std::to_string(face_with_highest) + " (counted from 0) names vertex " +
+                     std::to_string(highest + 1) + ", but there are only " + std::to_string(soup.points.size()));
+  return soup;
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

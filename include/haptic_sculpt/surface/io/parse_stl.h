@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_PARSE_STL_H
+#define HAPTIC_SCULPT_SURFACE_PARSE_STL_H
+
+#include <haptic_sculpt/surface/io/Binary_scanner.h>
+#include <haptic_sculpt/surface/io/Text_scanner.h>
+#include <haptic_sculpt/surface/validity/Face_soup.h>
+
+#include <boost/container_hash/hash.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Makes vertices of the corners of an STL file: exactly equal points are one vertex (0 and -0 are equal), numbered in
+/// the order of first appearance.
+class Stl_vertices {
+public:
+  explicit Stl_vertices(Face_soup& soup) : soup_(soup) {}
+
+  void add_corner(double x, double y, double z) {
+    std::array<std::uint64_t, 3> key;
+    std::size_t k = 0;
+    for (double coordinate : {x, y, z}) {
+      if (coordinate == 0)
+        coordinate = 0; // the sign of zero
+      std::memcpy(&key[k++], &coordinate, sizeof coordinate);
+    }
+    const auto [place, is_new] = index_.emplace(key, static_cast<Face_soup::Index>(soup_.points.size()));
+    if (is_new)
+      soup_.add_point(x, y, z);
+    soup_.corners.push_back(place->second);
+  }
+
+private:
+  Face_soup& soup_;
+  std::unordered_map<std::array<std::uint64_t, 3>, Face_soup::Index, boost::hash<std::array<std::uint64_t, 3>>> index_;
+};
+
+inline std::string in_lower_case(std::string_view word) {
+  std::string lower(word);
+  for (char& c : lower)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+/// ASCII STL, one or several solids. Coordinates are doubles; normals are skipped. Keywords may stand in capitals.
+/// \throw Read_error
+inline Face_soup parse_ascii_stl(std::string_view text) {
+  Text_scanner scan(text, 0);
+  const auto expect = [&](const char* expected) {
+    if (const std::string_view word = scan.word_anywhere(expected); in_lower_case(word) != expected)
+      scan.fail(in_quotes(word) + " stands where '" + expected + "' should");
+  };
+  const auto skip_words = [&](int n) {
+    for (int i = 0; i < n; ++i)
+      scan.word_anywhere("a normal");
+  };
+  Face_soup soup;
+  Stl_vertices vertices(soup);
+  while (scan.has_word() || scan.next_line()) {
+    expect("solid");
+    scan.skip_rest_of_line(); // its name
+    for (;;) {
+      const std::string_view word = scan.word_anywhere("'facet' or 'endsolid'");
+      const std::string keyword = in_lower_case(word);
+      if (keyword == "endsolid")
+        break;
+      if (keyword != "facet")
+        scan.fail(in_quotes(word) + " stands where 'facet' or 'endsolid' should");
+      expect("normal");
+      skip_words(3);
+      expect("outer");
+      expect("loop");
+      for (int corner = 0; corner < 3; ++corner) {
+        expect("vertex");
+        double x[3];
+        for (double& coordinate : x)
+          coordinate = scan.to_number(scan.word_anywhere("a coordinate"), "a coordinate");
+        vertices.add_corner(x[0], x[1], x[2]);
+      }
+      expect("endloop");
+      expect("endfacet");
+      soup.close_face();
+    }
+    scan.skip_rest_of_line();
+  }
+  return soup;
+}
+
+/// Binary STL: floats. \throw Read_error
+inline Face_soup parse_binary_stl(std::string_view bytes, std::uint32_t faces) {
+  Binary_scanner scan(bytes.substr(84), false);
+  Face_soup soup;
+  Stl_vertices vertices(soup);
+  soup.first_corner.reserve(faces + std::size_t(1));
+  soup.corners.reserve(3 * std::size_t(faces));
+  for (std::uint32_t f = 0; f < faces; ++f) {
+    for (int k = 0; k < 3; ++k)
+      scan.take<float>(); // the normal
+    for (int corner = 0; corner < 3; ++corner) {
+      const float x = scan.take<float>(), y = scan.take<float>(), z = scan.take<float>();
+      vertices.add_corner(x, y, z);
+    }
+    scan.take<std::uint16_t>(); // attributes
+    soup.close_face();
+  }
+  return soup;
+}
+
+/// A file is binary iff its size is that which a binary file with its count has. \throw Read_error
+inline Face_soup parse_stl(std::string_view bytes) {
+  constexpr std::size_t header = 84, facet = 50;
+  const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  const bool looks_like_text = in_lower_case(bytes.substr(start, 5)) == "solid";
+  if (bytes.size() >= header) {
+    const auto faces = Binary_scanner(bytes.substr(80), false).take<std::uint32_t>();
+    const std::uint64_t size = header + std::uint64_t(facet) * faces;
+    if (bytes.size() == size)
+      return parse_binary_stl(bytes, faces);
+    if (!looks_like_text)
+      throw Read_error("the header promises " + std::to_string(faces) + " triangles, which take " +
+                       std::to_string(size) + " bytes, but the file has " + std::to_string(bytes.size()));
+  } else if (!looks_like_text) {
+    throw Read_error("the file is neither text that begins with 'solid' nor long enough for a binary STL file");
+  }
+  return parse_ascii_stl(bytes);
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

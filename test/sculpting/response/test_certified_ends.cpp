@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Drags on machine parts and near-degenerate solids: no end may have a free straight way to somewhere nearer.
+#include "sculpting/clearances.h"
+#include "sculpting/response/end_certificate.h"
+#include "sculpting/response/part_scenes.h"
+
+#include <boost/test/unit_test.hpp>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+struct Ends {
+  std::size_t drags = 0, certified = 0, missed = 0;
+};
+
+/// Grabs of two drags each, all kept, so that the scene is deformed more and more.
+Ends drag_and_certify(const Part_scene& scene, std::size_t drags, Random& random, Response response) {
+  Mesh mesh = scene.mesh;
+  Sculptor<Mesh> sculptor(mesh, parameters::response(response));
+  End_certifier certifier(mesh);
+  Ends ends;
+  while (ends.drags < drags) {
+    const Vertex_index v = part_vertex(scene, mesh, random);
+    auto grab = sculptor.grab(v);
+    for (int i = 0; i < 2; ++i) {
+      const Point_3 source = mesh.point(v), target = part_target(scene, mesh, v, random);
+      const auto result = grab.drag_to(target);
+      const double c = clearance_kept(sculptor, result);
+      ++ends.drags;
+      if (result.reached)
+        continue;
+      const auto found =
+          certifier.certify(v, target, std::sqrt(CGAL::squared_distance(source, target)), c, 0, random, 300);
+      ends.certified += found.asked;
+      ends.missed += found.gain > 0 || result.end == Drag_end::stuck;
+      if (found.gain > 0)
+        BOOST_TEST_MESSAGE(scene.family << ": nearer by " << found.gain / c << " c");
+    }
+  }
+  BOOST_TEST(validate(mesh).is_valid());
+  return ends;
+}
+
+Ends drag_in_all_families(Response response, std::size_t first, std::size_t last, std::size_t drags, Random& random) {
+  constexpr std::size_t per_scene = 20;
+  Ends all;
+  for (std::size_t done = 0; done < drags; done += per_scene)
+    for (std::size_t family = first; family < last; ++family) {
+      const Ends ends = drag_and_certify(part_scene(family, random), per_scene, random, response);
+      all.drags += ends.drags, all.certified += ends.certified, all.missed += ends.missed;
+    }
+  BOOST_TEST_MESSAGE(all.drags << " drags, " << all.certified << " ends certified, " << all.missed << " missed");
+  return all;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(no_end_on_a_part_is_too_early) {
+  Random random(seed_from_environment(801));
+  const Ends ends = drag_in_all_families(Response::slide, 0, first_near_degenerate_family,
+                                         count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
+  BOOST_TEST(ends.certified > 500u);
+  BOOST_TEST(ends.missed <= 1 + ends.drags / 200); // doc/slide.md, "Measured"
+}
+
+BOOST_AUTO_TEST_CASE(few_ends_on_near_degenerate_solids_are_too_early) {
+  Random random(seed_from_environment(802));
+  const Ends ends = drag_in_all_families(Response::slide, first_near_degenerate_family, part_families().size(),
+                                         count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
+  BOOST_TEST(ends.certified > 250u);
+  BOOST_TEST(ends.missed <= 1 + ends.drags / 30);
+}
+
+BOOST_AUTO_TEST_CASE(the_certificate_knows_an_end_that_is_too_early) {
+  // A stop is hardly ever a minimum.
+  Random random(seed_from_environment(803));
+  const Ends ends = drag_in_all_families(Response::stop, 0, first_near_degenerate_family, 20, random);
+  BOOST_TEST(3 * ends.missed > ends.certified);
+}
