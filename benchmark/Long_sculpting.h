@@ -136,11 +136,11 @@ private:
     if (s == t)
       return;
     Box_tree_broad_phase<Mesh> broad_phase(mesh_);
-    const Face_corners<Mesh> corners(mesh_);
+    const internal::Face_corners<Mesh> corners(mesh_);
     Filter_counters counters;
     test::Recording_guard<Mesh> guard(mesh_, broad_phase, corners, counters);
     guard.collect(v);
-    Responses<Mesh> responses;
+    internal::Responses<Mesh> responses;
     Drag_result<Mesh> result;
     const auto end = responses.move(Response::slide, guard, mesh_, s, t, {}, result);
     const auto legs = guard.way(s, end);

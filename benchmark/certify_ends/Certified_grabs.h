@@ -78,7 +78,7 @@ private:
     if (random_() % 4 == 0) {
       double least = 0; // that serves the scene
       for (const auto v : scene_.mesh.vertices())
-        least = std::max(least, unit_in_the_last_place(internal::largest_magnitude(vertex_coordinates(scene_.mesh, v))));
+        least = std::max(least, internal::unit_in_the_last_place(internal::largest_magnitude(vertex_coordinates(scene_.mesh, v))));
       options.clearance(std::max(least, (scene_.is_near_degenerate ? 1e-14 : 1e-9) * scene_.size));
     }
     const double delta = 1e-3 * scene_.size;

@@ -49,7 +49,7 @@ private:
   double edge_;
   std::uint64_t seed_;
   Tree stale_;
-  Star<Mesh> star_;
+  internal::Star<Mesh> star_;
   std::vector<Face_index> found_;
 
   /// Random pushes of `reach` edges inwards; `meets(v)` is asked with the vertex moved. Its time includes nothing else.
@@ -93,7 +93,7 @@ private:
   }
 
   Kernel::Triangle_3 triangle(Face_index f) const {
-    const auto c = corners_of_face(mesh_, f);
+    const auto c = internal::corners_of_face(mesh_, f);
     return {mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2])};
   }
 

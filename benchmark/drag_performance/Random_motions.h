@@ -41,7 +41,7 @@ private:
 
 /// Out of the solid at v, of length 1: the sum of the doubled areas around it. Worth no more than its use for a direction.
 inline Vector normal_at(const Mesh& mesh, Vertex_index v) {
-  Star<Mesh> star;
+  internal::Star<Mesh> star;
   star.collect(mesh, v);
   const Vector centre = vertex_coordinates(mesh, v);
   Vector sum{};

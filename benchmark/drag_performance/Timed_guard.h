@@ -42,7 +42,7 @@ public:
     return time;
   }
   template <class Result>
-  Coordinates leg(const Coordinates& source, const Coordinates& target, const Drag_rules& rules, Result& result) {
+  Coordinates leg(const Coordinates& source, const Coordinates& target, const internal::Drag_rules& rules, Result& result) {
     return guard_->leg(source, target, rules, result);
   }
 

@@ -83,9 +83,9 @@ struct Wanted_list {
 
 void fill_lists(const Mesh& mesh, const std::vector<Wanted_list>& wanted, Latencies& times) {
   Box_tree_broad_phase<Mesh> tree(mesh);
-  const Face_corners<Mesh> corners(mesh);
-  Star<Mesh> star;
-  Checklist<Mesh> list;
+  const internal::Face_corners<Mesh> corners(mesh);
+  internal::Star<Mesh> star;
+  internal::Checklist<Mesh> list;
   std::vector<Mesh::Face_index> faces;
   for (const Wanted_list& one : wanted) {
     if (!one.is_wanted) {
@@ -110,9 +110,9 @@ template <class Is_counted>
 Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_counted& is_counted, bool with_stop, Latencies* lists = nullptr) {
   Mesh mesh = scene.mesh;
   Timed broad_phase(mesh);
-  const Face_corners<Mesh> corners(mesh);
+  const internal::Face_corners<Mesh> corners(mesh);
   Filter_counters counters;
-  Guarded_star<Mesh, Timed> guard(mesh, broad_phase, corners, counters);
+  internal::Guarded_star<Mesh, Timed> guard(mesh, broad_phase, corners, counters);
   Drag_result<Mesh> result;
   Latencies counted;
   std::size_t looks = guard.looks();
@@ -169,11 +169,11 @@ void add_phases(Json& phases, const Workload_mesh& scene, const char* workload, 
 void add_slide_phases(Json& phases, const Workload_mesh& scene, std::uint64_t seed, std::size_t count, std::size_t slides, double step) {
   Mesh mesh = scene.mesh;
   Timed broad_phase(mesh);
-  const Face_corners<Mesh> corners(mesh);
+  const internal::Face_corners<Mesh> corners(mesh);
   Filter_counters counters;
-  Guarded_star<Mesh, Timed> star(mesh, broad_phase, corners, counters);
-  Timed_guard<Guarded_star<Mesh, Timed>> guard(star);
-  Responses<Mesh> responses;
+  internal::Guarded_star<Mesh, Timed> star(mesh, broad_phase, corners, counters);
+  Timed_guard<internal::Guarded_star<Mesh, Timed>> guard(star);
+  internal::Responses<Mesh> responses;
   Random_motions random(seed);
   Latencies whole, asking, deciding, planes, calls;
   for (std::size_t k = 0; k < count; ++k) {

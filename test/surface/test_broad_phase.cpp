@@ -307,7 +307,7 @@ struct Changing_mesh {
     }
     check_box(box);
     check_box(face_box(mesh, mesh.face(mesh.halfedge(random_vertex(random))))); // touches its neighbours' boxes
-    Star<Mesh> star;
+    internal::Star<Mesh> star;
     const Vertex_index v = random_vertex(random);
     star.collect(mesh, v);
     const Coordinates s = vertex_coordinates(mesh, v);
@@ -405,7 +405,7 @@ BOOST_AUTO_TEST_CASE(rounding_modes_lose_nothing) {
       Changing_mesh changing(scenes()[1], frame);
       for (int k = 0; k < 30; ++k) {
         changing.change(random, 3);
-        Star<Mesh> star;
+        internal::Star<Mesh> star;
         const Vertex_index v = changing.random_vertex(random);
         star.collect(changing.mesh, v);
         const Swept_star_3 swept = star.swept(vertex_coordinates(changing.mesh, v), frame(random_point(random, 6)));
@@ -466,7 +466,7 @@ BOOST_AUTO_TEST_CASE(a_long_push_asks_for_few_faces) {
   Brute_force_broad_phase<Mesh> brute_force(mesh);
   Box_tree_broad_phase<Mesh> tree(mesh);
   std::vector<Face_index> in_box, found;
-  Star<Mesh> star;
+  internal::Star<Mesh> star;
   for (int k = 0; k < 50; ++k) {
     const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
     star.collect(mesh, v);
@@ -529,7 +529,7 @@ BOOST_AUTO_TEST_CASE(neither_queries_nor_moves_allocate) {
     tree.faces_inserted(around);
   }
   std::vector<Face_index> found;
-  Star<Mesh> star;
+  internal::Star<Mesh> star;
   std::size_t before = 0;
   for (int round = 0; round < 2; ++round) { // the same twice: the first warms up
     Random script(17);

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_CONTACT_3_H
 
 #include <haptic_sculpt/sculpting/contact/contact_plane.h>
-#include <haptic_sculpt/sculpting/motion/Star_impact.h>
+#include <haptic_sculpt/sculpting/Star_impact.h>
 
 namespace haptic_sculpt {
 

@@ -163,7 +163,7 @@ public:
     return edited([&] { return editor_.redo(); });
   }
 
-  const Edit_history& history() const { return editor_.history(); }
+  const internal::Edit_history& history() const { return editor_.history(); }
 
   /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the moves of a vertex
   /// between two other edits are kept as one.
@@ -223,7 +223,7 @@ public:
     probe_guard_.star().clear();
     probe_guard_.invalidate();
     if (s != t)
-      finish(responses_.move(options_.response_rule, probe_guard_, *mesh_, s, t, {Clearance_rule(options_.clearance_length), 0}, result),
+      finish(responses_.move(options_.response_rule, probe_guard_, *mesh_, s, t, {internal::Clearance_rule(options_.clearance_length), 0}, result),
              t, result);
     responses_.forget();
     return result;
@@ -232,7 +232,7 @@ public:
   /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length set, or
   /// the default.
   double clearance(const Point& p) const {
-    return Clearance_rule(options_.clearance_length).at(internal::largest_magnitude(internal::coordinates(p)));
+    return internal::Clearance_rule(options_.clearance_length).at(internal::largest_magnitude(internal::coordinates(p)));
   }
 
   /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene as it is (Sculptor_parameters), and
@@ -275,14 +275,14 @@ private:
   void end_stroke(std::size_t number) noexcept { editor_.history().end_stroke(number); }
 
   Mesh_type* mesh_;
-  Mesh_watch<Mesh_type> watch_;
+  internal::Mesh_watch<Mesh_type> watch_;
   Sculptor_parameters options_;
   Filter_counters counters_;
   Broad_phase broad_phase_;
-  Face_corners<Mesh_type> corners_;
-  Editor<Mesh_type, Broad_phase, Visitor> editor_;
-  Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
-  Responses<Mesh_type> responses_;
+  internal::Face_corners<Mesh_type> corners_;
+  internal::Editor<Mesh_type, Broad_phase, Visitor> editor_;
+  internal::Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
+  internal::Responses<Mesh_type> responses_;
   Vertex_index held_; ///< whose star guard_ has; invalid when none
   bool moved_ = false; ///< the broad phase has not been told yet where the held star is
   double largest_coordinate_ = 0; ///< bounds those of all vertices
@@ -325,7 +325,7 @@ private:
     double widest = 0;
     for (int i = 0; i < 3; ++i)
       widest = std::fmax(widest, extent.box.upper[i] - extent.box.lower[i]);
-    const double least = unit_in_the_last_place(extent.largest),
+    const double least = internal::unit_in_the_last_place(extent.largest),
                  most = widest / internal::Slide_lengths::clearances_of_retreat;
     if (!(*options.clearance_length >= least && *options.clearance_length <= most))
       throw Invalid_parameter("the clearance " + internal::number(*options.clearance_length) + " does not serve this scene: give " +
@@ -340,10 +340,10 @@ private:
 
   /// \throw Invalid_parameter where the scene has outgrown the clearance set.
   void check_clearance_serves() {
-    if (!options_.clearance_length || *options_.clearance_length >= unit_in_the_last_place(largest_coordinate_))
+    if (!options_.clearance_length || *options_.clearance_length >= internal::unit_in_the_last_place(largest_coordinate_))
       return;
     largest_coordinate_ = extent_of(*mesh_).largest; // what was far may be back
-    if (!(*options_.clearance_length >= unit_in_the_last_place(largest_coordinate_)))
+    if (!(*options_.clearance_length >= internal::unit_in_the_last_place(largest_coordinate_)))
       check_clearance(*mesh_, options_);
   }
 
@@ -400,7 +400,7 @@ private:
     const internal::Coordinates end =
         s == t ? t
                : responses_.move(options_.response_rule, guard_, *mesh_, s, t,
-                                 {Clearance_rule(options_.clearance_length), options_.delta_length}, result);
+                                 {internal::Clearance_rule(options_.clearance_length), options_.delta_length}, result);
     try {
       watch_candidates();
     } catch (const Mesh_changed&) {
@@ -456,7 +456,7 @@ private:
   }
 
   bool refuse_start(const internal::Coordinates& start, Result& result) {
-    const Clearance_rule rule(options_.clearance_length);
+    const internal::Clearance_rule rule(options_.clearance_length);
     const double reach = internal::largest_magnitude(start), clearance = rule.at(std::fmax(largest_coordinate_, reach));
     Box_3 near(start);
     for (int i = 0; i < 3; ++i) {

@@ -58,16 +58,16 @@ Star_impacts<Mesh> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v
   internal::check_point("the target", target);
   const auto source = vertex_coordinates(mesh, v);
   const internal::Coordinates end = internal::coordinates(target);
-  Star<Mesh> star;
+  internal::Star<Mesh> star;
   star.collect(mesh, v);
   std::vector<typename Mesh::Face_index> candidates;
   const Swept_star_3 swept = star.swept(source, end);
   Brute_force_broad_phase<Mesh>(mesh).query(swept, candidates);
-  Checklist<Mesh> list;
-  list.assign(mesh, [&mesh](auto f) { return corners_of_face(mesh, f); }, star, candidates, swept.box());
+  internal::Checklist<Mesh> list;
+  list.assign(mesh, [&mesh](auto f) { return internal::corners_of_face(mesh, f); }, star, candidates, swept.box());
   No_filter_counters uncounted;
   Star_impacts<Mesh> firsts;
-  Narrow_phase<Mesh, No_filter_counters>(uncounted).first_impacts(star, list, source, end, firsts);
+  internal::Narrow_phase<Mesh, No_filter_counters>(uncounted).first_impacts(star, list, source, end, firsts);
   return firsts;
 }
 

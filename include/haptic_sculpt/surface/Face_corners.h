@@ -6,6 +6,7 @@
 #include <vector>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// The corners of a face in the orientation of the mesh, from its halfedges.
 template <class Mesh>
@@ -68,6 +69,7 @@ private:
   std::vector<std::array<Vertex_index, 3>> corners_;
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

@@ -6,6 +6,7 @@
 #include <haptic_sculpt/surface/broad_phase/face_box.h>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// The closed star of a vertex: its link in order around it, and its faces.
 ///
@@ -67,6 +68,7 @@ struct Star {
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

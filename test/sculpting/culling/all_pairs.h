@@ -16,12 +16,12 @@ struct All_pairs {
   using Points = internal::Sweep_points;
   using Verdict = internal::Sweep_verdict;
 
-  const Star<Mesh>& star;
+  const internal::Star<Mesh>& star;
   std::vector<std::array<Vertex_index, 3>> faces;
   std::set<std::array<Vertex_index, 2>> edges;
   std::map<Vertex_index, Coordinates> vertices;
 
-  All_pairs(const Mesh& mesh, const Star<Mesh>& star, const std::vector<std::array<Vertex_index, 3>>& triangles)
+  All_pairs(const Mesh& mesh, const internal::Star<Mesh>& star, const std::vector<std::array<Vertex_index, 3>>& triangles)
     : star(star) {
     for (const Vertex_index v : star.link)
       vertices[v] = vertex_coordinates(mesh, v);
@@ -122,7 +122,7 @@ struct All_pairs {
   }
 
   /// Whether the list has each face, edge and vertex once, and the link's vertices first, in their order.
-  bool are_in(const Checklist<Mesh>& list) const {
+  bool are_in(const internal::Checklist<Mesh>& list) const {
     bool are_same = list.vertices().size() == vertices.size() && list.edges().size() == edges.size() &&
                     list.faces().size() == faces.size();
     const auto index = [&](std::uint32_t position) { return list.vertices()[position].index; };

@@ -16,8 +16,8 @@ using Coordinates = std::array<double, 3>;
 
 struct Scene {
   Mesh mesh;
-  Star<Mesh> star;
-  Checklist<Mesh> list;
+  internal::Star<Mesh> star;
+  internal::Checklist<Mesh> list;
   Coordinates centre{};
 
   /// A star of three faces around a vertex near the origin, and triangles around it whose corners are 2^0 to 2^longest away.
@@ -47,7 +47,7 @@ struct Scene {
     }
     Box_3 everywhere;
     everywhere.include(Coordinates{-1e300, -1e300, -1e300}).include(Coordinates{1e300, 1e300, 1e300});
-    list.assign(mesh, [this](auto f) { return corners_of_face(mesh, f); }, star, faces, everywhere);
+    list.assign(mesh, [this](auto f) { return internal::corners_of_face(mesh, f); }, star, faces, everywhere);
   }
 };
 
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(near_pairs_give_what_all_pairs_give) {
       const double x = normal(random), y = normal(random), z = normal(random);
       return internal::normalized({x, y, z});
     };
-    Near_pairs<Mesh> pairs;
+    internal::Near_pairs<Mesh> pairs;
     const double step = std::ldexp(scale, -static_cast<int>(random() % 20));
     internal::Star_runs<Mesh> memory;
     pairs.assign(scene.star, scene.list, memory, scene.centre, internal::advanced(scene.centre, step, direction()));
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(near_pairs_give_what_all_pairs_give) {
       continue;
     ++balls;
     Filter_counters counters;
-    Narrow_phase<Mesh> narrow(counters);
+    internal::Narrow_phase<Mesh> narrow(counters);
     Star_impacts<Mesh> all, near;
     for (int i = 0; i < 20; ++i) {
       // As far as the ball goes in a random direction, found by halving; or a part of it.

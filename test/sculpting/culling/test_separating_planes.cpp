@@ -41,7 +41,7 @@ Box_3 everywhere() {
 /// A star among triangles that need not be a mesh: any three of drawn points and of the link's vertices.
 struct Soup {
   Mesh mesh;
-  Star<Mesh> star;
+  internal::Star<Mesh> star;
   Coordinates source, target;
   std::vector<std::array<Vertex_index, 3>> triangles;
 
@@ -88,7 +88,7 @@ struct Soup {
     }
   }
 
-  void fill(Checklist<Mesh>& list) const {
+  void fill(internal::Checklist<Mesh>& list) const {
     std::vector<Mesh::Face_index> faces;
     for (std::size_t k = 0; k < triangles.size(); ++k)
       faces.emplace_back(static_cast<Mesh::size_type>(k));
@@ -119,8 +119,8 @@ std::size_t draw_valence(Random& random) {
 /// Working memory is shared by all scenes, as in a long session.
 struct Session {
   Filter_counters counters;
-  Checklist<Mesh> list;
-  Narrow_phase<Mesh> narrow{counters};
+  internal::Checklist<Mesh> list;
+  internal::Narrow_phase<Mesh> narrow{counters};
   internal::Edit_proof<Mesh, Filter_counters> proof{counters};
   Star_impacts<Mesh> found;
   std::size_t motions = 0, blocked = 0, several = 0, late = 0, collapses = 0, refused = 0, balls = 0, covered = 0, met = 0, meeting = 0,
@@ -195,7 +195,7 @@ struct Session {
       const double x = number(random), y = number(random), z = number(random);
       return internal::advanced(source, distance, {x, y, z});
     };
-    Near_pairs<Mesh> pairs;
+    internal::Near_pairs<Mesh> pairs;
     pairs.assign(all.star, list, narrow.runs(), source, away(std::ldexp(size, -4 - static_cast<int>(random() % 12))));
     if (!pairs.cover(source, source))
       return;
@@ -282,12 +282,12 @@ BOOST_AUTO_TEST_CASE(impacts_in_meshes_are_those_of_all_pairs) {
     std::vector<std::array<Vertex_index, 3>> triangles;
     std::vector<Mesh::Face_index> faces(mesh.faces().begin(), mesh.faces().end());
     for (const auto f : faces)
-      triangles.push_back(corners_of_face(mesh, f));
+      triangles.push_back(internal::corners_of_face(mesh, f));
     const std::size_t n = mesh.number_of_vertices();
-    Star<Mesh> star;
+    internal::Star<Mesh> star;
     // the last vertices of a bipyramid are its apices
     star.collect(mesh, Vertex_index(static_cast<Mesh::size_type>(random() % 2 == 0 ? n - 1 : random() % n)));
-    Checklist<Mesh>& list = session.list;
+    internal::Checklist<Mesh>& list = session.list;
     list.assign(mesh, [&](auto f) { return triangles[f]; }, star, faces, everywhere());
     const All_pairs all(mesh, star, triangles);
     BOOST_TEST(all.are_in(list));

@@ -31,7 +31,7 @@ struct Exact_mesh {
 
   Exact_mesh(const Mesh& mesh, std::vector<oracle::Point<Integer>> p) : points(std::move(p)) {
     for (const auto f : mesh.faces()) {
-      const auto corners = corners_of_face(mesh, f);
+      const auto corners = internal::corners_of_face(mesh, f);
       faces.push_back({static_cast<int>(corners[0]), static_cast<int>(corners[1]), static_cast<int>(corners[2])});
     }
     for (const Vertex_index v : mesh.vertices())

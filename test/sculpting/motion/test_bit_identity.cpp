@@ -148,7 +148,7 @@ private:
       if (b_.is_removed(v) || !same_bits(a_.point(v), b_.point(v)))
         return differ("a coordinate");
     for (const auto f : a_.faces())
-      if (b_.is_removed(f) || corners_of_face(a_, f) != corners_of_face(b_, f))
+      if (b_.is_removed(f) || internal::corners_of_face(a_, f) != internal::corners_of_face(b_, f))
         return differ("a face");
   }
 };

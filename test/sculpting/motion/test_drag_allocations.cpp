@@ -176,9 +176,9 @@ BOOST_AUTO_TEST_CASE(room_for_undo_is_made_at_the_grab) {
   };
   there_and_back(100);
   const std::size_t before = allocations;
-  there_and_back(Edit_history::room - 100);
+  there_and_back(internal::Edit_history::room - 100);
   BOOST_TEST(allocations == before);
-  BOOST_TEST(sculptor.history().number_of_undo_steps() > Edit_history::room / 2);
+  BOOST_TEST(sculptor.history().number_of_undo_steps() > internal::Edit_history::room / 2);
 }
 
 // Creations, removals, collapses, flips, drags, undo, redo and strokes, from the first one on.

@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(a_far_target_inflates_no_clearance_and_leaves_no_trace) {
     const auto first = sculptor.grab(v).drag_to({-far, start.y(), start.z()});
     BOOST_TEST(!first.reached);
     BOOST_TEST(std::abs(first.position.x()) < 4.1);
-    BOOST_TEST(first.stop_error <= 2 * default_clearance(4));
+    BOOST_TEST(first.stop_error <= 2 * internal::default_clearance(4));
     BOOST_REQUIRE(sculptor.undo());
     BOOST_REQUIRE(mesh.point(v) == start);
     // Out and back again: the same drag ends at the same bits.
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(clearances_depend_on_the_contact_and_on_nothing_else) {
 
 BOOST_AUTO_TEST_CASE(clearances_that_do_not_serve_are_refused_with_the_range_that_does) {
   Mesh mesh = meshes::to_mesh(meshes::cube(4));
-  const double ulp = unit_in_the_last_place(4);
+  const double ulp = internal::unit_in_the_last_place(4);
   Sculptor<Mesh> sculptor(mesh);
   const auto says_range = [](const Invalid_parameter& e) { return std::string(e.what()).find("give ") != std::string::npos; };
   BOOST_CHECK_EXCEPTION(sculptor.set_clearance(ulp / 2), Invalid_parameter, says_range);
@@ -192,8 +192,8 @@ BOOST_AUTO_TEST_CASE(units_in_the_last_place_are_those_of_the_next_double) {
   for (int i = 0; i < 100000; ++i) {
     const double x = std::abs(any_double(random)), next = std::nextafter(x, std::numeric_limits<double>::infinity());
     if (std::isfinite(next))
-      BOOST_REQUIRE(unit_in_the_last_place(x) == next - x);
+      BOOST_REQUIRE(internal::unit_in_the_last_place(x) == next - x);
   }
-  BOOST_TEST(unit_in_the_last_place(0) == std::numeric_limits<double>::denorm_min());
-  BOOST_TEST(unit_in_the_last_place(std::numeric_limits<double>::infinity()) == 0);
+  BOOST_TEST(internal::unit_in_the_last_place(0) == std::numeric_limits<double>::denorm_min());
+  BOOST_TEST(internal::unit_in_the_last_place(std::numeric_limits<double>::infinity()) == 0);
 }

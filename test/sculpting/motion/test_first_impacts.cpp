@@ -150,17 +150,17 @@ void check_queries(std::uint64_t seed) {
       missed += do_meet(face_box(mesh, f), box) && unique.count(f) == 0;
     // A long swept star: every face that the three sweeps can hit has to be there.
     const Vertex_index w = *mesh.vertices().begin();
-    Star<Mesh> swept;
+    internal::Star<Mesh> swept;
     swept.collect(mesh, w);
     const auto source = vertex_coordinates(mesh, w), target = point();
     found.clear();
     broad_phase.query(swept.swept(source, target), found);
     unique = {found.begin(), found.end()};
     const auto is_free_of = [&](const std::vector<Mesh::Face_index>& faces) {
-      Checklist<Mesh> list;
-      list.assign(mesh, Face_corners<Mesh>(mesh), swept, faces, Box_3());
+      internal::Checklist<Mesh> list;
+      list.assign(mesh, internal::Face_corners<Mesh>(mesh), swept, faces, Box_3());
       No_filter_counters uncounted;
-      return Narrow_phase<Mesh, No_filter_counters>(uncounted).is_free(swept, list, source, target);
+      return internal::Narrow_phase<Mesh, No_filter_counters>(uncounted).is_free(swept, list, source, target);
     };
     if (i % 30 == 0 && is_free_of({})) // the star does not meet its own link's vertices, which are in every list
       for (const auto f : mesh.faces())

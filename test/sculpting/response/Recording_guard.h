@@ -14,9 +14,9 @@ namespace haptic_sculpt::test {
 
 /// A guard that notes which motions it has found free: the legs of a walk are among them.
 template <class Mesh>
-class Recording_guard : public Guarded_star<Mesh, Box_tree_broad_phase<Mesh>> {
+class Recording_guard : public internal::Guarded_star<Mesh, Box_tree_broad_phase<Mesh>> {
 public:
-  using Base = Guarded_star<Mesh, Box_tree_broad_phase<Mesh>>;
+  using Base = internal::Guarded_star<Mesh, Box_tree_broad_phase<Mesh>>;
   using Coordinates = typename Base::Coordinates;
   using Base::Base;
 

@@ -54,9 +54,9 @@ private:
 
   const Mesh* mesh_;
   Brute_force_broad_phase<Mesh> broad_phase_;
-  Face_corners<Mesh> corners_;
+  internal::Face_corners<Mesh> corners_;
   Filter_counters counters_;
-  Guarded_star<Mesh, Brute_force_broad_phase<Mesh>> guard_;
+  internal::Guarded_star<Mesh, Brute_force_broad_phase<Mesh>> guard_;
   Vertex_index v_;
   Coordinates x_{};
   Long_vector pull_{};
@@ -81,7 +81,7 @@ private:
   }
 
   void begin(Vertex_index v, const Point_3& target, double delta) {
-    corners_ = Face_corners<Mesh>(*mesh_);
+    corners_ = internal::Face_corners<Mesh>(*mesh_);
     guard_.collect(v);
     v_ = v;
     x_ = vertex_coordinates(*mesh_, v);

@@ -135,7 +135,7 @@ Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& 
       k *= side / size;
     const long double height = dot(n, ax);
     constexpr double lifted = 8, normal_rounding = 1e-12;
-    check.wrong_contact |= side == 0 || side != contact.side || height > lifted * c + 4 * unit_in_the_last_place(haptic_sculpt::internal::largest_magnitude({x.x(), x.y(), x.z()})) || !(dot(n, claimed) > 1 - normal_rounding);
+    check.wrong_contact |= side == 0 || side != contact.side || height > lifted * c + 4 * internal::unit_in_the_last_place(haptic_sculpt::internal::largest_magnitude({x.x(), x.y(), x.z()})) || !(dot(n, claimed) > 1 - normal_rounding);
     normals.push_back(n);
     flat_too.push_back(n);
     planes.push_back({{std::array<double, 3>{a.x(), a.y(), a.z()}, {b.x(), b.y(), b.z()}, {p.x(), p.y(), p.z()}}, side});

@@ -11,7 +11,7 @@ inline double ulp_of(const Mesh& mesh, const Point_3& target) {
   double largest = haptic_sculpt::internal::largest_magnitude({target.x(), target.y(), target.z()});
   for (const Vertex_index v : mesh.vertices())
     largest = std::fmax(largest, haptic_sculpt::internal::largest_magnitude(vertex_coordinates(mesh, v)));
-  return unit_in_the_last_place(largest);
+  return internal::unit_in_the_last_place(largest);
 }
 
 inline Rational_point rational(const Point_3& p) { return rational(std::array<double, 3>{p.x(), p.y(), p.z()}); }

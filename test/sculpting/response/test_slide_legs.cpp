@@ -38,11 +38,11 @@ BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
     Mesh mesh = meshes::to_mesh(list);
     const Vertex_index v(static_cast<Mesh::size_type>(moved));
     Broad_phase broad_phase(mesh);
-    const Face_corners<Mesh> corners(mesh);
+    const internal::Face_corners<Mesh> corners(mesh);
     Filter_counters counters;
     Recording_guard<Mesh> guard(mesh, broad_phase, corners, counters);
     guard.collect(v);
-    Responses<Mesh> responses;
+    internal::Responses<Mesh> responses;
     for (int i = 0; i < 5; ++i, ++done) {
       const Point_3 target = target_of_hand(random, list, size);
       const Coordinates s = vertex_coordinates(mesh, v), t = {target.x(), target.y(), target.z()};
@@ -51,7 +51,7 @@ BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
       const std::optional<double> c = i % 2 == 0 ? std::nullopt : std::optional<double>(1e-6);
       Drag_result<Mesh> result;
       guard.clear();
-      const Coordinates end = responses.move(response_under_test(), guard, mesh, s, t, {Clearance_rule(c), 0}, result);
+      const Coordinates end = responses.move(response_under_test(), guard, mesh, s, t, {internal::Clearance_rule(c), 0}, result);
       held += end != t;
       const auto legs = guard.way(s, end);
       // The path that is reported is one of free motions: none of fewer legs is needed to explain it.

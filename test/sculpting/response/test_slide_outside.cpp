@@ -27,7 +27,7 @@ struct Findings {
 CGAL::Simple_cartesian<CGAL::Gmpq>::Point_3 exact(const Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 double ulp_at(const Point_3& x, const Point_3& target) {
-  return unit_in_the_last_place(std::fmax(haptic_sculpt::internal::largest_magnitude({x.x(), x.y(), x.z()}),
+  return internal::unit_in_the_last_place(std::fmax(haptic_sculpt::internal::largest_magnitude({x.x(), x.y(), x.z()}),
                                           haptic_sculpt::internal::largest_magnitude({target.x(), target.y(), target.z()})));
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// How many units in the last place a stop keeps from a contact plane by default.
 /// Measured (doc/stop.md): below 3 a rounded stop often fails its proof and retries; above 4 nothing is gained.
@@ -57,6 +58,7 @@ struct Drag_rules {
   double delta = 0; ///< no triangle of the star gets an altitude below this length
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

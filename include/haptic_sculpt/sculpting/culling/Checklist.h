@@ -9,6 +9,7 @@
 #include <algorithm>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// The paper's checklist (4.0): the static faces, edges and vertices that a star may touch while it stays in a region,
 /// each once, with a private copy of their points.
@@ -131,10 +132,11 @@ private:
   Box_3 region_;
   std::vector<std::array<Vertex_index, 3>> corners_; ///< of the candidates
   std::vector<Vertex_index> found_;                  ///< the vertices, in the order of their positions
-  internal::Distinct_numbers names_;                 ///< of the vertices
-  internal::Distinct_pairs pairs_;                   ///< the edges that were met so far
+  Distinct_numbers names_;                 ///< of the vertices
+  Distinct_pairs pairs_;                   ///< the edges that were met so far
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

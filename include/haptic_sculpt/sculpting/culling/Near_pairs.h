@@ -4,9 +4,10 @@
 
 #include <haptic_sculpt/sculpting/culling/Star_runs.h>
 #include <haptic_sculpt/sculpting/culling/separation.h>
-#include <haptic_sculpt/sculpting/motion/Star_impact.h>
+#include <haptic_sculpt/sculpting/Star_impact.h>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// The free ball: how far apart the features of a star and those of its checklist are with the moving vertex J in one
 /// place, the centre. A motion of J between two points nowhere farther than r from there can make only pairs touch that
@@ -55,34 +56,34 @@ public:
   /// Takes pairs around a place a little ahead on the way from source to target. Covers that motion afterwards, or
   /// nothing: where it is long, or there are many pairs, or sizes are extreme. \pre the list is complete in its region,
   /// which the motion does not leave. Cost: n log n, as a motion is decided.
-  void assign(const Star<Mesh>& star, const Checklist<Mesh>& list, internal::Star_runs<Mesh>& runs,
+  void assign(const Star<Mesh>& star, const Checklist<Mesh>& list, Star_runs<Mesh>& runs,
               const Coordinates& source, const Coordinates& target) {
     clear();
     double extent = 0, around = 0;
     for (std::size_t i = 0; i < star.valence(); ++i) {
-      extent = internal::larger(extent, internal::quick_magnitude(internal::minus(star.link_points[i], source)));
-      const Vector edge = internal::minus(star.link_points[star.next(i)], star.link_points[i]);
-      around += std::sqrt(internal::quick_dot(edge, edge));
+      extent = larger(extent, quick_magnitude(minus(star.link_points[i], source)));
+      const Vector edge = minus(star.link_points[star.next(i)], star.link_points[i]);
+      around += std::sqrt(quick_dot(edge, edge));
     }
-    radius_ = widest * internal::smaller(extent, around / static_cast<double>(star.valence()));
-    const Vector way = internal::minus(target, source);
-    const double length = std::sqrt(internal::quick_dot(way, way));
+    radius_ = widest * smaller(extent, around / static_cast<double>(star.valence()));
+    const Vector way = minus(target, source);
+    const double length = std::sqrt(quick_dot(way, way));
     if (!(extent > least_extent && length > 0 && length <= longest * radius_))
       return;
-    centre_ = internal::quick_sum(source, internal::larger(0.5, ahead * radius_ / length), way);
+    centre_ = quick_sum(source, larger(0.5, ahead * radius_ / length), way);
     for (int i = 0; i < 3; ++i) // the link stays; only J can leave the region
-      radius_ = internal::smaller(
-          radius_, internal::smaller(centre_[i] - list.region().lower[i], list.region().upper[i] - centre_[i]));
+      radius_ = smaller(
+          radius_, smaller(centre_[i] - list.region().lower[i], list.region().upper[i] - centre_[i]));
     // What stands still may reach far beyond the star: products with it round by as much more.
     double reach = extent;
     for (const auto& vertex : list.vertices())
-      reach = internal::larger(reach, internal::quick_magnitude(internal::minus(vertex.point, centre_)));
-    error_ = rounding * (reach + radius_ + internal::quick_magnitude(centre_));
+      reach = larger(reach, quick_magnitude(minus(vertex.point, centre_)));
+    error_ = rounding * (reach + radius_ + quick_magnitude(centre_));
     const double r = safe(radius_);
     if (!(reach < largest_extent && farther(source, target) < r * r))
       return;
     faces(list);
-    internal::Star_motion at_centre(centre_, centre_);
+    Star_motion at_centre(centre_, centre_);
     const auto are_few = [&] { return pairs_.size() <= most_pairs; };
     runs.for_each_run(star, list, at_centre, radius_, [&](const auto& run) {
       return run.for_each_edge_pair([&](std::size_t i, std::uint32_t e) { return edge(star, list, i, e), are_few(); }) &&
@@ -93,11 +94,10 @@ public:
     square_ = r * r;
     nearest_ = square_;
     for (const Pair& pair : pairs_)
-      nearest_ = internal::smaller(nearest_, pair.square);
+      nearest_ = smaller(nearest_, pair.square);
   }
 
 private:
-  using Vector = internal::Vector;
 
   /// 2^-40: a thousand times what the some twenty roundings of a bound or a comparison, each of 2^-53, can make.
   static constexpr double rounding = 0x1p-40;
@@ -121,18 +121,18 @@ private:
 
   /// The square of the distance from the centre to the farther point.
   double farther(const Coordinates& p, const Coordinates& q) const {
-    const Vector a = internal::minus(p, centre_), b = internal::minus(q, centre_);
-    return internal::larger(internal::quick_dot(a, a), internal::quick_dot(b, b));
+    const Vector a = minus(p, centre_), b = minus(q, centre_);
+    return larger(quick_dot(a, a), quick_dot(b, b));
   }
 
   /// A distance less what roundings can have added.
-  double safe(double distance) const { return internal::larger(0.0, distance * (1 - rounding) - error_); }
+  double safe(double distance) const { return larger(0.0, distance * (1 - rounding) - error_); }
 
   /// Whether two boxes are the radius or more apart.
   bool are_far(const Box_3& a, const Box_3& b) const {
     double square = 0;
     for (int i = 0; i < 3; ++i) {
-      const double gap = internal::larger(0, internal::larger(a.lower[i] - b.upper[i], b.lower[i] - a.upper[i]));
+      const double gap = larger(0, larger(a.lower[i] - b.upper[i], b.lower[i] - a.upper[i]));
       square += gap * gap;
     }
     return square >= radius_ * radius_;
@@ -144,7 +144,7 @@ private:
       pairs_.push_back({r * r, feature, static_cast<std::uint32_t>(spoke), static_cast<std::uint32_t>(candidate)});
   }
 
-  Vector local(const Coordinates& p) const { return internal::minus(p, centre_); }
+  Vector local(const Coordinates& p) const { return minus(p, centre_); }
 
   void faces(const Checklist<Mesh>& list) {
     const Box_3 here(centre_);
@@ -155,8 +155,8 @@ private:
         continue;
       const std::array<Vector, 3> t = {local(v[face.vertices[0]].point), local(v[face.vertices[1]].point),
                                        local(v[face.vertices[2]].point)};
-      keep(internal::separation(std::array<Vector, 1>{Vector{}}, t,
-                                internal::scaled(internal::nearest_to_origin(t), -1), error_),
+      keep(separation(std::array<Vector, 1>{Vector{}}, t,
+                                scaled(nearest_to_origin(t), -1), error_),
            Impact_feature::vertex_face, 0, f);
     }
   }
@@ -167,7 +167,7 @@ private:
     if (are_far(list.box(edge), Box_3(centre_).include(star.link_points[i])))
       return;
     const std::array<Vector, 2> moving = {Vector{}, local(star.link_points[i])}, still = {local(a.point), local(b.point)};
-    keep(internal::separation(moving, still, internal::between_segments(moving, still), error_),
+    keep(separation(moving, still, between_segments(moving, still), error_),
          Impact_feature::edge_edge, i, e);
   }
 
@@ -177,13 +177,14 @@ private:
     if (are_far(Box_3(vertex.point), Box_3(centre_).include(star.link_points[i]).include(star.link_points[j])))
       return;
     const Vector p = local(vertex.point);
-    const std::array<Vector, 3> face = {internal::minus(Vector{}, p), internal::minus(local(star.link_points[i]), p),
-                                        internal::minus(local(star.link_points[j]), p)};
-    keep(internal::separation(face, std::array<Vector, 1>{Vector{}}, internal::nearest_to_origin(face), error_),
+    const std::array<Vector, 3> face = {minus(Vector{}, p), minus(local(star.link_points[i]), p),
+                                        minus(local(star.link_points[j]), p)};
+    keep(separation(face, std::array<Vector, 1>{Vector{}}, nearest_to_origin(face), error_),
          Impact_feature::face_vertex, i, v);
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

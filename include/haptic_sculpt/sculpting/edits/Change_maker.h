@@ -11,6 +11,7 @@
 #include <type_traits>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// Makes changes of a mesh and takes them back, and keeps the broad phase, the numbers of the vertices and a visitor told. Nothing
 /// is proven here: what comes in has been, or restores what was.
@@ -26,7 +27,6 @@ public:
   using Vertex_index = typename Mesh::Vertex_index;
   using Face_index = typename Mesh::Face_index;
   using Halfedge_index = typename Mesh::Halfedge_index;
-  using Coordinates = internal::Coordinates;
 
   Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Visitor visitor)
     : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), names_(mesh), visitor_(std::move(visitor)) {}
@@ -89,7 +89,7 @@ private:
   Vertex_names<Mesh> names_;
   Visitor visitor_;
   Star<Mesh> star_;
-  internal::Fan<Mesh> fan_;
+  Fan<Mesh> fan_;
   std::vector<Vertex_index> link_;
   std::vector<Face_index> faces_;
 
@@ -121,7 +121,7 @@ private:
     const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
     fan_.assign(1, h);
     fan_dies();
-    return star_created(internal::insert_star_in_face(*mesh_, h, to_point(edit.after)), edit, noted);
+    return star_created(insert_star_in_face(*mesh_, h, to_point(edit.after)), edit, noted);
   }
 
   template <class Noted>
@@ -130,7 +130,7 @@ private:
     fan_.assign(1, mesh_->opposite(h));
     fan_.push_back(h);
     fan_dies();
-    return star_created(internal::insert_star_in_edge(*mesh_, h, to_point(edit.after)), edit, noted);
+    return star_created(insert_star_in_edge(*mesh_, h, to_point(edit.after)), edit, noted);
   }
 
   template <class Noted>
@@ -138,9 +138,9 @@ private:
     link_.clear();
     for (const std::size_t name : edit.around)
       link_.push_back(vertex(name));
-    internal::find_fan(*mesh_, halfedge(link_[1], link_[0]), link_.size() - 2, fan_);
+    find_fan(*mesh_, halfedge(link_[1], link_[0]), link_.size() - 2, fan_);
     fan_dies();
-    return star_created(internal::insert_star_in_face(*mesh_, internal::merge_fan(*mesh_, fan_), to_point(edit.before)), edit, noted);
+    return star_created(insert_star_in_face(*mesh_, merge_fan(*mesh_, fan_), to_point(edit.before)), edit, noted);
   }
 
   template <class Noted>
@@ -148,7 +148,7 @@ private:
     const Vertex_index v = vertex(edit.vertex), apex = vertex(edit.around[0]);
     star_dies(v);
     names_.take(edit.vertex);
-    internal::fill_with_fan(*mesh_, internal::remove_star(*mesh_, v), apex, fan_);
+    fill_with_fan(*mesh_, remove_star(*mesh_, v), apex, fan_);
     fan_created(noted);
     return apex;
   }
@@ -242,6 +242,7 @@ private:
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

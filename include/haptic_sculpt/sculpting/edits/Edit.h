@@ -8,6 +8,7 @@
 #include <vector>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// What kind of change an edit is. `remove` is a collapse, whoever has chosen where to.
 enum class Edit_kind : std::uint8_t { move, insert_on_face, insert_on_edge, remove, flip };
@@ -16,13 +17,14 @@ enum class Edit_kind : std::uint8_t { move, insert_on_face, insert_on_edge, remo
 struct Edit {
   Edit_kind kind = Edit_kind::move;
   std::size_t vertex = 0;         ///< the vertex moved, created or removed; of a flip, the first of `around`
-  internal::Coordinates before{}; ///< where it was: move, remove
-  internal::Coordinates after{};  ///< where it is: move, insert
+  Coordinates before{}; ///< where it was: move, remove
+  Coordinates after{};  ///< where it is: move, insert
   /// insert_on_face: the corners; insert_on_edge: the ends; remove: the link, beginning with the neighbour it went
   /// into; flip: the ends of the old edge, then those of the new one. Of a move none.
   std::vector<std::size_t> around;
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

@@ -2,22 +2,12 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_EDIT_HISTORY_H
 #define HAPTIC_SCULPT_SCULPTING_EDIT_HISTORY_H
 
+#include <haptic_sculpt/sculpting/History_limit.h>
 #include <haptic_sculpt/sculpting/edits/Edit.h>
 #include <haptic_sculpt/sculpting/edits/Record_queue.h>
 
-#include <limits>
-
 namespace haptic_sculpt {
-
-/// How much is kept for undo and redo together. Where there is more, the oldest steps are forgotten, each as a whole.
-struct History_limit {
-  std::size_t steps = std::numeric_limits<std::size_t>::max();
-  std::size_t bytes = std::numeric_limits<std::size_t>::max();
-
-  static History_limit none() { return {}; }
-  /// Nothing is kept.
-  static History_limit off() { return {0, 0}; }
-};
+namespace internal {
 
 /// The changes made, and those taken back, in steps: what one undo takes back. A stroke is one step; any other change
 /// is one each.
@@ -80,7 +70,7 @@ public:
   ///@}
 
   /// A new change. Clears what could be redone. Allocates nothing while there is room.
-  void push_move(std::size_t vertex, const internal::Coordinates& before, const internal::Coordinates& after) {
+  void push_move(std::size_t vertex, const Coordinates& before, const Coordinates& after) {
     if (!begin_record())
       return;
     if (is_in_stroke()) {
@@ -157,12 +147,12 @@ public:
 private:
   struct Move {
     std::size_t vertex;
-    internal::Coordinates before, after;
+    Coordinates before, after;
   };
   /// An edit that is not a move.
   struct Other {
     std::size_t vertex;
-    internal::Coordinates point;
+    Coordinates point;
     std::size_t moves_before; ///< the number of the first move that came later
     std::size_t around;       ///< where the vertices around begin
     std::uint32_t valence;    ///< how many these are
@@ -174,10 +164,10 @@ private:
   };
   static constexpr std::size_t usual_around = 8, no_move = std::numeric_limits<std::size_t>::max();
 
-  internal::Record_queue<Move, room> moves_;
-  internal::Record_queue<Other, 1024> edits_;
-  internal::Record_queue<std::size_t, 1024 * usual_around> around_;
-  internal::Record_queue<Place, room> steps_; ///< the end of each
+  Record_queue<Move, room> moves_;
+  Record_queue<Other, 1024> edits_;
+  Record_queue<std::size_t, 1024 * usual_around> around_;
+  Record_queue<Place, room> steps_; ///< the end of each
   Place first_{0, 0};                         ///< the begin of the first step
   std::size_t moves_done_ = 0, edits_done_ = 0, steps_done_ = 0;
   Edit current_; ///< what was told last
@@ -279,6 +269,7 @@ private:
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

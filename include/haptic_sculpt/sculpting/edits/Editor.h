@@ -11,6 +11,7 @@
 #include <haptic_sculpt/sculpting/edits/Pivot_order.h>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// Creates and removes vertices of a mesh and flips edges by Euler operations: each is proven and then done, or refused and nothing
 /// has changed. Also takes changes back and makes them again, in the steps of the history. Change_maker makes what is decided here.
@@ -22,7 +23,6 @@ public:
   using Face_index = typename Mesh::Face_index;
   using Halfedge_index = typename Mesh::Halfedge_index;
   using Point = typename Mesh::Point;
-  using Coordinates = internal::Coordinates;
   using Result = Edit_result<Mesh>;
 
   /// \param watch is told of what has changed
@@ -162,7 +162,7 @@ public:
   }
 
   /// reserve() makes room for stars of so many faces, and for so many faces about them.
-  static constexpr std::size_t usual_valence = internal::Star_runs<Mesh>::most_undivided, usual_candidates = 512;
+  static constexpr std::size_t usual_valence = Star_runs<Mesh>::most_undivided, usual_candidates = 512;
 
 private:
 
@@ -170,10 +170,10 @@ private:
   Mesh_watch<Mesh>* watch_;
   Change_maker<Mesh, Broad_phase, Visitor> changes_;
   Edit_history history_;
-  internal::Creation_proof<Mesh, Broad_phase> creation_;
-  internal::Collapse_proof<Mesh, Broad_phase> collapse_;
-  internal::Flip_proof<Mesh, Broad_phase> flip_;
-  internal::Pivot_order<Mesh> order_;
+  Creation_proof<Mesh, Broad_phase> creation_;
+  Collapse_proof<Mesh, Broad_phase> collapse_;
+  Flip_proof<Mesh, Broad_phase> flip_;
+  Pivot_order<Mesh> order_;
   std::vector<Vertex_index> isolated_; ///< they neither come nor go
   Edit edit_;                          ///< the one that is made, kept to allocate no more
 
@@ -208,6 +208,7 @@ private:
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_MESH_WATCH_H
 #define HAPTIC_SCULPT_SCULPTING_MESH_WATCH_H
 
-#include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/sculpting/Mesh_changed.h>
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/broad_phase/prefetch.h>
 #include <haptic_sculpt/surface/star.h>
@@ -10,15 +10,7 @@
 #include <algorithm>
 
 namespace haptic_sculpt {
-
-/// The mesh was changed by somebody else than the Sculptor that guards it. What to do: undo the change, or make a new
-/// Sculptor, which validates the mesh anew.
-class Mesh_changed : public Error {
-public:
-  explicit Mesh_changed(const std::string& what)
-    : Error("the mesh was changed behind the Sculptor's back: " + what +
-            "; undo that change, or make a new Sculptor of the mesh") {}
-};
+namespace internal {
 
 /// A private copy of the points and counts of a mesh, against which changes by others are found.
 ///
@@ -128,6 +120,7 @@ private:
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

@@ -6,6 +6,7 @@
 #include <vector>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// Numbers of vertices that last: a new vertex takes the next number never used, and a removed one's number stays dead until
 /// undo revives it. Surface_mesh's own indices are recycled and do neither.
@@ -61,6 +62,7 @@ private:
   std::vector<std::size_t> names_;
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

@@ -13,6 +13,7 @@
 #include <haptic_sculpt/surface/coordinate_range.h>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// A star, or a probe, with the checklist of what it may touch: decides motions and makes legs that are proven free.
 ///
@@ -20,8 +21,8 @@ namespace haptic_sculpt {
 template <class Mesh, class Broad_phase>
 class Guarded_star {
 public:
-  using Coordinates = internal::Coordinates;
   using Vertex_index = typename Mesh::Vertex_index;
+  using Coordinates = internal::Coordinates;
 
   /// \param watch is asked to fetch its copies of the candidates, where it is given
   Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters,
@@ -44,11 +45,11 @@ public:
       Box_3 about(vertex_coordinates(*mesh_, v));
       for (int i = 0; i < 3; ++i)
         about.lower[i] -= size, about.upper[i] += size;
-      internal::fetch_ahead(*broad_phase_, about);
+      fetch_ahead(*broad_phase_, about);
     }
     star_.collect(*mesh_, v, [this](Vertex_index neighbour) {
       prefetch_watched(neighbour);
-      internal::fetch_on(*broad_phase_);
+      fetch_on(*broad_phase_);
     });
     invalidate();
   }
@@ -76,7 +77,7 @@ public:
   void decide(const Coordinates& source, const Coordinates& target, double delta) {
     firsts_.clear();
     limits_.clear();
-    is_out_of_range_ = !internal::is_in_range(target);
+    is_out_of_range_ = !is_in_range(target);
     if (is_out_of_range_)
       return;
     if (has_pairs(source, target))
@@ -102,7 +103,7 @@ public:
 
   /// Whether the target is in range and the closed way touches nothing and keeps the delta rule; exact.
   bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
-    if (!internal::is_in_range(target))
+    if (!is_in_range(target))
       return false;
     bool free = true;
     if (has_pairs(source, target))
@@ -127,12 +128,12 @@ public:
     double steepest = 0, reach = 0;
     const double time = for_each_first_contact(source, target, [&](const Contact_3<Mesh>& contact, double sine) {
       steepest = std::fmax(steepest, sine > 0 ? sine : 1);
-      reach = std::fmax(reach, internal::largest_coordinate_of(contact));
+      reach = std::fmax(reach, largest_coordinate_of(contact));
       result.contacts.push_back(contact);
     });
-    reach = std::fmax(reach, internal::largest_magnitude(internal::point_of_path(source, target, time)));
+    reach = std::fmax(reach, largest_magnitude(point_of_path(source, target, time)));
     const Coordinates end =
-        internal::stop_before(source, target, time, internal::setback(rules.clearance.at(reach), steepest),
+        stop_before(source, target, time, setback(rules.clearance.at(reach), steepest),
                               [&](const Coordinates& q) { return is_free(source, q, rules.delta); });
     measure_stop(source, target, end, time, rules.delta, result);
     return end;
@@ -144,13 +145,13 @@ public:
   double for_each_first_contact(const Coordinates& source, const Coordinates& target, const Found& found) const {
     double time = 1;
     for (const Star_impact<Mesh>& first : firsts_) {
-      const internal::Path_at_plane at = internal::path_at_plane(first.impact());
+      const Path_at_plane at = path_at_plane(first.impact());
       time = at.time;
       found(haptic_sculpt::contact_of(first, at), at.sine);
     }
     for (const Limit& limit : limits_) {
       const Contact_3<Mesh> contact = contact_of_limit(limit, source, target, time);
-      found(contact, -internal::dot(contact.normal, internal::normalized(internal::minus(target, source))));
+      found(contact, -dot(contact.normal, normalized(minus(target, source))));
     }
     return time;
   }
@@ -159,8 +160,8 @@ private:
   /// The delta rule reached by face i of the star.
   struct Limit {
     std::size_t face;
-    internal::Altitude_over side;
-    internal::Limit_time time;
+    Altitude_over side;
+    Limit_time time;
   };
 
   const Mesh* mesh_;
@@ -266,7 +267,7 @@ private:
       is_crowded_ = candidates_.size() > few_faces;
     }
     if (is_crowded_) {
-      const double way = internal::path_length(source, target), size = std::fmax(link_extent(), way * least_part);
+      const double way = path_length(source, target), size = std::fmax(link_extent(), way * least_part);
       std::swap(candidates_, whole_candidates_);
       part.until = 0.25;
       while (part.until > least_part && part.until * way > 2 * size)
@@ -308,10 +309,9 @@ private:
   void for_each_delta_limit(const Coordinates& source, const Coordinates& target, double delta, const Found& found) const {
     if (delta <= 0)
       return;
-    using internal::Altitude_over;
     for (std::size_t i = 0; i < star_.valence(); ++i)
       for (const Altitude_over side : {Altitude_over::gi, Altitude_over::ji, Altitude_over::jg})
-        if (auto time = internal::delta_limit(source, target, star_.link_points[i], star_.link_points[star_.next(i)], delta,
+        if (auto time = delta_limit(source, target, star_.link_points[i], star_.link_points[star_.next(i)], delta,
                                               side))
           if (!found(Limit{i, side, *std::move(time)}))
             return;
@@ -342,9 +342,9 @@ private:
     Contact_3<Mesh> contact;
     contact.kind = Contact_kind::delta;
     const Vertex_index g = star_.link[limit.face], i = star_.link[next];
-    contact.vertices = {g, i, limit.side == internal::Altitude_over::gi ? star_.centre
-                              : limit.side == internal::Altitude_over::ji ? g : i};
-    contact.normal = internal::altitude_gradient(internal::point_of_path(source, target, time),
+    contact.vertices = {g, i, limit.side == Altitude_over::gi ? star_.centre
+                              : limit.side == Altitude_over::ji ? g : i};
+    contact.normal = altitude_gradient(point_of_path(source, target, time),
                                                  star_.link_points[limit.face], star_.link_points[next], limit.side);
     contact.plane = {star_.link_points[limit.face], star_.link_points[next], star_.link_points[next]};
     contact.is_flat = true;
@@ -353,20 +353,21 @@ private:
 
   void measure_stop(const Coordinates& source, const Coordinates& target, const Coordinates& end, double time, double delta,
                     Drag_result<Mesh>& result) const {
-    const double made = internal::length(internal::minus(end, source));
-    result.stop_error_along_path = std::fmax(0.0, std::fma(time, internal::path_length(source, target), -made));
+    const double made = length(minus(end, source));
+    result.stop_error_along_path = std::fmax(0.0, std::fma(time, path_length(source, target), -made));
     double normal = std::numeric_limits<double>::infinity();
     for (const Contact_3<Mesh>& contact : result.contacts)
       if (!contact.is_flat)
-        normal = std::fmin(normal, std::abs(internal::height_over_plane(contact.plane[0], contact.plane[1],
+        normal = std::fmin(normal, std::abs(height_over_plane(contact.plane[0], contact.plane[1],
                                                                         contact.plane[2], end)));
     for (const Limit& limit : limits_)
-      normal = std::fmin(normal, internal::altitude(end, star_.link_points[limit.face],
+      normal = std::fmin(normal, altitude(end, star_.link_points[limit.face],
                                                     star_.link_points[star_.next(limit.face)], limit.side) - delta);
     result.stop_error = std::isfinite(normal) ? normal : result.stop_error_along_path;
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

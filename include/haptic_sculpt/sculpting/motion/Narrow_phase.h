@@ -3,9 +3,10 @@
 #define HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
 
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
-#include <haptic_sculpt/sculpting/motion/Star_impact.h>
+#include <haptic_sculpt/sculpting/Star_impact.h>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// All three sweeps of a star against a checklist (completeness: doc/exact_sweeps.md).
 ///
@@ -15,7 +16,6 @@ namespace haptic_sculpt {
 template <class Mesh, class Counters = Filter_counters>
 class Narrow_phase {
 public:
-  using Coordinates = internal::Coordinates;
   using Vertex_index = typename Mesh::Vertex_index;
 
   explicit Narrow_phase(Counters& counters) : counters_(&counters) {}
@@ -56,19 +56,19 @@ public:
   }
 
   /// Working memory, to be shared.
-  internal::Star_runs<Mesh>& runs() { return runs_; }
+  Star_runs<Mesh>& runs() { return runs_; }
 
 private:
   using Vertices = std::array<Vertex_index, 3>;
 
   Counters* counters_;
-  internal::Star_runs<Mesh> runs_;
+  Star_runs<Mesh> runs_;
 
   /// One motion, and what is in its way.
   struct Scene {
     const Star<Mesh>& star;
     const Checklist<Mesh>& list;
-    internal::Star_motion motion;
+    Star_motion motion;
   };
 
   /// What is done with a hit, `hit(feature, vertices, points, verdict)`: it tells up to what fraction of the way hits
@@ -76,8 +76,8 @@ private:
   static constexpr double enough = -1;
 
   struct Any {
-    double operator()(Impact_feature, const Vertices&, const internal::Sweep_points&,
-                      const internal::Sweep_verdict&) const {
+    double operator()(Impact_feature, const Vertices&, const Sweep_points&,
+                      const Sweep_verdict&) const {
       return enough;
     }
   };
@@ -85,16 +85,16 @@ private:
     Star_impacts<Mesh>& firsts;
     Counters& counters;
 
-    double operator()(Impact_feature feature, const Vertices& vertices, const internal::Sweep_points& points,
-                      const internal::Sweep_verdict& verdict) const {
+    double operator()(Impact_feature feature, const Vertices& vertices, const Sweep_points& points,
+                      const Sweep_verdict& verdict) const {
       const int order = firsts.empty() ? -1
-                                       : internal::compare_times(points, verdict, firsts[0].impact().coordinates(),
+                                       : compare_times(points, verdict, firsts[0].impact().coordinates(),
                                                                  firsts[0].impact().verdict(), counters);
       if (order < 0)
         firsts.clear();
       if (order <= 0)
         firsts.emplace_back(feature, vertices, points, verdict);
-      return order < 0 ? internal::filtered_time(points, verdict).second : 1;
+      return order < 0 ? filtered_time(points, verdict).second : 1;
     }
   };
 
@@ -104,7 +104,7 @@ private:
     if (stands_still(scene))
       return true;
     const auto vertex = [&](std::uint32_t f) { return vertex_on_face(scene, f, hit); };
-    if (scene.star.valence() == 0 || scene.star.valence() > internal::Separating_planes::most_faces)
+    if (scene.star.valence() == 0 || scene.star.valence() > Separating_planes::most_faces)
       for (std::uint32_t f = 0; f < scene.list.faces().size(); ++f)
         if (!vertex(f))
           return false;
@@ -153,8 +153,8 @@ private:
       return true;
     const auto& vertices = scene.list.vertices();
     const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
-    const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), a.point, b.point, c.point};
-    const internal::Sweep_verdict verdict = internal::vertex_face_verdict(points, *counters_);
+    const Sweep_points points = {scene.motion.source(), scene.motion.target(), a.point, b.point, c.point};
+    const Sweep_verdict verdict = vertex_face_verdict(points, *counters_);
     return !verdict.hits ||
            goes_on(scene, hit(Impact_feature::vertex_face, Vertices{a.index, b.index, c.index}, points, verdict));
   }
@@ -171,9 +171,9 @@ private:
       return true;
     // The smaller name first, whatever the list's order: what is told does not depend on the broad phase.
     const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
-    const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point,
+    const Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point,
                                            high.point};
-    const internal::Sweep_verdict verdict = internal::edge_edge_verdict(points, *counters_);
+    const Sweep_verdict verdict = edge_edge_verdict(points, *counters_);
     return !verdict.hits ||
            goes_on(scene, hit(Impact_feature::edge_edge, Vertices{far_end, low.index, high.index}, points, verdict));
   }
@@ -186,14 +186,15 @@ private:
     const auto& vertex = scene.list.vertices()[v];
     if (!contains(Box_3(scene.motion.path()).include(star.link_points[i]).include(star.link_points[j]), vertex.point))
       return true;
-    const internal::Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i],
+    const Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i],
                                            star.link_points[j], vertex.point};
-    const internal::Sweep_verdict verdict = internal::face_vertex_verdict(points, *counters_);
+    const Sweep_verdict verdict = face_vertex_verdict(points, *counters_);
     return !verdict.hits || goes_on(scene, hit(Impact_feature::face_vertex,
                                                Vertices{star.link[i], star.link[j], vertex.index}, points, verdict));
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

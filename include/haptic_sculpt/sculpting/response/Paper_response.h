@@ -11,6 +11,7 @@
 #include <optional>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// The walk of the 1997 paper (3.2.2, rules a to e), kept to be compared with: from face to edge to vertex, each time to the
 /// point nearest to the target on the triangles at the feature in contact; edge on edge and face on vertex stick.
@@ -21,8 +22,6 @@ namespace haptic_sculpt {
 template <class Mesh>
 class Paper_response {
 public:
-  using Coordinates = internal::Coordinates;
-  using Vector = internal::Vector;
   using Vertex_index = typename Mesh::Vertex_index;
 
   static constexpr int most_legs = 32;
@@ -71,7 +70,7 @@ public:
       stands = !moved;
     }
     result.contacts = held_;
-    if (internal::is_farther(target, place_, source)) {
+    if (is_farther(target, place_, source)) {
       place_ = source;
       result.legs = 0;
     }
@@ -108,7 +107,7 @@ private:
 
   bool is_at(const Aim& aim) const {
     // A clearance is what separates stops of one place from each other.
-    return aim.touched == touched_ && internal::length(internal::minus(aim.place, place_)) <= aim.clearance;
+    return aim.touched == touched_ && length(minus(aim.place, place_)) <= aim.clearance;
   }
 
   static Touched touched_by(const Drag_result<Mesh>& leg) {
@@ -141,20 +140,20 @@ private:
       const std::array<Vector, 3> p = {vertex_coordinates(mesh, corners[0]), vertex_coordinates(mesh, corners[1]),
                                        vertex_coordinates(mesh, corners[2])};
       const Vector normal =
-          internal::scaled(internal::normalized(internal::cross(internal::minus(p[1], p[0]), internal::minus(p[2], p[0]))),
+          scaled(normalized(cross(minus(p[1], p[0]), minus(p[2], p[0]))),
                            touched_.side);
       Touched touched;
       const Vector nearest = nearest_on_triangle(target, corners, p, normal, touched_.side, touched);
-      const double distance = internal::length(internal::minus(target, nearest));
+      const double distance = length(minus(target, nearest));
       if (distance >= least)
         return;
       least = distance;
-      double reach = internal::largest_magnitude(nearest);
+      double reach = largest_magnitude(nearest);
       for (const Vector& corner : p)
-        reach = std::fmax(reach, internal::largest_magnitude(corner));
+        reach = std::fmax(reach, largest_magnitude(corner));
       const double clearance = clearances.at(reach);
-      best = Aim{touched, internal::advanced(nearest, clearance, normal),
-                 internal::dot(internal::minus(target, p[0]), normal) > 0, clearance};
+      best = Aim{touched, advanced(nearest, clearance, normal),
+                 dot(minus(target, p[0]), normal) > 0, clearance};
     });
     return best;
   }
@@ -212,6 +211,7 @@ private:
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

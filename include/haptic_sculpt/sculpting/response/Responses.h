@@ -8,13 +8,12 @@
 #include <haptic_sculpt/sculpting/response/kkt_residual.h>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// The three responses to a blocked way behind one call, with the contacts they carry along.
 template <class Mesh>
 class Responses {
 public:
-  using Coordinates = internal::Coordinates;
-
   Responses() { normals_.reserve(Drag_result<Mesh>::usual_contacts); }
 
   /// The vertex was let go: the next drag begins without contacts.
@@ -37,10 +36,10 @@ public:
       end = guard.leg(source, target, rules, result);
       result.end = end == target ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
     }
-    const internal::Vector pull = internal::minus(target, end);
+    const Vector pull = minus(target, end);
     if (result.contacts.empty())
       result.kkt_residual = end == target ? 0 : 1;
-    if (!result.contacts.empty() && internal::length(pull) > shortest_pull(rules, end, result))
+    if (!result.contacts.empty() && length(pull) > shortest_pull(rules, end, result))
       measure_residual(pull, result);
     return end;
   }
@@ -48,23 +47,24 @@ public:
 private:
   Slide_response<Mesh> slide_;
   Paper_response<Mesh> paper_;
-  std::vector<internal::Vector> normals_;
+  std::vector<Vector> normals_;
 
   static double shortest_pull(const Drag_rules& rules, const Coordinates& end, const Drag_result<Mesh>& result) {
-    double reach = internal::largest_magnitude(end);
+    double reach = largest_magnitude(end);
     for (const Contact_3<Mesh>& contact : result.contacts)
-      reach = std::fmax(reach, internal::largest_coordinate_of(contact));
-    return internal::Slide_lengths{rules.clearance.at(reach), 0}.shortest_pull();
+      reach = std::fmax(reach, largest_coordinate_of(contact));
+    return Slide_lengths{rules.clearance.at(reach), 0}.shortest_pull();
   }
 
-  void measure_residual(const internal::Vector& pull, Drag_result<Mesh>& result) {
+  void measure_residual(const Vector& pull, Drag_result<Mesh>& result) {
     normals_.clear();
     for (const Contact_3<Mesh>& contact : result.contacts)
       normals_.push_back(contact.normal);
-    result.kkt_residual = internal::kkt_residual(pull, normals_);
+    result.kkt_residual = kkt_residual(pull, normals_);
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

@@ -9,6 +9,7 @@
 #include <haptic_sculpt/sculpting/response/is_farther.h>
 
 namespace haptic_sculpt {
+namespace internal {
 
 /// The default response: a blocked vertex slides along what blocks it to a point nearest to its target
 /// (doc/slide.md).
@@ -17,11 +18,8 @@ namespace haptic_sculpt {
 template <class Mesh>
 class Slide_response {
 public:
-  using Coordinates = internal::Coordinates;
-  using Vector = internal::Vector;
-
   /// A walk makes at most so many legs.
-  static constexpr int most_legs = internal::Slide_path::most_legs;
+  static constexpr int most_legs = Slide_path::most_legs;
   /// When the drag has ended, straight ways are tried where it has made more legs than `few_legs`, bent ones too where
   /// more than `many_legs` are left: one step of a hand shall make no more than so many, and a slide over a plane cut
   /// into triangles no more than three beside the first (doc/slide.md, "The path made shorter").
@@ -48,7 +46,6 @@ public:
   template <class Guard>
   Coordinates move(Guard& guard, const Coordinates& source, const Coordinates& target, const Drag_rules& rules,
                    Drag_result<Mesh>& result) {
-    using internal::Walk_end;
     if (walk_.x != source)
       forget();
     walk_.begin(source, rules);
@@ -64,14 +61,14 @@ public:
       if (end == Walk_end::reached || (end != Walk_end::limit && walk_.is_beyond_reach(target)))
         break;
       bool creeps = false;
-      if (walk_.legs() + internal::Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
+      if (walk_.legs() + Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
         ++shortenings;
         walk_.path.shorten(target, is_free, Ways::straight_and_bent);
         if (leap_far(guard, at_last_shortening, target))
           until = 0;
         else
           creeps = end == Walk_end::limit &&
-                   internal::nearer_by(target, at_last_shortening, walk_.x) < walk_.lengths().lifted();
+                   nearer_by(target, at_last_shortening, walk_.x) < walk_.lengths().lifted();
         at_last_shortening = walk_.x;
       }
       if (walk_.legs() >= most_legs)
@@ -90,7 +87,7 @@ public:
         break;
     }
     if (end != Walk_end::reached && !walk_.is_beyond_reach(target)) {
-      if (walk_.legs() + internal::Free_ways<Mesh>::trial_legs > most_legs)
+      if (walk_.legs() + Free_ways<Mesh>::trial_legs > most_legs)
         walk_.path.shorten(target, is_free, Ways::straight_and_bent);
       free_ways_.take(walk_, guard, target, most_legs);
       end = walk_.x == target         ? Walk_end::reached
@@ -100,31 +97,31 @@ public:
     if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
     // To keep a clearance from what was nearer J may have gone back: then it had better stay.
-    if (end != Walk_end::reached && internal::is_farther(target, walk_.x, source))
+    if (end != Walk_end::reached && is_farther(target, walk_.x, source))
       walk_.return_to(source);
     make_shorter(target, is_free);
-    walk_.forget([](const auto& facet) { return facet.is_over(internal::Slide_lengths::clearances_of_lift); });
+    walk_.forget([](const auto& facet) { return facet.is_over(Slide_lengths::clearances_of_lift); });
     report(end, source, result);
     walk_.forget([](const auto& facet) { return facet.is_wall(); });
     return walk_.x;
   }
 
 private:
-  using Walk = internal::Slide_walk<Mesh>;
-  using Ways = internal::Slide_path::Ways;
+  using Walk = Slide_walk<Mesh>;
+  using Ways = Slide_path::Ways;
 
   Walk walk_, trial_;
-  internal::Unmet_planes<Mesh> unmet_planes_;
-  internal::Way_out<Mesh> way_out_;
-  internal::Free_ways<Mesh> free_ways_;
+  Unmet_planes<Mesh> unmet_planes_;
+  Way_out<Mesh> way_out_;
+  Free_ways<Mesh> free_ways_;
 
   /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many
   /// times as far, and takes it if that, when J has come down, has brought it nearer than these did.
   template <class Guard>
   void leap(Guard& guard, const Vector& before, const Vector& target) {
-    const Vector way = internal::minus(walk_.x, before);
-    const double step = internal::length(way), distance = internal::length(internal::minus(target, walk_.x)),
-                 gained = internal::nearer_by(target, before, walk_.x);
+    const Vector way = minus(walk_.x, before);
+    const double step = length(way), distance = length(minus(target, walk_.x)),
+                 gained = nearer_by(target, before, walk_.x);
     if (step < least_step * distance)
       return;
     const Vector up = walk_.mean_normal();
@@ -132,7 +129,7 @@ private:
       for (const double slope : {0.25, 0.0625, 0.0}) {
         if (times * step > distance || walk_.legs() + 1 >= most_legs)
           break;
-        const Vector end = internal::advanced(internal::advanced(walk_.x, times, way), slope * times * step, up);
+        const Vector end = advanced(advanced(walk_.x, times, way), slope * times * step, up);
         if (!guard.is_free(walk_.x, end, walk_.delta()))
           continue;
         trial_ = walk_;
@@ -140,7 +137,7 @@ private:
         trial_.facets.clear();
         trial_.step_to(end);
         trial_.go(guard, target, std::min(trial_.legs() + legs_between_leaps - 1, most_legs));
-        if (internal::nearer_by(target, walk_.x, trial_.x) > std::fmax(gained, walk_.lengths().lifted())) {
+        if (nearer_by(target, walk_.x, trial_.x) > std::fmax(gained, walk_.lengths().lifted())) {
           walk_ = trial_;
           return;
         }
@@ -187,8 +184,7 @@ private:
         break;
   }
 
-  void report(internal::Walk_end end, const Vector& source, Drag_result<Mesh>& result) const {
-    using internal::Walk_end;
+  void report(Walk_end end, const Vector& source, Drag_result<Mesh>& result) const {
     result.legs = walk_.legs();
     const bool has_contacts = !walk_.facets.empty();
     result.end = end == Walk_end::reached                      ? Drag_end::reached
@@ -208,6 +204,7 @@ private:
   }
 };
 
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

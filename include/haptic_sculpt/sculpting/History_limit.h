@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_HISTORY_LIMIT_H
+#define HAPTIC_SCULPT_SCULPTING_HISTORY_LIMIT_H
+
+#include <cstddef>
+#include <limits>
+
+namespace haptic_sculpt {
+
+/// How much is kept for undo and redo together. Where there is more, the oldest steps are forgotten, each as a whole.
+struct History_limit {
+  std::size_t steps = std::numeric_limits<std::size_t>::max();
+  std::size_t bytes = std::numeric_limits<std::size_t>::max();
+
+  static History_limit none() { return {}; }
+  /// Nothing is kept.
+  static History_limit off() { return {0, 0}; }
+};
+
+} // namespace haptic_sculpt
+
+#endif
