@@ -31,8 +31,12 @@ constexpr Syntax syntaxes[] = {{"drag", Kind::drag, 1, 1, Syntax::nothing},
                                {"insert_face", Kind::insert_face, 3, 1, Syntax::nothing},
                                {"insert_edge", Kind::insert_edge, 2, 1, Syntax::nothing},
                                {"remove", Kind::remove, 1, 0, Syntax::nothing},
+                               {"collapse", Kind::collapse, 2, 0, Syntax::nothing},
+                               {"flip", Kind::flip, 2, 0, Syntax::nothing},
                                {"undo", Kind::undo, 0, 0, Syntax::nothing},
                                {"redo", Kind::redo, 0, 0, Syntax::nothing},
+                               {"stroke", Kind::stroke, 0, 0, Syntax::nothing},
+                               {"end", Kind::end, 0, 0, Syntax::nothing},
                                {"response", Kind::response, 0, 0, Syntax::word},
                                {"clearance", Kind::clearance, 0, 0, Syntax::length},
                                {"delta", Kind::delta, 0, 0, Syntax::length},
@@ -159,6 +163,16 @@ std::vector<Command> read_script(std::string_view text, const std::string& name)
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return commands;
+}
+
+std::size_t open_strokes(const std::vector<Command>& commands) {
+  std::size_t open = 0;
+  for (const Command& command : commands)
+    if (command.kind == Kind::stroke)
+      ++open;
+    else if (command.kind == Kind::end && open != 0)
+      --open;
+  return open;
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -42,6 +42,7 @@ private:
 
   Mesh& mesh_;
   Sculptor<Mesh, Broad_phase> sculptor_;
+  std::vector<Stroke<Sculptor<Mesh, Broad_phase>>> strokes_; ///< begun and not ended by a line, each within the one before
   Run_result result_;
   std::set<std::size_t> moved_;
 
@@ -56,6 +57,10 @@ private:
     case Kind::insert_face: insert_on_face(command); break;
     case Kind::insert_edge: insert_on_edge(command); break;
     case Kind::remove: remove(command); break;
+    case Kind::collapse: collapse(command); break;
+    case Kind::flip: flip(command); break;
+    case Kind::stroke: strokes_.push_back(sculptor_.stroke()); break;
+    case Kind::end: end_stroke(command); break;
     case Kind::undo: edit(command, [&] { return sculptor_.undo(); }); break;
     case Kind::redo: edit(command, [&] { return sculptor_.redo(); }); break;
     case Kind::response: sculptor_.set_response(*response_named(command.word)); break;
@@ -104,6 +109,28 @@ private:
     edit(command, [&] { return sculptor_.remove(v); });
   }
 
+  void collapse(const Command& command) {
+    edit(command, [&] {
+      const auto e = sculptor_.edge_of(command.indices[0], command.indices[1]);
+      auto h = e.is_valid() ? mesh_.halfedge(e) : Mesh::Halfedge_index();
+      if (e.is_valid() && mesh_.source(h) != sculptor_.vertex(command.indices[0]))
+        h = mesh_.opposite(h);
+      return sculptor_.collapse(h);
+    });
+  }
+
+  void flip(const Command& command) {
+    edit(command, [&] { return sculptor_.flip(sculptor_.edge_of(command.indices[0], command.indices[1])); });
+  }
+
+  /// The innermost. Undo may have ended it already.
+  void end_stroke(const Command& command) {
+    if (strokes_.empty())
+      refuse(command, "no-stroke", {});
+    else
+      strokes_.pop_back();
+  }
+
   template <class Edit>
   void edit(const Command& command, const Edit& make) {
     const auto begin = Clock::now();
@@ -121,7 +148,10 @@ private:
     if (command.kind == Kind::insert_face || command.kind == Kind::insert_edge)
       moved_.insert(name);
     ++result_.reached;
-    record(command, Status::reached, nullptr, {name}).motion = {p, p, p};
+    const bool names_an_edge = command.kind == Kind::collapse || command.kind == Kind::flip;
+    Edit_record& done_edit = record(command, Status::reached, nullptr, names_an_edge ? command.indices : std::vector{name});
+    if (command.kind != Kind::flip) // which leaves every vertex where it is
+      done_edit.motion = {p, p, p};
   }
 
   void probe(const Command& command) {

@@ -125,6 +125,12 @@ Plan plan_of(const Script& script, const Log_file* log, const Arguments& argumen
       plan.rest = rest_of(script.commands, script.hash, logged, arguments);
     check_options(arguments, logged, !script.commands.empty() && plan.rest.is_new_pass);
     plan.commands = logged.commands;
+    if (!script.commands.empty() && !plan.rest.is_announced) { // as Log_file::begin_pass() writes them
+      Command end;
+      end.kind = Kind::end;
+      end.is_logged = true;
+      plan.commands.insert(plan.commands.end(), open_strokes(logged.commands), end);
+    }
     plan.replayed = plan.commands.size();
   }
   plan.commands.insert(plan.commands.end(), std::make_move_iterator(plan.rest.commands.begin()),
@@ -196,8 +202,9 @@ int main(int argc, char** argv) {
                "script error, "
                "5 cannot write, 6 script or log of another mesh, or no log.\n"
                "Script, one edit a line, # comments, numbers decimal or hexadecimal:\n"
-               "  drag V X Y Z | release | insert_face A B C X Y Z | insert_edge A B X Y Z | remove V |\n"
-               "  probe X Y Z X2 Y2 Z2 | undo | redo | response slide|stop|paper | clearance L|default | delta L | mesh SHA256");
+               "  drag V X Y Z | release | insert_face A B C X Y Z | insert_edge A B X Y Z | remove V | collapse A B | flip A B |\n"
+               "  stroke | end | undo | redo | probe X Y Z X2 Y2 Z2 | response slide|stop|paper | clearance L|default | delta L |\n"
+               "  mesh SHA256");
   const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->required()->check(named);
   app.add_option("--script", arguments.script, "The edits; may be /dev/stdin")->check(named);

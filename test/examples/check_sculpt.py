@@ -6,7 +6,7 @@ import json
 import os
 import tempfile
 
-from program_runs import QUERIES, SOURCE, TETRAHEDRON, check, end, fails, points, run
+from program_runs import OCTAHEDRON, QUERIES, SOURCE, TETRAHEDRON, check, end, fails, points, run, surface, write
 
 
 def happy_path(folder, mesh):
@@ -94,6 +94,48 @@ def extreme_numbers(folder, mesh):
         done = run(of, "--script", "/dev/stdin", "-o", out, script=text)
         check(done.returncode == 0 and run(out).returncode == 0, f"{script} in range: {done.returncode} {done.stderr}")
     check(run(f"{cases}/grid_near_2p52.off").returncode == 0, "rays in special position")
+
+
+def edges_and_strokes(folder, tetrahedron):
+    """What collapse and flip make and are refused for; what one undo takes back."""
+    mesh, out, report = write(f"{folder}/octahedron.off", OCTAHEDRON), f"{folder}/edges.off", f"{folder}/edges.json"
+
+    def sculpt(script, of=mesh):
+        done = run(of, "--script", "/dev/stdin", "-o", out, "--report", report, script=script)
+        check(done.returncode == 0, f"{script!r}: {done.stderr}")
+        return [(e["op"], e["status"], e["reason"], e["elements"]) for e in json.load(open(report))["edits"]], surface(out)
+
+    def has_edge(faces, a, b):
+        return sum(a in face and b in face for face in faces)
+
+    whole = surface(mesh)
+    told, (at, faces) = sculpt("flip 0 2\n")
+    check(told == [("flip", "reached", None, [0, 2])] and at == whole[0], f"flip {told}")
+    check(has_edge(faces, 0, 2) == 0 and has_edge(faces, 4, 5) == 2, f"the flipped edge {faces}")
+    check(json.load(open(report))["edits"][0]["position"] is None, "a flip moves nothing")
+    told, (at, faces) = sculpt("collapse 0 2\n")
+    check(told == [("collapse", "reached", None, [0, 2])] and at == whole[0][1:] and len(faces) == 6, f"collapse {told}")
+    check(json.load(open(report))["edits"][0]["position"] == list(whole[0][2]), "where a collapse ends")
+    check(has_edge(faces, 1, 2) == 2, "the fan is that of the second vertex")  # renumbered: 2 into 1, 3 into 2
+    for line, elements in (("collapse 0 1", [0, 1]), ("flip 0 1", [0, 1]), ("collapse 0 9", [0, 9]), ("flip 3 3", [3, 3])):
+        told, after = sculpt(line + "\n")
+        check(told == [(line.split()[0], "refused", "unknown-element", elements)] and after == whole, f"{line}: {told}")
+    told, after = sculpt("collapse 0 1\nflip 0 1\nflip 3 2\n", tetrahedron)
+    check([t[1:3] for t in told] == [("refused", "tetrahedron"), ("refused", "doubled-edge"), ("refused", "doubled-edge")], f"a tetrahedron {told}")
+    check(after == surface(tetrahedron), "refused, and yet changed")
+
+    edits = "drag 0 2 0 0\ndrag 0 2.5 0 0.1\nstroke\ndrag 2 0 2 0\nend\nflip 1 3\ninsert_face 0 2 4 0.9 0.8 0.4\ncollapse 6 0\n"
+    for script, asked in ((f"stroke\n{edits}end\nundo\n", 7), (f"stroke\n{edits}undo\n", 7), (f"stroke\nstroke\n{edits}end\nundo\nend\n", 7)):
+        told, after = sculpt(script)
+        check(len(told) == asked and all(t[1] == "reached" for t in told) and after == whole, f"one undo takes back the stroke {script!r}: {told}")
+    undone, redone = sculpt(f"stroke\n{edits}end\nundo\nredo\n")[1], sculpt(edits.replace("stroke\n", "").replace("end\n", ""))[1]
+    check(undone == redone and redone != whole, "redo of a stroke")
+    one = sculpt("drag 0 2 0 0\n")[1]
+    check(sculpt("drag 0 2 0 0\nstroke\ndrag 0 3 0 0\ndrag 2 0 3 0\nend\nundo\n")[1] == one, "the step before a stroke stays")
+    check(sculpt("stroke\ndrag 2 0 3 0\nundo\ndrag 0 2 0 0\ndrag 0 3 0 0\nend\nundo\n")[1] == one, "after undo within a stroke, edits are steps of their own")
+    told, after = sculpt("end\nstroke\nend\nend\n")
+    check(told == [("end", "refused", "no-stroke", [])] * 2 and after == whole, f"end without a stroke: {told}")
+    check(sculpt("drag 0 2 0 0\nstroke\nend\nundo\n")[1] == whole, "a stroke in which nothing was done is no step")
 
 
 def demo(folder):
@@ -206,6 +248,10 @@ def bad_scripts(folder, mesh):
     refused("drag 99999999999999999999999 0 0 1\n", 1, 6)
     refused("drag 3 0 0 1 # ok\n\tprobe 0 0 0 1 1 -inf\n", 2, 18, "finite")
     refused("remove\n", 1, 7, "vertex index")
+    refused("collapse 1\n", 1, 11, "vertex index")
+    refused("flip 1 2 3\n", 1, 10, "flip")
+    refused("stroke 1\n", 1, 8)
+    refused("end stroke\n", 1, 5)
     refused("drag 3 0 0 2\r\nundo 1\n", 2, 6)
     fails(4, ["failed"], run(mesh, "--script", folder), "a folder as script")
     fails(4, ["missing.script"], run(mesh, "--script", f"{folder}/missing.script"), "missing script")
@@ -242,6 +288,7 @@ def main():
         happy_path(folder, mesh)
         directives_and_refusals(folder, mesh)
         extreme_numbers(folder, mesh)
+        edges_and_strokes(folder, mesh)
         demo(folder)
         formats(folder, mesh)
         broad_phases_agree(folder)

@@ -131,7 +131,7 @@ private:
   std::string point() { return ' ' + number() + ' ' + number() + ' ' + number(); }
 
   std::string line() {
-    switch (below(16)) {
+    switch (below(20)) {
     case 0:
       return "insert_face " + index() + ' ' + index() + ' ' + index() + point();
     case 1:
@@ -154,6 +154,12 @@ private:
       return std::string("response ") + any_of(std::array<const char*, 3>{"slide", "stop", "paper"});
     case 10:
       return below(2) ? "release" : "mesh " + std::string(64, 'b');
+    case 11:
+      return "collapse " + index() + ' ' + index();
+    case 12:
+      return "flip " + index() + ' ' + index();
+    case 13:
+      return below(2) ? "stroke" : "end";
     default:
       return "drag " + index() + point();
     }
