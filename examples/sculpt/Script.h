@@ -25,6 +25,12 @@ struct Command {
   std::size_t script_line = 0; ///< of what is logged: the line of the script that it came from; 0 where the log does not say
   Kind kind = Kind::release;
   std::vector<std::size_t> indices;        ///< of vertices
+  /// Of `indices` those that are yet to be found: the vertex nearest to a point when the line's turn comes.
+  struct Place {
+    std::size_t which;
+    std::array<double, 3> point;
+  };
+  std::vector<Place> places;
   std::vector<std::array<double, 3>> points;
   double length = 0;                       ///< clearance, delta
   std::string word;                        ///< response; mesh: in lower case; clearance: "default", or empty for `length`

@@ -218,6 +218,7 @@ public:
     Result result;
     result.position = source;
     result.reached = s == t;
+    responses_.stay(s);
     if (refuse_start(s, result))
       return result;
     probe_guard_.star().clear();
@@ -227,6 +228,16 @@ public:
              t, result);
     responses_.forget();
     return result;
+  }
+
+  /// The way of the last drag or probe: where it began, and where each of its legs ended, which all have been proven free; one
+  /// point where nothing moved. Allocates. A drag whose way is not asked for pays nothing for it.
+  std::vector<Point> last_way() const {
+    const internal::Slide_path& path = responses_.path();
+    std::vector<Point> points;
+    for (int i = 0; i <= path.legs(); ++i)
+      points.emplace_back(path.point(i)[0], path.point(i)[1], path.point(i)[2]);
+    return points;
   }
 
   /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length set, or
@@ -390,6 +401,7 @@ private:
       Result stale;
       stale.position = target;
       stale.end = Drag_end::stale;
+      responses_.stay(internal::coordinates(target));
       return stale;
     }
     internal::check_vertex(*mesh_, v);
@@ -397,6 +409,7 @@ private:
     hold(v);
     const internal::Coordinates s = vertex_coordinates(*mesh_, v), t = internal::coordinates(target);
     Result result;
+    responses_.stay(s);
     const internal::Coordinates end =
         s == t ? t
                : responses_.move(options_.response_rule, guard_, *mesh_, s, t,

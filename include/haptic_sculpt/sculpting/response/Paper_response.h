@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/contact/clearance.h>
+#include <haptic_sculpt/sculpting/response/Slide_path.h>
 #include <haptic_sculpt/sculpting/response/is_farther.h>
 #include <haptic_sculpt/surface/broad_phase/face_box.h>
 
@@ -24,7 +25,7 @@ class Paper_response {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
 
-  static constexpr int most_legs = 32;
+  static constexpr int most_legs = Slide_path::most_legs;
 
   void forget() { touched_.number = 0; }
 
@@ -34,6 +35,7 @@ public:
     if (place_ != source)
       forget();
     place_ = source;
+    path_ = Slide_path(source);
     result.end = Drag_end::leg_limit;
     held_.clear();
     bool stands = false; // did not move in the turn before
@@ -49,6 +51,8 @@ public:
       result.legs += end != place_;
       const bool moved = end != place_;
       place_ = end;
+      if (moved)
+        path_.add(end);
       if (end == target) {
         forget();
         held_.clear();
@@ -72,10 +76,14 @@ public:
     result.contacts = held_;
     if (is_farther(target, place_, source)) {
       place_ = source;
+      path_ = Slide_path(source);
       result.legs = 0;
     }
     return place_;
   }
+
+  /// The legs of the last move().
+  const Slide_path& path() const { return path_; }
 
 private:
   /// A face, edge or vertex of the mesh, and the side of its faces J is on: +1 where their normals point.
@@ -100,6 +108,7 @@ private:
     double clearance;
   };
 
+  Slide_path path_;
   Touched touched_;
   Coordinates place_{};
   Drag_result<Mesh> leg_;                      ///< of the last leg; kept to allocate no more

@@ -28,12 +28,16 @@ public:
   Coordinates move(Response response, Guard& guard, const Mesh& mesh, const Coordinates& source,
                    const Coordinates& target, const Drag_rules& rules, Drag_result<Mesh>& result) {
     Coordinates end;
+    last_ = response;
     if (response == Response::slide)
       end = slide_.move(guard, source, target, rules, result);
     else if (response == Response::paper)
       end = paper_.move(guard, mesh, source, target, rules, result);
     else {
       end = guard.leg(source, target, rules, result);
+      stop_path_ = Slide_path(source);
+      if (end != source)
+        stop_path_.add(end);
       result.end = end == target ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
     }
     const Vector pull = minus(target, end);
@@ -44,9 +48,22 @@ public:
     return end;
   }
 
+  /// Instead of a move(): nothing moved.
+  void stay(const Coordinates& at) {
+    last_ = Response::stop;
+    stop_path_ = Slide_path(at);
+  }
+
+  /// The legs of the last move().
+  const Slide_path& path() const {
+    return last_ == Response::slide ? slide_.path() : last_ == Response::paper ? paper_.path() : stop_path_;
+  }
+
 private:
   Slide_response<Mesh> slide_;
   Paper_response<Mesh> paper_;
+  Slide_path stop_path_;
+  Response last_ = Response::slide;
   std::vector<Vector> normals_;
 
   static double shortest_pull(const Drag_rules& rules, const Coordinates& end, const Drag_result<Mesh>& result) {

@@ -106,6 +106,9 @@ public:
     return walk_.x;
   }
 
+  /// The legs of the last move().
+  const Slide_path& path() const { return walk_.path; }
+
 private:
   using Walk = Slide_walk<Mesh>;
   using Ways = Slide_path::Ways;
