@@ -38,8 +38,7 @@ struct Image {
 
   void fill_disc(const Eigen::Vector2d& center, double radius, const Color& color) {
     const Eigen::Vector2d reach(radius, radius);
-    fill(center - reach, center + reach, color,
-         [&](const Eigen::Vector2d& p) { return radius - (p - center).norm(); });
+    fill(center - reach, center + reach, color, [&](const Eigen::Vector2d& p) { return radius - (p - center).norm(); });
   }
 
   void fill_box(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, const Color& color) {

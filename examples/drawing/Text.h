@@ -15,7 +15,8 @@ public:
   explicit Text(int height) : height_(height) {
     if (FT_Init_FreeType(&library_) != 0)
       throw Picture_error("FreeType cannot be started; ask for a picture without legend and numbers.");
-    if (FT_New_Face(library_, HAPTIC_SCULPT_FONT, 0, &face_) != 0 || FT_Set_Pixel_Sizes(face_, 0, unsigned(height)) != 0) {
+    if (FT_New_Face(library_, HAPTIC_SCULPT_FONT, 0, &face_) != 0 ||
+        FT_Set_Pixel_Sizes(face_, 0, unsigned(height)) != 0) {
       FT_Done_FreeType(library_);
       throw Picture_error("The font " HAPTIC_SCULPT_FONT " cannot be read. Install fonts-dejavu-core.");
     }

@@ -30,7 +30,8 @@ inline void write_labels(Image& image, const Scene& scene, const Camera& camera,
         behind = std::max(behind, depth[std::size_t(camera.height() - 1 - y - j) * camera.width() + x + i]);
     if ((clip.z() / clip.w() + 1) / 2 > double(behind + tolerance))
       continue;
-    const int width = text.width(label.text), left = std::min(x + 4, camera.width() - width - 2), base = std::max(y - 3, text.height());
+    const int width = text.width(label.text), left = std::min(x + 4, camera.width() - width - 2),
+              base = std::max(y - 3, text.height());
     bool is_free = true;
     const auto each_pixel = [&](const auto& visit) {
       for (int v = std::max(0, base - text.height()); v <= base + 1 && v < image.height; ++v)

@@ -18,6 +18,11 @@ struct Arguments {
   std::optional<std::array<double, 3>> nearest;
 };
 
+/// Reads the command line. Where the program is to end now, people have been told: by what they asked for (true:
+/// `--help`,
+/// `--version`), or by what is wrong (false).
+std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments);
+
 /// Something that was asked for and does not exist yet, or does not fit together.
 struct Usage_error : Error {
   using Error::Error;

@@ -32,7 +32,8 @@ Mesh triangulated(const Face_soup& soup, const std::string& path) {
   for (std::size_t f = 0; f < faces.size(); ++f)
     if (faces[f].size() > 3 &&
         !CGAL::Polygon_mesh_processing::triangulate_face(Mesh::Face_index(static_cast<Mesh::size_type>(f)), mesh))
-      throw Read_error("cannot read '" + path + "': face " + std::to_string(f) + " cannot be divided into triangles; divide it by hand");
+      throw Read_error("cannot read '" + path + "': face " + std::to_string(f) +
+                       " cannot be divided into triangles; divide it by hand");
   return mesh;
 }
 

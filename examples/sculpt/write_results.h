@@ -17,7 +17,8 @@
 namespace haptic_sculpt::sculpt_program {
 
 /// \param with_numbers those of the vertices are written beside them, where there is room: first of those moved
-inline std::string write_picture_of(const Mesh& mesh, const Run_result& result, const std::string& path, bool with_numbers) {
+inline std::string write_picture_of(const Mesh& mesh, const Run_result& result, const std::string& path,
+                                    bool with_numbers) {
   drawing::Scene scene = drawing::scene_of(mesh);
   constexpr std::size_t most = Edit_record::most_drawn;
   std::vector<bool> is_labelled(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), !with_numbers);
@@ -26,7 +27,8 @@ inline std::string write_picture_of(const Mesh& mesh, const Run_result& result, 
     number_of[static_cast<std::size_t>(result.vertex_order[i])] = result.numbers[i];
   const auto label = [&](std::size_t v) {
     if (!is_labelled[v])
-      scene.labels.push_back({drawing::to_eigen(mesh.point(Vertex_index(static_cast<Mesh::size_type>(v)))), std::to_string(number_of[v])});
+      scene.labels.push_back(
+          {drawing::to_eigen(mesh.point(Vertex_index(static_cast<Mesh::size_type>(v)))), std::to_string(number_of[v])});
     is_labelled[v] = true;
   };
   for (std::size_t i = 0; i < result.moved_vertices.size() && i < most; ++i) {
@@ -79,8 +81,10 @@ inline bool write_all(const Mesh& mesh, const Run_result& result, const Argument
     options.vertex_order = result.vertex_order;
     return write_surface(path, mesh, options);
   });
-  attempt(arguments.picture, [&](const std::string& path) { return write_picture_of(mesh, result, path, arguments.numbers); });
-  attempt(arguments.report, [&](const std::string& path) { return replace_file(path, report_of(result, notes, nearest)); });
+  attempt(arguments.picture,
+          [&](const std::string& path) { return write_picture_of(mesh, result, path, arguments.numbers); });
+  attempt(arguments.report,
+          [&](const std::string& path) { return replace_file(path, report_of(result, notes, nearest)); });
   return all_written;
 }
 

@@ -17,11 +17,11 @@ int main(int argc, char** argv) try {
   Mesh mesh = haptic_sculpt::read_surface<Mesh>(argv[1]); // refuses what is not a valid surface, and names why
   haptic_sculpt::Sculptor<Mesh> sculptor(mesh);
   auto grab = sculptor.grab(Mesh::Vertex_index(145));
-  const auto result = grab.drag_to({2.2, 0, 0.25});      // goes there, or slides along what it may not cross
+  const auto result = grab.drag_to({2.2, 0, 0.25}); // goes there, or slides along what it may not cross
   std::cout << name_of(result.end) << " at " << result.position << " after " << result.legs << " straight legs\n";
   for (const auto& contact : result.contacts)
     std::cout << "  by a contact " << name_of(contact.kind) << '\n';
-  haptic_sculpt::write_surface(argv[2], mesh);           // every coordinate to the last bit
+  haptic_sculpt::write_surface(argv[2], mesh); // every coordinate to the last bit
   return 0;
 } catch (const haptic_sculpt::Error& error) {
   std::cerr << error.what() << '\n';

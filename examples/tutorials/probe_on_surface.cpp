@@ -35,8 +35,8 @@ int main() {
     const Kernel::Vector_3 force = 500 * (result.position - hand);
     std::cout << "hand " << hand << ": " << name_of(result.end) << ", force " << force << " N,";
     for (const auto& contact : result.contacts)
-      std::cout << ' ' << name_of(contact.kind) << " with normal " << contact.normal[0] << ' ' << contact.normal[1] << ' '
-                << contact.normal[2];
+      std::cout << ' ' << name_of(contact.kind) << " with normal " << contact.normal[0] << ' ' << contact.normal[1]
+                << ' ' << contact.normal[2];
     std::cout << '\n';
   }
   std::cout << "in contact in " << touched << " of 100 ticks\n";
