@@ -92,7 +92,8 @@ double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinate
   return 2 * std::hypot(p[0] / 2 - q[0] / 2, p[1] / 2 - q[1] / 2, p[2] / 2 - q[2] / 2);
 }
 
-std::string report_of(const Run_result& result, const std::vector<std::string>& notes, const std::vector<Near_vertex>& nearest) {
+std::string report_of(const Run_result& result, const std::vector<std::string>& notes,
+                      const std::vector<Near_vertex>& nearest) {
   std::vector<double> times = result.nanoseconds;
   std::sort(times.begin(), times.end());
   const Json totals = {
@@ -117,7 +118,8 @@ std::string report_of(const Run_result& result, const std::vector<std::string>& 
   for (const Near_vertex& v : nearest)
     found.push_back({{"vertex", v.number}, {"position", v.position}, {"distance", v.distance}});
   const std::string near = nearest.empty() ? "" : ",\n\"nearest\": " + found.dump();
-  return text + "\n]" + near + ",\n\"notes\": " + told + ",\n\"time_ns\": " + time.dump() + ",\n\"filter\": " + filter.dump() + "\n}\n";
+  return text + "\n]" + near + ",\n\"notes\": " + told + ",\n\"time_ns\": " + time.dump() +
+         ",\n\"filter\": " + filter.dump() + "\n}\n";
 }
 
 void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) {
@@ -125,7 +127,8 @@ void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) 
       << "edits asked " << result.asked() << ", reached " << result.reached << ", blocked " << result.blocked
       << ", refused " << result.refused << '\n';
   if (result.within_clearance != 0)
-    out << "of those blocked " << result.within_clearance << " arrived within a clearance: nearer than that nothing may come\n";
+    out << "of those blocked " << result.within_clearance
+        << " arrived within a clearance: nearer than that nothing may come\n";
   constexpr std::size_t most = 40;
   std::size_t told = 0;
   for (const Edit_record& edit : result.edits) {
@@ -136,16 +139,17 @@ void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) 
       break;
     }
     if (told++ == 0)
-      out << "      line  edit    vertex  outcome  left to go  by (the vertices of what stands still)\n";
-    out << std::setw(10) << (edit.is_logged ? "log " : "") + std::to_string(edit.line) << "  " << std::left << std::setw(6) << name_of(edit.kind) << std::right
-        << std::setw(8) << (edit.kind == Command::Kind::drag ? std::to_string(edit.elements[0]) : "-") << "  "
-        << (edit.is_within_clearance ? "" : name_of(edit.status));
+      out << "      line  edit         vertex  outcome  left to go  by (the vertices of what stands still)\n";
+    out << std::setw(10) << (edit.is_logged ? "log " : "") + std::to_string(edit.line) << "  " << std::left
+        << std::setw(11) << name_of(edit.kind) << std::right << std::setw(8)
+        << (edit.kind == Command::Kind::drag ? std::to_string(edit.elements[0]) : "-") << "  ";
     if (edit.is_within_clearance)
-      out << "  arrived within a clearance";
+      out << "arrived within a clearance";
     else if (edit.motion)
-      out << std::setw(12) << std::setprecision(4) << distance(edit.motion->stop, edit.motion->target);
+      out << name_of(edit.status) << std::setw(12) << std::setprecision(4)
+          << distance(edit.motion->stop, edit.motion->target);
     else
-      out << std::setw(12) << '-';
+      out << name_of(edit.status) << std::setw(12) << '-';
     out << "  " << cause_of(edit) << '\n';
   }
 }

@@ -22,7 +22,8 @@ double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinate
 
 /// The report: JSON, one edit a line. doc/sculpt.md lists its keys. Doubles come back bit for bit.
 /// \param notes what people have been told besides \param nearest what `--nearest` found; empty: it was not asked for
-std::string report_of(const Run_result& result, const std::vector<std::string>& notes, const std::vector<Near_vertex>& nearest);
+std::string report_of(const Run_result& result, const std::vector<std::string>& notes,
+                      const std::vector<Near_vertex>& nearest);
 
 /// The totals, and a line for each edit that was blocked or refused, up to 40 of them.
 void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh);

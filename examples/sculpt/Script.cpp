@@ -5,7 +5,6 @@
 
 #include <haptic_sculpt/sculpting/Response.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
-#include <haptic_sculpt/surface/io/Text_scanner.h>
 
 #include <algorithm>
 #include <cctype>
@@ -177,7 +176,8 @@ std::optional<Command> read_line(const std::string& text, std::size_t number, co
 
 std::vector<Command> read_script(std::string_view text, const std::string& name) {
   std::vector<Command> commands;
-  text = internal::without_bom(text);
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") // a byte order mark, which some editors put before a text
+    text.remove_prefix(3);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     if (auto command = read_line(std::string(text.substr(0, end)), number, name))

@@ -127,7 +127,11 @@ private:
   std::string length() {
     return below(3) == 0 ? number() : std::to_string(0x1p-10 * static_cast<double>(1 + below(200)));
   }
-  std::string index() { return std::to_string(below(30) == 0 ? random_() : below(below(3) == 0 ? 12 : 5)); }
+  std::string index() {
+    if (below(20) == 0)
+      return '@' + number() + ',' + number() + ',' + number();
+    return std::to_string(below(30) == 0 ? random_() : below(below(3) == 0 ? 12 : 5));
+  }
   std::string point() { return ' ' + number() + ' ' + number() + ' ' + number(); }
 
   std::string line() {
