@@ -38,6 +38,7 @@ public:
       stop_path_ = Slide_path(source);
       if (end != source)
         stop_path_.add(end);
+      result.legs = stop_path_.legs(); // to be stopped where it stands is no leg
       result.end = end == target ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
     }
     const Vector pull = minus(target, end);
