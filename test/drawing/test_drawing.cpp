@@ -218,16 +218,16 @@ BOOST_AUTO_TEST_CASE(marks_are_seen_where_they_are) {
   BOOST_TEST(moved.y() > 60 + moved.x());
   BOOST_TEST(stopped.x() > 60 + stopped.z());
   BOOST_TEST(travelled.z() > 60 + travelled.x());
-  // Ways from and to far away run to the picture's margin of 12 pixels: green on the left, red and dashed on the right.
-  const auto count = [&p](int from, int to, auto has_color) {
+  // Ways from and to far away run to the picture's margin of 12 pixels: green at the bottom, red and dashed on the right.
+  const auto count = [&p](int left, int right, int top, int bottom, auto has_color) {
     int n = 0;
-    for (int y = 0; y < p.height; ++y)
-      for (int x = from; x < to; ++x)
+    for (int y = top; y < bottom; ++y)
+      for (int x = left; x < right; ++x)
         n += has_color(p.at(x, y));
     return n;
   };
-  BOOST_TEST(count(10, 22, [](const Eigen::Vector3i& c) { return c.y() > 60 + c.x(); }) > 0);
-  BOOST_TEST(count(p.width - 30, p.width - 10, [](const Eigen::Vector3i& c) { return c.x() > 60 + c.z(); }) > 0);
+  BOOST_TEST(count(0, p.width, p.height - 20, p.height - 10, [](const Eigen::Vector3i& c) { return c.y() > 60 + c.x(); }) > 0);
+  BOOST_TEST(count(p.width - 30, p.width - 10, 0, p.height, [](const Eigen::Vector3i& c) { return c.x() > 60 + c.z(); }) > 0);
   for (int x = 0; x < p.width; ++x)
     for (int y = 0; y < p.height; ++y)
       if (x < 5 || y < 5 || x >= p.width - 5 || y >= p.height - 5)
