@@ -4,28 +4,18 @@
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/Grab.h>
-#include <haptic_sculpt/sculpting/Sculptor_parameters.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
-#include <haptic_sculpt/sculpting/contact/is_within_distance.h>
+#include <haptic_sculpt/sculpting/contact/check_parameters.h>
+#include <haptic_sculpt/sculpting/contact/face_within_clearance.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
-#include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
-#include <haptic_sculpt/sculpting/motion/Guarded_star.h>
-#include <haptic_sculpt/sculpting/response/Responses.h>
-#include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/sculpting/motion/Hand.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/reserve_faces.h>
-#include <haptic_sculpt/surface/validate.h>
 
 #include <CGAL/Surface_mesh.h>
 
 namespace haptic_sculpt {
-
-/// A parameter outside of its range, e.g. a negative clearance.
-class Invalid_parameter : public Error {
-public:
-  using Error::Error;
-};
 
 /// Guards a mesh: embedded in, embedded out, whatever is dragged where.
 ///
@@ -64,11 +54,12 @@ public:
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
   /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
-    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), corners_(mesh),
-      editor_(mesh, broad_phase_, corners_, counters_, watch_, std::move(visitor)), guard_(mesh, broad_phase_, corners_, counters_, &watch_),
-      probe_guard_(mesh, broad_phase_, corners_, counters_, &watch_) {
-    grow_to(extent_of(mesh).largest);
+    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(internal::checked_scene(mesh, options)), corners_(mesh),
+      editor_(mesh, broad_phase_, corners_, counters_, watch_, std::move(visitor)), hand_(mesh, broad_phase_, corners_, counters_, watch_),
+      probe_(mesh, broad_phase_, corners_, counters_, watch_) {
+    grow_to(internal::Scene_extent(mesh).largest);
   }
+  ~Sculptor() { set_hand(nullptr); }
 
   Sculptor(const Sculptor&) = delete;
   Sculptor& operator=(const Sculptor&) = delete;
@@ -87,17 +78,11 @@ public:
     internal::check_vertex(*mesh_, v);
     release();
     hold(v);
-    return Grab_type(*this, editor_.names().name(v));
+    return Grab_type(*this, name(v));
   }
 
   /// Lets go of the vertex in hand, if any.
-  void release() {
-    if (held_.is_valid() && moved_)
-      broad_phase_.faces_moved(guard_.star().faces);
-    held_ = Vertex_index();
-    moved_ = false;
-    responses_.forget();
-  }
+  void release() { hand_.release(); }
 
   /// \name Edits
   /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand; a Grab stays usable. What
@@ -184,7 +169,7 @@ public:
     corners_.reserve(mesh_->num_faces() + 2 * edits);
     internal::reserve_faces(broad_phase_, mesh_->num_faces() + 2 * edits, 4 * edits);
     editor_.reserve(edits, moves);
-    guard_.reserve(editor_.usual_valence, editor_.usual_candidates);
+    hand_.reserve(editor_.usual_valence, editor_.usual_candidates);
   }
   ///@}
 
@@ -218,14 +203,21 @@ public:
     Result result;
     result.position = source;
     result.reached = s == t;
-    if (refuse_start(s, result))
+    if (const Face_index f = internal::face_within_clearance(*mesh_, broad_phase_, s, internal::Clearance_rule(options_.clearance_length),
+                                                             largest_coordinate_);
+        f.is_valid()) {
+      Contact_3<Mesh_type> contact;
+      contact.vertices = internal::corners_of_face(*mesh_, f);
+      contact.is_flat = true;
+      result.contacts.push_back(contact);
+      result.end = Drag_end::refused;
       return result;
-    probe_guard_.star().clear();
-    probe_guard_.invalidate();
-    if (s != t)
-      finish(responses_.move(options_.response_rule, probe_guard_, *mesh_, s, t, {internal::Clearance_rule(options_.clearance_length), 0}, result),
-             t, result);
-    responses_.forget();
+    }
+    if (s == t)
+      return result;
+    probe_.take_point();
+    finish(probe_.move(s, t, options_, result), t, result);
+    probe_.release();
     return result;
   }
 
@@ -239,8 +231,8 @@ public:
   /// nothing changes. Cost: reads every point.
   void set_clearance(double length) {
     const Sculptor_parameters changed = Sculptor_parameters(options_).clearance(length);
-    check_options(changed);
-    check_clearance(*mesh_, changed);
+    internal::check_parameters(changed);
+    internal::check_clearance(*mesh_, changed);
     options_ = changed;
   }
 
@@ -252,7 +244,7 @@ public:
   void set_delta(double length) {
     const Sculptor_parameters changed = Sculptor_parameters(options_).delta(length);
     release();
-    validated(*mesh_, changed);
+    internal::checked_scene(*mesh_, changed);
     options_ = changed;
   }
 
@@ -260,6 +252,9 @@ public:
     release();
     options_.response(rule);
   }
+
+  /// Of each drag from here on; nothing: a drag takes what it takes.
+  void set_work_limit(std::optional<std::size_t> pairs) { options_.work_bound = pairs; }
 
   /// \throw Mesh_changed if anything was changed by others, points or connectivity. Cost: reads all of the mesh.
   void check_unchanged() const { watch_.check_all(corners_); }
@@ -281,56 +276,16 @@ private:
   Broad_phase broad_phase_;
   internal::Face_corners<Mesh_type> corners_;
   internal::Editor<Mesh_type, Broad_phase, Visitor> editor_;
-  internal::Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
-  internal::Responses<Mesh_type> responses_;
-  Vertex_index held_; ///< whose star guard_ has; invalid when none
-  bool moved_ = false; ///< the broad phase has not been told yet where the held star is
+  internal::Hand<Mesh_type, Broad_phase> hand_, probe_;
+  Grab_type* holder_ = nullptr;   ///< the Grab that has the hand
   double largest_coordinate_ = 0; ///< bounds those of all vertices
   double largest_ever_ = 0;       ///< the same, those they have had included
-  std::size_t watched_look_ = 0, next_watched_ = 0;
 
-  /// So many candidates are compared with where they were left at every drag; a list that holds for long is seen whole soon.
-  static constexpr std::size_t candidates_per_drag = 4;
-
-  static void check_options(const Sculptor_parameters& options) {
-    if (options.clearance_length)
-      internal::check_range("the clearance", *options.clearance_length);
-    internal::check_range("delta", options.delta_length);
-    if (options.clearance_length && !(*options.clearance_length > 0))
-      throw Invalid_parameter("the clearance must be a length > 0, not " + internal::number(*options.clearance_length));
-    if (!(options.delta_length >= 0))
-      throw Invalid_parameter("delta must be a length >= 0, not " + internal::number(options.delta_length));
-  }
-
-  struct Extent {
-    Box_3 box;
-    double largest = 0; ///< magnitude of a coordinate
-  };
-  static Extent extent_of(const Mesh_type& mesh) {
-    Extent extent;
-    for (const Vertex_index v : mesh.vertices()) {
-      const internal::Coordinates p = vertex_coordinates(mesh, v);
-      extent.box.include(p);
-      extent.largest = std::fmax(extent.largest, internal::largest_magnitude(p));
-    }
-    return extent;
-  }
-
-  /// \throw Invalid_parameter unless a clearance that is set serves the scene: what is less than an ulp cannot be kept, and the
-  /// longest way that a slide goes back to keep it from several planes should not be longer than the scene.
-  static void check_clearance(const Mesh_type& mesh, const Sculptor_parameters& options) {
-    if (!options.clearance_length)
-      return;
-    const Extent extent = extent_of(mesh);
-    double widest = 0;
-    for (int i = 0; i < 3; ++i)
-      widest = std::fmax(widest, extent.box.upper[i] - extent.box.lower[i]);
-    const double least = internal::unit_in_the_last_place(extent.largest),
-                 most = widest / internal::Slide_lengths::clearances_of_retreat;
-    if (!(*options.clearance_length >= least && *options.clearance_length <= most))
-      throw Invalid_parameter("the clearance " + internal::number(*options.clearance_length) + " does not serve this scene: give " +
-                              internal::number(least) + " (an ulp of its largest coordinate) to " + internal::number(most) +
-                              " (1/128 of its extent), or none");
+  /// Whoever had the hand is stale from now on.
+  void set_hand(Grab_type* grab) noexcept {
+    if (holder_ != nullptr && holder_ != grab)
+      holder_->sculptor_ = nullptr;
+    holder_ = grab;
   }
 
   void grow_to(double coordinate) {
@@ -342,83 +297,45 @@ private:
   void check_clearance_serves() {
     if (!options_.clearance_length || *options_.clearance_length >= internal::unit_in_the_last_place(largest_coordinate_))
       return;
-    largest_coordinate_ = extent_of(*mesh_).largest; // what was far may be back
+    largest_coordinate_ = internal::Scene_extent(*mesh_).largest; // what was far may be back
     if (!(*options_.clearance_length >= internal::unit_in_the_last_place(largest_coordinate_)))
-      check_clearance(*mesh_, options_);
+      internal::check_clearance(*mesh_, options_);
   }
 
-  static const Mesh_type& validated(const Mesh_type& mesh, const Sculptor_parameters& options) {
-    check_options(options);
-    for (const Vertex_index v : mesh.vertices())
-      if (const auto p = vertex_coordinates(mesh, v); !internal::is_in_range(p) && is_finite(p))
-        internal::check_range("vertex " + std::to_string(static_cast<std::size_t>(v)) + " at", p);
-    Validity_report report = validate(mesh, options.delta_length);
-    if (!report.is_valid())
-      throw Invalid_surface("the mesh", std::move(report));
-    check_clearance(mesh, options);
-    return mesh;
-  }
-
-  /// Others are named, all of them, by the report of validate().
-  static bool is_finite(const internal::Coordinates& p) {
-    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-  }
-
-  /// Makes guard_ the guard of v. \throw Mesh_changed
+  /// \throw Mesh_changed
   void hold(Vertex_index v) {
-    watch_.check_counts();
-    if (held_ == v) {
-      watch_.check(v);
-      return;
-    }
-    internal::prefetch(&mesh_->point(v), sizeof(Point)); // there is other work until it comes
-    watch_.prefetch(v);
-    release();
-    editor_.prepare_for_moves();
-    watch_.check_some();
-    guard_.collect(v);
-    watch_.check(v);
-    for (const Vertex_index neighbour : guard_.star().link)
-      watch_.check(neighbour);
-    held_ = v;
+    if (!hand_.holds(v))
+      hand_.take(v, [this] { editor_.prepare_for_moves(); });
   }
 
   Result drag(Vertex_index v, const Point& target) {
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the target", target);
-    if (!v.is_valid()) {
-      Result stale;
-      stale.position = target;
-      stale.end = Drag_end::stale;
-      return stale;
-    }
+    if (!v.is_valid())
+      return Result::stale_at(target);
     internal::check_vertex(*mesh_, v);
     check_clearance_serves();
     hold(v);
     const internal::Coordinates s = vertex_coordinates(*mesh_, v), t = internal::coordinates(target);
     Result result;
-    const internal::Coordinates end =
-        s == t ? t
-               : responses_.move(options_.response_rule, guard_, *mesh_, s, t,
-                                 {internal::Clearance_rule(options_.clearance_length), options_.delta_length}, result);
-    try {
-      watch_candidates();
-    } catch (const Mesh_changed&) {
-      release(); // what was looked up is not to be used when the change has been undone
-      throw;
-    }
-    if (end != s) {
-      // Whatever the response has proposed: each leg has been proven by the sweeps, which take no end that is not in range.
-      if (!internal::is_in_range(end))
-        throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");
-      mesh_->point(v) = Point(end[0], end[1], end[2]);
-      watch_.remember(v);
-      grow_to(internal::largest_magnitude(end));
-      moved_ = true;
-      editor_.note_move(v, s, end);
-    }
+    const internal::Coordinates end = s == t ? t : hand_.move(s, t, options_, result);
+    hand_.check_candidates();
+    if (end != s)
+      put(v, s, end);
     finish(end, t, result);
     return result;
+  }
+
+  /// The one place where a drag writes the mesh. Whatever the response has proposed: each leg has been proven by the sweeps, which
+  /// take no end that is not in range.
+  void put(Vertex_index v, const internal::Coordinates& from, const internal::Coordinates& to) {
+    if (!internal::is_in_range(to))
+      throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");
+    mesh_->point(v) = Point(to[0], to[1], to[2]);
+    watch_.remember(v);
+    grow_to(internal::largest_magnitude(to));
+    hand_.note_moved();
+    editor_.note_move(v, from, to);
   }
 
   /// Runs an edit between looking for changes by others and noting what it changed.
@@ -434,56 +351,9 @@ private:
     return result;
   }
 
-  /// All candidates where they have just been looked up, else some of them in turn. \throw Mesh_changed
-  void watch_candidates() {
-    const auto& candidates = guard_.checklist().vertices();
-    if (watched_look_ != guard_.looks()) {
-      watched_look_ = guard_.looks();
-      for (const auto& candidate : candidates)
-        watch_.check(candidate.index);
-      watch_.check_faces(corners_, guard_.star().faces);
-    } else {
-      for (std::size_t left = std::min(candidates.size(), candidates_per_drag); left != 0; --left) {
-        next_watched_ = next_watched_ + 1 < candidates.size() ? next_watched_ + 1 : 0;
-        watch_.check(candidates[next_watched_].index);
-      }
-    }
-  }
-
   static void finish(const internal::Coordinates& end, const internal::Coordinates& target, Result& result) {
     result.position = Point(end[0], end[1], end[2]);
     result.reached = end == target;
-  }
-
-  bool refuse_start(const internal::Coordinates& start, Result& result) {
-    const internal::Clearance_rule rule(options_.clearance_length);
-    const double reach = internal::largest_magnitude(start), clearance = rule.at(std::fmax(largest_coordinate_, reach));
-    Box_3 near(start);
-    for (int i = 0; i < 3; ++i) {
-      // One ulp more than the clearance, for the sums are rounded.
-      near.lower[i] = std::nextafter(near.lower[i] - clearance, -std::numeric_limits<double>::infinity());
-      near.upper[i] = std::nextafter(near.upper[i] + clearance, std::numeric_limits<double>::infinity());
-    }
-    std::vector<Face_index> faces;
-    broad_phase_.query(near, faces);
-    std::sort(faces.begin(), faces.end());
-    for (const Face_index f : faces) {
-      const auto h = mesh_->halfedge(f);
-      const std::array<Vertex_index, 3> corners = {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))};
-      const auto a = vertex_coordinates(*mesh_, corners[0]), b = vertex_coordinates(*mesh_, corners[1]),
-                 c = vertex_coordinates(*mesh_, corners[2]);
-      const double there = std::fmax(std::fmax(reach, internal::largest_magnitude(a)),
-                                     std::fmax(internal::largest_magnitude(b), internal::largest_magnitude(c)));
-      if (!internal::is_within_distance(start, a, b, c, rule.at(there)))
-        continue;
-      Contact_3<Mesh_type> contact;
-      contact.vertices = corners;
-      contact.is_flat = true;
-      result.contacts.push_back(contact);
-      result.end = Drag_end::refused;
-      return true;
-    }
-    return false;
   }
 };
 

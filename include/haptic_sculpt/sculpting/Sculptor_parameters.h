@@ -13,6 +13,7 @@ struct Sculptor_parameters {
   std::optional<double> clearance_length; ///< unset: default_clearance() at each contact
   double delta_length = 0;                ///< 0: only exactly degenerate triangles are refused
   Response response_rule = Response::slide;
+  std::optional<std::size_t> work_bound;  ///< unset: a drag takes what it takes
 
   /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates. Of use is what is at least an
   /// ulp of the scene's largest coordinate, and at most 1/128 of its extent.
@@ -29,6 +30,12 @@ struct Sculptor_parameters {
     response_rule = rule;
     return *this;
   }
+  /// Bounds the work of a drag, for a loop that has to be in time: so many pairs decided and candidates looked up, and it ends as
+  /// Drag_end::work_limit where it is (doc/work.md).
+  Sculptor_parameters& work_limit(std::size_t pairs) {
+    work_bound = pairs;
+    return *this;
+  }
 };
 
 /// Starts a chain of named parameters.
@@ -36,6 +43,7 @@ namespace parameters {
 inline Sculptor_parameters clearance(double length) { return Sculptor_parameters().clearance(length); }
 inline Sculptor_parameters delta(double length) { return Sculptor_parameters().delta(length); }
 inline Sculptor_parameters response(Response rule) { return Sculptor_parameters().response(rule); }
+inline Sculptor_parameters work_limit(std::size_t pairs) { return Sculptor_parameters().work_limit(pairs); }
 } // namespace parameters
 
 } // namespace haptic_sculpt

@@ -69,6 +69,8 @@ public:
       }
       stands = !moved;
     }
+    if (guard.is_spent() && result.end != Drag_end::reached)
+      result.end = Drag_end::work_limit;
     result.contacts = held_;
     if (is_farther(target, place_, source)) {
       place_ = source;

@@ -34,7 +34,10 @@ public:
       end = paper_.move(guard, mesh, source, target, rules, result);
     else {
       end = guard.leg(source, target, rules, result);
-      result.end = end == target ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
+      result.end = end == target     ? Drag_end::reached
+                   : guard.is_spent() ? Drag_end::work_limit
+                   : end == source    ? Drag_end::no_progress
+                                      : Drag_end::held;
     }
     const Vector pull = minus(target, end);
     if (result.contacts.empty())

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/contact/Facet.h>
 #include <haptic_sculpt/sculpting/motion/stop.h>
+#include <haptic_sculpt/sculpting/response/Slide_lengths.h>
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
 #include <haptic_sculpt/sculpting/response/nearest_permitted.h>
 
@@ -15,38 +16,12 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// The lengths of a slide where J is. All in the unit of the coordinates.
-struct Slide_lengths {
-  double clearance;  ///< c: the largest that is kept from a contact plane here
-  double resolution; ///< one unit in the last place of the contacts and of J: what rounding a point can do
-
-  /// Higher than this over its plane J has left a contact.
-  double lifted() const { return clearances_of_lift * clearance; }
-  /// Nearer than this to the border of a facet another feature may be near.
-  double border() const { return 16 * clearance; }
-  /// A leg no longer than this is not worth making: it is what rounding leaves of a perfect one.
-  double settled() const { return 2 * resolution; }
-  /// A pull no longer than this says nothing about its direction.
-  double shortest_pull() const { return 16 * clearance; }
-  /// To be a clearance off two planes J may have to go back from its target by a clearance over the sine of half their
-  /// angle. No farther than this: in a gap more acute than a hundredth of a radian less than a clearance is kept.
-  double retreat() const { return clearances_of_retreat * clearance; }
-  /// Normals are rounded, and over a longer leg along a plane that would take J off it, or into it, by hundreds of
-  /// clearances. A target that is farther is approached in more than one leg: the cone of the contacts' normals, which
-  /// says whether J is at a nearest point, does not depend on how far the target is.
-  double farthest_pull() const { return 0x1p62 * resolution; }
-
-  double noise() const { return 0x1p-64 * resolution; }
-
-  /// In clearances of the contact at hand: higher over its plane J has left it.
-  static constexpr double clearances_of_lift = 8, clearances_of_retreat = 128;
-};
-
 /// How a walk ended.
 enum class Walk_end : std::uint8_t {
   reached, ///< at the target
   settled, ///< at the point nearest to the target that the contacts permit
   stuck,   ///< no representable point on the way there is free
+  spent,   ///< as much work as the drag may do
   limit    ///< as many legs as permitted
 };
 
@@ -117,16 +92,18 @@ struct Slide_walk {
       }
       if (legs() >= most_legs)
         return Walk_end::limit;
-      guard.decide(x, y, rules_.delta);
-      if (is_far && !guard.is_blocked()) { // what is near has been decided, by numbers of about one size
+      auto decision = guard.decide(x, y, rules_.delta);
+      if (is_far && decision.is_free()) { // what is near has been decided, by numbers of about one size
         y = target;
-        guard.decide(x, y, rules_.delta);
+        decision = guard.decide(x, y, rules_.delta);
       }
-      if (guard.is_blocked()) {
+      if (!decision.is_free()) {
+        if (guard.is_spent())
+          return Walk_end::spent;
         const int legs_before = legs();
         const Vector before = x;
-        if (!approach(guard, y, target))
-          return Walk_end::stuck;
+        if (!approach(guard, decision, y, target))
+          return guard.is_spent() ? Walk_end::spent : Walk_end::stuck;
         if (legs() == legs_before)
           continue;
         // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last
@@ -247,12 +224,11 @@ struct Slide_walk {
     return true;
   }
 
-  /// J rests: takes in all the faces that come first in the motion last decided, from x to y. Returns whether there were
-  /// any new ones. \pre guard.is_blocked()
-  template <class Guard>
-  bool meet_faces(const Guard& guard, const Vector& y) {
+  /// J rests: takes in all the faces that come first in a motion from x. Returns whether there were any new ones.
+  template <class Decision>
+  bool meet_faces(const Decision& decision) {
     boost::container::static_vector<Contact_3<Mesh>, most_facets> met;
-    guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double) {
+    decision.for_each_first_contact([&](const Contact_3<Mesh>& contact, double) {
       const bool is_face = contact.kind == Contact_kind::vertex_face && !contact.is_flat;
       if (is_face && met.size() < met.capacity() && !knows(contact))
         met.push_back(contact);
@@ -368,14 +344,13 @@ private:
     });
   }
 
-  /// Takes in the steepest of the contacts that came first in the motion last decided, from x to y, and are not known
-  /// yet: of several features that meet in one point some are no obstacle, and whichever is will be met next. Returns
+  /// Takes in the steepest of the contacts that come first in the motion decided, from x to y, and are not known yet: of several features that meet in one point some are no obstacle, and whichever is will be met next. Returns
   /// the fraction of the way.
-  template <class Guard>
-  double meet_first(const Guard& guard, const Vector& y, double& steepest, bool& is_new) {
+  template <class Decision>
+  double meet_first(const Decision& decision, const Vector& y, double& steepest, bool& is_new) {
     std::optional<Contact_3<Mesh>> best;
     double best_sine = -1;
-    const double time = guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double sine) {
+    const double time = decision.for_each_first_contact([&](const Contact_3<Mesh>& contact, double sine) {
       steepest = std::fmax(steepest, sine);
       // A flat impact has the sine 0: it counts where there is no other.
       if (sine > best_sine && !knows(contact)) {
@@ -389,11 +364,11 @@ private:
 
   /// The way from x to y has just been found blocked: goes to the free point nearest to the impact that is c off all
   /// contacts, the new one included. Returns whether anything was gained, in place or in knowledge.
-  template <class Guard>
-  bool approach(Guard& guard, const Vector& y, const Vector& target) {
+  template <class Guard, class Decision>
+  bool approach(Guard& guard, const Decision& blocked, const Vector& y, const Vector& target) {
     double steepest = 0;
     bool any_new = false;
-    const double time = meet_first(guard, y, steepest, any_new);
+    const double time = meet_first(blocked, y, steepest, any_new);
     const Vector to_impact = scaled(minus(y, x), time);
     bool met = any_new;
     double clearances = 1;
@@ -403,15 +378,15 @@ private:
       const Vector z = place_at(near.displacement);
       if (!near.exists || z == x || -nearer_by(target, x, z) > lengths_.retreat())
         break;
-      guard.decide(x, z, rules_.delta);
-      if (!guard.is_blocked()) {
+      const auto decision = guard.decide(x, z, rules_.delta);
+      if (decision.is_free()) {
         const bool is_short = largest_magnitude(minus(z, x)) <= lengths_.border();
         if (!(met && is_short && legs() >= legs_before_thrift && facets.size() < most_facets))
           step_to(z);
         return true;
       }
       bool new_here = false;
-      meet_first(guard, z, steepest, new_here);
+      meet_first(decision, z, steepest, new_here);
       met = met || new_here;
       if (new_here)
         continue;

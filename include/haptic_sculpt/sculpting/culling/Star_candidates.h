@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_STAR_CANDIDATES_H
+#define HAPTIC_SCULPT_SCULPTING_STAR_CANDIDATES_H
+
+#include <haptic_sculpt/sculpting/culling/Near_pairs.h>
+#include <haptic_sculpt/sculpting/motion/Work.h>
+#include <haptic_sculpt/sculpting/motion/stop.h>
+#include <haptic_sculpt/surface/broad_phase/fetch_ahead.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// A star, or a probe, and what it may touch: looks candidates up in the broad phase when the motions of a grab leave the
+/// region for which they are known.
+///
+/// \tparam Fetch a function object `fetch(v)`, told of each vertex that will be read: to ask for memory ahead
+template <class Mesh, class Broad_phase, class Fetch>
+class Star_candidates {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  /// \param runs working memory, to be shared \param work where faces looked up are counted
+  Star_candidates(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Star_runs<Mesh>& runs,
+                  Work& work, Fetch fetch)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), runs_(&runs), work_(&work), fetch_(std::move(fetch)) {}
+
+  Star<Mesh>& star() { return star_; }
+  const Star<Mesh>& star() const { return star_; }
+  const Checklist<Mesh>& list() const { return list_; }
+  const Near_pairs<Mesh>& pairs() const { return pairs_; }
+  /// How often a list has been filled: it has changed when this has.
+  std::size_t looks() const { return looks_; }
+
+  /// Takes the star of a vertex, and asks for the memory that its first motion will read. Cost: the valence.
+  void collect(Vertex_index v) {
+    // While the star is read, each of whose faces is found by what memory tells of the last one, the broad phase can wait
+    // for its own memory: the surroundings are about as large as those of the star before.
+    if (!mesh_->is_isolated(v)) {
+      const double size = usual_reach * link_extent();
+      Box_3 about(vertex_coordinates(*mesh_, v));
+      for (int i = 0; i < 3; ++i)
+        about.lower[i] -= size, about.upper[i] += size;
+      fetch_ahead(*broad_phase_, about);
+    }
+    star_.collect(*mesh_, v, [this](Vertex_index neighbour) {
+      fetch_(neighbour);
+      fetch_on(*broad_phase_);
+    });
+    invalidate();
+  }
+
+  /// Makes room for a star and candidates of usual size.
+  void reserve(std::size_t valence, std::size_t faces) {
+    star_.reserve(valence);
+    list_.reserve(valence, faces);
+    candidates_.reserve(faces);
+    whole_candidates_.reserve(faces);
+    runs_->reserve(valence + 3 * faces, 3 * faces);
+  }
+
+  /// Forget the candidates: an element outside the star has changed.
+  void invalidate() {
+    list_.clear();
+    pairs_.clear();
+    patience_ = 1, waited_ = 0;
+    is_crowded_ = false;
+  }
+
+  /// Whether pairs cover the motion; takes them where it is worth while.
+  bool has_pairs(const Coordinates& source, const Coordinates& target) {
+    if (pairs_.cover(source, target))
+      return true;
+    if (star_.valence() == 0 || is_long(source, target))
+      return false;
+    const bool is_due = ++waited_ > patience_;
+    const std::size_t looks = looks_;
+    look_around(source, target, is_due ? region_margin / 2 * link_extent() : 0);
+    if (!is_due || looks_ != looks || work_->is_spent()) // not both in one motion: it would be the slowest of all
+      return false;
+    waited_ = 0;
+    pairs_.assign(star_, list_, *runs_, source, target);
+    const bool covered = pairs_.cover(source, target);
+    patience_ = covered ? 0 : std::min(2 * patience_ + 1, most_patience);
+    return covered;
+  }
+
+  /// Makes the list complete for a motion, or for a part of it from the start, and calls `is_enough(part)`; for longer parts
+  /// until that is true, and at last for the whole. Does not call it where the work is spent before.
+  template <class Is_enough>
+  void look_along(const Coordinates& source, const Coordinates& target, const Is_enough& is_enough) {
+    Swept_star_3 part = star_.swept(source, target);
+    if (!is_long(source, target)) {
+      look_around(source, target);
+      if (!work_->is_spent())
+        is_enough(part);
+      return;
+    }
+    const bool has_looked = !is_crowded_;
+    if (has_looked) {
+      look_at(part);
+      is_crowded_ = candidates_.size() > few_faces;
+    }
+    if (is_crowded_) {
+      const double way = path_length(source, target), size = std::fmax(link_extent(), way * least_part);
+      std::swap(candidates_, whole_candidates_);
+      part.until = 0.25;
+      while (part.until > least_part && part.until * way > 2 * size)
+        part.until /= 16;
+      for (; part.until < 1; part.until *= 16) {
+        look_at(part);
+        if (!take_candidates() || is_enough(part))
+          return;
+      }
+      part.until = 1;
+      if (has_looked)
+        std::swap(candidates_, whole_candidates_);
+      else
+        look_at(part);
+      is_crowded_ = candidates_.size() > few_faces;
+    }
+    if (take_candidates())
+      is_enough(part);
+  }
+
+private:
+  const Mesh* mesh_;
+  Broad_phase* broad_phase_;
+  const Face_corners<Mesh>* corners_of_;
+  Star_runs<Mesh>* runs_;
+  Work* work_;
+  Fetch fetch_;
+  Star<Mesh> star_;
+  Checklist<Mesh> list_;
+  Near_pairs<Mesh> pairs_;
+  std::size_t looks_ = 0;
+  int patience_ = 1, waited_ = 0;
+  bool is_crowded_ = false; ///< the last long motion passed over many faces
+  std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
+
+  /// How much larger than the motion, in extents of the link, the region of a list is: of the first, which has to be filled from
+  /// memory not seen lately, and of those that follow in one grab.
+  static constexpr double first_margin = 0.125, region_margin = 0.5;
+
+  /// From a vertex to the end of its first region, in extents of a link: half of one and the margin.
+  static constexpr double usual_reach = 0.5 + first_margin;
+
+  /// Pairs cost as much as to decide a motion or two without them, so they are taken at the second motion of a grab, and with every
+  /// one that leaves the ball. Where they cannot be had, or are too many, they are tried again after twice as many motions.
+  static constexpr int most_patience = 64;
+
+  /// So many faces are looked at at once. Of a long way that passes over more, first a part is looked at, about as long as the star is
+  /// wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many are soon stopped.
+  static constexpr std::size_t few_faces = 192;
+  static constexpr double least_part = 0x1p-10;
+
+  /// Longer than the link is wide.
+  bool is_long(const Coordinates& source, const Coordinates& target) const {
+    double way = 0;
+    for (int i = 0; i < 3; ++i)
+      way = std::fmax(way, std::abs(target[i] - source[i]));
+    return way > link_extent();
+  }
+
+  double link_extent() const {
+    Box_3 link;
+    for (const Coordinates& p : star_.link_points)
+      link.include(p);
+    double most = 0;
+    for (int i = 0; i < 3; ++i)
+      most = std::fmax(most, link.upper[i] - link.lower[i]);
+    return most;
+  }
+
+  /// Makes the list complete for a motion that is not long, and `room` around it. Those of one grab share a list.
+  void look_around(const Coordinates& source, const Coordinates& target, double room = 0) {
+    Box_3 region = Box_3(source).include(target), with_room = region;
+    for (int i = 0; i < 3; ++i)
+      with_room.lower[i] -= room, with_room.upper[i] += room;
+    if (list_.region().contains(with_room))
+      return;
+    const double margin = (list_.faces().empty() ? first_margin : region_margin) * link_extent();
+    for (int i = 0; i < 3; ++i) {
+      region.lower[i] -= margin;
+      region.upper[i] += margin;
+    }
+    Swept_star_3 anywhere = star_.swept(region.lower, region.upper);
+    anywhere.is_box = true;
+    look_at(anywhere);
+    take_candidates(region);
+  }
+
+  void look_at(const Swept_star_3& part) {
+    candidates_.clear();
+    broad_phase_->query(part, candidates_);
+    work_->spend(candidates_.size());
+  }
+
+  /// \param region empty for one motion alone: the next one asks again
+  /// Returns false, and leaves the list as it was, where the work is spent.
+  bool take_candidates(const Box_3& region = Box_3()) {
+    if (work_->is_spent())
+      return false;
+    pairs_.clear();
+    list_.assign(*mesh_, *corners_of_, star_, candidates_, region, fetch_);
+    ++looks_;
+    return true;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
