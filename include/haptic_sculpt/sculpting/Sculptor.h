@@ -5,7 +5,7 @@
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
-#include <haptic_sculpt/sculpting/contact/check_parameters.h>
+#include <haptic_sculpt/sculpting/contact/Scene_bound.h>
 #include <haptic_sculpt/sculpting/contact/face_within_clearance.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
@@ -56,9 +56,7 @@ public:
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
     : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(internal::checked_scene(mesh, options)), corners_(mesh),
       editor_(mesh, broad_phase_, corners_, counters_, watch_, std::move(visitor)), hand_(mesh, broad_phase_, corners_, counters_, watch_),
-      probe_(mesh, broad_phase_, corners_, counters_, watch_) {
-    grow_to(internal::Scene_extent(mesh).largest);
-  }
+      probe_(mesh, broad_phase_, corners_, counters_, watch_), scene_(mesh) {}
   ~Sculptor() { set_hand(nullptr); }
 
   Sculptor(const Sculptor&) = delete;
@@ -139,12 +137,12 @@ public:
   /// keeps. Ends the stroke under way first. A new change clears what could be redone.
   /// \post What the step had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
   Edited undo() {
-    largest_coordinate_ = largest_ever_; // many vertices may move
+    scene_.include_the_past(); // many vertices may move
     return edited([&] { return editor_.undo(); });
   }
   /// Makes the step that was taken back last again. \post The same have died as when it was first made.
   Edited redo() {
-    largest_coordinate_ = largest_ever_;
+    scene_.include_the_past();
     return edited([&] { return editor_.redo(); });
   }
 
@@ -195,7 +193,7 @@ public:
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the source", source);
     internal::check_point("the target", target);
-    check_clearance_serves();
+    scene_.check_clearance_serves(options_);
     release();
     watch_.check_counts();
     watch_.check_some();
@@ -204,7 +202,7 @@ public:
     result.position = source;
     result.reached = s == t;
     if (const Face_index f = internal::face_within_clearance(*mesh_, broad_phase_, s, internal::Clearance_rule(options_.clearance_length),
-                                                             largest_coordinate_);
+                                                             scene_.largest_coordinate());
         f.is_valid()) {
       Contact_3<Mesh_type> contact;
       contact.vertices = internal::corners_of_face(*mesh_, f);
@@ -277,29 +275,14 @@ private:
   internal::Face_corners<Mesh_type> corners_;
   internal::Editor<Mesh_type, Broad_phase, Visitor> editor_;
   internal::Hand<Mesh_type, Broad_phase> hand_, probe_;
-  Grab_type* holder_ = nullptr;   ///< the Grab that has the hand
-  double largest_coordinate_ = 0; ///< bounds those of all vertices
-  double largest_ever_ = 0;       ///< the same, those they have had included
+  Grab_type* holder_ = nullptr; ///< the Grab that has the hand
+  internal::Scene_bound<Mesh_type> scene_;
 
   /// Whoever had the hand is stale from now on.
   void set_hand(Grab_type* grab) noexcept {
     if (holder_ != nullptr && holder_ != grab)
       holder_->sculptor_ = nullptr;
     holder_ = grab;
-  }
-
-  void grow_to(double coordinate) {
-    largest_coordinate_ = std::fmax(largest_coordinate_, coordinate);
-    largest_ever_ = std::fmax(largest_ever_, coordinate);
-  }
-
-  /// \throw Invalid_parameter where the scene has outgrown the clearance set.
-  void check_clearance_serves() {
-    if (!options_.clearance_length || *options_.clearance_length >= internal::unit_in_the_last_place(largest_coordinate_))
-      return;
-    largest_coordinate_ = internal::Scene_extent(*mesh_).largest; // what was far may be back
-    if (!(*options_.clearance_length >= internal::unit_in_the_last_place(largest_coordinate_)))
-      internal::check_clearance(*mesh_, options_);
   }
 
   /// \throw Mesh_changed
@@ -314,7 +297,7 @@ private:
     if (!v.is_valid())
       return Result::stale_at(target);
     internal::check_vertex(*mesh_, v);
-    check_clearance_serves();
+    scene_.check_clearance_serves(options_);
     hold(v);
     const internal::Coordinates s = vertex_coordinates(*mesh_, v), t = internal::coordinates(target);
     Result result;
@@ -333,7 +316,7 @@ private:
       throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");
     mesh_->point(v) = Point(to[0], to[1], to[2]);
     watch_.remember(v);
-    grow_to(internal::largest_magnitude(to));
+    scene_.include(to);
     hand_.note_moved();
     editor_.note_move(v, from, to);
   }
@@ -347,7 +330,7 @@ private:
     watch_.check_some();
     const Edited result = edit();
     if (result && !mesh_->is_removed(*result.vertex))
-      grow_to(internal::largest_magnitude(vertex_coordinates(*mesh_, *result.vertex)));
+      scene_.include(vertex_coordinates(*mesh_, *result.vertex));
     return result;
   }
 
