@@ -4,6 +4,8 @@
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 
+#include <vector>
+
 namespace haptic_sculpt {
 
 /// A vertex in the hand: made by `Sculptor::grab()`, dragged as often as wanted, let go by `release()` or destruction.
@@ -30,6 +32,10 @@ public:
   /// Allocates nothing once it is warm: no list longer than any before, no more contacts than Drag_result::usual_contacts, at most
   /// Edit_history::room moves since the grab, and no delta rule so nearly broken that it takes rational numbers to decide.
   Drag_result<Mesh> drag_to(const Point& target) { return sculptor_->drag(vertex(), target); }
+
+  /// The same, and says on which way: where the vertex was, and where it was after each of the `legs` of the result, each a straight
+  /// motion that was proven free; `position` is the last point. Of a removed vertex none. \param path is written anew
+  Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path) { return sculptor_->drag(vertex(), target, &path); }
 
   /// Lets go. The next drag begins without contacts.
   void release() { sculptor_->release(); }

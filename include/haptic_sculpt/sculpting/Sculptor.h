@@ -6,9 +6,9 @@
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
-#include <haptic_sculpt/sculpting/contact/is_within_distance.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
+#include <haptic_sculpt/sculpting/finding/Surface_finder.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/motion/Guarded_star.h>
 #include <haptic_sculpt/sculpting/response/Responses.h>
@@ -36,7 +36,7 @@ public:
 /// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay. Changes
 /// made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()` looks at all.
 /// Several objects are several components of the one mesh. Orientation does not matter: an inside-out component is guarded
-/// like any other. An isolated vertex is a probe: it can be dragged and touches, but nothing touches it.
+/// like any other. An isolated vertex is a probe: it touches faces, and no face passes over it (doc/probes.md).
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
@@ -65,8 +65,9 @@ public:
   /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
     : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(validated(mesh, options)), corners_(mesh),
-      editor_(mesh, broad_phase_, corners_, counters_, watch_, std::move(visitor)), guard_(mesh, broad_phase_, corners_, counters_, &watch_),
-      probe_guard_(mesh, broad_phase_, corners_, counters_, &watch_) {
+      isolated_(mesh), editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, options.probes_are_recorded, std::move(visitor)),
+      guard_(mesh, broad_phase_, corners_, counters_, &watch_, &isolated_),
+      probe_guard_(mesh, broad_phase_, corners_, counters_, &watch_), finder_(mesh, broad_phase_, corners_, counters_) {
     grow_to(extent_of(mesh).largest);
   }
 
@@ -92,12 +93,46 @@ public:
 
   /// Lets go of the vertex in hand, if any.
   void release() {
-    if (held_.is_valid() && moved_)
-      broad_phase_.faces_moved(guard_.star().faces);
+    tell_where_held_is();
     held_ = Vertex_index();
-    moved_ = false;
     responses_.forget();
   }
+
+  /// \name Finding
+  /// Exact (doc/finding.md). Isolated vertices are no part of the surface and are not found. Changes nothing, and does not end
+  /// the grab at hand. Cost: log n with the default broad phase.
+  ///@{
+
+  /// The vertex of the surface nearest to p, of those at most `within` from it; the null index where there is none. Of several at
+  /// the same distance that of the smallest index. \param within >= 0; may be infinite
+  /// \throw Out_of_range, Invalid_parameter, Mesh_changed
+  Vertex_index nearest_vertex(const Point& p, double within) {
+    const internal::Rounding_to_nearest rounding;
+    internal::check_point("the point", p);
+    if (!(within >= 0))
+      throw Invalid_parameter("the distance within which a vertex is sought must be >= 0, not " + internal::number(within));
+    prepare_to_find();
+    const Vertex_index v = finder_.nearest_vertex(internal::coordinates(p), within);
+    if (v.is_valid())
+      watch_.check(v);
+    return v;
+  }
+
+  /// What of the surface the closed segment from `source` to `target` meets first: a vertex, or the inside of an edge or of a face.
+  /// A segment in the plane of a face meets it where it enters it or begins, and one that is a point meets what it lies on.
+  /// \throw Out_of_range, Mesh_changed
+  std::optional<Surface_hit<Mesh_type>> first_hit(const Point& source, const Point& target) {
+    const internal::Rounding_to_nearest rounding;
+    internal::check_point("the source", source);
+    internal::check_point("the target", target);
+    prepare_to_find();
+    const auto hit = finder_.first_hit(internal::coordinates(source), internal::coordinates(target));
+    if (hit)
+      for (const Vertex_index v : corners_(hit->face))
+        watch_.check(v);
+    return hit;
+  }
+  ///@}
 
   /// \name Edits
   /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand; a Grab stays usable. What
@@ -150,8 +185,22 @@ public:
     return edited([&] { return editor_.flip(mesh_->halfedge(e), options_.delta_length); });
   }
 
+  /// Puts a probe, a vertex without faces, to `p`, whatever is on the way: refused where that is on a face, nearer to it than the
+  /// clearance, or inside of a solid, in a cavity of it not. Decided exactly. To be undone like a drag. \post Nothing has died.
+  /// \throw Out_of_range, Invalid_parameter. Cost: log n and the faces whose boxes a ray meets.
+  Edited place(Vertex_index probe, const Point& p) {
+    internal::check_point("the place", p);
+    if (!probe.is_valid() || static_cast<std::size_t>(probe) >= mesh_->num_vertices() || mesh_->is_removed(probe))
+      return Edited::refused(Refusal_reason::unknown_element);
+    check_clearance_serves();
+    return edited([&] {
+      return editor_.place(probe, internal::coordinates(p), Clearance_rule(options_.clearance_length), largest_coordinate_);
+    });
+  }
+
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as the history
-  /// keeps. Ends the stroke under way first. A new change clears what could be redone.
+  /// keeps. Ends the stroke under way first. A new change clears what could be redone. Only where probes are not recorded can a step
+  /// be refused because it would jump over one; undo is possible again when that has moved away.
   /// \post What the step had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
   Edited undo() {
     largest_coordinate_ = largest_ever_; // many vertices may move
@@ -266,7 +315,9 @@ public:
 
   /// Bytes held that grow with the mesh, capacity included: the broad phase, the corners of the faces, the copy of the points, the
   /// numbers of the vertices. Not the mesh itself, nor the history.
-  std::size_t memory() const { return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory(); }
+  std::size_t memory() const {
+    return broad_phase_.memory() + corners_.memory() + watch_.memory() + isolated_.memory() + editor_.names().memory();
+  }
 
 private:
   friend class Grab<Sculptor>;
@@ -280,14 +331,17 @@ private:
   Filter_counters counters_;
   Broad_phase broad_phase_;
   Face_corners<Mesh_type> corners_;
+  internal::Isolated_vertices<Mesh_type> isolated_;
   Editor<Mesh_type, Broad_phase, Visitor> editor_;
   Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
+  internal::Surface_finder<Mesh_type, Broad_phase> finder_;
   Responses<Mesh_type> responses_;
   Vertex_index held_; ///< whose star guard_ has; invalid when none
   bool moved_ = false; ///< the broad phase has not been told yet where the held star is
   double largest_coordinate_ = 0; ///< bounds those of all vertices
   double largest_ever_ = 0;       ///< the same, those they have had included
   std::size_t watched_look_ = 0, next_watched_ = 0;
+  std::vector<Face_index> faces_near_start_;
 
   /// So many candidates are compared with where they were left at every drag; a list that holds for long is seen whole soon.
   static constexpr std::size_t candidates_per_drag = 4;
@@ -364,6 +418,18 @@ private:
     return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
   }
 
+  void tell_where_held_is() {
+    if (held_.is_valid() && moved_)
+      broad_phase_.faces_moved(guard_.star().faces), isolated_.moved(held_);
+    moved_ = false;
+  }
+
+  void prepare_to_find() {
+    tell_where_held_is();
+    watch_.check_counts();
+    watch_.check_some();
+  }
+
   /// Makes guard_ the guard of v. \throw Mesh_changed
   void hold(Vertex_index v) {
     watch_.check_counts();
@@ -383,8 +449,10 @@ private:
     held_ = v;
   }
 
-  Result drag(Vertex_index v, const Point& target) {
+  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path = nullptr) {
     const internal::Rounding_to_nearest rounding;
+    if (path != nullptr)
+      path->clear();
     internal::check_point("the target", target);
     if (!v.is_valid()) {
       Result stale;
@@ -407,6 +475,8 @@ private:
       release(); // what was looked up is not to be used when the change has been undone
       throw;
     }
+    if (path != nullptr)
+      write_path(s, end, *path);
     if (end != s) {
       // Whatever the response has proposed: each leg has been proven by the sweeps, which take no end that is not in range.
       if (!internal::is_in_range(end))
@@ -450,40 +520,29 @@ private:
     }
   }
 
+  void write_path(const internal::Coordinates& source, const internal::Coordinates& end, std::vector<Point>& path) const {
+    if (source == end)
+      path.emplace_back(source[0], source[1], source[2]);
+    else
+      responses_.append_path(options_.response_rule, source, end, path);
+  }
+
   static void finish(const internal::Coordinates& end, const internal::Coordinates& target, Result& result) {
     result.position = Point(end[0], end[1], end[2]);
     result.reached = end == target;
   }
 
   bool refuse_start(const internal::Coordinates& start, Result& result) {
-    const Clearance_rule rule(options_.clearance_length);
-    const double reach = internal::largest_magnitude(start), clearance = rule.at(std::fmax(largest_coordinate_, reach));
-    Box_3 near(start);
-    for (int i = 0; i < 3; ++i) {
-      // One ulp more than the clearance, for the sums are rounded.
-      near.lower[i] = std::nextafter(near.lower[i] - clearance, -std::numeric_limits<double>::infinity());
-      near.upper[i] = std::nextafter(near.upper[i] + clearance, std::numeric_limits<double>::infinity());
-    }
-    std::vector<Face_index> faces;
-    broad_phase_.query(near, faces);
-    std::sort(faces.begin(), faces.end());
-    for (const Face_index f : faces) {
-      const auto h = mesh_->halfedge(f);
-      const std::array<Vertex_index, 3> corners = {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))};
-      const auto a = vertex_coordinates(*mesh_, corners[0]), b = vertex_coordinates(*mesh_, corners[1]),
-                 c = vertex_coordinates(*mesh_, corners[2]);
-      const double there = std::fmax(std::fmax(reach, internal::largest_magnitude(a)),
-                                     std::fmax(internal::largest_magnitude(b), internal::largest_magnitude(c)));
-      if (!internal::is_within_distance(start, a, b, c, rule.at(there)))
-        continue;
-      Contact_3<Mesh_type> contact;
-      contact.vertices = corners;
-      contact.is_flat = true;
-      result.contacts.push_back(contact);
-      result.end = Drag_end::refused;
-      return true;
-    }
-    return false;
+    const Face_index f = internal::find_face_within(*mesh_, broad_phase_, start, Clearance_rule(options_.clearance_length),
+                                                    largest_coordinate_, faces_near_start_);
+    if (!f.is_valid())
+      return false;
+    Contact_3<Mesh_type> contact;
+    contact.vertices = corners_of_face(*mesh_, f);
+    contact.is_flat = true;
+    result.contacts.push_back(contact);
+    result.end = Drag_end::refused;
+    return true;
   }
 };
 

@@ -13,6 +13,7 @@ struct Sculptor_parameters {
   std::optional<double> clearance_length; ///< unset: default_clearance() at each contact
   double delta_length = 0;                ///< 0: only exactly degenerate triangles are refused
   Response response_rule = Response::slide;
+  bool probes_are_recorded = true; ///< whether the history keeps the moves of probes
 
   /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates. Of use is what is at least an
   /// ulp of the scene's largest coordinate, and at most 1/128 of its extent.
@@ -29,6 +30,13 @@ struct Sculptor_parameters {
     response_rule = rule;
     return *this;
   }
+  /// Whether drags and placements of probes, vertices without faces, are steps that undo takes back. A hand that moves one a
+  /// thousand times a second had better leave them out; then undo and redo are refused where they would jump over a probe
+  /// (doc/probes.md).
+  Sculptor_parameters& record_probes(bool recorded) {
+    probes_are_recorded = recorded;
+    return *this;
+  }
 };
 
 /// Starts a chain of named parameters.
@@ -36,6 +44,7 @@ namespace parameters {
 inline Sculptor_parameters clearance(double length) { return Sculptor_parameters().clearance(length); }
 inline Sculptor_parameters delta(double length) { return Sculptor_parameters().delta(length); }
 inline Sculptor_parameters response(Response rule) { return Sculptor_parameters().response(rule); }
+inline Sculptor_parameters record_probes(bool recorded) { return Sculptor_parameters().record_probes(recorded); }
 } // namespace parameters
 
 } // namespace haptic_sculpt

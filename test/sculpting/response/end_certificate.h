@@ -56,6 +56,7 @@ private:
   Brute_force_broad_phase<Mesh> broad_phase_;
   Face_corners<Mesh> corners_;
   Filter_counters counters_;
+  haptic_sculpt::internal::Isolated_vertices<Mesh> isolated_;
   Guarded_star<Mesh, Brute_force_broad_phase<Mesh>> guard_;
   Vertex_index v_;
   Coordinates x_{};
@@ -82,6 +83,7 @@ private:
 
   void begin(Vertex_index v, const Point_3& target, double delta) {
     corners_ = Face_corners<Mesh>(*mesh_);
+    isolated_ = haptic_sculpt::internal::Isolated_vertices<Mesh>(*mesh_);
     guard_.collect(v);
     v_ = v;
     x_ = vertex_coordinates(*mesh_, v);

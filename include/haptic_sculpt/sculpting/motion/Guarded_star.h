@@ -9,6 +9,7 @@
 #include <haptic_sculpt/sculpting/motion/delta_limit.h>
 #include <haptic_sculpt/sculpting/motion/stop.h>
 #include <haptic_sculpt/sculpting/response/kkt_residual.h>
+#include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 #include <haptic_sculpt/surface/broad_phase/fetch_ahead.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 
@@ -24,9 +25,10 @@ public:
   using Vertex_index = typename Mesh::Vertex_index;
 
   /// \param watch is asked to fetch its copies of the candidates, where it is given
+  /// \param isolated stand in the way of stars, where they are given
   Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters,
-               const Mesh_watch<Mesh>* watch = nullptr)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), watch_(watch), counters_(&counters),
+               const Mesh_watch<Mesh>* watch = nullptr, internal::Isolated_vertices<Mesh>* isolated = nullptr)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), watch_(watch), isolated_(isolated), counters_(&counters),
       narrow_phase_(counters) {}
 
   Star<Mesh>& star() { return star_; }
@@ -167,6 +169,7 @@ private:
   Broad_phase* broad_phase_;
   const Face_corners<Mesh>* corners_of_;
   const Mesh_watch<Mesh>* watch_;
+  internal::Isolated_vertices<Mesh>* isolated_;
   Filter_counters* counters_;
   Narrow_phase<Mesh, Filter_counters> narrow_phase_;
   Star<Mesh> star_;
@@ -176,6 +179,7 @@ private:
   int patience_ = 1, waited_ = 0;
   bool is_crowded_ = false; ///< the last long motion passed over many faces
   std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
+  std::vector<Vertex_index> isolated_near_;
   Star_impacts<Mesh> firsts_;
   std::vector<Limit> limits_;
   bool is_out_of_range_ = false; ///< of the motion last decided
@@ -247,7 +251,7 @@ private:
     Swept_star_3 anywhere = star_.swept(region.lower, region.upper);
     anywhere.is_box = true;
     look_at(anywhere);
-    take_candidates(region);
+    take_candidates(anywhere, region);
   }
 
   /// Makes the checklist complete for a motion, or for a part of it from the start, and calls `is_enough(part)`; for longer parts
@@ -273,7 +277,7 @@ private:
         part.until /= 16;
       for (; part.until < 1; part.until *= 16) {
         look_at(part);
-        take_candidates();
+        take_candidates(part);
         if (is_enough(part))
           return;
       }
@@ -284,7 +288,7 @@ private:
         look_at(part);
       is_crowded_ = candidates_.size() > few_faces;
     }
-    take_candidates();
+    take_candidates(part);
     is_enough(part);
   }
 
@@ -292,10 +296,15 @@ private:
     candidates_.clear();
     broad_phase_->query(part, candidates_);
   }
-  /// \param region empty for one motion alone: the next one asks again
-  void take_candidates(const Box_3& region = Box_3()) {
+  /// \param part what has been looked at \param region empty for one motion alone: the next one asks again
+  void take_candidates(const Swept_star_3& part, const Box_3& region = Box_3()) {
     pairs_.clear();
     list_.assign(*mesh_, *corners_of_, star_, candidates_, region, [this](Vertex_index v) { prefetch_watched(v); });
+    if (isolated_ != nullptr && !isolated_->is_empty() && star_.valence() != 0) {
+      isolated_near_.clear();
+      isolated_->query(part.box(), isolated_near_);
+      list_.add_isolated(*mesh_, isolated_near_);
+    }
     ++looks_;
   }
 

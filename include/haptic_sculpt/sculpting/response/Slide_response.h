@@ -109,6 +109,9 @@ public:
     return walk_.x;
   }
 
+  /// The way of the last move.
+  const internal::Slide_path& path() const { return walk_.path; }
+
 private:
   using Walk = internal::Slide_walk<Mesh>;
   using Ways = internal::Slide_path::Ways;
