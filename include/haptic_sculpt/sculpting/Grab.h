@@ -5,6 +5,7 @@
 #include <haptic_sculpt/sculpting/Drag_result.h>
 
 #include <utility>
+#include <vector>
 
 namespace haptic_sculpt {
 
@@ -42,6 +43,13 @@ public:
   /// Edit_history::room moves since the grab, and no delta rule so nearly broken that it takes rational numbers to decide.
   Drag_result<Mesh> drag_to(const Point& target) {
     return sculptor_ != nullptr ? sculptor_->drag(vertex(), target) : Drag_result<Mesh>::stale_at(target);
+  }
+
+  /// The same, and says on which way: where the vertex was, and where it was after each of the `legs` of the result, each a straight
+  /// motion that was proven free; `position` is the last point. Of a stale Grab none. \param path is written anew
+  Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path) {
+    path.clear();
+    return sculptor_ != nullptr ? sculptor_->drag(vertex(), target, &path) : Drag_result<Mesh>::stale_at(target);
   }
 
   /// Lets go. The next drag takes the vertex again, without contacts.

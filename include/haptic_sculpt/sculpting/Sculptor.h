@@ -6,8 +6,9 @@
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
 #include <haptic_sculpt/sculpting/contact/Scene_bound.h>
-#include <haptic_sculpt/sculpting/contact/face_within_clearance.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
+#include <haptic_sculpt/sculpting/finding/Surface_finder.h>
+#include <haptic_sculpt/sculpting/finding/find_face_within.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/motion/Hand.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
@@ -26,7 +27,7 @@ namespace haptic_sculpt {
 /// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay. Changes
 /// made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()` looks at all.
 /// Several objects are several components of the one mesh. Orientation does not matter: an inside-out component is guarded
-/// like any other. An isolated vertex is a probe: it can be dragged and touches, but nothing touches it.
+/// like any other. An isolated vertex is a probe: it touches faces, and no face passes over it (doc/probes.md).
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
@@ -55,8 +56,9 @@ public:
   /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
     : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(internal::checked_scene(mesh, options)), corners_(mesh),
-      editor_(mesh, broad_phase_, corners_, counters_, watch_, std::move(visitor)), hand_(mesh, broad_phase_, corners_, counters_, watch_),
-      probe_(mesh, broad_phase_, corners_, counters_, watch_), scene_(mesh) {}
+      isolated_(mesh), editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, options.probes_are_recorded, std::move(visitor)),
+      hand_(mesh, broad_phase_, corners_, isolated_, counters_, watch_), probe_(mesh, broad_phase_, corners_, isolated_, counters_, watch_),
+      finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh) {}
   ~Sculptor() { set_hand(nullptr); }
 
   Sculptor(const Sculptor&) = delete;
@@ -81,6 +83,42 @@ public:
 
   /// Lets go of the vertex in hand, if any.
   void release() { hand_.release(); }
+
+  /// \name Finding
+  /// Exact (doc/finding.md). Isolated vertices are no part of the surface and are not found. Changes nothing, and does not end
+  /// the grab at hand. Cost: log n with the default broad phase.
+  ///@{
+
+  /// The vertex of the surface nearest to p, of those at most `within` from it; the null index where there is none. Of several at
+  /// the same distance that of the smallest index. \param within >= 0; may be infinite
+  /// \throw Out_of_range, Invalid_parameter, Mesh_changed
+  Vertex_index nearest_vertex(const Point& p, double within) {
+    const internal::Rounding_to_nearest rounding;
+    internal::check_point("the point", p);
+    if (!(within >= 0))
+      throw Invalid_parameter("the distance within which a vertex is sought must be >= 0, not " + internal::number(within));
+    prepare_to_find();
+    const Vertex_index v = finder_.nearest_vertex(internal::coordinates(p), within);
+    if (v.is_valid())
+      watch_.check(v);
+    return v;
+  }
+
+  /// What of the surface the closed segment from `source` to `target` meets first: a vertex, or the inside of an edge or of a face.
+  /// A segment in the plane of a face meets it where it enters it or begins, and one that is a point meets what it lies on.
+  /// \throw Out_of_range, Mesh_changed
+  std::optional<Surface_hit<Mesh_type>> first_hit(const Point& source, const Point& target) {
+    const internal::Rounding_to_nearest rounding;
+    internal::check_point("the source", source);
+    internal::check_point("the target", target);
+    prepare_to_find();
+    const auto hit = finder_.first_hit(internal::coordinates(source), internal::coordinates(target));
+    if (hit)
+      for (const Vertex_index v : corners_(hit->face))
+        watch_.check(v);
+    return hit;
+  }
+  ///@}
 
   /// \name Edits
   /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand; a Grab stays usable. What
@@ -133,8 +171,23 @@ public:
     return edited([&] { return editor_.flip(mesh_->halfedge(e), options_.delta_length); });
   }
 
+  /// Puts a probe, a vertex without faces, to `p`, whatever is on the way: refused where that is on a face, nearer to it than the
+  /// clearance, or inside of a solid, in a cavity of it not. Decided exactly. To be undone like a drag. \post Nothing has died.
+  /// \throw Out_of_range, Invalid_parameter. Cost: log n and the faces whose boxes a ray meets.
+  Edited place(Vertex_index probe, const Point& p) {
+    internal::check_point("the place", p);
+    if (!probe.is_valid() || static_cast<std::size_t>(probe) >= mesh_->num_vertices() || mesh_->is_removed(probe))
+      return Edited::refused(Refusal_reason::unknown_element);
+    scene_.check_clearance_serves(options_);
+    return edited([&] {
+      return editor_.place(probe, internal::coordinates(p), internal::Clearance_rule(options_.clearance_length),
+                           scene_.largest_coordinate());
+    });
+  }
+
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as the history
-  /// keeps. Ends the stroke under way first. A new change clears what could be redone.
+  /// keeps. Ends the stroke under way first. A new change clears what could be redone. Only where probes are not recorded can a step
+  /// be refused because it would jump over one; undo is possible again when that has moved away.
   /// \post What the step had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
   Edited undo() {
     scene_.include_the_past(); // many vertices may move
@@ -201,8 +254,8 @@ public:
     Result result;
     result.position = source;
     result.reached = s == t;
-    if (const Face_index f = internal::face_within_clearance(*mesh_, broad_phase_, s, internal::Clearance_rule(options_.clearance_length),
-                                                             scene_.largest_coordinate());
+    if (const Face_index f = internal::find_face_within(*mesh_, broad_phase_, s, internal::Clearance_rule(options_.clearance_length),
+                                                        scene_.largest_coordinate(), faces_near_start_);
         f.is_valid()) {
       Contact_3<Mesh_type> contact;
       contact.vertices = internal::corners_of_face(*mesh_, f);
@@ -259,7 +312,7 @@ public:
 
   /// Bytes held that grow with the mesh, capacity included: the broad phase, the corners of the faces, the copy of the points, the
   /// numbers of the vertices. Not the mesh itself, nor the history.
-  std::size_t memory() const { return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory(); }
+  std::size_t memory() const { return broad_phase_.memory() + corners_.memory() + watch_.memory() + isolated_.memory() + editor_.names().memory(); }
 
 private:
   friend class Grab<Sculptor>;
@@ -273,10 +326,13 @@ private:
   Filter_counters counters_;
   Broad_phase broad_phase_;
   internal::Face_corners<Mesh_type> corners_;
+  internal::Isolated_vertices<Mesh_type> isolated_;
   internal::Editor<Mesh_type, Broad_phase, Visitor> editor_;
   internal::Hand<Mesh_type, Broad_phase> hand_, probe_;
+  internal::Surface_finder<Mesh_type, Broad_phase> finder_;
   Grab_type* holder_ = nullptr; ///< the Grab that has the hand
   internal::Scene_bound<Mesh_type> scene_;
+  std::vector<Face_index> faces_near_start_; ///< of a probe; kept to allocate no more
 
   /// Whoever had the hand is stale from now on.
   void set_hand(Grab_type* grab) noexcept {
@@ -285,13 +341,19 @@ private:
     holder_ = grab;
   }
 
+  void prepare_to_find() {
+    hand_.tell_where_it_is();
+    watch_.check_counts();
+    watch_.check_some();
+  }
+
   /// \throw Mesh_changed
   void hold(Vertex_index v) {
     if (!hand_.holds(v))
       hand_.take(v, [this] { editor_.prepare_for_moves(); });
   }
 
-  Result drag(Vertex_index v, const Point& target) {
+  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path = nullptr) {
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the target", target);
     if (!v.is_valid())
@@ -303,6 +365,8 @@ private:
     Result result;
     const internal::Coordinates end = s == t ? t : hand_.move(s, t, options_, result);
     hand_.check_candidates();
+    if (path != nullptr)
+      hand_.write_path(options_.response_rule, s, end, *path);
     if (end != s)
       put(v, s, end);
     finish(end, t, result);

@@ -14,6 +14,7 @@ struct Sculptor_parameters {
   double delta_length = 0;                ///< 0: only exactly degenerate triangles are refused
   Response response_rule = Response::slide;
   std::optional<std::size_t> work_bound;  ///< unset: a drag takes what it takes
+  bool probes_are_recorded = true; ///< whether the history keeps the moves of probes
 
   /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates. Of use is what is at least an
   /// ulp of the scene's largest coordinate, and at most 1/128 of its extent.
@@ -36,6 +37,13 @@ struct Sculptor_parameters {
     work_bound = pairs;
     return *this;
   }
+  /// Whether drags and placements of probes, vertices without faces, are steps that undo takes back. A hand that moves one a
+  /// thousand times a second had better leave them out; then undo and redo are refused where they would jump over a probe
+  /// (doc/probes.md).
+  Sculptor_parameters& record_probes(bool recorded) {
+    probes_are_recorded = recorded;
+    return *this;
+  }
 };
 
 /// Starts a chain of named parameters.
@@ -44,6 +52,7 @@ inline Sculptor_parameters clearance(double length) { return Sculptor_parameters
 inline Sculptor_parameters delta(double length) { return Sculptor_parameters().delta(length); }
 inline Sculptor_parameters response(Response rule) { return Sculptor_parameters().response(rule); }
 inline Sculptor_parameters work_limit(std::size_t pairs) { return Sculptor_parameters().work_limit(pairs); }
+inline Sculptor_parameters record_probes(bool recorded) { return Sculptor_parameters().record_probes(recorded); }
 } // namespace parameters
 
 } // namespace haptic_sculpt

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
 #include <haptic_sculpt/sculpting/motion/Work.h>
 #include <haptic_sculpt/sculpting/motion/stop.h>
+#include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 #include <haptic_sculpt/surface/broad_phase/fetch_ahead.h>
 
 namespace haptic_sculpt {
@@ -19,10 +20,12 @@ class Star_candidates {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
 
+  /// \param isolated stand in the way of stars, where they are given
   /// \param runs working memory, to be shared \param work where faces looked up are counted
-  Star_candidates(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Star_runs<Mesh>& runs,
-                  Work& work, Fetch fetch)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), runs_(&runs), work_(&work), fetch_(std::move(fetch)) {}
+  Star_candidates(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
+                  Isolated_vertices<Mesh>* isolated, Star_runs<Mesh>& runs, Work& work, Fetch fetch)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(isolated), runs_(&runs), work_(&work)
+    , fetch_(std::move(fetch)) {}
 
   Star<Mesh>& star() { return star_; }
   const Star<Mesh>& star() const { return star_; }
@@ -108,7 +111,7 @@ public:
         part.until /= 16;
       for (; part.until < 1; part.until *= 16) {
         look_at(part);
-        if (!take_candidates() || is_enough(part))
+        if (!take_candidates(part) || is_enough(part))
           return;
       }
       part.until = 1;
@@ -118,7 +121,7 @@ public:
         look_at(part);
       is_crowded_ = candidates_.size() > few_faces;
     }
-    if (take_candidates())
+    if (take_candidates(part))
       is_enough(part);
   }
 
@@ -126,6 +129,7 @@ private:
   const Mesh* mesh_;
   Broad_phase* broad_phase_;
   const Face_corners<Mesh>* corners_of_;
+  Isolated_vertices<Mesh>* isolated_;
   Star_runs<Mesh>* runs_;
   Work* work_;
   Fetch fetch_;
@@ -136,6 +140,7 @@ private:
   int patience_ = 1, waited_ = 0;
   bool is_crowded_ = false; ///< the last long motion passed over many faces
   std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
+  std::vector<Vertex_index> isolated_near_;
 
   /// How much larger than the motion, in extents of the link, the region of a list is: of the first, which has to be filled from
   /// memory not seen lately, and of those that follow in one grab.
@@ -186,7 +191,7 @@ private:
     Swept_star_3 anywhere = star_.swept(region.lower, region.upper);
     anywhere.is_box = true;
     look_at(anywhere);
-    take_candidates(region);
+    take_candidates(anywhere, region);
   }
 
   void look_at(const Swept_star_3& part) {
@@ -195,13 +200,18 @@ private:
     work_->spend(candidates_.size());
   }
 
-  /// \param region empty for one motion alone: the next one asks again
+  /// \param part what has been looked at \param region empty for one motion alone: the next one asks again
   /// Returns false, and leaves the list as it was, where the work is spent.
-  bool take_candidates(const Box_3& region = Box_3()) {
+  bool take_candidates(const Swept_star_3& part, const Box_3& region = Box_3()) {
     if (work_->is_spent())
       return false;
     pairs_.clear();
     list_.assign(*mesh_, *corners_of_, star_, candidates_, region, fetch_);
+    if (isolated_ != nullptr && !isolated_->is_empty() && star_.valence() != 0) {
+      isolated_near_.clear();
+      isolated_->query(part.box(), isolated_near_);
+      list_.add_isolated(*mesh_, isolated_near_);
+    }
     ++looks_;
     return true;
   }

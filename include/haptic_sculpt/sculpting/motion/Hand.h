@@ -17,9 +17,10 @@ class Hand {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
 
-  Hand(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters, Mesh_watch<Mesh>& watch)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), watch_(&watch)
-    , guard_(mesh, broad_phase, corners, counters, Fetch_watched{&watch}) {}
+  Hand(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Isolated_vertices<Mesh>& isolated,
+       Filter_counters& counters, Mesh_watch<Mesh>& watch)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), isolated_(&isolated), watch_(&watch)
+    , guard_(mesh, broad_phase, corners, counters, &isolated, Fetch_watched{&watch}) {}
 
   void reserve(std::size_t valence, std::size_t faces) { guard_.reserve(valence, faces); }
 
@@ -55,12 +56,19 @@ public:
 
   /// Lets go, if anything is held. The next drag begins without contacts.
   void release() {
-    if (held_.is_valid() && has_moved_)
-      broad_phase_->faces_moved(guard_.star().faces);
+    tell_where_it_is();
     held_ = Vertex_index();
-    has_moved_ = false;
     responses_.forget();
     guard_.work().forget();
+  }
+
+  /// Tells the broad phase where the vertex has come to: it may be asked by others then.
+  void tell_where_it_is() {
+    if (held_.is_valid() && has_moved_) {
+      broad_phase_->faces_moved(guard_.star().faces);
+      isolated_->moved(held_);
+    }
+    has_moved_ = false;
   }
 
   /// Goes from source towards target as the response tells; the mesh is not written. \pre source != target
@@ -71,6 +79,15 @@ public:
     const Coordinates end = responses_.move(parameters.response_rule, guard_, *mesh_, source, target, rules, result);
     result.work = guard_.work().done();
     return end;
+  }
+
+  /// Writes where the last move was after each leg, the start first.
+  template <class Point>
+  void write_path(Response response, const Coordinates& source, const Coordinates& end, std::vector<Point>& path) const {
+    if (source == end)
+      path.emplace_back(source[0], source[1], source[2]);
+    else
+      responses_.append_path(response, source, end, path);
   }
 
   /// The mesh has been written: v has moved.
@@ -97,6 +114,7 @@ private:
   const Mesh* mesh_;
   Broad_phase* broad_phase_;
   const Face_corners<Mesh>* corners_;
+  Isolated_vertices<Mesh>* isolated_;
   Mesh_watch<Mesh>* watch_;
   Guarded_star<Mesh, Broad_phase, Fetch_watched> guard_;
   Responses<Mesh> responses_;

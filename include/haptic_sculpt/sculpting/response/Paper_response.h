@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/contact/clearance.h>
+#include <haptic_sculpt/sculpting/response/Slide_path.h>
 #include <haptic_sculpt/sculpting/response/is_farther.h>
 #include <haptic_sculpt/surface/broad_phase/face_box.h>
 
@@ -28,12 +29,16 @@ public:
 
   void forget() { touched_.number = 0; }
 
+  /// The way of the last move.
+  const internal::Slide_path& path() const { return path_; }
+
   template <class Guard>
   Coordinates move(Guard& guard, const Mesh& mesh, const Coordinates& source, const Coordinates& target,
                    const Drag_rules& rules, Drag_result<Mesh>& result) {
     if (place_ != source)
       forget();
     place_ = source;
+    path_ = internal::Slide_path(source);
     result.end = Drag_end::leg_limit;
     held_.clear();
     bool stands = false; // did not move in the turn before
@@ -49,6 +54,8 @@ public:
       result.legs += end != place_;
       const bool moved = end != place_;
       place_ = end;
+      if (moved)
+        path_.add(end);
       if (end == target) {
         forget();
         held_.clear();
@@ -74,6 +81,7 @@ public:
     result.contacts = held_;
     if (is_farther(target, place_, source)) {
       place_ = source;
+      path_ = internal::Slide_path(source);
       result.legs = 0;
     }
     return place_;
@@ -104,6 +112,7 @@ private:
 
   Touched touched_;
   Coordinates place_{};
+  internal::Slide_path path_;
   Drag_result<Mesh> leg_;                      ///< of the last leg; kept to allocate no more
   typename Drag_result<Mesh>::Contacts held_; ///< of the last leg that was stopped
 

@@ -47,6 +47,21 @@ public:
     return end;
   }
 
+  /// Appends the points of the last move: where it began, and the ends of its legs. \pre that was between these
+  template <class Points>
+  void append_path(Response response, const Coordinates& source, const Coordinates& end, Points& points) const {
+    const auto append = [&points](const Coordinates& p) { points.emplace_back(p[0], p[1], p[2]); };
+    if (response == Response::stop) {
+      append(source);
+      if (end != source)
+        append(end);
+      return;
+    }
+    const internal::Slide_path& path = response == Response::slide ? slide_.path() : paper_.path();
+    for (int i = 0; i <= path.legs(); ++i)
+      append(path.point(i));
+  }
+
 private:
   Slide_response<Mesh> slide_;
   Paper_response<Mesh> paper_;

@@ -114,6 +114,9 @@ public:
     return walk_.x;
   }
 
+  /// The way of the last move.
+  const internal::Slide_path& path() const { return walk_.path; }
+
 private:
   using Walk = Slide_walk<Mesh>;
   using Ways = Slide_path::Ways;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_FACE_WITHIN_CLEARANCE_H
-#define HAPTIC_SCULPT_SCULPTING_FACE_WITHIN_CLEARANCE_H
+#ifndef HAPTIC_SCULPT_SCULPTING_FIND_FACE_WITHIN_H
+#define HAPTIC_SCULPT_SCULPTING_FIND_FACE_WITHIN_H
 
 #include <haptic_sculpt/sculpting/contact/clearance.h>
 #include <haptic_sculpt/sculpting/contact/is_within_distance.h>
@@ -14,11 +14,13 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// The face of the lowest number that a point is on, or nearer to than the clearance there, decided exactly; the null
-/// descriptor where there is none. \param largest_coordinate bounds those of the mesh
+/// A face on which p lies, or that is nearer to it than the clearance there; of several that of the smallest index, the
+/// null index where there is none. Exact. \param largest_coordinate bounds those of all vertices \param faces working
+/// memory
 template <class Mesh, class Broad_phase>
-typename Mesh::Face_index face_within_clearance(const Mesh& mesh, Broad_phase& broad_phase, const Coordinates& p,
-                                                const Clearance_rule& rule, double largest_coordinate) {
+typename Mesh::Face_index find_face_within(const Mesh& mesh, Broad_phase& broad_phase, const Coordinates& p,
+                                           const Clearance_rule& rule, double largest_coordinate,
+                                           std::vector<typename Mesh::Face_index>& faces) {
   const double reach = largest_magnitude(p), clearance = rule.at(std::fmax(largest_coordinate, reach));
   Box_3 near(p);
   for (int i = 0; i < 3; ++i) {
@@ -26,19 +28,19 @@ typename Mesh::Face_index face_within_clearance(const Mesh& mesh, Broad_phase& b
     near.lower[i] = std::nextafter(near.lower[i] - clearance, -std::numeric_limits<double>::infinity());
     near.upper[i] = std::nextafter(near.upper[i] + clearance, std::numeric_limits<double>::infinity());
   }
-  std::vector<typename Mesh::Face_index> faces;
+  faces.clear();
   broad_phase.query(near, faces);
   std::sort(faces.begin(), faces.end());
   for (const auto f : faces) {
     const auto corners = corners_of_face(mesh, f);
     const Coordinates a = vertex_coordinates(mesh, corners[0]), b = vertex_coordinates(mesh, corners[1]),
                       c = vertex_coordinates(mesh, corners[2]);
-    const double there = std::fmax(std::fmax(reach, largest_magnitude(a)),
-                                   std::fmax(largest_magnitude(b), largest_magnitude(c)));
+    const double there =
+        std::fmax(std::fmax(reach, largest_magnitude(a)), std::fmax(largest_magnitude(b), largest_magnitude(c)));
     if (is_within_distance(p, a, b, c, rule.at(there)))
       return f;
   }
-  return Mesh::null_face();
+  return {};
 }
 
 } // namespace internal
