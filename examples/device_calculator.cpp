@@ -53,10 +53,10 @@ template <class S> Device_vector<S> widen(const Eigen::Vector3d& v) { return Dev
 template <class T> void demand(const Outcome<T>& outcome, const std::string& what) {
   if (outcome)
     return;
-  std::string message = what + ": " + to_string(outcome.status());
+  std::string message = what + ": " + name_of(outcome.status());
   if (outcome.shortfall() > typename T::Scalar(0))
     message += ", short by " + json(rounded(outcome.shortfall())).dump();
-  throw No_answer(to_string(outcome.status()), message);
+  throw No_answer(name_of(outcome.status()), message);
 }
 
 struct Request {

@@ -13,7 +13,7 @@ namespace haptic_sculpt::drawing {
 struct View {
   Eigen::Vector3d direction{-1, 2, -0.9}; ///< from the eye into the scene; its length does not count
   Eigen::Vector3d up{0, 0, 1};            ///< upwards in the picture; another axis is taken if parallel to `direction`
-  int width = 1200, height = 900;         ///< in pixels
+  int width = 1200, height = 900;         ///< in pixels, legend included
   Color background = colors::white;
 };
 
@@ -24,10 +24,10 @@ struct View {
 /// the smallest to the largest doubles, or far from the origin, look alike.
 class Camera {
 public:
-  /// Fits the mesh, and those marks that lie within twice the mesh's size: the target of a long drag runs out of the
-  /// picture rather than shrinking the mesh to a dot. O(points + marks).
+  /// Fits the mesh, and those marks that lie within twice the mesh's size: the way to the target of a long drag is cut off
+  /// at the picture's margin rather than shrinking the mesh to a dot. O(points + marks).
   /// \pre `scene.check()` has passed. \throw Picture_error for a view without direction or with an impossible size.
-  Camera(const Scene& scene, const View& view) : width_(view.width), height_(view.height) {
+  Camera(const Scene& scene, const View& view) : width_(view.width), height_(view.height - scene.legend_height(view.width)) {
     if (!view.direction.allFinite() || view.direction.isZero(0) || !view.up.allFinite())
       throw Picture_error("The view has no direction. Give a finite vector that is not zero.");
     if (width_ < 1 || height_ < 1)
@@ -51,7 +51,7 @@ public:
 
   /// From scaled coordinates to OpenGL's clip coordinates.
   Eigen::Matrix4d projection() const {
-    const double near = 0.05 * distance_, far = distance_ + 8; // marks reach 4 from the centre at most
+    const double near = near_plane(), far = distance_ + 8; // marks reach 4 from the centre at most
     Eigen::Matrix4d eye = Eigen::Matrix4d::Identity(), clip = Eigen::Matrix4d::Zero();
     eye.topLeftCorner<3, 3>() = rotation_;
     eye.topRightCorner<3, 1>() << -aim_.x(), -aim_.y(), -distance_;
@@ -62,6 +62,9 @@ public:
     clip(3, 2) = -1;
     return clip * eye;
   }
+
+  /// As far from the eye as what is to be seen allows: the finer are the depths that the graphics card tells apart.
+  double near_plane() const { return std::max(0.05 * distance_, 0.9 * (distance_ - nearest_)); }
 
   /// Where a point is seen, in pixels from the picture's upper left corner.
   Eigen::Vector2d pixel(const Eigen::Vector3d& p) const {
@@ -79,6 +82,7 @@ private:
   int width_, height_, exponent_ = 0;
   Eigen::Vector3d center_;
   double half_edge_ = 1, distance_ = 0;
+  double nearest_ = 0; // how far towards the eye what is to be seen reaches from the box's centre
   Eigen::Matrix3d rotation_;
   Eigen::Vector2d aim_; // where the camera's axis passes the box's centre: rightwards, upwards
 
@@ -131,14 +135,29 @@ private:
     for (const auto& a : scene.arrows)
       include_if_near(a.foot);
 
+    frame(shown);
+    // The size of marks is in pixels, so the tips of arrows are known when the distance is; it grows little by them.
+    const std::size_t without_tips = shown.size();
+    for (int i = 0; i < 2 && !scene.arrows.empty(); ++i) {
+      shown.resize(without_tips);
+      for (const auto& a : scene.arrows)
+        if (const Eigen::Vector3d foot = scaled(a.foot); foot.lpNorm<Eigen::Infinity>() <= 2)
+          include(foot + a.length * pixel_width() * a.direction.stableNormalized());
+      frame(shown);
+    }
+  }
+
+  void frame(const std::vector<Eigen::Vector3d>& shown) {
     Eigen::AlignedBox3d box;
     for (const auto& q : shown)
       box.extend(q);
     aim_ = box.center().head<2>();
-    const double margin = 1.12;
+    const double margin = 1.12; // room for balls and labels, too
+    distance_ = 0;
     for (const auto& q : shown)
       distance_ = std::max({distance_, q.z() + margin * std::abs(q.x() - aim_.x()) / tangent_x(),
                             q.z() + margin * std::abs(q.y() - aim_.y()) / tangent_y(), q.z() + 1});
+    nearest_ = box.max().z();
   }
 };
 

@@ -110,7 +110,11 @@ void Mesh_view::set_scene(const Scene& scene, const Camera& camera) {
   marks_.set(marks.corners());
 }
 
-void Mesh_view::draw(const Camera& camera, const Color& background) const {
+int Mesh_view::uniform(const char* name) const {
+  return glGetUniformLocation(program_, name);
+}
+
+void Mesh_view::draw_mesh(const Camera& camera, const Color& background) const {
   glViewport(0, 0, camera.width(), camera.height());
   glClearColor(background.x(), background.y(), background.z(), 1);
   glDepthMask(GL_TRUE);
@@ -118,17 +122,27 @@ void Mesh_view::draw(const Camera& camera, const Color& background) const {
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_MULTISAMPLE);
   glUseProgram(program_);
-  auto uniform = [this](const char* name) { return glGetUniformLocation(program_, name); };
   glUniformMatrix4fv(uniform("projection"), 1, GL_FALSE, Eigen::Matrix4f(camera.projection().cast<float>()).data());
   glUniformMatrix3fv(uniform("rotation"), 1, GL_FALSE, Eigen::Matrix3f(camera.rotation().cast<float>()).data());
   glUniform1f(uniform("opacity"), 1);
 
   glUniform1i(uniform("with_edges"), 1);
-  glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
   glDepthFunc(GL_LESS);
+  // Faces in contact are nearer to each other than depths can be told apart, and what is seen would change from pixel to pixel.
+  // One of the two is seen from inside, wherever the surface is closed and faces outwards: it is put behind the other.
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_FRONT);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(2, 32);
   mesh_.draw();
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glCullFace(GL_BACK);
+  mesh_.draw();
+  glDisable(GL_CULL_FACE);
+}
 
+void Mesh_view::draw_marks() const {
   glUniform1i(uniform("with_edges"), 0);
   glEnable(GL_CULL_FACE); // the back of a mark would shine through it twice
   glCullFace(GL_BACK);

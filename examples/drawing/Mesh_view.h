@@ -13,7 +13,7 @@ struct Corner;
 ///
 /// Faces are lit flat by two lights that stay beside the eye, and edges are thin lines that fade where triangles are
 /// too small for them. A face seen from inside is pink: on a closed, outward oriented mesh there is none. Marks hidden
-/// by the surface show through it faintly.
+/// by the surface show through it faintly. Where two faces touch, the one seen from outside is seen.
 class Mesh_view {
 public:
   /// \pre an OpenGL 3.3 context is current, the same one in all calls. \throw Picture_error if it cannot draw.
@@ -27,7 +27,12 @@ public:
   void set_scene(const Scene& scene, const Camera& camera);
 
   /// Clears the framebuffer to `background` and draws.
-  void draw(const Camera& camera, const Color& background) const;
+  void draw(const Camera& camera, const Color& background) const {
+    draw_mesh(camera, background);
+    draw_marks();
+  }
+  /// Clears and draws the mesh alone.
+  void draw_mesh(const Camera& camera, const Color& background) const;
 
 private:
   // One buffer of triangles.
@@ -42,6 +47,10 @@ private:
 
   unsigned program_ = 0;
   Triangles mesh_, marks_;
+
+  /// \pre the mesh has just been drawn
+  void draw_marks() const;
+  int uniform(const char* name) const;
 };
 
 } // namespace haptic_sculpt::drawing

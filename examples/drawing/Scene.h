@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/Error.h>
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -48,6 +49,20 @@ struct Arrow {
   double length = 60;
 };
 
+/// Words beside a point: shown where the point is seen and no label that stands before it in the scene is in the way.
+struct Label {
+  Eigen::Vector3d place;
+  std::string text;
+};
+
+/// A line of the legend below the picture.
+struct Legend_entry {
+  enum class Mark { line, dashes, arrow, ball };
+  Mark mark;
+  Color color;
+  std::string text; ///< ASCII
+};
+
 /// What a picture shows: one triangle mesh and marks on it. Coordinates are the user's, of any size and offset.
 struct Scene {
   std::vector<Eigen::Vector3d> points;
@@ -57,13 +72,21 @@ struct Scene {
   std::vector<Segment> segments;
   std::vector<Ball> balls;
   std::vector<Arrow> arrows;
+  std::vector<Label> labels;
+  std::vector<Legend_entry> legend; ///< empty: none
 
   /// Marks a vertex that was moved.
   void add_moved_vertex(const Eigen::Vector3d& p) { balls.push_back({p}); }
 
   /// Marks a drag that was stopped: blue the way travelled, red the stop, dashed the way that was refused.
   void add_blocked_drag(const Eigen::Vector3d& start, const Eigen::Vector3d& stop, const Eigen::Vector3d& target) {
-    segments.push_back({start, stop, colors::blue, 3});
+    add_blocked_drag(std::vector<Eigen::Vector3d>{start, stop}, target);
+  }
+  /// The same of a way with several legs. \param way where it began, the bends, where it was stopped
+  void add_blocked_drag(const std::vector<Eigen::Vector3d>& way, const Eigen::Vector3d& target) {
+    const Eigen::Vector3d start = way.front(), stop = way.back();
+    for (std::size_t i = 1; i < way.size(); ++i)
+      segments.push_back({way[i - 1], way[i], colors::blue, 3});
     segments.push_back({stop, target, colors::red, 1.8, true});
     balls.push_back({start, colors::blue, 5});
     balls.push_back({stop, colors::red, 7.5});
@@ -75,6 +98,25 @@ struct Scene {
     arrows.push_back({p, normal});
     balls.push_back({p, colors::purple, 4.5});
   }
+
+  /// Says in the legend what those of these marks mean that are in the scene.
+  void explain_marks() {
+    const auto has_ball = [this](const Color& color) {
+      return std::any_of(balls.begin(), balls.end(), [&](const Ball& b) { return b.color == color; });
+    };
+    if (has_ball(colors::orange))
+      legend.push_back({Legend_entry::Mark::ball, colors::orange, "vertex moved"});
+    if (has_ball(colors::red)) {
+      legend.push_back({Legend_entry::Mark::line, colors::blue, "way made"});
+      legend.push_back({Legend_entry::Mark::ball, colors::red, "stopped"});
+      legend.push_back({Legend_entry::Mark::dashes, colors::red, "way refused"});
+    }
+    if (!arrows.empty())
+      legend.push_back({Legend_entry::Mark::arrow, colors::purple, "push of a contact"});
+  }
+
+  /// How many rows of a picture so wide the legend takes, at its bottom.
+  int legend_height(int width) const { return legend.empty() ? 0 : std::clamp(width * 36 / 1200, 16, 60); }
 
   /// \throw Picture_error for an empty mesh, an index out of range, a number that is not finite: the element is named.
   void check() const {
@@ -99,6 +141,8 @@ struct Scene {
                               " points, from 0. Correct the triangle.");
     for (std::size_t i = 0; i < segments.size(); ++i)
       require_finite(segments[i].source.allFinite() && segments[i].target.allFinite(), "Segment", i);
+    for (std::size_t i = 0; i < labels.size(); ++i)
+      require_finite(labels[i].place.allFinite(), "Label", i);
     for (std::size_t i = 0; i < balls.size(); ++i)
       require_finite(balls[i].center.allFinite(), "Ball", i);
     for (std::size_t i = 0; i < arrows.size(); ++i) {

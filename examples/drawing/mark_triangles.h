@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_DRAWING_MARK_TRIANGLES_H
 
 #include "Camera.h"
+#include <utility>
 
 namespace haptic_sculpt::drawing {
 
@@ -17,11 +18,22 @@ class Mark_triangles {
 public:
   explicit Mark_triangles(const Camera& camera) : camera_(camera), pixel_(camera.pixel_width()) {}
 
-  void add(const Ball& b) { add_profile(camera_.scaled(b.center), axis_z, arc(b.radius * pixel_), b.color); }
+  void add(const Ball& b) {
+    if (is_within_frame(b.center, b.radius))
+      add_profile(camera_.scaled(b.center), axis_z, arc(b.radius * pixel_), b.color);
+  }
 
   void add(const Segment& s) {
     Eigen::Vector3d a = camera_.scaled(s.source), b = camera_.scaled(s.target);
-    if (!cut_to_picture(a, b) || a == b)
+    if (!cut_to_picture(a, b))
+      return;
+    const auto [from, to] = part_within_frame(a, b);
+    if (!(from < to))
+      return;
+    const Eigen::Vector3d whole = b - a;
+    b = a + to * whole;
+    a += from * whole;
+    if (a == b)
       return;
     const double length = (b - a).stableNorm(), radius = s.radius * pixel_, dash = 11 * pixel_, period = 18 * pixel_;
     const Eigen::Vector3d axis = (b - a) / length;
@@ -37,9 +49,13 @@ public:
                    {end, 0, 1, 0}},
                   s.color);
     }
+    if (to < 1) // it goes on outside of the picture
+      add_profile(b, axis, {{-5 * radius, 0, -1, 0}, {-5 * radius, 3 * radius, -1, 0}, {-5 * radius, 3 * radius, 0.5, 0.87}, {0, 0, 0.5, 0.87}}, s.color);
   }
 
   void add(const Arrow& a) {
+    if (!is_within_frame(a.foot, 0))
+      return;
     const double tip = a.length * pixel_, neck = 0.68 * tip, shaft = 0.035 * tip, head = 0.115 * tip;
     add_profile(camera_.scaled(a.foot), a.direction.stableNormalized(),
                 {{0, 0, -1, 0},
@@ -93,6 +109,40 @@ private:
                      c = corner(profile[i], side + 1), d = corner(profile[i], side);
         corners_.insert(corners_.end(), {a, b, c, a, c, d});
       }
+  }
+
+  // Marks keep so many pixels away from the picture's border.
+  static constexpr double margin = 12;
+
+  bool is_within_frame(const Eigen::Vector3d& p, double radius) const {
+    const Eigen::Vector4d clip = camera_.projection() * camera_.scaled(p).homogeneous();
+    const Eigen::Array2d most = frame() + (margin - radius) * 2 / Eigen::Array2d(camera_.width(), camera_.height());
+    return clip.w() > 0 && (clip.head<2>().array().abs() <= most * clip.w()).all();
+  }
+
+  // The part of the segment, from 0 to 1, that is seen within the margin.
+  std::pair<double, double> part_within_frame(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+    const Eigen::Vector4d p = camera_.projection() * a.homogeneous(), q = camera_.projection() * b.homogeneous();
+    double from = 0, to = 1;
+    const auto cut = [&](double at_p, double at_q) { // by where a linear function is not negative
+      if (at_p < 0 && at_q < 0)
+        to = -1;
+      else if (at_p < 0)
+        from = std::max(from, at_p / (at_p - at_q));
+      else if (at_q < 0)
+        to = std::min(to, at_p / (at_p - at_q));
+    };
+    cut(p.w() - camera_.near_plane(), q.w() - camera_.near_plane());
+    for (int i = 0; i < 2; ++i) {
+      cut(frame()[i] * p.w() - p[i], frame()[i] * q.w() - q[i]);
+      cut(frame()[i] * p.w() + p[i], frame()[i] * q.w() + q[i]);
+    }
+    return {from, to};
+  }
+
+  // Half the frame's width and height within the margin, where the picture's are 1.
+  Eigen::Array2d frame() const {
+    return (1 - 2 * margin / Eigen::Array2d(camera_.width(), camera_.height())).max(0.5);
   }
 
   // Cuts the segment to the cube of half-edge 4 around the picture (Liang and Barsky's parametric clipping);

@@ -3,6 +3,7 @@
 #include "Mesh_view.h"
 #include "Offscreen_context.h"
 #include "write_png.h"
+#include "write_words.h"
 #include <cfenv>
 
 namespace haptic_sculpt::drawing {
@@ -19,7 +20,8 @@ public:
                           " pixels cannot be drawn. Give a width and height of at most " + std::to_string(largest) +
                           '.');
     glGenFramebuffers(2, framebuffers_);
-    glGenRenderbuffers(3, renderbuffers_);
+    glGenRenderbuffers(4, renderbuffers_);
+    attach(framebuffers_[1], GL_DEPTH_ATTACHMENT, renderbuffers_[3], GL_DEPTH_COMPONENT24, 0);
     attach(framebuffers_[1], GL_COLOR_ATTACHMENT0, renderbuffers_[2], GL_RGBA8, 0);
     attach(framebuffers_[0], GL_DEPTH_ATTACHMENT, renderbuffers_[1], GL_DEPTH_COMPONENT24, 4);
     attach(framebuffers_[0], GL_COLOR_ATTACHMENT0, renderbuffers_[0], GL_RGBA8, 4);
@@ -33,23 +35,31 @@ public:
   Offscreen_framebuffer(const Offscreen_framebuffer&) = delete;
   Offscreen_framebuffer& operator=(const Offscreen_framebuffer&) = delete;
 
+  /// The lowest row first, as all that OpenGL gives.
   std::vector<unsigned char> pixels() const {
+    return read<unsigned char>(GL_COLOR_BUFFER_BIT, 3, GL_RGB, GL_UNSIGNED_BYTE);
+  }
+  std::vector<float> depths() const { return read<float>(GL_DEPTH_BUFFER_BIT, 1, GL_DEPTH_COMPONENT, GL_FLOAT); }
+
+private:
+  int width_, height_;
+  GLuint framebuffers_[2] = {}, renderbuffers_[4] = {};
+
+  template <class Number>
+  std::vector<Number> read(GLbitfield buffer, int numbers, GLenum format, GLenum type) const {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers_[0]);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffers_[1]);
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, buffer, GL_NEAREST);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers_[1]);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    std::vector<unsigned char> result(std::size_t(3) * width_ * height_);
-    glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, result.data());
+    std::vector<Number> result(std::size_t(numbers) * width_ * height_);
+    glReadPixels(0, 0, width_, height_, format, type, result.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[0]);
     if (const GLenum code = glGetError(); code != GL_NO_ERROR)
       throw Picture_error("The OpenGL driver failed while drawing (error " + std::to_string(code) +
                           "). Draw a smaller picture or a coarser mesh.");
     return result;
   }
-
-private:
-  int width_, height_;
-  GLuint framebuffers_[2] = {}, renderbuffers_[3] = {};
 
   void attach(GLuint framebuffer, GLenum place, GLuint renderbuffer, GLenum format, int samples) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -58,7 +68,7 @@ private:
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, renderbuffer);
   }
   void destroy() {
-    glDeleteRenderbuffers(3, renderbuffers_);
+    glDeleteRenderbuffers(4, renderbuffers_);
     glDeleteFramebuffers(2, framebuffers_);
   }
 };
@@ -80,11 +90,22 @@ std::string write_picture(const Scene& scene, const std::filesystem::path& path,
   const Camera camera(scene, view);
   const Floating_point_guard guard;
   const Offscreen_context context;
-  const Offscreen_framebuffer framebuffer(view.width, view.height);
+  const Offscreen_framebuffer framebuffer(camera.width(), camera.height());
   Mesh_view mesh_view;
   mesh_view.set_scene(scene, camera);
+  std::vector<float> depths; // of the mesh alone: marks do not hide the numbers of what they mark
+  if (!scene.labels.empty()) {
+    mesh_view.draw_mesh(camera, view.background);
+    depths = framebuffer.depths();
+  }
   mesh_view.draw(camera, view.background);
-  return write_png(path, view.width, view.height, framebuffer.pixels());
+  const std::vector<unsigned char> drawn = framebuffer.pixels();
+  Image image(view.width, view.height, view.background);
+  const int strip = view.height - camera.height();
+  std::copy(drawn.begin(), drawn.end(), image.bytes.begin() + std::ptrdiff_t(3) * view.width * strip);
+  write_labels(image, scene, camera, depths);
+  write_legend(image, scene, strip);
+  return write_png(path, view.width, view.height, image.bytes);
 }
 
 } // namespace haptic_sculpt::drawing

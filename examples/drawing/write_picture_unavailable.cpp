@@ -6,5 +6,5 @@ std::string haptic_sculpt::drawing::write_picture(const Scene&, const std::files
   throw Picture_error(
       "Cannot write the picture " + path.string() +
       ": this program was built without pictures. Install "
-      "libepoxy-dev, libegl-dev, libgl1-mesa-dri and libpng-dev and build it anew, or ask for no picture.");
+      "libepoxy-dev, libegl-dev, libgl1-mesa-dri, libpng-dev, libfreetype-dev and fonts-dejavu-core and build it anew, or ask for no picture.");
 }

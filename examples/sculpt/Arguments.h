@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/Error.h>
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -13,8 +14,14 @@ namespace haptic_sculpt::sculpt_program {
 struct Arguments {
   std::string mesh, script, out, report, log, response, broad_phase = "tree", picture;
   std::optional<double> clearance, delta;
-  bool append = false;
+  bool append = false, triangulate = false, numbers = false;
+  std::optional<std::array<double, 3>> nearest;
 };
+
+/// Reads the command line. Where the program is to end now, people have been told: by what they asked for (true:
+/// `--help`,
+/// `--version`), or by what is wrong (false).
+std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments);
 
 /// Something that was asked for and does not exist yet, or does not fit together.
 struct Usage_error : Error {

@@ -116,6 +116,8 @@ void Log_file::begin_pass(const std::string& script, std::size_t after) {
       throw Write_error("cannot read " + in_words(path_) + ": " + system_says());
     lines = writer_.version(read_all());
   }
+  if (contents_)
+    lines += writer_.ends(open_strokes(contents_->commands));
   append(lines + writer_.pass(script, after));
 }
 

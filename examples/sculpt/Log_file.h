@@ -32,8 +32,8 @@ public:
   /// \name Appending
   /// After a failure, at once and for good, nothing is appended: a log ends where the first line is missing.
   ///@{
-  /// What follows comes from the script with this hash, from the lines after this one. A log of the first format gets
-  /// checksums from here on.
+  /// What follows comes from the script with this hash, from the lines after this one. Strokes that are open end here. A
+  /// log of the first format gets checksums from here on.
   void begin_pass(const std::string& script, std::size_t after);
   void append(const Command& command) { append(writer_.command(command, command.line)); }
   /// The script has been carried out to its end, and the results are written.

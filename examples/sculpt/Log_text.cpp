@@ -251,6 +251,13 @@ std::string Log_writer::command(const Command& command, std::size_t script_line)
   return line(text_of(command) + std::string(line_word) + std::to_string(script_line));
 }
 
+std::string Log_writer::ends(std::size_t open) {
+  std::string text;
+  for (; open != 0; --open)
+    text += line(name_of(Kind::end));
+  return text;
+}
+
 std::string Log_writer::pass(const std::string& script, std::size_t after) {
   return line(std::string(pass_word) + script + std::string(after_word) + std::to_string(after));
 }

@@ -42,6 +42,8 @@ public:
   std::string version(std::string_view before);
   /// An edit or directive, and the line of the script that it comes from.
   std::string command(const Command& command, std::size_t script_line);
+  /// Ends the strokes that are left open by a pass that broke off.
+  std::string ends(std::size_t open);
   /// What follows comes from the script with this hash, from the lines after this one.
   std::string pass(const std::string& script, std::size_t after);
   /// The script has been carried out to its end, and the results are written.

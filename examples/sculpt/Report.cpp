@@ -38,6 +38,7 @@ Json json_of(const Edit_record& edit) {
           {"stop_error", edit.stop_error},
           {"stop_error_along_path", edit.stop_error_along_path},
           {"kkt_residual", edit.kkt_residual},
+          {"within_clearance", edit.is_within_clearance},
           {"contacts", std::move(contacts)}};
 }
 
@@ -47,6 +48,14 @@ double percentile(const std::vector<double>& sorted, double share) {
     return 0;
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
   return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
+}
+
+/// E.g. 1,390.
+std::string with_commas(std::size_t n) {
+  std::string text = std::to_string(n);
+  for (std::size_t i = text.size(); i > 3; i -= 3)
+    text.insert(i - 3, ",");
+  return text;
 }
 
 /// What blocked or refused an edit.
@@ -64,12 +73,18 @@ std::string cause_of(const Edit_record& edit) {
     name(edit.elements);
   if (!edit.detail.empty())
     text += ": " + edit.detail;
-  for (const auto& contact : edit.contacts) {
+  constexpr std::size_t most_contacts = 8;
+  for (std::size_t i = 0; i < edit.contacts.size(); ++i) {
+    const auto& contact = edit.contacts[i];
+    if (i == most_contacts)
+      return text + " and " + with_commas(edit.contacts.size() - i) + " more";
     text += (text.empty() ? "" : ", ") + std::string(contact.kind);
     name(contact.ids);
   }
   return text;
 }
+
+} // namespace
 
 double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinates& q) {
   // By halves: the difference of two doubles may overflow, and std::hypot of infinities is not a number in some
@@ -77,9 +92,8 @@ double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinate
   return 2 * std::hypot(p[0] / 2 - q[0] / 2, p[1] / 2 - q[1] / 2, p[2] / 2 - q[2] / 2);
 }
 
-} // namespace
-
-std::string report_of(const Run_result& result, const std::vector<std::string>& notes) {
+std::string report_of(const Run_result& result, const std::vector<std::string>& notes,
+                      const std::vector<Near_vertex>& nearest) {
   std::vector<double> times = result.nanoseconds;
   std::sort(times.begin(), times.end());
   const Json totals = {
@@ -100,33 +114,51 @@ std::string report_of(const Run_result& result, const std::vector<std::string>& 
     text += (i == 0 ? "\n" : ",\n") + json_of(result.edits[i]).dump();
   // A note may name a file whose name is no UTF-8.
   const std::string told = Json(notes).dump(-1, ' ', false, Json::error_handler_t::replace);
-  return text + "\n],\n\"notes\": " + told + ",\n\"time_ns\": " + time.dump() + ",\n\"filter\": " + filter.dump() + "\n}\n";
+  Json found = Json::array();
+  for (const Near_vertex& v : nearest)
+    found.push_back({{"vertex", v.number}, {"position", v.position}, {"distance", v.distance}});
+  const std::string near = nearest.empty() ? "" : ",\n\"nearest\": " + found.dump();
+  return text + "\n]" + near + ",\n\"notes\": " + told + ",\n\"time_ns\": " + time.dump() +
+         ",\n\"filter\": " + filter.dump() + "\n}\n";
 }
 
 void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) {
   out << mesh.number_of_vertices() << " vertices, " << mesh.number_of_faces() << " triangles\n"
       << "edits asked " << result.asked() << ", reached " << result.reached << ", blocked " << result.blocked
       << ", refused " << result.refused << '\n';
+  if (result.within_clearance != 0)
+    out << "of those blocked " << result.within_clearance
+        << " arrived within a clearance: nearer than that nothing may come\n";
   constexpr std::size_t most = 40;
   std::size_t told = 0;
   for (const Edit_record& edit : result.edits) {
     if (edit.status == Edit_record::Status::reached)
       continue;
     if (told == most) {
-      out << "  and " << result.blocked + result.refused - most << " more (see the report)\n";
+      out << "  and " << with_commas(result.blocked + result.refused - most) << " more (see the report)\n";
       break;
     }
     if (told++ == 0)
-      out << "      line  edit    vertex  outcome  left to go  by (the vertices of what stands still)\n";
-    out << std::setw(10) << (edit.is_logged ? "log " : "") + std::to_string(edit.line) << "  " << std::left << std::setw(6) << name_of(edit.kind) << std::right
-        << std::setw(8) << (edit.kind == Command::Kind::drag ? std::to_string(edit.elements[0]) : "-") << "  "
-        << name_of(edit.status);
-    if (edit.motion)
-      out << std::setw(12) << std::setprecision(4) << distance(edit.motion->stop, edit.motion->target);
+      out << "      line  edit         vertex  outcome  left to go  by (the vertices of what stands still)\n";
+    out << std::setw(10) << (edit.is_logged ? "log " : "") + std::to_string(edit.line) << "  " << std::left
+        << std::setw(11) << name_of(edit.kind) << std::right << std::setw(8)
+        << (edit.kind == Command::Kind::drag ? std::to_string(edit.elements[0]) : "-") << "  ";
+    if (edit.is_within_clearance)
+      out << "arrived within a clearance";
+    else if (edit.motion)
+      out << name_of(edit.status) << std::setw(12) << std::setprecision(4)
+          << distance(edit.motion->stop, edit.motion->target);
     else
-      out << std::setw(12) << '-';
+      out << name_of(edit.status) << std::setw(12) << '-';
     out << "  " << cause_of(edit) << '\n';
   }
+}
+
+void print_nearest(std::ostream& out, const Edit_record::Coordinates& to, const std::vector<Near_vertex>& nearest) {
+  out << std::setprecision(9) << "vertices nearest to " << to[0] << ' ' << to[1] << ' ' << to[2] << ":\n";
+  for (const Near_vertex& v : nearest)
+    out << std::setw(10) << v.number << "  at " << v.position[0] << ' ' << v.position[1] << ' ' << v.position[2]
+        << ", distance " << v.distance << '\n';
 }
 
 } // namespace haptic_sculpt::sculpt_program

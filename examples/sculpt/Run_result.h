@@ -49,14 +49,22 @@ struct Edit_record {
   int legs = 0;
   double stop_error = 0, stop_error_along_path = 0, kkt_residual = 0;
   std::vector<Contact> contacts;
+  /// Blocked no farther from its target than two clearances: a stop keeps one, and up to two where it grazes.
+  bool is_within_clearance = false;
+  /// Where it began, and the end of each leg; of the first `most_drawn` that were blocked, for the picture.
+  std::vector<Coordinates> way;
+
+  static constexpr std::size_t most_drawn = 2000; ///< more hide the mesh, and cost a few hundred triangles each
 };
 
 /// What a script did.
 struct Run_result {
   std::vector<Edit_record> edits;
   std::size_t reached = 0, blocked = 0, refused = 0;
+  std::size_t within_clearance = 0;        ///< of those blocked
   std::vector<Vertex_index> moved_vertices;                ///< those that are still there
   std::vector<Validity_report::Vertex_index> vertex_order; ///< by number, dead ones left out
+  std::vector<std::size_t> numbers;        ///< of these
   std::vector<double> nanoseconds;         ///< of each edit that was carried out
   Filter_counters filter;
 

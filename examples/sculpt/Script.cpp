@@ -31,8 +31,12 @@ constexpr Syntax syntaxes[] = {{"drag", Kind::drag, 1, 1, Syntax::nothing},
                                {"insert_face", Kind::insert_face, 3, 1, Syntax::nothing},
                                {"insert_edge", Kind::insert_edge, 2, 1, Syntax::nothing},
                                {"remove", Kind::remove, 1, 0, Syntax::nothing},
+                               {"collapse", Kind::collapse, 2, 0, Syntax::nothing},
+                               {"flip", Kind::flip, 2, 0, Syntax::nothing},
                                {"undo", Kind::undo, 0, 0, Syntax::nothing},
                                {"redo", Kind::redo, 0, 0, Syntax::nothing},
+                               {"stroke", Kind::stroke, 0, 0, Syntax::nothing},
+                               {"end", Kind::end, 0, 0, Syntax::nothing},
                                {"response", Kind::response, 0, 0, Syntax::word},
                                {"clearance", Kind::clearance, 0, 0, Syntax::length},
                                {"delta", Kind::delta, 0, 0, Syntax::length},
@@ -65,7 +69,7 @@ public:
   double number(const std::string& expected, const std::string& found) const {
     char* end = nullptr;
     const double value = std::strtod(found.c_str(), &end);
-    if (end != found.c_str() + found.size())
+    if (found.empty() || end != found.c_str() + found.size()) // empty: between two commas
       fail("'" + printable(found) + "' is not " + expected + " (a decimal or hexadecimal number)");
     if (!std::isfinite(value))
       fail("'" + printable(found) + "' is not a finite number");
@@ -74,20 +78,40 @@ public:
     return value;
   }
 
-  std::size_t index() {
-    const std::string found = word("a vertex index");
-    std::size_t value = 0;
-    const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
-    if (error == std::errc::invalid_argument || end != found.data() + found.size())
-      fail("'" + printable(found) + "' is not a vertex index (0, 1, 2, ...)");
-    if (error == std::errc::result_out_of_range)
-      fail("'" + printable(found) + "' is more than any vertex index");
-    return value;
+  /// A vertex by index, or as @X,Y,Z.
+  void vertex(Command& command) {
+    const std::string found = word("a vertex index, or @X,Y,Z,");
+    if (found[0] == '@')
+      command.places.push_back({command.indices.size(), place(found)});
+    command.indices.push_back(found[0] == '@' ? 0 : index(found));
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw Script_error(script_, number_, begin_ + 1, what); }
 
 private:
+  std::size_t index(const std::string& found) const {
+    std::size_t value = 0;
+    const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
+    if (error == std::errc::invalid_argument || end != found.data() + found.size())
+      fail("'" + printable(found) + "' is not a vertex index (0, 1, 2, ...), nor @X,Y,Z for the nearest vertex");
+    if (error == std::errc::result_out_of_range)
+      fail("'" + printable(found) + "' is more than any vertex index");
+    return value;
+  }
+
+  std::array<double, 3> place(const std::string& found) const {
+    std::array<double, 3> point;
+    std::size_t begin = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t comma = std::min(found.find(',', begin), found.size());
+      if ((comma == found.size()) != (i == 2))
+        fail("'" + printable(found) + "' is not @X,Y,Z: three numbers, commas and no blanks between them");
+      point[i] = number("a coordinate", found.substr(begin, comma - begin));
+      begin = comma + 1;
+    }
+    return point;
+  }
+
   const std::string& script_;
   std::string text_;
   std::size_t number_, begin_ = 0, end_ = 0;
@@ -137,7 +161,7 @@ std::optional<Command> read_line(const std::string& text, std::size_t number, co
   command.line = number;
   command.kind = syntax->kind;
   for (int i = 0; i < syntax->indices; ++i)
-    command.indices.push_back(line.index());
+    line.vertex(command);
   for (int i = 0; i < syntax->points; ++i) {
     std::array<double, 3> point;
     for (double& coordinate : point)
@@ -152,6 +176,8 @@ std::optional<Command> read_line(const std::string& text, std::size_t number, co
 
 std::vector<Command> read_script(std::string_view text, const std::string& name) {
   std::vector<Command> commands;
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") // a byte order mark, which some editors put before a text
+    text.remove_prefix(3);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     if (auto command = read_line(std::string(text.substr(0, end)), number, name))
@@ -159,6 +185,16 @@ std::vector<Command> read_script(std::string_view text, const std::string& name)
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return commands;
+}
+
+std::size_t open_strokes(const std::vector<Command>& commands) {
+  std::size_t open = 0;
+  for (const Command& command : commands)
+    if (command.kind == Kind::stroke)
+      ++open;
+    else if (command.kind == Kind::end && open != 0)
+      --open;
+  return open;
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -15,8 +15,9 @@ namespace haptic_sculpt::sculpt_program {
 /// One line of a script: an edit or a directive.
 struct Command {
   enum class Kind {
-    drag, release, probe, insert_face, insert_edge, remove, undo, redo, // edits
-    response, clearance, delta, mesh                                    // directives
+    drag, release, probe, insert_face, insert_edge, remove, collapse, flip, undo, redo, // edits
+    stroke, end,                                                                        // what is between is one step of undo
+    response, clearance, delta, mesh                                                    // directives
   };
 
   std::size_t line = 0;        ///< from 1
@@ -24,6 +25,12 @@ struct Command {
   std::size_t script_line = 0; ///< of what is logged: the line of the script that it came from; 0 where the log does not say
   Kind kind = Kind::release;
   std::vector<std::size_t> indices;        ///< of vertices
+  /// Of `indices` those that are yet to be found: the vertex nearest to a point when the line's turn comes.
+  struct Place {
+    std::size_t which;
+    std::array<double, 3> point;
+  };
+  std::vector<Place> places;
   std::vector<std::array<double, 3>> points;
   double length = 0;                       ///< clearance, delta
   std::string word;                        ///< response; mesh: in lower case; clearance: "default", or empty for `length`
@@ -46,6 +53,9 @@ std::optional<Command> read_line(const std::string& text, std::size_t number, co
 
 /// Reads a whole script. \param name how messages call it. \throw Script_error
 std::vector<Command> read_script(std::string_view text, const std::string& name);
+
+/// How many strokes these lines begin and do not end.
+std::size_t open_strokes(const std::vector<Command>& commands);
 
 } // namespace haptic_sculpt::sculpt_program
 

@@ -3,9 +3,12 @@
 #define HAPTIC_SCULPT_EXAMPLES_SCRIPT_RUNNER_H
 
 #include "Progress.h"
+#include "nearest_vertices.h"
 #include "Run_result.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <set>
 
 namespace haptic_sculpt::sculpt_program {
@@ -21,16 +24,22 @@ public:
   Run_result run(const std::vector<Command>& script, const After_command& after) {
     Progress progress(script.size());
     for (std::size_t i = 0; i < script.size(); ++i) {
-      carry_out(script[i]);
-      after(script[i]);
+      if (script[i].places.empty()) {
+        carry_out(script[i]);
+        after(script[i]);
+      } else {
+        const Command command = with_vertices_found(script[i]);
+        carry_out(command);
+        after(command);
+      }
       progress.step(i + 1);
     }
     for (const std::size_t name : moved_)
       if (sculptor_.vertex(name).is_valid())
         result_.moved_vertices.push_back(sculptor_.vertex(name));
-    for (std::size_t name = 0; name < sculptor_.number_of_names(); ++name)
-      if (sculptor_.vertex(name).is_valid())
-        result_.vertex_order.emplace_back(static_cast<Mesh::size_type>(sculptor_.vertex(name)));
+    result_.numbers = numbers();
+    for (const std::size_t name : result_.numbers)
+      result_.vertex_order.emplace_back(static_cast<Mesh::size_type>(sculptor_.vertex(name)));
     result_.filter = sculptor_.filter_counters();
     return std::move(result_);
   }
@@ -42,8 +51,28 @@ private:
 
   Mesh& mesh_;
   Sculptor<Mesh, Broad_phase> sculptor_;
+  std::vector<Stroke<Sculptor<Mesh, Broad_phase>>> strokes_; ///< begun and not ended by a line, each within the one before
   Run_result result_;
   std::set<std::size_t> moved_;
+
+  /// Of the vertices that are there.
+  std::vector<std::size_t> numbers() const {
+    std::vector<std::size_t> all;
+    for (std::size_t name = 0; name < sculptor_.number_of_names(); ++name)
+      if (sculptor_.vertex(name).is_valid())
+        all.push_back(name);
+    return all;
+  }
+
+  /// The line as it is logged: with vertices by number.
+  Command with_vertices_found(Command command) const {
+    for (const Command::Place& place : command.places) {
+      const auto point_of = [this](std::size_t name) { return mesh_.point(sculptor_.vertex(name)); };
+      command.indices[place.which] = nearest_vertices(numbers(), point_of, point(place.point), 1).at(0);
+    }
+    command.places.clear();
+    return command;
+  }
 
   void carry_out(const Command& command) {
     if (command.kind != Kind::drag)
@@ -56,6 +85,10 @@ private:
     case Kind::insert_face: insert_on_face(command); break;
     case Kind::insert_edge: insert_on_edge(command); break;
     case Kind::remove: remove(command); break;
+    case Kind::collapse: collapse(command); break;
+    case Kind::flip: flip(command); break;
+    case Kind::stroke: strokes_.push_back(sculptor_.stroke()); break;
+    case Kind::end: end_stroke(command); break;
     case Kind::undo: edit(command, [&] { return sculptor_.undo(); }); break;
     case Kind::redo: edit(command, [&] { return sculptor_.redo(); }); break;
     case Kind::response: sculptor_.set_response(*response_named(command.word)); break;
@@ -80,7 +113,7 @@ private:
       grab_.emplace(sculptor_.grab(v));
     held_ = true;
     try {
-      const Result done = grab_->drag_to(point(command.points[0]));
+      const Result done = grab_->drag_to(point(command.points[0]), way_);
       finish(command, begin, done, coordinates(start), command.points[0], {index});
       if (done.position != start)
         moved_.insert(index);
@@ -104,6 +137,28 @@ private:
     edit(command, [&] { return sculptor_.remove(v); });
   }
 
+  void collapse(const Command& command) {
+    edit(command, [&] {
+      const auto e = sculptor_.edge_of(command.indices[0], command.indices[1]);
+      auto h = e.is_valid() ? mesh_.halfedge(e) : Mesh::Halfedge_index();
+      if (e.is_valid() && mesh_.source(h) != sculptor_.vertex(command.indices[0]))
+        h = mesh_.opposite(h);
+      return sculptor_.collapse(h);
+    });
+  }
+
+  void flip(const Command& command) {
+    edit(command, [&] { return sculptor_.flip(sculptor_.edge_of(command.indices[0], command.indices[1])); });
+  }
+
+  /// The innermost. Undo may have ended it already.
+  void end_stroke(const Command& command) {
+    if (strokes_.empty())
+      refuse(command, "no-stroke", {});
+    else
+      strokes_.pop_back();
+  }
+
   template <class Edit>
   void edit(const Command& command, const Edit& make) {
     const auto begin = Clock::now();
@@ -121,13 +176,16 @@ private:
     if (command.kind == Kind::insert_face || command.kind == Kind::insert_edge)
       moved_.insert(name);
     ++result_.reached;
-    record(command, Status::reached, nullptr, {name}).motion = {p, p, p};
+    const bool names_an_edge = command.kind == Kind::collapse || command.kind == Kind::flip;
+    Edit_record& done_edit = record(command, Status::reached, nullptr, names_an_edge ? command.indices : std::vector{name});
+    if (command.kind != Kind::flip) // which leaves every vertex where it is
+      done_edit.motion = {p, p, p};
   }
 
   void probe(const Command& command) {
     const auto begin = Clock::now();
     try {
-      const Result done = sculptor_.probe(point(command.points[0]), point(command.points[1]));
+      const Result done = sculptor_.probe(point(command.points[0]), point(command.points[1]), &way_);
       if (done.end == Drag_end::refused)
         refuse(command, "starts-in-clearance", ids(done.contacts[0]));
       else
@@ -170,10 +228,25 @@ private:
 
   std::optional<typename Sculptor<Mesh, Broad_phase>::Grab_type> grab_;
   bool held_ = false;
+  std::vector<Kernel::Point_3> way_; ///< of the last drag or probe
 
   template <class Ids = std::vector<std::size_t>>
   Ids ids(const Contact_3<Mesh>& contact) const {
     return {sculptor_.name(contact.vertices[0]), sculptor_.name(contact.vertices[1]), sculptor_.name(contact.vertices[2])};
+  }
+
+  bool is_within_clearance(const Result& done, const Edit_record::Coordinates& target) const {
+    const Edit_record::Coordinates end = coordinates(done.position);
+    double reach = 0; // by which a contact's clearance is set
+    const auto include = [&reach](const Edit_record::Coordinates& p) {
+      for (const double x : p)
+        reach = std::fmax(reach, std::fabs(x));
+    };
+    include(end);
+    for (const auto& contact : done.contacts)
+      std::for_each(contact.plane.begin(), contact.plane.end(), include);
+    return std::hypot(target[0] - end[0], target[1] - end[1], target[2] - end[2]) <=
+           2 * sculptor_.clearance({reach, reach, reach});
   }
 
   Edit_record& record(const Command& command, Status status, const char* reason, std::vector<std::size_t> elements) {
@@ -206,6 +279,11 @@ private:
     edit.stop_error = done.stop_error;
     edit.stop_error_along_path = done.stop_error_along_path;
     edit.kkt_residual = done.kkt_residual;
+    edit.is_within_clearance = done.end == Drag_end::held && is_within_clearance(done, target);
+    result_.within_clearance += edit.is_within_clearance;
+    if (!done.reached && result_.blocked <= Edit_record::most_drawn)
+      for (const Kernel::Point_3& p : way_)
+        edit.way.push_back(coordinates(p));
     for (const auto& contact : done.contacts)
       edit.contacts.push_back({name_of(contact.kind), ids<std::array<std::size_t, 3>>(contact), contact.normal});
   }

@@ -2,7 +2,9 @@
 // Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/sculpt.md.
 #include "Log_file.h"
 #include "output_targets.h"
+#include "nearest_vertices.h"
 #include "printable.h"
+#include "read_mesh.h"
 #include "resume.h"
 #include "sha256_of_file.h"
 #include "write_results.h"
@@ -12,8 +14,6 @@
 #include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/read_surface.h>
 
-#include <CLI/CLI.hpp>
-
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -22,6 +22,7 @@
 #include <iostream>
 #include <iterator>
 #include <new>
+#include <numeric>
 #include <utility>
 
 namespace {
@@ -56,6 +57,8 @@ Script script_of(const Arguments& arguments) {
 void check_targets(const Arguments& arguments) {
   if (!arguments.out.empty() && !mesh_file_format(arguments.out))
     throw Usage_error("'" + arguments.out + "' does not end in .off, .ply, .obj or .stl");
+  if (const auto extension = std::filesystem::path(arguments.picture).extension(); !extension.empty() && extension != ".png" && extension != ".PNG")
+    throw Usage_error("a picture is written as PNG: give a name that ends in .png instead of '" + arguments.picture + "'");
   // The result may take the place of the mesh that was read: that is what one asks of an editor.
   std::vector<std::string> taken = {arguments.script, arguments.out, arguments.report, arguments.picture, arguments.log};
   for (std::size_t i = 0; i < taken.size(); ++i)
@@ -107,6 +110,34 @@ void check_lengths(const Arguments& arguments) {
     throw Usage_error("--clearance must be a length > 0 and at most 2^1000, about 1.07e301");
   if (arguments.delta && !(*arguments.delta >= 0 && internal::is_in_range(*arguments.delta)))
     throw Usage_error("--delta must be a length >= 0 and at most 2^1000, about 1.07e301");
+  for (const double x : arguments.nearest.value_or(std::array<double, 3>{}))
+    if (!internal::is_in_range(x))
+      throw Usage_error("--nearest takes coordinates of at most 2^1000, about 1.07e301");
+}
+
+/// E.g. "normals, colours".
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// What `--nearest` asks for, of the sculpted mesh; nothing where it does not.
+std::vector<Near_vertex> nearest_to(const Arguments& arguments, const Mesh& mesh, const Run_result& result) {
+  std::vector<Near_vertex> found;
+  if (!arguments.nearest)
+    return found;
+  constexpr std::size_t most = 8;
+  std::vector<std::size_t> places(result.numbers.size()); // in vertex_order, which is in the order of the numbers
+  std::iota(places.begin(), places.end(), std::size_t(0));
+  const auto point_of = [&](std::size_t i) { return mesh.point(Vertex_index(static_cast<Mesh::size_type>(result.vertex_order[i]))); };
+  const auto& [x, y, z] = *arguments.nearest;
+  for (const std::size_t i : nearest_vertices(std::move(places), point_of, {x, y, z}, most)) {
+    const Kernel::Point_3 p = point_of(i);
+    found.push_back({result.numbers[i], {p.x(), p.y(), p.z()}, distance({p.x(), p.y(), p.z()}, *arguments.nearest)});
+  }
+  return found;
 }
 
 /// What the log adds to the work: what to replay, and where the script goes on.
@@ -125,6 +156,12 @@ Plan plan_of(const Script& script, const Log_file* log, const Arguments& argumen
       plan.rest = rest_of(script.commands, script.hash, logged, arguments);
     check_options(arguments, logged, !script.commands.empty() && plan.rest.is_new_pass);
     plan.commands = logged.commands;
+    if (!script.commands.empty() && !plan.rest.is_announced) { // as Log_file::begin_pass() writes them
+      Command end;
+      end.kind = Kind::end;
+      end.is_logged = true;
+      plan.commands.insert(plan.commands.end(), open_strokes(logged.commands), end);
+    }
     plan.replayed = plan.commands.size();
   }
   plan.commands.insert(plan.commands.end(), std::make_move_iterator(plan.rest.commands.begin()),
@@ -141,7 +178,9 @@ Exit sculpt(const Arguments& arguments) {
   if (!arguments.log.empty())
     log.emplace(arguments.log, sha256_of_file(arguments.mesh));
   const Plan plan = plan_of(script, log ? &*log : nullptr, arguments);
-  Mesh mesh = read_surface<Mesh>(arguments.mesh, arguments.delta.value_or(0));
+  std::vector<std::string> left_out;
+  Mesh mesh = arguments.triangulate ? read_triangulated(arguments.mesh, arguments.delta.value_or(0), left_out)
+                                    : read_surface<Mesh>(arguments.mesh, arguments.delta.value_or(0), &left_out);
   check_mesh_directives(script.commands, arguments);
 
   std::vector<std::string> notes;
@@ -149,6 +188,8 @@ Exit sculpt(const Arguments& arguments) {
     std::cerr << "sculpt: " << text << '\n';
     notes.push_back(text);
   };
+  if (!arguments.out.empty() && !left_out.empty())
+    note("'" + arguments.out + "' will be without what '" + arguments.mesh + "' has besides its faces: " + listed(left_out));
   bool is_told = false;
   const auto tell_failure = [&] { // once, and at once: the work may take hours
     if (log && !log->failure().empty() && !std::exchange(is_told, true))
@@ -170,7 +211,8 @@ Exit sculpt(const Arguments& arguments) {
       tell_failure();
     }
   });
-  bool all_written = write_all(mesh, result, arguments, notes);
+  const std::vector<Near_vertex> nearest = nearest_to(arguments, mesh, result);
+  bool all_written = write_all(mesh, result, arguments, notes, nearest);
   if (is_logging && all_written) {
     log->end_pass(script.hash);
     tell_failure();
@@ -180,10 +222,21 @@ Exit sculpt(const Arguments& arguments) {
     std::cout << "replayed " << plan.replayed << " lines of " << arguments.log << '\n';
   if (plan.rest.after > 0)
     std::cout << "went on with " << arguments.script << " after line " << plan.rest.after << '\n';
+  if (arguments.nearest)
+    print_nearest(std::cout, *arguments.nearest, nearest);
   print_table(std::cout, result, mesh); // last: whoever reads it may close the pipe
   if (!std::cout.flush())
     throw Write_error("cannot write the table to standard output");
   return all_written ? done : cannot_write;
+}
+
+/// The message, with advice for people who do not program.
+std::string in_words_of_a_user(const Invalid_surface& error, bool is_triangulated) {
+  const std::string said = error.what();
+  std::string text = said.substr(0, said.find('\n') + 1) + error.report().message(8, Validity_report::Reader::user);
+  if (!is_triangulated && !error.report().non_triangular_faces.empty())
+    text += "--triangulate divides faces into triangles.\n";
+  return text;
 }
 
 } // namespace
@@ -191,37 +244,8 @@ Exit sculpt(const Arguments& arguments) {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is told like a full disk, and the others are written
   Arguments arguments;
-  CLI::App app("Sculpts a closed triangle mesh from a script; no surface ever passes through a surface.\n"
-               "Exit: 0 done (blocked drags and refused edits are done), 1 out of memory, 2 usage, 3 mesh refused, 4 "
-               "script error, "
-               "5 cannot write, 6 script or log of another mesh, or no log.\n"
-               "Script, one edit a line, # comments, numbers decimal or hexadecimal:\n"
-               "  drag V X Y Z | release | insert_face A B C X Y Z | insert_edge A B X Y Z | remove V |\n"
-               "  probe X Y Z X2 Y2 Z2 | undo | redo | response slide|stop|paper | clearance L|default | delta L | mesh SHA256");
-  const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
-  app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->required()->check(named);
-  app.add_option("--script", arguments.script, "The edits; may be /dev/stdin")->check(named);
-  app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes: .off .ply .obj .stl")->check(named);
-  app.add_option("--report", arguments.report, "Where the JSON report goes")->check(named);
-  app.add_option("--log", arguments.log, "Edit log: replayed if it exists, then appended to. The same command goes on where it stopped")
-      ->check(named);
-  app.add_flag("--append", arguments.append, "With a log that has the whole script already: makes the same edits once more")
-      ->needs("--log")
-      ->needs("--script");
-  app.add_option("--response", arguments.response, "What a blocked vertex does: slide (the default), stop or paper")
-      ->check(CLI::IsMember({"slide", "stop", "paper"}));
-  app.add_option("--broad-phase", arguments.broad_phase, "How candidates are found; the results are the same")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"tree", "six-lists", "brute"}));
-  app.add_option("--clearance", arguments.clearance,
-                 "Distance kept from what blocks, > 0; by default 4 ulp of the largest coordinate of what touches");
-  app.add_option("--delta", arguments.delta, "No triangle altitude may be less, >= 0; by default 0");
-  app.add_option("--picture", arguments.picture, "Where a picture goes: .png")->check(named);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : usage;
-  }
+  if (const auto is_good = read_arguments(argc, argv, arguments))
+    return *is_good ? done : usage;
   const auto fail = [](const std::exception& error, Exit code) {
     std::cerr << "sculpt: " << error.what() << '\n';
     return code;
@@ -237,7 +261,8 @@ int main(int argc, char** argv) {
   } catch (const Read_error& error) {
     return fail(error, mesh_refused);
   } catch (const Invalid_surface& error) {
-    return fail(error, mesh_refused);
+    std::cerr << "sculpt: " << in_words_of_a_user(error, arguments.triangulate);
+    return mesh_refused;
   } catch (const Out_of_range& error) { // those of lengths and of the script have been found before
     return fail(error, mesh_refused);
   } catch (const Script_error& error) {

@@ -6,7 +6,7 @@ import json
 import os
 import tempfile
 
-from program_runs import QUERIES, SOURCE, TETRAHEDRON, check, end, fails, points, run
+from program_runs import OCTAHEDRON, QUERIES, SOURCE, TETRAHEDRON, check, end, fails, points, run, surface, write
 
 
 def happy_path(folder, mesh):
@@ -96,6 +96,165 @@ def extreme_numbers(folder, mesh):
     check(run(f"{cases}/grid_near_2p52.off").returncode == 0, "rays in special position")
 
 
+def edges_and_strokes(folder, tetrahedron):
+    """What collapse and flip make and are refused for; what one undo takes back."""
+    mesh, out, report = write(f"{folder}/octahedron.off", OCTAHEDRON), f"{folder}/edges.off", f"{folder}/edges.json"
+
+    def sculpt(script, of=mesh):
+        done = run(of, "--script", "/dev/stdin", "-o", out, "--report", report, script=script)
+        check(done.returncode == 0, f"{script!r}: {done.stderr}")
+        return [(e["op"], e["status"], e["reason"], e["elements"]) for e in json.load(open(report))["edits"]], surface(out)
+
+    def has_edge(faces, a, b):
+        return sum(a in face and b in face for face in faces)
+
+    whole = surface(mesh)
+    told, (at, faces) = sculpt("flip 0 2\n")
+    check(told == [("flip", "reached", None, [0, 2])] and at == whole[0], f"flip {told}")
+    check(has_edge(faces, 0, 2) == 0 and has_edge(faces, 4, 5) == 2, f"the flipped edge {faces}")
+    check(json.load(open(report))["edits"][0]["position"] is None, "a flip moves nothing")
+    told, (at, faces) = sculpt("collapse 0 2\n")
+    check(told == [("collapse", "reached", None, [0, 2])] and at == whole[0][1:] and len(faces) == 6, f"collapse {told}")
+    check(json.load(open(report))["edits"][0]["position"] == list(whole[0][2]), "where a collapse ends")
+    check(has_edge(faces, 1, 2) == 2, "the fan is that of the second vertex")  # renumbered: 2 into 1, 3 into 2
+    for line, elements in (("collapse 0 1", [0, 1]), ("flip 0 1", [0, 1]), ("collapse 0 9", [0, 9]), ("flip 3 3", [3, 3])):
+        told, after = sculpt(line + "\n")
+        check(told == [(line.split()[0], "refused", "unknown-element", elements)] and after == whole, f"{line}: {told}")
+    told, after = sculpt("collapse 0 1\nflip 0 1\nflip 3 2\n", tetrahedron)
+    check([t[1:3] for t in told] == [("refused", "tetrahedron"), ("refused", "doubled-edge"), ("refused", "doubled-edge")], f"a tetrahedron {told}")
+    check(after == surface(tetrahedron), "refused, and yet changed")
+
+    edits = "drag 0 2 0 0\ndrag 0 2.5 0 0.1\nstroke\ndrag 2 0 2 0\nend\nflip 1 3\ninsert_face 0 2 4 0.9 0.8 0.4\ncollapse 6 0\n"
+    for script, asked in ((f"stroke\n{edits}end\nundo\n", 7), (f"stroke\n{edits}undo\n", 7), (f"stroke\nstroke\n{edits}end\nundo\nend\n", 7)):
+        told, after = sculpt(script)
+        check(len(told) == asked and all(t[1] == "reached" for t in told) and after == whole, f"one undo takes back the stroke {script!r}: {told}")
+    undone, redone = sculpt(f"stroke\n{edits}end\nundo\nredo\n")[1], sculpt(edits.replace("stroke\n", "").replace("end\n", ""))[1]
+    check(undone == redone and redone != whole, "redo of a stroke")
+    one = sculpt("drag 0 2 0 0\n")[1]
+    check(sculpt("drag 0 2 0 0\nstroke\ndrag 0 3 0 0\ndrag 2 0 3 0\nend\nundo\n")[1] == one, "the step before a stroke stays")
+    check(sculpt("stroke\ndrag 2 0 3 0\nundo\ndrag 0 2 0 0\ndrag 0 3 0 0\nend\nundo\n")[1] == one, "after undo within a stroke, edits are steps of their own")
+    told, after = sculpt("end\nstroke\nend\nend\n")
+    check(told == [("end", "refused", "no-stroke", [])] * 2 and after == whole, f"end without a stroke: {told}")
+    check(sculpt("drag 0 2 0 0\nstroke\nend\nundo\n")[1] == whole, "a stroke in which nothing was done is no step")
+
+
+def finding_vertices(folder, mesh):
+    """--nearest, and @X,Y,Z in the place of a vertex: decided exactly, logged as a number."""
+    out, log, report = f"{folder}/near.off", f"{folder}/near.log", f"{folder}/near.json"
+    octahedron = write(f"{folder}/near_octahedron.off", OCTAHEDRON)
+    done = run(octahedron, "--nearest", "-0.25", "0.125", "-3", "--report", report)
+    check(done.returncode == 0, f"--nearest: {done.stderr}")
+    told = json.load(open(report))["nearest"]
+    at = points(octahedron)
+    squares = lambda p: sum((a - b) ** 2 for a, b in zip(p, (-0.25, 0.125, -3)))
+    check([v["vertex"] for v in told] == sorted(range(6), key=lambda v: (squares(at[v]), v)), f"the order of the nearest {told}")
+    check(all(v["position"] == list(at[v["vertex"]]) and abs(v["distance"] - squares(at[v["vertex"]]) ** 0.5) < 1e-12 for v in told), f"distances {told}")
+    check([line.split()[0] for line in done.stdout.splitlines() if ", distance" in line] == [str(v["vertex"]) for v in told], f"printed: {done.stdout}")
+    # Of equally near ones the first; and of those whose distances are one and the same double the one that is nearer.
+    run(octahedron, "--nearest", "0", "0", "0", "--report", report)
+    check([v["vertex"] for v in json.load(open(report))["nearest"]] == list(range(6)), "equally near")
+    run(octahedron, "--nearest", "1e300", "0x1p-1070", "0", "--report", report)
+    check([v["vertex"] for v in json.load(open(report))["nearest"]] == [0, 2, 4, 5, 3, 1], "nearest to a point far away, where distances are all one double")
+    done = run(octahedron, "--script", "-", "--log", log, "-o", out, "--report", report,
+               script="drag @0.9,-0.1,0.1 0.5 0.25 0.125\ninsert_face @2,0,0 @0,0x2p0,0 @0,0,2 0.5 0.5 0.5\nremove @0.5,0.5,0.5\n")
+    check(done.returncode == 0, f"@X,Y,Z: {done.stderr}")
+    check([(e["op"], e["status"]) for e in json.load(open(report))["edits"]] == [("drag", "reached"), ("insert_face", "reached"), ("remove", "reached")], "@X,Y,Z")
+    lines = [line.split("#")[0].split() for line in open(log)]
+    check([line[:4] for line in lines if line[:1] in (["drag"], ["insert_face"], ["remove"])]
+          == [["drag", "0", "0x1p-1", "0x1p-2"], ["insert_face", "0", "2", "4"], ["remove", "6"]], f"logged by number {lines}")
+    check(run(octahedron, "--log", log, "-o", f"{folder}/near_again.off").returncode == 0 and surface(f"{folder}/near_again.off") == surface(out), "replay")
+    fails(2, ["--nearest"], run(octahedron, "--nearest", "1", "2"), "--nearest of two numbers")
+    fails(2, ["--nearest"], run(octahedron, "--nearest", "1", "2", "1e302"), "--nearest out of range")
+    for script, column, part in (("drag @1,2 0 0 0", 6, "@X,Y,Z"), ("drag @1,2,3,4 0 0 0", 6, "@X,Y,Z"), ("drag @1,,3 0 0 0", 6, "number"), ("drag @ 0 0 0", 6, "@X,Y,Z"),
+                                 ("remove @1,2,nan", 8, "finite"), ("remove @1,2,1e302", 8, "range"), ("drag @1, 2,3 0 0 0", 6, "@X,Y,Z")):
+        fails(4, [f"column {column}", part], run(mesh, "--script", "-", script=script), script)
+
+
+def what_people_read(folder, mesh):
+    """The table, the messages, and what is lost on the way from one file to the other."""
+    out, report = f"{folder}/read.off", f"{folder}/read.json"
+    done = run(mesh, "--script", "-", "--report", report, script="drag 3 0.2 0.2 0\ndrag 3 0.2 0.2 -1\ndrag 9 0 0 0\n")
+    told = json.load(open(report))
+    check([e["within_clearance"] for e in told["edits"]] == [True, False, False] and told["totals"]["blocked"] == 2, f"within a clearance: {told['edits']}")
+    check("arrived within a clearance" in done.stdout.splitlines()[4] and "of those blocked 1 arrived" in done.stdout, f"the table: {done.stdout}")
+    check("e-1" not in done.stdout.splitlines()[4], f"a way to go that nobody can go: {done.stdout}")
+    # A vertex that comes to another meets all that is there at once.
+    done = run(write(f"{folder}/o.off", OCTAHEDRON), "--script", "-", "--report", report, script="response stop\ndrag 4 0 0 -2\n")
+    contacts = len(json.load(open(report))["edits"][0]["contacts"])
+    check(contacts > 9 and f" and {contacts - 8} more" in done.stdout and done.stdout.count("vertex-") + done.stdout.count("edge-") <= 9,
+          f"{contacts} contacts in a line: {done.stdout}")
+    done = run("--version")
+    check(done.returncode == 0 and "0." in done.stdout, f"--version: {done.stdout}")
+    fails(2, [".png", "picture.jpg"], run(mesh, "--picture", f"{folder}/picture.jpg"), "a picture that is no PNG")
+    check(not os.path.exists(f"{folder}/picture.jpg"), "a picture under a wrong name")
+    done = run(mesh, "--script", "-", "--picture", f"{folder}/picture.png", "--picture-numbers", script="drag 3 0.2 0.2 -1\n")
+    check(done.returncode == 0 and os.path.getsize(f"{folder}/picture.png") > 5000, f"--picture-numbers: {done.stderr}")
+    check(run(mesh, "--picture-numbers").returncode == 2, "--picture-numbers without a picture")
+    # A byte order mark.
+    bom = "\ufeff"
+    for name, text in (("b.off", TETRAHEDRON), ("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.1 0.1 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")):
+        check(run(write(f"{folder}/{name}", bom + text), "-o", out).returncode == 0 and surface(out) == surface(mesh), f"a byte order mark in {name}")
+    for name in ("m.ply", "m.stl"):
+        run(mesh, "-o", f"{folder}/{name}")
+        with open(f"{folder}/{name}", "rb") as file:
+            text = file.read()
+        check(run(write(f"{folder}/bom_{name}", b"\xef\xbb\xbf" + text), "-o", out).returncode == 0 and len(points(out)) == 4, f"a byte order mark in {name}")
+    check(run(mesh, "--script", "-", script=bom + "drag 3 0 0 2\n").returncode == 0, "a byte order mark in a script")
+    # What is lost.
+    for name, text, parts in (
+            ("c.off", TETRAHEDRON.replace("OFF", "COFF").replace("0 0 0\n", "0 0 0 255 0 0\n", 1), ["colours"]),
+            ("d.off", TETRAHEDRON.replace("3 0 2 1", "3 0 2 1 255 0 0"), ["colours"]),
+            ("n.off", TETRAHEDRON.replace("OFF", "STNOFF").replace("0 0 0\n", "0 0 0 0 0 1 0.5 0.5\n", 1), ["normals", "texture coordinates"]),
+            ("e.obj", "mtllib x.mtl\no thing\nv 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nv 0.1 0.1 1\nvn 0 0 1\nvt 0 0\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+             ["materials", "groups", "colours", "normals", "texture coordinates"]),
+            ("f.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty uchar red\n"
+             "property float heat\nelement face 4\nproperty list uchar int vertex_indices\nproperty float s\nelement edge 1\nproperty int a\nend_header\n"
+             "0 0 0 1 255 7\n1 0 0 1 2 3\n0 1 0 1 2 3\n0.1 0.1 1 1 2 3\n3 0 2 1 0\n3 0 1 3 0\n3 1 2 3 0\n3 2 0 3 0\n5\n",
+             ["normals", "colours", "texture coordinates", "the property 'heat'", "the element 'edge'"])):
+        path = write(f"{folder}/{name}", text)
+        done = run(path, "-o", out, "--report", report)
+        notes = json.load(open(report))["notes"]
+        check(done.returncode == 0 and all(part in done.stderr and part in " ".join(notes) for part in parts), f"what {name} loses is not said: {done.stderr}")
+        check(done.stderr.count("besides") == 1 and run(path).stderr == "", f"said too often, or where nothing is written: {done.stderr}")
+    check(run(mesh, "-o", out).stderr == "", "something is said of nothing")
+    # Advice without functions of a library.
+    for name in ("degenerate", "boundary", "crossing", "polygon"):
+        text = {"degenerate": TETRAHEDRON.replace("0.1 0.1 1", "0.5 0 0"), "boundary": TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", ""),
+                "crossing": "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n.1 .1 .1\n2 .1 .1\n.1 2 .1\n.1 .1 2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+                            "3 4 6 5\n3 4 5 7\n3 5 6 7\n3 6 4 7\n", "polygon": CUBE}[name]
+        done = run(write(f"{folder}/{name}.off", text))
+        check(done.returncode == 3 and "PMP" not in done.stderr and "CGAL" not in done.stderr, f"advice for {name}: {done.stderr}")
+        check(("--triangulate" in done.stderr) == (name == "polygon"), f"--triangulate where it serves: {done.stderr}")
+
+
+CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+        "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
+
+
+def polygons(folder, mesh):
+    """--triangulate: the same points, each polygon in its corners, the script goes on; what cannot be is refused."""
+    out, cube = f"{folder}/triangles.off", write(f"{folder}/cube.off", CUBE)
+    done = run(cube, "--triangulate", "--script", "-", "-o", out, script="insert_edge 0 1 0.5 -0.5 -0.5\n")
+    check(done.returncode == 0, f"--triangulate: {done.stderr}")
+    check(run(cube, "--triangulate", "-o", out).returncode == 0, "--triangulate")
+    at, faces = surface(out)
+    check(at == points(cube) and len(faces) == 12, "points and number of triangles of the cube")
+    quads = [set(map(int, line.split()[1:])) for line in CUBE.splitlines()[10:]]
+    check(sorted(sum(set(face) <= quad for face in faces) for quad in quads) == [2] * 6, f"triangles of each quadrilateral {faces}")
+    check(run(out).returncode == 0, "the triangulated cube is a valid surface")
+    check(run(mesh, "--triangulate", "-o", out).returncode == 0 and surface(out) == surface(mesh), "what are triangles stays as it is")
+    # A reflex pentagon as the bottom and top of a prism, whose triangles cannot be a fan.
+    corners = [(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)]
+    prism = "OFF\n10 7 0\n" + "".join(f"{x} {y} {z}\n" for z in (0, 1) for x, y in corners) + "5 4 3 2 1 0\n5 5 6 7 8 9\n" + "".join(
+        f"4 {i} {(i + 1) % 5} {(i + 1) % 5 + 5} {i + 5}\n" for i in range(5))
+    check(run(write(f"{folder}/prism.off", prism), "--triangulate", "-o", out).returncode == 0 and len(surface(out)[1]) == 16, "a reflex polygon")
+    fails(3, ["boundary"], run(write(f"{folder}/open.off", CUBE.replace("8 6 0", "8 5 0").replace("4 3 0 4 7\n", "")), "--triangulate"), "an open cube")
+    fails(3, ["not triangles"], run(write(f"{folder}/twice.off", CUBE.replace("4 3 0 4 7", "5 3 0 4 4 7")), "--triangulate"), "a corner twice")
+    log = f"{folder}/cube.log"
+    check(run(cube, "--triangulate", "--log", log, "--script", "-", script="drag 6 2 2 2\n").returncode == 0, "a log of a cube")
+    check(run(cube, "--triangulate", "--log", log, "-o", out).returncode == 0 and points(out)[6] == (2, 2, 2), "and its replay")
+
+
 def demo(folder):
     """The demo shows what its comments say: every kind of contact, a drag that arrives, a refused edit."""
     report = f"{folder}/demo.json"
@@ -110,6 +269,16 @@ def demo(folder):
     check(len(dragged) == 8, f"dragged vertices {dragged}")
     check(after == [dragged.get(v, p) for v, p in enumerate(before)], "bits of the demo's result")
     check(run(f"{folder}/demo.off").returncode == 0, "the demo's result is a valid mesh")
+    try:
+        from PIL import Image, ImageChops
+    except ImportError:
+        print("skipped: no PIL to look at the demo's picture")
+        return
+    run(f"{data}/ball_and_moon.off", "--script", f"{data}/demo.script", "--picture", f"{folder}/demo.png")
+    shown, made = (Image.open(path).convert("L") for path in (f"{SOURCE}/doc/pictures/demo.png", f"{folder}/demo.png"))
+    check(shown.size == made.size, "size of the picture in doc")
+    different = sum(ImageChops.difference(shown, made).histogram()[32:]) / (shown.size[0] * shown.size[1])
+    check(different < 0.01, f"{100 * different:.1f} % of the picture in doc are not what the demo makes")
 
 
 def formats(folder, mesh):
@@ -206,6 +375,10 @@ def bad_scripts(folder, mesh):
     refused("drag 99999999999999999999999 0 0 1\n", 1, 6)
     refused("drag 3 0 0 1 # ok\n\tprobe 0 0 0 1 1 -inf\n", 2, 18, "finite")
     refused("remove\n", 1, 7, "vertex index")
+    refused("collapse 1\n", 1, 11, "vertex index")
+    refused("flip 1 2 3\n", 1, 10, "flip")
+    refused("stroke 1\n", 1, 8)
+    refused("end stroke\n", 1, 5)
     refused("drag 3 0 0 2\r\nundo 1\n", 2, 6)
     fails(4, ["failed"], run(mesh, "--script", folder), "a folder as script")
     fails(4, ["missing.script"], run(mesh, "--script", f"{folder}/missing.script"), "missing script")
@@ -242,6 +415,10 @@ def main():
         happy_path(folder, mesh)
         directives_and_refusals(folder, mesh)
         extreme_numbers(folder, mesh)
+        edges_and_strokes(folder, mesh)
+        finding_vertices(folder, mesh)
+        what_people_read(folder, mesh)
+        polygons(folder, mesh)
         demo(folder)
         formats(folder, mesh)
         broad_phases_agree(folder)

@@ -23,11 +23,11 @@ def bad_targets(folder, mesh):
     os.mkdir(f"{folder}/target.off")
     fails(5, ["target.off"], run(mesh, "-o", f"{folder}/target.off"), "the result is a folder")
     for option in ("--report", "--picture"):
-        with open(f"{folder}/kept.x", "w") as file:
+        with open(f"{folder}/kept.png", "w") as file:
             file.write("kept")
-        fails(5, ["kept.x"], run(mesh, option, f"{folder}/kept.x", limit=64), f"disk full, {option}")
-        check(open(f"{folder}/kept.x").read() == "kept", f"a full disk spoils the old file of {option}")
-        check(not [name for name in os.listdir(folder) if name.startswith("kept.x") and name != "kept.x"], f"left-over file of {option}")
+        fails(5, ["kept.png"], run(mesh, option, f"{folder}/kept.png", limit=64), f"disk full, {option}")
+        check(open(f"{folder}/kept.png").read() == "kept", f"a full disk spoils the old file of {option}")
+        check(not [name for name in os.listdir(folder) if name.startswith("kept.png") and name != "kept.png"], f"left-over file of {option}")
         fails(5, ["/dev/full"], run(mesh, option, "/dev/full"), f"{option} to a device")
         # Found before the work: the good target is not touched either.
         fails(5, ["nowhere"], run(mesh, "-o", kept, option, f"{folder}/nowhere/file"), f"missing folder of {option} beside a good result")
@@ -58,9 +58,10 @@ def links(folder, mesh):
               f"{option} through a link that leads nowhere yet")
     for link, to in (("loop.off", "loop.off"), ("a.off", "b.off"), ("b.off", "a.off"), ("nowhere.off", "not_there/x.off")):
         os.symlink(to, f"{folder}/{link}")
+        os.symlink(to.replace(".off", ".png"), f"{folder}/{link.replace('.off', '.png')}")
     for link, part in (("loop.off", "circle"), ("a.off", "circle"), ("nowhere.off", "folder")):
         for option in ("-o", "--report", "--picture"):
-            report = f"{folder}/not_yet.json"
+            report, link = f"{folder}/not_yet.json", link.replace(".off", ".png") if option == "--picture" else link
             fails(5, [link, part], run(mesh, option, f"{folder}/{link}", *([] if option == "--report" else ["--report", report])), f"{option} {link}")
             check(os.path.islink(f"{folder}/{link}") and not os.path.exists(report), f"{option} {link}: found out too late")
     os.symlink("both", f"{folder}/one.json")

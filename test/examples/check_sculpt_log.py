@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import time
 
-from program_runs import SCULPT, TETRAHEDRON, bytes_of, check, end, fails, points, run, sha256, write
+from program_runs import OCTAHEDRON, SCULPT, TETRAHEDRON, before_open_stroke, bytes_of, check, end, fails, points, run, sha256, surface, write
 
 EDITS = ("insert_face 0 1 2 0.2 0.2 0\ndrag 4 0.2 0.2 -0.5\ninsert_edge 1 2 0.55 0.55 0\nundo\nundo\nredo\nremove 4\n"
          "remove 4\nundo\ndrag 4 0.3 0.2 -0.25\nremove 0\nredo\n")
@@ -134,6 +134,52 @@ def rerun(folder, mesh):
     fails(2, ["--log"], run(mesh, "--script", script, "--append"), "--append without a log")
     for _ in range(2):  # nothing is done twice by a script that does nothing
         check(run(mesh, "--script", "/dev/null", "--log", f"{folder}/empty.log").returncode == 0, "empty script")
+
+
+def strokes(folder, _):
+    """Wherever a log breaks off, its last whole edit is there, an open stroke is one step of undo, and the same command goes on within it."""
+    mesh = write(f"{folder}/octahedron.off", OCTAHEDRON)
+    text = ("drag 0 2 0 0\nstroke\ndrag 0 2.5 0 0.1\ninsert_face 0 2 4 1 0.6 0.6\nstroke\ndrag 6 1 0.7 0.7\nflip 1 3\nend\ncollapse 6 2\nend\nundo\nredo\n"
+            "stroke\ndrag 2 0 2 0\nundo\ndrag 2 0 3 0\nend\nstroke\ndrag 4 0 0 2\nresponse stop\ndrag 4 0 0 3\n")
+    script, undo = write(f"{folder}/strokes.script", text), write(f"{folder}/undo.script", "undo\n")
+    log, out, whole, part = f"{folder}/strokes.log", f"{folder}/strokes.off", f"{folder}/whole.off", f"{folder}/part.off"
+    check(run(mesh, "--script", script, "--log", log, "-o", whole).returncode == 0, "strokes")
+    complete, expected = bytes_of(log), bytes_of(whole)
+    lines = complete.splitlines(keepends=True)
+    open_strokes, within = 0, 0
+    for count in range(HEAD, len(lines) + 1):
+        for tail in (b"", lines[count][:-1]) if count < len(lines) else (b"",):
+            left = b"".join(lines[:count]) + tail
+            write(log, left)
+            check(run(mesh, "--script", script, "--log", log, "-o", out).returncode == (2 if count == len(lines) else 0), f"resumed after {count} lines")
+            check(bytes_of(log) == complete and bytes_of(whole) == expected and (count == len(lines) or bytes_of(out) == expected),
+                  f"log or result is another, resumed after {count} lines")
+        # Another script goes on: the open strokes have ended with what is there, and are one step.
+        write(log, b"".join(lines[:count]))
+        done = [line.decode() for line in lines[:count]]
+        before = before_open_stroke(done)
+        run(mesh, "--script", "/dev/stdin", "-o", part, script="".join(done))
+        check(run(mesh, "--script", undo, "--log", log, "-o", out).returncode == 0, f"undo after {count} lines")
+        ends = [words(line) for line in bytes_of(log).splitlines()[count:] if words(line) == [b"end"]]
+        begun = [words(line)[:1] for line in lines[:count]]
+        check(len(ends) == begun.count([b"stroke"]) - begun.count([b"end"]), f"ends written behind {count} lines: {ends}")
+        if before is not None:
+            open_strokes += 1
+            state = surface(part)
+            run(mesh, "--script", "/dev/stdin", "-o", part, script="".join(before))
+            if state != surface(part):
+                within += 1
+                check(surface(out) == surface(part), f"one undo does not take back the stroke that broke off after {count} lines")
+        result, replayed = bytes_of(out), f"{folder}/replayed.off"
+        check(run(mesh, "--log", log, "-o", replayed).returncode == 0 and bytes_of(replayed) == result, "replay of two passes")
+        check(run(mesh, "--script", log, "-o", replayed).returncode == 0 and bytes_of(replayed) == result, "two passes as a script")
+    check(open_strokes >= 10 and within >= 7, f"{open_strokes} logs broke off within a stroke, {within} of these after an edit in it")
+    # The first script, broken off in a stroke, goes on behind another.
+    write(log, b"".join(lines[:HEAD + 5]))
+    for name in (undo, script):
+        check(run(mesh, "--script", name, "--log", log, "-o", out).returncode == 0, "three passes")
+    result = bytes_of(out)
+    check(run(mesh, "--script", log, "-o", out).returncode == 0 and bytes_of(out) == result, "three passes as a script")
 
 
 def no_logs(folder, mesh):
@@ -280,7 +326,7 @@ def full_disk(folder, mesh):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
-        for part in (edits_and_log, settings, rerun, no_logs, changed_logs, first_format, two_processes, places, full_disk):
+        for part in (edits_and_log, settings, rerun, strokes, no_logs, changed_logs, first_format, two_processes, places, full_disk):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             start = time.monotonic()

@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""kill -9 while `sculpt` edits and logs, with options and directives mixed in; the same command goes on until it is through.
+"""kill -9 while `sculpt` edits and logs, with options, directives and strokes mixed in; the same command goes on until it is through.
 
 Whenever it is killed, its log is the beginning of the log of a run that is not killed, byte for byte; replayed, it gives what its lines
-give as a script; and in the end log and result are those of the run that is not killed. HAPTIC_SCULPT_KILLS says how often (12)."""
+give as a script; a stroke it was killed in is taken back by one undo; and in the end log and result are those of the run that is not
+killed. HAPTIC_SCULPT_KILLS says how often (12)."""
 import os
 import random
 import subprocess
 import tempfile
 import time
 
-from program_runs import SCULPT, SOURCE, bytes_of, check, end, run, write
+from program_runs import SCULPT, SOURCE, before_open_stroke, bytes_of, check, end, run, surface, write
 
 MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
 KILLS = int(os.environ.get("HAPTIC_SCULPT_KILLS", "12"))
@@ -18,7 +19,7 @@ SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "7"))
 
 
 def random_script(rng, lines):
-    """Drags, creations, removals, undo, redo, probes and directives mixed; many are refused, as they name what is gone by then."""
+    """Drags, edits, strokes, undo, redo, probes and directives mixed; many are refused, as they name what is gone by then."""
     text = [line.split() for line in open(MESH).read().split("\n") if line and not line.startswith("#")]
     vertices, faces = int(text[1][0]), int(text[1][1])
     corners = [row[1:4] for row in text[2 + vertices:2 + vertices + faces]]
@@ -35,10 +36,10 @@ def random_script(rng, lines):
         face, v = rng.choice(corners), rng.randrange(vertices + 50)
         script.append(rng.choices(
             [f"drag {v} {near(v)}", f"insert_face {' '.join(face)} {middle(face)}", f"insert_edge {' '.join(face[:2])} {middle(face[:2])}",
-             f"remove {v}", "undo", "redo", f"probe {near(v)} {near(v + 1)}", "release", f"response {rng.choice(['slide', 'stop', 'paper'])}",
+             f"remove {v}", f"collapse {face[0]} {face[1]}", f"flip {face[0]} {face[1]}", "stroke", "end", "undo", "redo", f"probe {near(v)} {near(v + 1)}", "release", f"response {rng.choice(['slide', 'stop', 'paper'])}",
              f"clearance {rng.choice(['default', '1e-9', '0x1p-20', str(rng.uniform(1e-6, 1e-3))])}", f"delta {rng.choice(['0', '1e-6', '0.001'])}",
              f"# comment {v}", ""],
-            [50, 15, 8, 15, 8, 8, 4, 2, 2, 2, 1, 1, 1])[0] + "\n")
+            [50, 15, 8, 10, 8, 10, 4, 4, 6, 6, 4, 2, 2, 2, 1, 1, 1])[0] + "\n")
     return "".join(script)
 
 
@@ -47,10 +48,22 @@ def random_options(rng):
             if rng.random() < 0.5 for word in (option, rng.choice(values))]
 
 
+def undo_gives(folder, left, lines, before):
+    """Whether one undo after a kill gives the state before the stroke it was killed in; False where nothing had been done in that."""
+    log, now, then = write(f"{folder}/undone.log", left), f"{folder}/now.off", f"{folder}/then.off"
+    for script, out in ((lines, now), (before, then)):
+        check(run(MESH, "--script", "/dev/stdin", "-o", out, script="".join(script)).returncode == 0, "lines of a killed run")
+    if surface(now) == surface(then):
+        return False
+    check(run(MESH, "--script", write(f"{folder}/undo.script", "undo\n"), "--log", log, "-o", now).returncode == 0, "undo after kill -9")
+    check(surface(now) == surface(then), f"one undo does not take back the stroke it was killed in (seed {SEED})")
+    return True
+
+
 def main():
     rng = random.Random(SEED)
     print("seed", SEED)
-    kills, runs, within_a_line, moments = 0, 0, 0, []
+    kills, runs, within_a_line, within_strokes, strokes_undone, moments = 0, 0, 0, 0, 0, []
     with tempfile.TemporaryDirectory() as folder:
         log, out = f"{folder}/killed.log", f"{folder}/killed.off"
         while kills < KILLS:
@@ -80,6 +93,11 @@ def main():
                 kills += 1
                 within_a_line += not left.endswith(b"\n") and left != b""
                 moments.append(len(left) / len(sound))
+                lines = left[:left.rfind(b"\n") + 1].decode().splitlines(keepends=True)
+                before = before_open_stroke(lines)
+                if before is not None:
+                    within_strokes += 1
+                    strokes_undone += undo_gives(folder, left, lines, before)
                 if left and kills % 5 == 0:
                     check(run(MESH, "--log", write(f"{folder}/copy.log", left), "-o", f"{folder}/a.off").returncode == 0, "replay after kill -9")
                     lines = left[:left.rfind(b"\n") + 1].decode()
@@ -91,7 +109,7 @@ def main():
             # A file half written is cleared by the next run that writes into the folder: the one that came through.
             check(not [name for name in os.listdir(folder) if "haptic_sculpt-new" in name], f"left-over files {os.listdir(folder)}")
     print(f"killed {kills} times in {runs} runs, {sum(m == 0 for m in moments)} before the log was begun, "
-          f"{sum(m == 1 for m in moments)} when it was complete, {within_a_line} within a line")
+          f"{sum(m == 1 for m in moments)} when it was complete, {within_a_line} within a line, {within_strokes} within a stroke, of which {strokes_undone} with edits in it were undone")
     end()
 
 

@@ -8,6 +8,8 @@ import sys
 
 SCULPT, QUERIES, SOURCE = map(os.path.abspath, sys.argv[1:4])
 FAULTS = []
+OCTAHEDRON = ("OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n"
+              "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n")
 TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0.1 0.1 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
 
 
@@ -36,6 +38,31 @@ def fails(code, parts, done, what):
 def points(path):
     lines = [line for line in open(path).read().split("\n") if line and not line.startswith("#")]
     return [tuple(map(float, line.split())) for line in lines[2:2 + int(lines[1].split()[0])]]
+
+
+def surface(path):
+    """Points, and faces in an order of their own: undo may give elements other indices, and with them another order in the file."""
+    lines = [line.split() for line in open(path).read().split("\n") if line and not line.startswith("#")]
+    first = 2 + int(lines[1][0])
+    faces = [[int(v) for v in line[1:]] for line in lines[first:first + int(lines[1][1])]]
+    return points(path), sorted(face[face.index(min(face)):] + face[:face.index(min(face))] for face in faces)
+
+
+def before_open_stroke(lines):
+    """The lines of a script before the outermost stroke that is open at its end; None where none is."""
+    begun, number, depth, first = [], 0, 0, 0  # the strokes that no line has ended; the last one; how often it is open; where it begins
+    for i, line in enumerate(lines):
+        word = line.split("#")[0].split()[:1]
+        if word == ["stroke"]:
+            if depth == 0:
+                number, first = number + 1, i
+            depth += 1
+            begun.append(number)
+        elif word == ["end"] and begun:
+            depth -= begun.pop() == number and depth > 0
+        elif word in (["undo"], ["redo"]):
+            depth = 0
+    return lines[:first] if depth else None
 
 
 def bytes_of(path):

@@ -127,11 +127,15 @@ private:
   std::string length() {
     return below(3) == 0 ? number() : std::to_string(0x1p-10 * static_cast<double>(1 + below(200)));
   }
-  std::string index() { return std::to_string(below(30) == 0 ? random_() : below(below(3) == 0 ? 12 : 5)); }
+  std::string index() {
+    if (below(20) == 0)
+      return '@' + number() + ',' + number() + ',' + number();
+    return std::to_string(below(30) == 0 ? random_() : below(below(3) == 0 ? 12 : 5));
+  }
   std::string point() { return ' ' + number() + ' ' + number() + ' ' + number(); }
 
   std::string line() {
-    switch (below(16)) {
+    switch (below(20)) {
     case 0:
       return "insert_face " + index() + ' ' + index() + ' ' + index() + point();
     case 1:
@@ -154,6 +158,12 @@ private:
       return std::string("response ") + any_of(std::array<const char*, 3>{"slide", "stop", "paper"});
     case 10:
       return below(2) ? "release" : "mesh " + std::string(64, 'b');
+    case 11:
+      return "collapse " + index() + ' ' + index();
+    case 12:
+      return "flip " + index() + ' ' + index();
+    case 13:
+      return below(2) ? "stroke" : "end";
     default:
       return "drag " + index() + point();
     }

@@ -45,6 +45,42 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_refused_and_change_nothing) {
   BOOST_TEST(grab.drag_to(before).reached);
 }
 
+// Each leg is asked for again on a copy of the mesh in which the vertex stands where the leg begins.
+BOOST_AUTO_TEST_CASE(the_last_way_is_made_of_free_legs) {
+  Random random(seed_from_environment(16));
+  std::uniform_real_distribution<double> unit(-2, 2);
+  const auto point = [&] {
+    const double x = unit(random), y = unit(random), z = unit(random);
+    return Point_3(x, y, z);
+  };
+  int with_bends = 0, still = 0;
+  for (const Response response : {Response::slide, Response::stop, Response::paper}) {
+    Mesh mesh = ball();
+    Sculptor<Mesh> sculptor(mesh, parameters::response(response));
+    for (int i = 0; i < 200; ++i) {
+      const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
+      const Point_3 start = mesh.point(v), target = i % 10 == 0 ? start : point();
+      Mesh before = mesh;
+      const auto result = sculptor.grab(v).drag_to(target);
+      const std::vector<Point_3> way = sculptor.last_way();
+      BOOST_REQUIRE_EQUAL(way.size(), static_cast<std::size_t>(result.legs) + 1);
+      BOOST_TEST((way.front() == start && way.back() == result.position));
+      for (std::size_t leg = 1; leg < way.size(); ++leg) {
+        before.point(v) = way[leg - 1];
+        BOOST_TEST(!first_impact(before, v, way[leg]).has_value());
+      }
+      with_bends += way.size() > 2;
+      still += way.size() == 1;
+      if (i % 4 == 0)
+        sculptor.undo();
+    }
+    const auto swept = sculptor.probe(Point_3(3, 3, 3), Point_3(0.1, 0.2, 0.3));
+    BOOST_TEST((sculptor.last_way().front() == Point_3(3, 3, 3) && sculptor.last_way().back() == swept.position));
+  }
+  BOOST_TEST(with_bends > 50);
+  BOOST_TEST(still >= 60);
+}
+
 BOOST_AUTO_TEST_CASE(changes_by_others_are_found) {
   {
     Mesh mesh = ball();

@@ -13,6 +13,12 @@ namespace haptic_sculpt {
 /// The pair of features that meet: what moves, on what stands still.
 enum class Impact_feature : std::uint8_t { vertex_face, edge_edge, face_vertex };
 
+/// "vertex-face", "edge-edge" or "face-vertex".
+inline const char* name_of(Impact_feature feature) {
+  constexpr const char* names[] = {"vertex-face", "edge-edge", "face-vertex"};
+  return names[static_cast<int>(feature)];
+}
+
 /// The first meeting of a moving feature with a static one.
 ///
 /// Holds the five points of the sweep, so it stays valid whatever becomes of the mesh. Does not allocate, except in

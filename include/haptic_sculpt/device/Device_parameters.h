@@ -15,6 +15,9 @@ enum class Device_form {
   general        ///< each secondary link ends in a revolute joint on a platform: a translation and two tilts
 };
 
+/// "ditetrahedral" or "general".
+inline const char* name_of(Device_form form) { return form == Device_form::general ? "general" : "ditetrahedral"; }
+
 /// What a builder of the device writes down. SI units, radians. The defaults are design D1 of the reference designs.
 /// Plain and mutable; `Device_parameters` is what the computations take, and it is checked.
 template <class S = double> struct Device_description {
@@ -185,6 +188,12 @@ enum class Named_design {
   D2, ///< R 30, l1 = l2 = 80, r 15 mm
   D3  ///< R = r = 30, l1 = l2 = 80 mm: the mirror case
 };
+
+/// "D1", "D2" or "D3".
+inline const char* name_of(Named_design design) {
+  constexpr const char* names[] = {"D1", "D2", "D3"};
+  return names[static_cast<int>(design)];
+}
 
 /// The description of a reference design in the wanted form.
 template <class S = double> Device_description<S> named_design(Named_design design, Device_form form) {

@@ -15,8 +15,8 @@ enum class Device_status {
   diverged      ///< an iteration did not settle; the shortfall is the residual it was left with
 };
 
-/// The word that names a status, as programs print it.
-inline const char* to_string(Device_status status) {
+/// The word that names a status, as programs print it, e.g. "no_real_mode".
+inline const char* name_of(Device_status status) {
   switch (status) {
   case Device_status::success: return "success";
   case Device_status::not_finite: return "not_finite";

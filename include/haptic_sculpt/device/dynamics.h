@@ -14,6 +14,9 @@ namespace haptic_sculpt {
 /// Which equations of motion.
 enum class Dynamics_model { spatial, planar };
 
+/// "spatial" or "planar".
+inline const char* name_of(Dynamics_model model) { return model == Dynamics_model::spatial ? "spatial" : "planar"; }
+
 /// M, C, gravity and energies of the chosen model. Failure, of the planar model only: `singular`.
 template <class S>
 Outcome<Dynamics_terms<S>> dynamics(const Device_parameters<S>& parameters, Dynamics_model model,

@@ -15,7 +15,7 @@ namespace haptic_sculpt {
 /// stays usable across edits; while its vertex is removed it is stale too, until undo or redo revives the vertex. Drags of
 /// a stale Grab end as Drag_end::stale and move nothing.
 template <class Sculptor>
-class [[nodiscard]] Grab {
+class Grab {
 public:
   using Mesh = typename Sculptor::Mesh_type;
   using Point = typename Mesh::Point;

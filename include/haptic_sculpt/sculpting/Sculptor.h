@@ -242,8 +242,11 @@ public:
   /// Sweeps a free point from `source` towards `target` with the response. Changes nothing. A start that is nearer than the
   /// clearance to a face, or on it, is refused: `end` is Drag_end::refused and the contact names the face.
   /// \throw Out_of_range, Mesh_changed
-  Result probe(const Point& source, const Point& target) {
+  /// \param path is written anew, as by Grab::drag_to
+  Result probe(const Point& source, const Point& target, std::vector<Point>* path = nullptr) {
     const internal::Rounding_to_nearest rounding;
+    if (path != nullptr)
+      path->assign(1, source);
     internal::check_point("the source", source);
     internal::check_point("the target", target);
     scene_.check_clearance_serves(options_);
@@ -267,7 +270,10 @@ public:
     if (s == t)
       return result;
     probe_.take_point();
-    finish(probe_.move(s, t, options_, result), t, result);
+    const internal::Coordinates end = probe_.move(s, t, options_, result);
+    if (path != nullptr)
+      probe_.write_path(options_.response_rule, s, end, *path);
+    finish(end, t, result);
     probe_.release();
     return result;
   }

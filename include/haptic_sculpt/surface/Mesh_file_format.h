@@ -10,6 +10,12 @@ namespace haptic_sculpt {
 
 enum class Mesh_file_format { off, ply, obj, stl };
 
+/// "off", "ply", "obj" or "stl": the extension without its dot.
+inline const char* name_of(Mesh_file_format format) {
+  constexpr const char* names[] = {"off", "ply", "obj", "stl"};
+  return names[static_cast<int>(format)];
+}
+
 /// The format that the extension of a path names, in upper or lower case.
 inline std::optional<Mesh_file_format> mesh_file_format(const std::filesystem::path& path) {
   std::string extension = path.extension().string();

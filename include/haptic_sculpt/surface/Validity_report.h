@@ -82,12 +82,18 @@ struct Validity_report {
            intersecting_faces.size();
   }
 
+  /// To whom `message()` says what repairs a fault.
+  enum class Reader {
+    programmer, ///< by the functions of CGAL that do
+    user        ///< of a program: by what to do, in whatever program makes meshes
+  };
+
   /// Says in plain words what is wrong, one kind a line: how many, the first `named` of them, and what repairs it.
-  std::string message(std::size_t named = 8) const {
+  std::string message(std::size_t named = 8, Reader reader = Reader::programmer) const {
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out.precision(17);
-    const auto list = [&](const auto& elements, const char* kind, const char* cure, bool has_more = false) {
+    const auto list = [&](const auto& elements, const char* kind, const char* cure, const char* by_cgal, bool has_more = false) {
       if (elements.empty())
         return;
       out << (has_more ? "at least " : "") << elements.size() << ' ' << kind << ':';
@@ -95,27 +101,33 @@ struct Validity_report {
         out << (i == 0 ? " " : ", ") << name(elements[i]);
       if (elements.size() > named)
         out << ", ...";
-      out << ". " << cure << '\n';
+      out << ". " << (reader == Reader::user ? cure : by_cgal) << '\n';
     };
     const std::string low = "face(s) with an altitude below delta = " + number(delta);
-    list(inconsistent_halfedges, "half-edge(s) with contradictory connectivity",
+    list(inconsistent_halfedges, "half-edge(s) with contradictory connectivity", "Make the mesh anew.",
          "Rebuild the mesh from its points and faces (PMP::polygon_soup_to_polygon_mesh).");
     list(non_finite_vertices, "vertex(es) with a coordinate that is infinite or not a number",
-         "Give them finite coordinates.");
-    list(non_triangular_faces, "face(s) that are not triangles", "Use PMP::triangulate_faces.");
-    list(degenerate_faces, "degenerate face(s) (corners on one line)", "Use PMP::remove_degenerate_faces.");
-    list(low_faces, low.c_str(), "Use a smaller delta, or remesh (PMP::isotropic_remeshing).");
-    list(boundary_edges, "boundary edge(s), between vertices",
+         "Give them finite coordinates.", "Give them finite coordinates.");
+    list(non_triangular_faces, "face(s) that are not triangles", "Divide them into triangles.",
+         "Use PMP::triangulate_faces.");
+    list(degenerate_faces, "degenerate face(s) (corners on one line)",
+         "Merge corners that are nearly the same, or move them apart.", "Use PMP::remove_degenerate_faces.");
+    list(low_faces, low.c_str(), "Use a smaller delta, or triangles of better shape.",
+         "Use a smaller delta, or remesh (PMP::isotropic_remeshing).");
+    list(boundary_edges, "boundary edge(s), between vertices", "Merge vertices at one point, and fill the holes.",
          "Use PMP::stitch_borders where edges coincide, else PMP::triangulate_hole.");
     list(non_manifold_edges, "edge(s) of more than two faces, between vertices",
+         "Remove the surplus faces, such as walls in the inside.",
          "Remove the surplus faces, or use PMP::orient_polygon_soup, which splits such edges.");
     list(inconsistently_oriented_edges, "edge(s) between faces of opposite orientation, between vertices",
-         "Use PMP::orient_polygon_soup.");
+         "Turn faces over until all have their corners counterclockwise from outside.", "Use PMP::orient_polygon_soup.");
     list(non_manifold_vertices, "non-manifold vertex(es), where several fans of faces meet",
+         "Give each fan a vertex of its own, and move these apart.",
          "Use PMP::duplicate_non_manifold_vertices, then move the copies apart.");
-    list(coincident_vertices, "pair(s) of vertices at one point",
+    list(coincident_vertices, "pair(s) of vertices at one point", "Merge them, or move them apart.",
          "Use PMP::merge_duplicate_points_in_polygon_soup, or move them apart.");
     list(intersecting_faces, "pair(s) of intersecting faces",
+         "Unite parts that overlap, and move faces apart where the surface crosses or touches itself.",
          "Use PMP::experimental::remove_self_intersections, or PMP::autorefine and keep the outer surface.",
          has_more_intersections);
     return out.str();
@@ -137,6 +149,11 @@ private:
     return name(pair.first) + "-" + name(pair.second);
   }
 };
+
+/// "programmer" or "user".
+inline const char* name_of(Validity_report::Reader reader) {
+  return reader == Validity_report::Reader::user ? "user" : "programmer";
+}
 
 } // namespace haptic_sculpt
 

@@ -20,6 +20,8 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace haptic_sculpt {
@@ -51,11 +53,11 @@ inline std::string bytes_of_file(const std::filesystem::path& path) {
 inline Face_soup parse(std::string_view bytes, Mesh_file_format format) {
   switch (format) {
   case Mesh_file_format::off:
-    return parse_off(bytes);
+    return parse_off(without_bom(bytes));
   case Mesh_file_format::ply:
-    return parse_ply(bytes);
+    return parse_ply(without_bom(bytes));
   case Mesh_file_format::obj:
-    return parse_obj(bytes);
+    return parse_obj(without_bom(bytes));
   case Mesh_file_format::stl:
     break;
   }
@@ -84,6 +86,11 @@ Mesh mesh_of(const Face_soup& soup) {
   }
   return mesh;
 }
+
+template <class Mesh>
+struct Is_mesh_of_doubles : std::false_type {};
+template <class Point>
+struct Is_mesh_of_doubles<CGAL::Surface_mesh<Point>> : std::is_same<typename CGAL::Kernel_traits<Point>::Kernel::FT, double> {};
 
 } // namespace internal
 
@@ -125,17 +132,24 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param path to the file; its extension tells the format
 /// \param delta the delta rule's length, >= 0
+/// \param left_out if given, receives what the file has and a mesh has not, in words, e.g. "normals"
 /// \throw Read_error if the file cannot be read as a mesh; Out_of_range if a coordinate is
 /// \throw Invalid_surface if `validate()` finds fault with it; names every offending vertex, edge and face by index (of
 /// pairs of intersecting faces the first `Validity_report::default_most_intersections`)
 /// \post `validate(mesh, delta).is_valid()`
 template <class Mesh>
-Mesh read_surface(const std::filesystem::path& path, double delta = 0) {
-  const Face_soup soup = read_face_soup(path);
+Mesh read_surface(const std::filesystem::path& path, double delta = 0, std::vector<std::string>* left_out = nullptr) {
+  static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
+                "read_surface<Mesh>: Mesh must be a CGAL::Surface_mesh whose points have double coordinates, e.g. "
+                "CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>");
+  Face_soup soup = read_face_soup(path);
+  if (left_out != nullptr)
+    *left_out = std::move(soup.left_out);
   Validity_report report = validate_soup(soup, delta);
   if (!report.is_valid())
     throw Invalid_surface(internal::quoted_path(path), std::move(report));
-  return internal::mesh_of<Mesh>(soup);
+  if constexpr (internal::Is_mesh_of_doubles<Mesh>::value) // else one message is enough
+    return internal::mesh_of<Mesh>(soup);
 }
 
 } // namespace haptic_sculpt

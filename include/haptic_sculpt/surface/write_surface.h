@@ -35,6 +35,12 @@ struct Write_options {
   std::vector<Validity_report::Vertex_index> vertex_order;
 };
 
+/// "automatic", "ascii" or "binary".
+inline const char* name_of(Write_options::Encoding encoding) {
+  constexpr const char* names[] = {"automatic", "ascii", "binary"};
+  return names[static_cast<int>(encoding)];
+}
+
 namespace internal {
 
 /// The vertices in the order asked for, closed up. \throw Write_error

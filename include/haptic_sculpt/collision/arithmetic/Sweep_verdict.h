@@ -12,6 +12,12 @@ namespace haptic_sculpt {
 /// Where on the static triangle A, B, C a vertex-face impact happens; exact.
 enum class Triangle_location : std::uint8_t { face, edge_ab, edge_bc, edge_ca, vertex_a, vertex_b, vertex_c };
 
+/// E.g. "face", "edge-ab" or "vertex-c".
+inline const char* name_of(Triangle_location location) {
+  constexpr const char* names[] = {"face", "edge-ab", "edge-bc", "edge-ca", "vertex-a", "vertex-b", "vertex-c"};
+  return names[static_cast<int>(location)];
+}
+
 namespace internal {
 
 /// The five points of a sweep: start and target of the moving vertex, then the static points in the functor's order.

@@ -84,6 +84,7 @@ public:
   /// Writes where the last move was after each leg, the start first.
   template <class Point>
   void write_path(Response response, const Coordinates& source, const Coordinates& end, std::vector<Point>& path) const {
+    path.clear();
     if (source == end)
       path.emplace_back(source[0], source[1], source[2]);
     else

@@ -20,6 +20,11 @@
 namespace haptic_sculpt {
 namespace internal {
 
+/// The text behind a byte order mark of UTF-8, which some editors put before it.
+inline std::string_view without_bom(std::string_view text) {
+  return text.substr(text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0);
+}
+
 /// Takes text apart into lines and words, and words into numbers; says in which line something is wrong.
 ///
 /// Numbers are read to the nearest double, in the C locale whatever the program has set, and have to fill their word.

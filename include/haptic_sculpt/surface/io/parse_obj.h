@@ -9,6 +9,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -16,8 +17,9 @@ namespace internal {
 /// Reads the text of a Wavefront OBJ file: its `v` and `f` lines. Texture coordinates, normals, colours, materials,
 /// groups and lines are skipped; free-form surfaces and lines continued by a backslash are refused. \throw Read_error
 inline Face_soup parse_obj(std::string_view text) {
-  constexpr std::array<std::string_view, 12> skipped{"vt", "vn", "vp", "g",      "o",      "s",
-                                                     "mg", "l",  "p",  "usemtl", "mtllib", "usemap"};
+  constexpr std::array<std::pair<std::string_view, const char*>, 12> left_out{
+      {{"vt", "texture coordinates"}, {"vn", "normals"}, {"vp", "curves"}, {"g", "groups"}, {"o", "groups"}, {"s", "groups"},
+       {"mg", "groups"}, {"l", "lines"}, {"p", "points of their own"}, {"usemtl", "materials"}, {"mtllib", "materials"}, {"usemap", "materials"}}};
   Text_scanner scan(text);
   Face_soup soup;
   std::int64_t highest = -1;
@@ -36,6 +38,8 @@ inline Face_soup parse_obj(std::string_view text) {
         scan.fail("a vertex has 3 coordinates, not " + std::to_string(n));
       if (n % 3 == 1 && x[3] != 1)
         scan.fail("vertices with a weight other than 1 are not supported; divide the coordinates by it");
+      if (n >= 6)
+        soup.leave_out("colours");
       soup.add_point(x[0], x[1], x[2]);
     } else if (keyword == "f") {
       const auto face = std::to_string(soup.number_of_faces());
@@ -54,7 +58,9 @@ inline Face_soup parse_obj(std::string_view text) {
         soup.corners.push_back(static_cast<Face_soup::Index>(v));
       }
       soup.close_face();
-    } else if (std::find(skipped.begin(), skipped.end(), keyword) != skipped.end()) {
+    } else if (const auto found = std::find_if(left_out.begin(), left_out.end(), [&](const auto& pair) { return pair.first == keyword; });
+               found != left_out.end()) {
+      soup.leave_out(found->second);
       scan.skip_rest_of_line();
     } else {
       scan.fail(in_quotes(keyword) + " is no line of an OBJ mesh");

@@ -58,6 +58,9 @@ inline Face_soup parse_off(std::string_view text) {
       throw Read_error("the file ends after " + std::to_string(i) + " of " + std::to_string(n) + " " + what);
   };
   Face_soup soup;
+  for (const auto& [letter, what] : {std::pair{'S', "texture coordinates"}, std::pair{'C', "colours"}, std::pair{'N', "normals"}})
+    if (prefix.find(letter) != std::string::npos)
+      soup.leave_out(what);
   soup.points.reserve(vertices);
   for (std::uint64_t i = 0; i < vertices; ++i) {
     next_line("vertices", i, vertices);
@@ -80,7 +83,10 @@ inline Face_soup parse_off(std::string_view text) {
       soup.corners.push_back(static_cast<Face_soup::Index>(v));
     }
     soup.close_face();
-    scan.skip_rest_of_line(); // a colour
+    if (scan.has_word()) {
+      soup.leave_out("colours");
+      scan.skip_rest_of_line();
+    }
   }
   if (scan.next_line())
     scan.fail("text follows after the last face");

@@ -155,6 +155,20 @@ private:
   Binary_scanner scan_bytes_;
 };
 
+/// What is lost with a property, in words.
+inline std::string left_out_by_ply(const std::string& property) {
+  const auto is_one_of = [&](std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), property) != names.end();
+  };
+  if (is_one_of({"nx", "ny", "nz"}))
+    return "normals";
+  if (is_one_of({"red", "green", "blue", "alpha", "diffuse_red", "diffuse_green", "diffuse_blue"}))
+    return "colours";
+  if (is_one_of({"s", "t", "u", "v", "texture_u", "texture_v", "texcoord", "texnumber"}))
+    return "texture coordinates";
+  return "the property " + in_quotes(property);
+}
+
 /// Reads a PLY file, ASCII or binary: x, y, z of the element `vertex`, and the list `vertex_indices` (or
 /// `vertex_index`) of the element `face`. Everything else is skipped. \throw Read_error
 inline Face_soup parse_ply(std::string_view bytes) {
@@ -191,6 +205,11 @@ inline Face_soup parse_ply(std::string_view bytes) {
       throw Read_error("the vertices lack one of the properties x, y and z");
     if (is_face && !indices)
       throw Read_error("the faces lack the list of integers 'vertex_indices'");
+    for (std::size_t i = 0; (is_vertex || is_face) && i < element.properties.size(); ++i)
+      if (!(is_vertex && (coordinate[0] == i || coordinate[1] == i || coordinate[2] == i)) && !(is_face && indices == i))
+        soup.leave_out(left_out_by_ply(element.properties[i].name));
+    if (!is_vertex && !is_face && element.count > 0)
+      soup.leave_out("the element " + in_quotes(element.name));
     has_vertices |= is_vertex;
     has_faces |= is_face;
     if (is_vertex)

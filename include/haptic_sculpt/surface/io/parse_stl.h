@@ -117,8 +117,9 @@ inline Face_soup parse_binary_stl(std::string_view bytes, std::uint32_t faces) {
 /// A file is binary iff its size is that which a binary file with its count has. \throw Read_error
 inline Face_soup parse_stl(std::string_view bytes) {
   constexpr std::size_t header = 84, facet = 50;
-  const std::size_t start = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-  const bool looks_like_text = in_lower_case(bytes.substr(start, 5)) == "solid";
+  const std::string_view text = without_bom(bytes);
+  const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const bool looks_like_text = in_lower_case(text.substr(start, 5)) == "solid";
   if (bytes.size() >= header) {
     const auto faces = Binary_scanner(bytes.substr(80), false).take<std::uint32_t>();
     const std::uint64_t size = header + std::uint64_t(facet) * faces;
@@ -130,7 +131,7 @@ inline Face_soup parse_stl(std::string_view bytes) {
   } else if (!looks_like_text) {
     throw Read_error("the file is neither text that begins with 'solid' nor long enough for a binary STL file");
   }
-  return parse_ascii_stl(bytes);
+  return parse_ascii_stl(text);
 }
 
 } // namespace internal

@@ -5,9 +5,11 @@
 #include <haptic_sculpt/surface/cgal_compatibility.h>
 
 #include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace haptic_sculpt {
@@ -23,6 +25,8 @@ struct Face_soup {
   std::vector<Point_3> points;
   std::vector<Index> corners;
   std::vector<Index> first_corner{0};
+  /// What the file has besides, e.g. "normals"; each once.
+  std::vector<std::string> left_out;
 
   std::size_t number_of_faces() const { return first_corner.size() - 1; }
   std::size_t number_of_corners(std::size_t face) const { return first_corner[face + 1] - first_corner[face]; }
@@ -31,6 +35,11 @@ struct Face_soup {
 
   /// Appends a point. Every coordinate of a file comes through here.
   void add_point(double x, double y, double z) { points.emplace_back(x, y, z); }
+
+  void leave_out(const std::string& what) {
+    if (std::find(left_out.begin(), left_out.end(), what) == left_out.end())
+      left_out.push_back(what);
+  }
 
   /// Ends the face whose corners were appended to `corners`.
   void close_face() { first_corner.push_back(static_cast<Index>(corners.size())); }

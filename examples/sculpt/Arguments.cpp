@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Arguments.h"
+
+#include <haptic_sculpt/version.h>
+
+#include <CLI/CLI.hpp>
+
+namespace haptic_sculpt::sculpt_program {
+
+std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) {
+  CLI::App app("Sculpts a closed triangle mesh from a script; no surface ever passes through a surface.\n"
+               "Exit: 0 done (blocked drags and refused edits are done), 1 out of memory, 2 usage, 3 mesh refused, 4 "
+               "script error, "
+               "5 cannot write, 6 script or log of another mesh, or no log.\n"
+               "Script, one edit a line; # comments; numbers decimal or hexadecimal; a vertex by its number, or the "
+               "nearest to a point by @X,Y,Z:\n"
+               "  drag V X Y Z | release | probe X Y Z X2 Y2 Z2\n"
+               "  insert_face A B C X Y Z | insert_edge A B X Y Z | remove V | collapse A B | flip A B\n"
+               "  undo | redo | stroke ... end (what is between is one step of undo)\n"
+               "  response slide|stop|paper | clearance L|default | delta L | mesh SHA256");
+  const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
+  app.set_version_flag("--version", std::string("sculpt of haptic_sculpt ") + HAPTIC_SCULPT_VERSION);
+  app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->required()->check(named);
+  app.add_option("--script", arguments.script, "The edits; - reads them from standard input")->check(named);
+  app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes: .off .ply .obj .stl")->check(named);
+  app.add_option("--report", arguments.report, "Where the JSON report goes")->check(named);
+  app.add_option("--log", arguments.log,
+                 "Edit log: replayed if it exists, then appended to. The same command goes on where it stopped")
+      ->check(named);
+  app.add_flag("--append", arguments.append,
+               "With a log that has the whole script already: makes the same edits once more")
+      ->needs("--log")
+      ->needs("--script");
+  app.add_option("--response", arguments.response, "What a blocked vertex does: slide (the default), stop or paper")
+      ->check(CLI::IsMember({"slide", "stop", "paper"}));
+  app.add_option("--broad-phase", arguments.broad_phase, "How candidates are found; the results are the same")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"tree", "six-lists", "brute"}));
+  app.add_option("--clearance", arguments.clearance,
+                 "Distance kept from what blocks, > 0; by default 4 ulp of the largest coordinate of what touches");
+  app.add_option("--delta", arguments.delta, "No triangle altitude may be less, >= 0; by default 0");
+  app.add_option("--picture", arguments.picture, "Where a picture goes: .png")->check(named);
+  app.add_flag("--picture-numbers", arguments.numbers, "In the picture: the numbers of vertices, where there is room")
+      ->needs("--picture");
+  app.add_option("--nearest", arguments.nearest,
+                 "Prints the vertices nearest to the point X Y Z, with their numbers, after the edits")
+      ->type_name("X Y Z");
+  app.add_flag("--triangulate", arguments.triangulate, "Divides faces with more than three corners into triangles");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0;
+  }
+  if (arguments.script == "-")
+    arguments.script = "/dev/stdin";
+  return std::nullopt;
+}
+
+} // namespace haptic_sculpt::sculpt_program
