@@ -90,6 +90,15 @@ public:
     return Grab_type(*this, editor_.names().name(v));
   }
 
+  /// Whether vertices are dragged once each, as a rule: then each drag looks up what is near for itself alone, with no room for
+  /// further drags, and only the points of the star are compared with where they were left. Off at first. No result depends on it.
+  void expect_single_drags(bool on) {
+    release();
+    guard_.expect_one_motion(on);
+    expects_single_drags_ = on;
+  }
+  bool expects_single_drags() const { return expects_single_drags_; }
+
   /// Lets go of the vertex in hand, if any.
   void release() {
     if (held_.is_valid() && moved_)
@@ -97,6 +106,24 @@ public:
     held_ = Vertex_index();
     moved_ = false;
     responses_.forget();
+  }
+
+  /// Moves v straight to `target` if nothing is touched on the way and the delta rule is kept; else it stays where it is. For
+  /// callers that would rather try a shorter way than have the vertex stopped in front of what is in the way. A step of the history.
+  /// \return whether it is at the target. \throw Unknown_vertex, Out_of_range, Mesh_changed. Cost: that of a drag.
+  bool move_if_free(Vertex_index v, const Point& target) {
+    const internal::Rounding_to_nearest rounding;
+    internal::check_point("the target", target);
+    internal::check_vertex(*mesh_, v);
+    hold(v);
+    const internal::Coordinates s = vertex_coordinates(*mesh_, v), t = internal::coordinates(target);
+    if (s == t)
+      return true;
+    const bool is_free = guard_.is_free(s, t, options_.delta_length);
+    check_candidates();
+    if (is_free)
+      put(v, s, t);
+    return is_free;
   }
 
   /// \name Edits
@@ -284,6 +311,7 @@ private:
   Guarded_star<Mesh_type, Broad_phase> guard_, probe_guard_;
   Responses<Mesh_type> responses_;
   Vertex_index held_; ///< whose star guard_ has; invalid when none
+  bool expects_single_drags_ = false;
   bool moved_ = false; ///< the broad phase has not been told yet where the held star is
   double largest_coordinate_ = 0; ///< bounds those of all vertices
   double largest_ever_ = 0;       ///< the same, those they have had included
@@ -374,8 +402,10 @@ private:
     internal::prefetch(&mesh_->point(v), sizeof(Point)); // there is other work until it comes
     watch_.prefetch(v);
     release();
-    editor_.prepare_for_moves();
-    watch_.check_some();
+    if (!expects_single_drags_) {
+      editor_.prepare_for_moves();
+      watch_.check_some();
+    }
     guard_.collect(v);
     watch_.check(v);
     for (const Vertex_index neighbour : guard_.star().link)
@@ -401,24 +431,34 @@ private:
         s == t ? t
                : responses_.move(options_.response_rule, guard_, *mesh_, s, t,
                                  {Clearance_rule(options_.clearance_length), options_.delta_length}, result);
+    check_candidates();
+    if (end != s) {
+      // Whatever the response has proposed: each leg has been proven by the sweeps, which take no end that is not in range.
+      if (!internal::is_in_range(end))
+        throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");
+      put(v, s, end);
+    }
+    finish(end, t, result);
+    return result;
+  }
+
+  /// The held vertex v, at s, has been proven to come to `end`.
+  void put(Vertex_index v, const internal::Coordinates& s, const internal::Coordinates& end) {
+    mesh_->point(v) = Point(end[0], end[1], end[2]);
+    watch_.remember(v);
+    grow_to(internal::largest_magnitude(end));
+    moved_ = true;
+    editor_.note_move(v, s, end);
+  }
+
+  /// \throw Mesh_changed
+  void check_candidates() {
     try {
       watch_candidates();
     } catch (const Mesh_changed&) {
       release(); // what was looked up is not to be used when the change has been undone
       throw;
     }
-    if (end != s) {
-      // Whatever the response has proposed: each leg has been proven by the sweeps, which take no end that is not in range.
-      if (!internal::is_in_range(end))
-        throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");
-      mesh_->point(v) = Point(end[0], end[1], end[2]);
-      watch_.remember(v);
-      grow_to(internal::largest_magnitude(end));
-      moved_ = true;
-      editor_.note_move(v, s, end);
-    }
-    finish(end, t, result);
-    return result;
   }
 
   /// Runs an edit between looking for changes by others and noting what it changed.
@@ -436,6 +476,8 @@ private:
 
   /// All candidates where they have just been looked up, else some of them in turn. \throw Mesh_changed
   void watch_candidates() {
+    if (expects_single_drags_) // whatever is near is the vertex or a neighbour at another drag
+      return;
     const auto& candidates = guard_.checklist().vertices();
     if (watched_look_ != guard_.looks()) {
       watched_look_ = guard_.looks();

@@ -53,6 +53,10 @@ public:
     invalidate();
   }
 
+  /// Whether a star is taken to make one motion only: then its candidates are looked up for that one, with no room for others.
+  /// No decision depends on it.
+  void expect_one_motion(bool on) { is_for_one_motion_ = on; }
+
   /// Makes room for a star and candidates of usual size.
   void reserve(std::size_t valence, std::size_t faces) {
     star_.reserve(valence);
@@ -179,6 +183,7 @@ private:
   Star_impacts<Mesh> firsts_;
   std::vector<Limit> limits_;
   bool is_out_of_range_ = false; ///< of the motion last decided
+  bool is_for_one_motion_ = false;
 
   /// How much larger than the motion, in extents of the link, the region of a checklist is: of the first, which has to be filled from
   /// memory not seen lately, and of those that follow in one grab.
@@ -200,7 +205,7 @@ private:
   bool has_pairs(const Coordinates& source, const Coordinates& target) {
     if (pairs_.cover(source, target))
       return true;
-    if (star_.valence() == 0 || is_long(source, target))
+    if (is_for_one_motion_ || star_.valence() == 0 || is_long(source, target))
       return false;
     const bool is_due = ++waited_ > patience_;
     const std::size_t looks = looks_;
@@ -256,7 +261,12 @@ private:
   void look_along(const Coordinates& source, const Coordinates& target, const Is_enough& is_enough) {
     Swept_star_3 part = star_.swept(source, target);
     if (!is_long(source, target)) {
-      look_around(source, target);
+      if (is_for_one_motion_ && star_.valence() != 0) {
+        look_at(part);
+        take_candidates();
+      } else {
+        look_around(source, target);
+      }
       is_enough(part);
       return;
     }
