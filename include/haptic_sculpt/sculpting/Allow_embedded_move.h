@@ -29,7 +29,8 @@ public:
   }
 
   /// A target that is not finite or out of range is refused, too. \throw Mesh_changed
-  bool operator()(Vertex_index v, const Point& source, const Point& target) const {
+  /// By value: CGAL passes a reference to the point in the mesh, which is put back here.
+  bool operator()(Vertex_index v, Point source, Point target) const {
     mesh_->point(v) = source;
     const bool is_free = internal::is_in_range(internal::coordinates(target)) && sculptor_->move_if_free(v, target);
     *refused_ += !is_free;

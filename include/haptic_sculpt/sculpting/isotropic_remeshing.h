@@ -56,6 +56,10 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
   options.do_flip = choose_parameter(get_parameter(np, names::do_flip), true);
 
   const std::vector<typename Mesh::Face_index> range(faces.begin(), faces.end());
+  for (const typename Mesh::Face_index f : range)
+    if (!f.is_valid() || static_cast<std::size_t>(f) >= sculptor.mesh().num_faces() || sculptor.mesh().is_removed(f))
+      throw Invalid_parameter("face " + std::to_string(static_cast<std::size_t>(f)) +
+                              " is not in the mesh, or was removed: give faces of mesh.faces()");
   if (range.empty())
     return {};
   const auto edge_map = choose_parameter(get_parameter(np, names::edge_is_constrained), No_edges());

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_REMESHER_H
 
 #include <haptic_sculpt/sculpting/Remeshing_report.h>
+#include <haptic_sculpt/sculpting/many_vertices/Edge_queue.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_marks.h>
 #include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/sculpting/many_vertices/projections.h>
@@ -10,7 +11,7 @@
 #include <haptic_sculpt/sculpting/motion/stop.h>
 
 #include <cstdlib>
-#include <queue>
+#include <unordered_set>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -82,25 +83,13 @@ private:
   std::size_t operations_ = 0;
   Star<Mesh> star_;
   std::vector<int> valence_;
+  std::unordered_set<Edge_index> unsplit_; ///< splits of this iteration that were refused
 
-  struct Entry {
-    double length; ///< squared, as it was when the entry was made
-    Edge_index edge;
-  };
-  struct Shorter {
-    bool operator()(const Entry& a, const Entry& b) const { return a.length < b.length; }
-  };
-  struct Longer {
-    bool operator()(const Entry& a, const Entry& b) const { return a.length > b.length; }
-  };
+  using Entry = typename Edge_queue<Mesh>::Entry;
 
   static double square(double x) { return x * x; }
   Coordinates place(Vertex_index v) const { return vertex_coordinates(mesh_, v); }
-  double length(Edge_index e) const { return squared_length(place(mesh_.vertex(e, 0)), place(mesh_.vertex(e, 1))); }
-  /// Its slot may have been used again by another edge since.
-  bool is_current(const Entry& entry) const {
-    return !mesh_.is_removed(entry.edge) && length(entry.edge) == entry.length;
-  }
+  double length(Edge_index e) const { return squared_length(mesh_, e); }
 
   template <class Work>
   bool in(Remeshing_progress::Phase phase, const Work& work) {
@@ -125,25 +114,26 @@ private:
 
   /// The longest first.
   void split_long_edges() {
-    std::priority_queue<Entry, std::vector<Entry>, Shorter> queue;
+    unsplit_.clear();
+    Edge_queue<Mesh> queue(mesh_, true);
     const auto offer = [&](Edge_index e) {
       if (const double l = length(e); l > high_ && may_split(e))
-        queue.push({l, e});
+        queue.push(e, l);
     };
     for (const Edge_index e : mesh_.edges())
       offer(e);
-    while (!queue.empty()) {
-      const Entry entry = queue.top();
-      queue.pop();
-      if (!is_current(entry))
+    for (Entry entry = queue.pop(); entry.edge.is_valid(); entry = queue.pop()) {
+      if (is_beside_longer_that_stays(entry))
         continue;
       if (!goes_on())
         return;
       const Vertex_index a = mesh_.vertex(entry.edge, 0), b = mesh_.vertex(entry.edge, 1);
       const bool was_constrained = marks_.is_constrained(entry.edge);
       const auto edit = sculptor_.insert_on_edge(entry.edge, CGAL::midpoint(mesh_.point(a), mesh_.point(b)));
-      if (!counted(static_cast<bool>(edit), report_.splits))
+      if (!counted(static_cast<bool>(edit), report_.splits)) {
+        unsplit_.insert(entry.edge);
         continue;
+      }
       const Vertex_index v = *edit.vertex;
       marks_.split(v, a, b, was_constrained);
       project_.created(v, a);
@@ -153,23 +143,28 @@ private:
   }
 
   bool may_split(Edge_index e) const {
-    return marks_.is_inside(e) && !(options_.protect_constraints && marks_.is_constrained(e));
+    return marks_.is_inside(e) && !(options_.protect_constraints && marks_.is_constrained(e)) && unsplit_.count(e) == 0;
+  }
+
+  /// Whether a longer edge of one of its faces may not be split: then splits beside it would go on for ever.
+  bool is_beside_longer_that_stays(const Entry& entry) const {
+    for (const Halfedge_index h : {mesh_.halfedge(entry.edge), mesh_.opposite(mesh_.halfedge(entry.edge))})
+      for (const Halfedge_index g : {mesh_.next(h), mesh_.prev(h)})
+        if (length(mesh_.edge(g)) > entry.length && !may_split(mesh_.edge(g)))
+          return true;
+    return false;
   }
 
   /// The shortest first.
   void collapse_short_edges() {
-    std::priority_queue<Entry, std::vector<Entry>, Longer> queue;
+    Edge_queue<Mesh> queue(mesh_, false);
     const auto offer = [&](Edge_index e) {
       if (const double l = length(e); l < low_ && marks_.is_inside(e))
-        queue.push({l, e});
+        queue.push(e, l);
     };
     for (const Edge_index e : mesh_.edges())
       offer(e);
-    while (!queue.empty()) {
-      const Entry entry = queue.top();
-      queue.pop();
-      if (!is_current(entry))
-        continue;
+    for (Entry entry = queue.pop(); entry.edge.is_valid(); entry = queue.pop()) {
       if (!goes_on())
         return;
       // The direction that leaves the better triangles first.
@@ -226,6 +221,10 @@ private:
     for (const Halfedge_index g : mesh_.halfedges_around_target(mesh_.halfedge(star_.centre)))
       if (marks_.is_constrained(mesh_.edge(g)) && mesh_.source(g) != target)
         line_end = mesh_.source(g);
+    if (line_end.is_valid())
+      if (const Halfedge_index g = mesh_.halfedge(line_end, target);
+          g.is_valid() && marks_.is_constrained(mesh_.edge(g)))
+        return {}; // two lines would become one
     const std::size_t pivot = position_in_link(target), n = star_.valence();
     if (!counted(static_cast<bool>(sculptor_.collapse(h)), report_.collapses))
       return {};
@@ -279,18 +278,7 @@ private:
               after = excess(va, -1) + excess(vb, -1) + excess(vc, 1) + excess(vd, 1);
     if (valence(va) <= 3 || valence(vb) <= 3)
       return false;
-    const Coordinates a = place(va), b = place(vb), c = place(vc), d = place(vd);
-    const double least_before = smaller(least_angle_measure(a, b, c), least_angle_measure(b, a, d));
-    const bool was_sliver = least_before < least_wanted_angle;
-    if (after >= before && !was_sliver)
-      return false;
-    const double least_after = smaller(least_angle_measure(a, d, c), least_angle_measure(d, b, c));
-    if (was_sliver ? least_after <= least_before : least_after < least_wanted_angle)
-      return false;
-    const Vector old_1 = area_normal(a, b, c), old_2 = area_normal(b, a, d), new_1 = area_normal(a, d, c),
-                 new_2 = area_normal(d, b, c);
-    const Vector mean = plus(old_1, old_2);
-    return point_alike(new_1, new_2) && point_alike(mean, new_1) && point_alike(mean, new_2);
+    return shape_permits_flip(place(va), place(vb), place(vc), place(vd), after < before);
   }
 
   /// All targets from the places at the begin of a step; projected in the last step, so that relaxation and projection
@@ -301,8 +289,8 @@ private:
       targets.clear();
       for (const Vertex_index v : mesh_.vertices())
         if (marks_.is_free(v)) {
-          const Coordinates relaxed = step <= options_.relaxation_steps ? relaxed_place(v) : place(v);
-          targets.emplace_back(v, step >= options_.relaxation_steps ? project_(v, relaxed) : relaxed);
+          const Coordinates p = step <= options_.relaxation_steps ? relaxed(v) : place(v);
+          targets.emplace_back(v, step >= options_.relaxation_steps ? project_(v, p) : p);
         }
       move_all(targets);
     }
@@ -315,6 +303,11 @@ private:
     }
   }
 
+  Coordinates relaxed(Vertex_index v) {
+    star_.collect(mesh_, v);
+    return relaxed_place(star_, place(v));
+  }
+
   void move_all(const std::vector<std::pair<Vertex_index, Coordinates>>& targets) {
     for (const auto& [v, target] : targets)
       if (target != place(v)) {
@@ -322,20 +315,6 @@ private:
           return;
         counted(move(v, target), report_.moves);
       }
-  }
-
-  /// The mean of the neighbours, put back into the tangent plane.
-  Coordinates relaxed_place(Vertex_index v) {
-    star_.collect(mesh_, v);
-    const Coordinates p = place(v);
-    Vector mean{}, normal{};
-    for (std::size_t i = 0; i < star_.valence(); ++i) {
-      mean = plus(mean, minus(star_.link_points[i], p));
-      normal = plus(normal, area_normal(p, star_.link_points[star_.next(i)], star_.link_points[i]));
-    }
-    mean = scaled(mean, 1.0 / static_cast<double>(star_.valence()));
-    const double square = quick_dot(normal, normal);
-    return plus(p, square > 0 ? quick_sum(mean, -quick_dot(mean, normal) / square, normal) : mean);
   }
 
   /// As far of the way, of four shares, as the shape allows and is free.

@@ -141,13 +141,13 @@ private:
     for (std::size_t i = 0; i < behind.size(); ++i) {
       const Position k = behind[i];
       behind_ = behind.size() - i + kept;
+      const Coordinates from = place(k), to = waypoint(k, share);
+      if (from == to)
+        continue;
       if (!may_drag()) {
         behind[kept++] = k;
         continue;
       }
-      const Coordinates from = place(k), to = waypoint(k, share);
-      if (from == to)
-        continue;
       const bool reached = drag(k, to);
       if (logs && place(k) != from)
         log_.push_back({k, from});

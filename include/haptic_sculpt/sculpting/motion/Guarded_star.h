@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/contact/clearance.h>
+#include <haptic_sculpt/sculpting/culling/Convex_star.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/motion/Narrow_phase.h>
 #include <haptic_sculpt/sculpting/motion/delta_limit.h>
@@ -83,13 +84,8 @@ public:
     is_out_of_range_ = !internal::is_in_range(target);
     if (is_out_of_range_)
       return;
-    if (has_pairs(source, target))
-      narrow_phase_.first_impacts(star_, list_, pairs_, source, target, firsts_);
-    else
-      look_along(source, target, [&](const Swept_star_3& part) {
-        narrow_phase_.first_impacts_near(star_, list_, source, target, part.path(), firsts_);
-        return part.until < 1 && !firsts_.empty() && firsts_[0].impact().time().second <= part.until;
-      });
+    if (!is_certainly_free(source, target))
+      find_impacts(source, target);
     find_delta_limits(source, target, delta);
     if (limits_.empty() || firsts_.empty())
       return;
@@ -108,7 +104,9 @@ public:
   bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
     if (!internal::is_in_range(target))
       return false;
-    bool free = true;
+    bool free = is_certainly_free(source, target);
+    if (free)
+      return keeps_delta(source, target, delta);
     if (has_pairs(source, target))
       free = narrow_phase_.is_free(star_, list_, pairs_, source, target);
     else
@@ -183,7 +181,8 @@ private:
   Star_impacts<Mesh> firsts_;
   std::vector<Limit> limits_;
   bool is_out_of_range_ = false; ///< of the motion last decided
-  bool is_for_one_motion_ = false;
+  bool is_for_one_motion_ = false, has_looked_ = false; ///< has_looked_: the candidates are those of the motion at hand
+  internal::Convex_star<Mesh> convex_star_;
 
   /// How much larger than the motion, in extents of the link, the region of a checklist is: of the first, which has to be filled from
   /// memory not seen lately, and of those that follow in one grab.
@@ -200,6 +199,30 @@ private:
   /// wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many are soon stopped.
   static constexpr std::size_t few_faces = 192;
   static constexpr double least_part = 0x1p-10;
+
+  void find_impacts(const Coordinates& source, const Coordinates& target) {
+    if (has_pairs(source, target))
+      narrow_phase_.first_impacts(star_, list_, pairs_, source, target, firsts_);
+    else
+      look_along(source, target, [&](const Swept_star_3& part) {
+        narrow_phase_.first_impacts_near(star_, list_, source, target, part.path(), firsts_);
+        return part.until < 1 && !firsts_.empty() && firsts_[0].impact().time().second <= part.until;
+      });
+  }
+
+  /// A proof that costs less than the sweeps, where only one motion is to be decided. If there is none it leaves the candidates.
+  bool is_certainly_free(const Coordinates& source, const Coordinates& target) {
+    has_looked_ = false;
+    if (!is_for_one_motion_ || star_.valence() == 0 || is_long(source, target) || !convex_star_.assign(star_, source, target))
+      return false;
+    look_at(star_.swept(source, target));
+    has_looked_ = true;
+    const auto is_apart = [&](typename Mesh::Face_index f) {
+      const auto& corners = (*corners_of_)(f);
+      return std::find(corners.begin(), corners.end(), star_.centre) != corners.end() || convex_star_.is_apart(*mesh_, corners);
+    };
+    return std::all_of(candidates_.begin(), candidates_.end(), is_apart);
+  }
 
   /// Whether pairs cover the motion; takes them where it is worth while.
   bool has_pairs(const Coordinates& source, const Coordinates& target) {
@@ -262,7 +285,8 @@ private:
     Swept_star_3 part = star_.swept(source, target);
     if (!is_long(source, target)) {
       if (is_for_one_motion_ && star_.valence() != 0) {
-        look_at(part);
+        if (!has_looked_)
+          look_at(part);
         take_candidates();
       } else {
         look_around(source, target);
