@@ -2,17 +2,10 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 #define HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 
-#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
-#include <haptic_sculpt/sculpting/contact/Scene_bound.h>
-#include <haptic_sculpt/sculpting/edits/Editor.h>
-#include <haptic_sculpt/sculpting/finding/Surface_finder.h>
-#include <haptic_sculpt/sculpting/finding/find_face_within.h>
-#include <haptic_sculpt/sculpting/first_impact.h>
-#include <haptic_sculpt/sculpting/motion/Hand.h>
+#include <haptic_sculpt/sculpting/motion/Guarded_mesh.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/reserve_faces.h>
 
 #include <CGAL/Surface_mesh.h>
 
@@ -55,34 +48,45 @@ public:
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
   /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
-    : mesh_(&mesh), watch_(mesh), options_(options), broad_phase_(internal::checked_scene(mesh, options)), corners_(mesh),
-      isolated_(mesh), editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, options.probes_are_recorded, std::move(visitor)),
-      hand_(mesh, broad_phase_, corners_, isolated_, counters_, watch_), probe_(mesh, broad_phase_, corners_, isolated_, counters_, watch_),
-      finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh) {}
+    : guarded_(mesh, options, std::move(visitor)) {}
   ~Sculptor() { set_hand(nullptr); }
 
   Sculptor(const Sculptor&) = delete;
   Sculptor& operator=(const Sculptor&) = delete;
 
-  const Mesh_type& mesh() const { return *mesh_; }
-  const Sculptor_parameters& options() const { return options_; }
+  const Mesh_type& mesh() const { return guarded_.mesh(); }
+  const Sculptor_parameters& options() const { return guarded_.parameters; }
 
   /// The Sculptor's own copy.
-  Visitor& visitor() { return editor_.visitor(); }
+  Visitor& visitor() { return guarded_.editor().visitor(); }
 
   /// How many signs the floating-point filter could not decide so far.
-  const Filter_counters& filter_counters() const { return counters_; }
+  const Filter_counters& filter_counters() const { return guarded_.counters(); }
 
   /// Takes a vertex in hand. \throw Unknown_vertex, Mesh_changed
   Grab_type grab(Vertex_index v) {
-    internal::check_vertex(*mesh_, v);
     release();
-    hold(v);
+    guarded_.hold(v);
     return Grab_type(*this, name(v));
   }
 
+  /// Whether vertices are dragged once each, as a rule: then each drag looks up what is near for itself alone, with no room for
+  /// further drags, and only the points of the star are compared with where they were left. Off at first. No result depends on it.
+  void expect_single_drags(bool on) { guarded_.expect_single_drags(on); }
+  bool expects_single_drags() const { return guarded_.expects_single_drags(); }
+
+  /// Moves v straight to `target` if nothing is touched on the way and the delta rule is kept; else it stays where it is. For
+  /// callers that would rather try a shorter way than have the vertex stopped in front of what is in the way. A step of the history.
+  /// Returns whether it is at the target. \throw Unknown_vertex, Out_of_range, Mesh_changed. Cost: that of a drag.
+  bool move_if_free(Vertex_index v, const Point& target) { return guarded_.move_if_free(v, target); }
+
+  /// What v would touch first on its straight way to `target`, as the free function first_impact() tells, at the cost of a drag.
+  /// Moves nothing; takes v in hand, and contacts that were carried along are forgotten if that is another vertex.
+  /// \throw Unknown_vertex, Out_of_range, Mesh_changed
+  std::optional<Star_impact<Mesh_type>> first_impact(Vertex_index v, const Point& target) { return guarded_.first_impact(v, target); }
+
   /// Lets go of the vertex in hand, if any.
-  void release() { hand_.release(); }
+  void release() { guarded_.release(); }
 
   /// \name Finding
   /// Exact (doc/finding.md). Isolated vertices are no part of the surface and are not found. Changes nothing, and does not end
@@ -92,32 +96,12 @@ public:
   /// The vertex of the surface nearest to p, of those at most `within` from it; the null index where there is none. Of several at
   /// the same distance that of the smallest index. \param within >= 0; may be infinite
   /// \throw Out_of_range, Invalid_parameter, Mesh_changed
-  Vertex_index nearest_vertex(const Point& p, double within) {
-    const internal::Rounding_to_nearest rounding;
-    internal::check_point("the point", p);
-    if (!(within >= 0))
-      throw Invalid_parameter("the distance within which a vertex is sought must be >= 0, not " + internal::number(within));
-    prepare_to_find();
-    const Vertex_index v = finder_.nearest_vertex(internal::coordinates(p), within);
-    if (v.is_valid())
-      watch_.check(v);
-    return v;
-  }
+  Vertex_index nearest_vertex(const Point& p, double within) { return guarded_.nearest_vertex(p, within); }
 
   /// What of the surface the closed segment from `source` to `target` meets first: a vertex, or the inside of an edge or of a face.
   /// A segment in the plane of a face meets it where it enters it or begins, and one that is a point meets what it lies on.
   /// \throw Out_of_range, Mesh_changed
-  std::optional<Surface_hit<Mesh_type>> first_hit(const Point& source, const Point& target) {
-    const internal::Rounding_to_nearest rounding;
-    internal::check_point("the source", source);
-    internal::check_point("the target", target);
-    prepare_to_find();
-    const auto hit = finder_.first_hit(internal::coordinates(source), internal::coordinates(target));
-    if (hit)
-      for (const Vertex_index v : corners_(hit->face))
-        watch_.check(v);
-    return hit;
-  }
+  std::optional<Surface_hit<Mesh_type>> first_hit(const Point& source, const Point& target) { return guarded_.first_hit(source, target); }
   ///@}
 
   /// \name Edits
@@ -131,111 +115,92 @@ public:
   /// \post f has died; its edges and corners have not. \throw Out_of_range
   Edited insert_on_face(Face_index f, const Point& p) {
     internal::check_point("the new vertex", p);
-    if (!f.is_valid() || static_cast<std::size_t>(f) >= mesh_->num_faces() || mesh_->is_removed(f))
+    if (!f.is_valid() || static_cast<std::size_t>(f) >= mesh().num_faces() || mesh().is_removed(f))
       return Edited::refused(Refusal_reason::unknown_element);
-    return edited([&] { return editor_.insert_on_face(f, internal::coordinates(p), options_.delta_length); });
+    return guarded_.edited([&] { return guarded_.editor().insert_on_face(f, internal::coordinates(p), delta()); });
   }
 
   /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of two.
   /// \post e and its two faces have died, no vertex has. \throw Out_of_range
   Edited insert_on_edge(Edge_index e, const Point& p) {
     internal::check_point("the new vertex", p);
-    if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh_->num_edges() || mesh_->is_removed(e))
+    if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh().num_edges() || mesh().is_removed(e))
       return Edited::refused(Refusal_reason::unknown_element);
-    return edited([&] { return editor_.insert_on_edge(mesh_->halfedge(e), internal::coordinates(p), options_.delta_length); });
+    return guarded_.edited([&] { return guarded_.editor().insert_on_edge(mesh().halfedge(e), internal::coordinates(p), delta()); });
   }
 
   /// Draws v into one of its neighbours and lets the edge between them collapse. The neighbours are tried in the order of the
   /// triangles they leave, best first (doc/edits.md).
   /// \post v has died, and so have the edges and faces of its star; its neighbours have not.
   Edited remove(Vertex_index v) {
-    if (!v.is_valid() || static_cast<std::size_t>(v) >= mesh_->num_vertices() || mesh_->is_removed(v))
+    if (!v.is_valid() || static_cast<std::size_t>(v) >= mesh().num_vertices() || mesh().is_removed(v))
       return Edited::refused(Refusal_reason::unknown_element);
-    return edited([&] { return editor_.remove(v, options_.delta_length); });
+    return guarded_.edited([&] { return guarded_.editor().remove(v, delta()); });
   }
 
   /// Draws the source of h into its target and lets the edge between them collapse.
   /// \post The source has died, and so have the edges and faces of its star; its neighbours have not.
   Edited collapse(Halfedge_index h) {
-    if (!h.is_valid() || static_cast<std::size_t>(h) >= mesh_->num_halfedges() || mesh_->is_removed(h))
+    if (!h.is_valid() || static_cast<std::size_t>(h) >= mesh().num_halfedges() || mesh().is_removed(h))
       return Edited::refused(Refusal_reason::unknown_element);
-    return edited([&] { return editor_.collapse(h, options_.delta_length); });
+    return guarded_.edited([&] { return guarded_.editor().collapse(h, delta()); });
   }
 
   /// Joins the two corners opposite to e by an edge in its place. Exactly those flips are refused after which the mesh is not
   /// embedded, or breaks the delta rule, or for which anything is in the closed tetrahedron of the four corners.
   /// \post e and its two faces have died, and the new ones have their descriptors; no vertex has.
   Edited flip(Edge_index e) {
-    if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh_->num_edges() || mesh_->is_removed(e))
+    if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh().num_edges() || mesh().is_removed(e))
       return Edited::refused(Refusal_reason::unknown_element);
-    return edited([&] { return editor_.flip(mesh_->halfedge(e), options_.delta_length); });
+    return guarded_.edited([&] { return guarded_.editor().flip(mesh().halfedge(e), delta()); });
   }
 
   /// Puts a probe, a vertex without faces, to `p`, whatever is on the way: refused where that is on a face, nearer to it than the
   /// clearance, or inside of a solid, in a cavity of it not. Decided exactly. To be undone like a drag. \post Nothing has died.
   /// \throw Out_of_range, Invalid_parameter. Cost: log n and the faces whose boxes a ray meets.
   Edited place(Vertex_index probe, const Point& p) {
-    internal::check_point("the place", p);
-    if (!probe.is_valid() || static_cast<std::size_t>(probe) >= mesh_->num_vertices() || mesh_->is_removed(probe))
+    if (!probe.is_valid() || static_cast<std::size_t>(probe) >= mesh().num_vertices() || mesh().is_removed(probe))
       return Edited::refused(Refusal_reason::unknown_element);
-    scene_.check_clearance_serves(options_);
-    return edited([&] {
-      return editor_.place(probe, internal::coordinates(p), internal::Clearance_rule(options_.clearance_length),
-                           scene_.largest_coordinate());
-    });
+    return guarded_.place(probe, p);
   }
 
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as the history
   /// keeps. Ends the stroke under way first. A new change clears what could be redone. Only where probes are not recorded can a step
   /// be refused because it would jump over one; undo is possible again when that has moved away.
   /// \post What the step had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
-  Edited undo() {
-    scene_.include_the_past(); // many vertices may move
-    return edited([&] { return editor_.undo(); });
-  }
+  Edited undo() { return guarded_.restored([&] { return guarded_.editor().undo(); }); }
   /// Makes the step that was taken back last again. \post The same have died as when it was first made.
-  Edited redo() {
-    scene_.include_the_past();
-    return edited([&] { return editor_.redo(); });
-  }
+  Edited redo() { return guarded_.restored([&] { return guarded_.editor().redo(); }); }
 
-  const internal::Edit_history& history() const { return editor_.history(); }
+  const internal::Edit_history& history() const { return guarded_.editor().history(); }
 
   /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the moves of a vertex
   /// between two other edits are kept as one.
-  Stroke_type stroke() { return Stroke_type(*this, editor_.history().begin_stroke(number_of_names())); }
+  Stroke_type stroke() { return Stroke_type(*this, guarded_.editor().history().begin_stroke(number_of_names())); }
 
   /// Bounds the history, in steps or bytes (`history().bytes()`), or turns it off; without limit at first. The oldest steps are
   /// forgotten; a stroke that alone is larger is not kept, nor is anything before it.
-  void set_history_limit(const History_limit& limit) { editor_.history().set_limit(limit); }
+  void set_history_limit(const History_limit& limit) { guarded_.editor().history().set_limit(limit); }
 
   /// Makes room, in the mesh too: after it so many edits (flips, collapses, creations, removals) and so many moves allocate nothing,
   /// nor do undo and redo, as long as no vertex has more than 28 neighbours, no star has more than 512 faces about it, and no
   /// decision takes rational numbers; with the Box_tree_broad_phase. A slide's own lists are warm after a few drags. Cost: linear
   /// in the mesh.
-  void reserve(std::size_t edits, std::size_t moves) {
-    const auto n = static_cast<typename Mesh_type::size_type>(edits);
-    mesh_->reserve(mesh_->num_vertices() + n, mesh_->num_edges() + 3 * n, mesh_->num_faces() + 2 * n);
-    watch_.reserve(mesh_->num_vertices() + edits);
-    corners_.reserve(mesh_->num_faces() + 2 * edits);
-    internal::reserve_faces(broad_phase_, mesh_->num_faces() + 2 * edits, 4 * edits);
-    editor_.reserve(edits, moves);
-    hand_.reserve(editor_.usual_valence, editor_.usual_candidates);
-  }
+  void reserve(std::size_t edits, std::size_t moves) { guarded_.reserve(edits, moves); }
   ///@}
 
   /// \name Numbers of vertices that last
   /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo revives it.
   ///@{
-  std::size_t name(Vertex_index v) const { return editor_.names().name(v); }
-  Vertex_index vertex(std::size_t name) const { return editor_.names().vertex(name); }
+  std::size_t name(Vertex_index v) const { return guarded_.editor().names().name(v); }
+  Vertex_index vertex(std::size_t name) const { return guarded_.editor().names().vertex(name); }
   /// One more than the largest number given.
-  std::size_t number_of_names() const { return editor_.names().size(); }
+  std::size_t number_of_names() const { return guarded_.editor().names().size(); }
   /// The null index where there is no such face or edge.
-  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return editor_.face_of(a, b, c); }
+  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return guarded_.editor().face_of(a, b, c); }
   Edge_index edge_of(std::size_t a, std::size_t b) const {
-    const auto h = editor_.halfedge_of(a, b);
-    return h.is_valid() ? mesh_->edge(h) : Edge_index();
+    const auto h = guarded_.editor().halfedge_of(a, b);
+    return h.is_valid() ? mesh().edge(h) : Edge_index();
   }
   ///@}
 
@@ -244,101 +209,61 @@ public:
   /// \throw Out_of_range, Mesh_changed
   /// \param path is written anew, as by Grab::drag_to
   Result probe(const Point& source, const Point& target, std::vector<Point>* path = nullptr) {
-    const internal::Rounding_to_nearest rounding;
-    if (path != nullptr)
-      path->assign(1, source);
-    internal::check_point("the source", source);
-    internal::check_point("the target", target);
-    scene_.check_clearance_serves(options_);
-    release();
-    watch_.check_counts();
-    watch_.check_some();
-    const internal::Coordinates s = internal::coordinates(source), t = internal::coordinates(target);
-    Result result;
-    result.position = source;
-    result.reached = s == t;
-    if (const Face_index f = internal::find_face_within(*mesh_, broad_phase_, s, internal::Clearance_rule(options_.clearance_length),
-                                                        scene_.largest_coordinate(), faces_near_start_);
-        f.is_valid()) {
-      Contact_3<Mesh_type> contact;
-      contact.vertices = internal::corners_of_face(*mesh_, f);
-      contact.is_flat = true;
-      result.contacts.push_back(contact);
-      result.end = Drag_end::refused;
-      return result;
-    }
-    if (s == t)
-      return result;
-    probe_.take_point();
-    const internal::Coordinates end = probe_.move(s, t, options_, result);
-    if (path != nullptr)
-      probe_.write_path(options_.response_rule, s, end, *path);
-    finish(end, t, result);
-    probe_.release();
-    return result;
+    return guarded_.probe(source, target, path);
   }
 
   /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length set, or
   /// the default.
   double clearance(const Point& p) const {
-    return internal::Clearance_rule(options_.clearance_length).at(internal::largest_magnitude(internal::coordinates(p)));
+    return internal::Clearance_rule(options().clearance_length).at(internal::largest_magnitude(internal::coordinates(p)));
   }
 
   /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene as it is (Sculptor_parameters), and
   /// nothing changes. Cost: reads every point.
   void set_clearance(double length) {
-    const Sculptor_parameters changed = Sculptor_parameters(options_).clearance(length);
+    const Sculptor_parameters changed = Sculptor_parameters(options()).clearance(length);
     internal::check_parameters(changed);
-    internal::check_clearance(*mesh_, changed);
-    options_ = changed;
+    internal::check_clearance(mesh(), changed);
+    guarded_.parameters = changed;
   }
 
   /// From here on the default of each contact.
-  void set_default_clearance() { options_.clearance_length.reset(); }
+  void set_default_clearance() { guarded_.parameters.clearance_length.reset(); }
 
   /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
   /// of validate().
   void set_delta(double length) {
-    const Sculptor_parameters changed = Sculptor_parameters(options_).delta(length);
+    const Sculptor_parameters changed = Sculptor_parameters(options()).delta(length);
     release();
-    internal::checked_scene(*mesh_, changed);
-    options_ = changed;
+    internal::checked_scene(mesh(), changed);
+    guarded_.parameters = changed;
   }
 
   void set_response(Response rule) {
     release();
-    options_.response(rule);
+    guarded_.parameters.response(rule);
   }
 
   /// Of each drag from here on; nothing: a drag takes what it takes.
-  void set_work_limit(std::optional<std::size_t> pairs) { options_.work_bound = pairs; }
+  void set_work_limit(std::optional<std::size_t> pairs) { guarded_.parameters.work_bound = pairs; }
 
   /// \throw Mesh_changed if anything was changed by others, points or connectivity. Cost: reads all of the mesh.
-  void check_unchanged() const { watch_.check_all(corners_); }
+  void check_unchanged() const { guarded_.check_unchanged(); }
 
   /// Bytes held that grow with the mesh, capacity included: the broad phase, the corners of the faces, the copy of the points, the
   /// numbers of the vertices. Not the mesh itself, nor the history.
-  std::size_t memory() const { return broad_phase_.memory() + corners_.memory() + watch_.memory() + isolated_.memory() + editor_.names().memory(); }
+  std::size_t memory() const { return guarded_.memory(); }
 
 private:
   friend class Grab<Sculptor>;
   friend class Stroke<Sculptor>;
 
-  void end_stroke(std::size_t number) noexcept { editor_.history().end_stroke(number); }
+  void end_stroke(std::size_t number) noexcept { guarded_.editor().history().end_stroke(number); }
 
-  Mesh_type* mesh_;
-  internal::Mesh_watch<Mesh_type> watch_;
-  Sculptor_parameters options_;
-  Filter_counters counters_;
-  Broad_phase broad_phase_;
-  internal::Face_corners<Mesh_type> corners_;
-  internal::Isolated_vertices<Mesh_type> isolated_;
-  internal::Editor<Mesh_type, Broad_phase, Visitor> editor_;
-  internal::Hand<Mesh_type, Broad_phase> hand_, probe_;
-  internal::Surface_finder<Mesh_type, Broad_phase> finder_;
+  internal::Guarded_mesh<Mesh_type, Broad_phase, Visitor> guarded_;
   Grab_type* holder_ = nullptr; ///< the Grab that has the hand
-  internal::Scene_bound<Mesh_type> scene_;
-  std::vector<Face_index> faces_near_start_; ///< of a probe; kept to allocate no more
+
+  double delta() const { return options().delta_length; }
 
   /// Whoever had the hand is stale from now on.
   void set_hand(Grab_type* grab) noexcept {
@@ -347,67 +272,8 @@ private:
     holder_ = grab;
   }
 
-  void prepare_to_find() {
-    hand_.tell_where_it_is();
-    watch_.check_counts();
-    watch_.check_some();
-  }
-
-  /// \throw Mesh_changed
-  void hold(Vertex_index v) {
-    if (!hand_.holds(v))
-      hand_.take(v, [this] { editor_.prepare_for_moves(); });
-  }
-
-  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path = nullptr) {
-    const internal::Rounding_to_nearest rounding;
-    internal::check_point("the target", target);
-    if (!v.is_valid())
-      return Result::stale_at(target);
-    internal::check_vertex(*mesh_, v);
-    scene_.check_clearance_serves(options_);
-    hold(v);
-    const internal::Coordinates s = vertex_coordinates(*mesh_, v), t = internal::coordinates(target);
-    Result result;
-    const internal::Coordinates end = s == t ? t : hand_.move(s, t, options_, result);
-    hand_.check_candidates();
-    if (path != nullptr)
-      hand_.write_path(options_.response_rule, s, end, *path);
-    if (end != s)
-      put(v, s, end);
-    finish(end, t, result);
-    return result;
-  }
-
-  /// The one place where a drag writes the mesh. Whatever the response has proposed: each leg has been proven by the sweeps, which
-  /// take no end that is not in range.
-  void put(Vertex_index v, const internal::Coordinates& from, const internal::Coordinates& to) {
-    if (!internal::is_in_range(to))
-      throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");
-    mesh_->point(v) = Point(to[0], to[1], to[2]);
-    watch_.remember(v);
-    scene_.include(to);
-    hand_.note_moved();
-    editor_.note_move(v, from, to);
-  }
-
-  /// Runs an edit between looking for changes by others and noting what it changed.
-  template <class Edit_function>
-  Edited edited(const Edit_function& edit) {
-    const internal::Rounding_to_nearest rounding;
-    release();
-    watch_.check_counts();
-    watch_.check_some();
-    const Edited result = edit();
-    if (result && !mesh_->is_removed(*result.vertex))
-      scene_.include(vertex_coordinates(*mesh_, *result.vertex));
-    return result;
-  }
-
-  static void finish(const internal::Coordinates& end, const internal::Coordinates& target, Result& result) {
-    result.position = Point(end[0], end[1], end[2]);
-    result.reached = end == target;
-  }
+  /// For the Grab.
+  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path = nullptr) { return guarded_.drag(v, target, path); }
 };
 
 } // namespace haptic_sculpt

@@ -68,9 +68,11 @@ const Mesh& checked_scene(const Mesh& mesh, const Sculptor_parameters& parameter
     if (!is_in_range(p) && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
       check_range("vertex " + std::to_string(static_cast<std::size_t>(v)) + " at", p);
   }
-  Validity_report report = validate(mesh, parameters.delta_length);
-  if (!report.is_valid())
-    throw Invalid_surface("the mesh", std::move(report));
+  if (!parameters.is_known_valid || parameters.delta_length > 0) {
+    Validity_report report = validate(mesh, parameters.delta_length);
+    if (!report.is_valid())
+      throw Invalid_surface("the mesh", std::move(report));
+  }
   check_clearance(mesh, parameters);
   return mesh;
 }

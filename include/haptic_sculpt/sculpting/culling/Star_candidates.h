@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_STAR_CANDIDATES_H
 #define HAPTIC_SCULPT_SCULPTING_STAR_CANDIDATES_H
 
+#include <haptic_sculpt/sculpting/culling/Convex_star.h>
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
 #include <haptic_sculpt/sculpting/motion/Work.h>
 #include <haptic_sculpt/sculpting/motion/stop.h>
@@ -52,6 +53,10 @@ public:
     invalidate();
   }
 
+  /// Whether a star is taken to make one motion only: then its candidates are looked up for that one, with no room for others.
+  /// No decision depends on it.
+  void expect_one_motion(bool on) { is_for_one_motion_ = on; }
+
   /// Makes room for a star and candidates of usual size.
   void reserve(std::size_t valence, std::size_t faces) {
     star_.reserve(valence);
@@ -69,11 +74,26 @@ public:
     is_crowded_ = false;
   }
 
+  /// Whether there is a proof that the motion is free which costs less than the sweeps. Looked for where only one motion is to be
+  /// decided; if there is none the faces found are left for the list.
+  bool is_certainly_free(const Coordinates& source, const Coordinates& target) {
+    has_looked_ = false;
+    if (!is_for_one_motion_ || star_.valence() == 0 || is_long(source, target) || has_isolated() ||
+        !convex_star_.assign(star_, source, target))
+      return false;
+    look_at(star_.swept(source, target));
+    has_looked_ = true;
+    return !work_->is_spent() && std::all_of(candidates_.begin(), candidates_.end(), [this](typename Mesh::Face_index f) {
+      const auto& corners = (*corners_of_)(f);
+      return std::find(corners.begin(), corners.end(), star_.centre) != corners.end() || convex_star_.is_apart(*mesh_, corners);
+    });
+  }
+
   /// Whether pairs cover the motion; takes them where it is worth while.
   bool has_pairs(const Coordinates& source, const Coordinates& target) {
     if (pairs_.cover(source, target))
       return true;
-    if (star_.valence() == 0 || is_long(source, target))
+    if (is_for_one_motion_ || star_.valence() == 0 || is_long(source, target))
       return false;
     const bool is_due = ++waited_ > patience_;
     const std::size_t looks = looks_;
@@ -93,7 +113,7 @@ public:
   void look_along(const Coordinates& source, const Coordinates& target, const Is_enough& is_enough) {
     Swept_star_3 part = star_.swept(source, target);
     if (!is_long(source, target)) {
-      look_around(source, target);
+      look_close_by(part);
       if (!work_->is_spent())
         is_enough(part);
       return;
@@ -139,6 +159,8 @@ private:
   std::size_t looks_ = 0;
   int patience_ = 1, waited_ = 0;
   bool is_crowded_ = false; ///< the last long motion passed over many faces
+  bool is_for_one_motion_ = false, has_looked_ = false; ///< has_looked_: the candidates are those of the motion at hand
+  Convex_star<Mesh> convex_star_;
   std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
   std::vector<Vertex_index> isolated_near_;
 
@@ -158,6 +180,8 @@ private:
   static constexpr std::size_t few_faces = 192;
   static constexpr double least_part = 0x1p-10;
 
+  bool has_isolated() const { return isolated_ != nullptr && !isolated_->is_empty(); }
+
   /// Longer than the link is wide.
   bool is_long(const Coordinates& source, const Coordinates& target) const {
     double way = 0;
@@ -174,6 +198,16 @@ private:
     for (int i = 0; i < 3; ++i)
       most = std::fmax(most, link.upper[i] - link.lower[i]);
     return most;
+  }
+
+  void look_close_by(const Swept_star_3& motion) {
+    if (!is_for_one_motion_ || star_.valence() == 0) {
+      look_around(motion.source, motion.target);
+      return;
+    }
+    if (!has_looked_)
+      look_at(motion);
+    take_candidates(motion);
   }
 
   /// Makes the list complete for a motion that is not long, and `room` around it. Those of one grab share a list.
@@ -207,7 +241,7 @@ private:
       return false;
     pairs_.clear();
     list_.assign(*mesh_, *corners_of_, star_, candidates_, region, fetch_);
-    if (isolated_ != nullptr && !isolated_->is_empty() && star_.valence() != 0) {
+    if (has_isolated() && star_.valence() != 0) {
       isolated_near_.clear();
       isolated_->query(part.box(), isolated_near_);
       list_.add_isolated(*mesh_, isolated_near_);

@@ -42,6 +42,7 @@ public:
   std::size_t looks() const { return candidates_.looks(); }
   void collect(Vertex_index v) { candidates_.collect(v); }
   void invalidate() { candidates_.invalidate(); }
+  void expect_one_motion(bool on) { candidates_.expect_one_motion(on); }
   void reserve(std::size_t valence, std::size_t faces) {
     candidates_.reserve(valence, faces);
     firsts_.reserve(faces);
@@ -57,6 +58,11 @@ public:
   public:
     /// Whether the target is in range, and the closed way to it touches nothing and keeps the delta rule; exact.
     bool is_free() const { return is_free_; }
+
+    /// The first of those that come exactly first.
+    std::optional<Star_impact<Mesh>> first_impact() const {
+      return star_->firsts_.empty() ? std::nullopt : std::optional<Star_impact<Mesh>>(star_->firsts_[0]);
+    }
 
     /// Calls `found(contact, sine)` for all that come exactly first; `sine` is that of the angle between the path and the
     /// contact plane. There are none where the motion is free, out of range, or cost more than the work that was left.
@@ -91,7 +97,8 @@ public:
     firsts_.clear();
     limits_.clear();
     if (is_in_range(target) && !is_spent()) {
-      find_first_impacts(source, target);
+      if (!candidates_.is_certainly_free(source, target))
+        find_first_impacts(source, target);
       if (is_spent()) // others might come before them
         firsts_.clear();
       else {
@@ -107,10 +114,10 @@ public:
   bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
     if (!is_in_range(target) || is_spent())
       return false;
-    bool free = true;
-    if (candidates_.has_pairs(source, target))
+    bool free = candidates_.is_certainly_free(source, target);
+    if (!free && candidates_.has_pairs(source, target))
       free = narrow_phase_.is_free(star(), checklist(), candidates_.pairs(), source, target);
-    else
+    else if (!free)
       candidates_.look_along(source, target, [&](const Swept_star_3&) {
         return !(free = narrow_phase_.is_free(star(), checklist(), source, target));
       });

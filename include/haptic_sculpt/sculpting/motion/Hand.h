@@ -22,6 +22,14 @@ public:
     : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), isolated_(&isolated), watch_(&watch)
     , guard_(mesh, broad_phase, corners, counters, &isolated, Fetch_watched{&watch}) {}
 
+  /// Whether vertices are dragged once each: see Sculptor.
+  void expect_single_drags(bool on) {
+    release();
+    guard_.expect_one_motion(on);
+    expects_single_drags_ = on;
+  }
+  bool expects_single_drags() const { return expects_single_drags_; }
+
   void reserve(std::size_t valence, std::size_t faces) { guard_.reserve(valence, faces); }
 
   /// Whether v is held already; its place is compared then. \throw Mesh_changed
@@ -39,8 +47,10 @@ public:
     prefetch(&mesh_->point(v), sizeof(typename Mesh::Point));
     watch_->prefetch(v);
     release();
-    meanwhile();
-    watch_->check_some();
+    if (!expects_single_drags_) {
+      meanwhile();
+      watch_->check_some();
+    }
     guard_.collect(v);
     watch_->check(v);
     for (const Vertex_index neighbour : guard_.star().link)
@@ -91,6 +101,17 @@ public:
       responses_.append_path(response, source, end, path);
   }
 
+  /// Whether the straight way is free, and that has been decided within the bound on the work.
+  bool is_free(const Coordinates& source, const Coordinates& target, const Sculptor_parameters& parameters) {
+    guard_.work().begin(parameters.work_bound.value_or(Work::unbounded));
+    return guard_.is_free(source, target, parameters.delta_length);
+  }
+
+  std::optional<Star_impact<Mesh>> first_impact(const Coordinates& source, const Coordinates& target) {
+    guard_.work().begin(Work::unbounded);
+    return guard_.decide(source, target, 0).first_impact();
+  }
+
   /// The mesh has been written: v has moved.
   void note_moved() { has_moved_ = true; }
 
@@ -120,6 +141,7 @@ private:
   Guarded_star<Mesh, Broad_phase, Fetch_watched> guard_;
   Responses<Mesh> responses_;
   Vertex_index held_;      ///< whose star guard_ has; invalid when none
+  bool expects_single_drags_ = false;
   bool has_moved_ = false; ///< the broad phase has not been told yet where the held star is
   std::size_t compared_look_ = 0, next_compared_ = 0;
 
@@ -127,6 +149,8 @@ private:
   static constexpr std::size_t candidates_per_drag = 4;
 
   void compare_candidates() {
+    if (expects_single_drags_) // whatever is near is the vertex or a neighbour at another drag
+      return;
     const auto& candidates = guard_.checklist().vertices();
     if (compared_look_ != guard_.looks()) {
       compared_look_ = guard_.looks();
