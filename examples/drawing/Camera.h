@@ -121,9 +121,12 @@ private:
   void fit(const Scene& scene) {
     std::vector<Eigen::Vector3d> shown; // as the camera sees them: rightwards, upwards, towards the eye
     auto include = [&](const Eigen::Vector3d& p) { shown.push_back(rotation_ * p); };
+    bool has_far_ends = false;
     auto include_if_near = [&](const Eigen::Vector3d& p) {
       if (const Eigen::Vector3d q = scaled(p); q.lpNorm<Eigen::Infinity>() <= 2)
         include(q);
+      else
+        has_far_ends = true;
     };
     for (const auto& triangle : scene.triangles)
       for (int v : triangle)
@@ -145,6 +148,8 @@ private:
           include(foot + a.length * pixel_width() * a.direction.stableNormalized());
       frame(shown);
     }
+    if (has_far_ends) // ways may lead past the eye
+      nearest_ = distance_;
   }
 
   void frame(const std::vector<Eigen::Vector3d>& shown) {

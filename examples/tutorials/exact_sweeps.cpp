@@ -36,7 +36,7 @@ int main() {
     return 1;
   std::cout << "the point is met at u = " << point->exact_time() << '\n';
 
-  // The order is exact, too, though times are irrational to doubles; no time has to be computed for it.
+  // The order is exact, too, and no time has to be computed for it.
   const auto compare = traits.compare_time_3_object();
   const bool edge_before_face = compare(*edge, *face) == CGAL::SMALLER;
   std::cout << "first comes " << name_of(edge_before_face ? edge->feature() : face->feature()) << '\n';

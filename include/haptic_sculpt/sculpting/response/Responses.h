@@ -34,6 +34,7 @@ public:
       end = paper_.move(guard, mesh, source, target, rules, result);
     else {
       end = guard.leg(source, target, rules, result);
+      result.legs = end == source ? 0 : 1; // to be stopped where it stands is no leg
       result.end = end == target     ? Drag_end::reached
                    : guard.is_spent() ? Drag_end::work_limit
                    : end == source    ? Drag_end::no_progress
