@@ -90,7 +90,7 @@ public:
     }
     for (std::size_t k = 0; k < n; ++k) {
       const auto& [a, b, c] = corners_[k];
-      if (star.valence() != 0 && ((a == star.centre) | (b == star.centre) | (c == star.centre)))
+      if (star.valence() != 0 && (int(a == star.centre) | int(b == star.centre) | int(c == star.centre)) != 0)
         continue;
       Face& face = faces_[faces++];
       face.index = candidates[k];
