@@ -78,7 +78,7 @@ void run(Json& rows, const Run& part) {
 
 int main(int argument_count, char** arguments) {
   CLI::App app("What a drag costs against the size of the mesh and the valence, beside other structures in the same run");
-  std::string path, parts = "tpmovn";
+  std::string path, parts = "tfpmovn";
   std::vector<std::size_t> sizes = {1000, 10000, 100000, 1000000, 5000000};
   std::vector<std::size_t> valences = {3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 1000};
   Effort effort;
@@ -93,7 +93,7 @@ int main(int argument_count, char** arguments) {
   app.add_option("--peer-drags", effort.peer_drags, "the same, at most, for other structures")->check(CLI::PositiveNumber);
   app.add_option("--largest-peer", largest_peer, "other structures, and the phases, get no larger mesh");
   app.add_option("--core", core, "the core to stay on; -1: any");
-  app.add_option("--parts", parts, "t: the box tree; p: its phases; m: memory, the floor of a new vertex; o: other broad phases; v: valence; n: end states by CGAL");
+  app.add_option("--parts", parts, "t: the box tree; f: finding and placing; p: its phases; m: memory, the floor of a new vertex; o: other broad phases; v: valence; n: end states by CGAL");
   app.add_flag("--quick", quick, "small meshes and few drags: shows that everything runs");
   CLI11_PARSE(app, argument_count, arguments);
   if (quick) {
@@ -108,6 +108,8 @@ int main(int argument_count, char** arguments) {
   for (const std::size_t triangles : sizes) {
     if (wanted('t'))
       run(rows, [&] { run_box_tree(rows, triangles, effort); });
+    if (wanted('f'))
+      run(rows, [&] { run_finding(rows, triangles, effort); });
     if (wanted('p') && triangles <= largest_peer)
       run(phases, [&] { run_phases(phases, triangles, effort); });
     if (triangles > largest_peer)

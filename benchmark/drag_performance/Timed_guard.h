@@ -24,22 +24,37 @@ public:
 
   const auto& star() const { return guard_->star(); }
 
-  void decide(const Coordinates& source, const Coordinates& target, double delta) {
+  /// A decision whose contacts are timed when they are asked for.
+  class Decision {
+  public:
+    Decision(const typename Guard::Decision& decision, const Timed_guard& guard) : decision_(decision), guard_(&guard) {}
+    bool is_free() const { return decision_.is_free(); }
+    template <class Found>
+    double for_each_first_contact(const Found& found) const {
+      double time = 0;
+      timed(guard_->planes, [&] { time = decision_.for_each_first_contact(found); });
+      return time;
+    }
+
+  private:
+    typename Guard::Decision decision_;
+    const Timed_guard* guard_;
+  };
+
+  Decision decide(const Coordinates& source, const Coordinates& target, double delta) {
     ++motions;
-    timed(deciding, [&] { guard_->decide(source, target, delta); });
+    const std::uint64_t start = Query_timer::now();
+    const auto decision = guard_->decide(source, target, delta);
+    deciding += timer().nanoseconds(start, Query_timer::now());
+    return Decision(decision, *this);
   }
-  bool is_blocked() const { return guard_->is_blocked(); }
+  bool is_spent() const { return guard_->is_spent(); }
+  internal::Work& work() { return guard_->work(); }
   bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
     ++motions;
     bool free = false;
     timed(deciding, [&] { free = guard_->is_free(source, target, delta); });
     return free;
-  }
-  template <class Found>
-  double for_each_first_contact(const Coordinates& source, const Coordinates& target, const Found& found) const {
-    double time = 0;
-    timed(planes, [&] { time = guard_->for_each_first_contact(source, target, found); });
-    return time;
   }
   template <class Result>
   Coordinates leg(const Coordinates& source, const Coordinates& target, const internal::Drag_rules& rules, Result& result) {

@@ -128,7 +128,7 @@ Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_count
         moved.measure([&] { guard.decide(at, drag.targets[i], 0); });
       const bool has_looked = guard.looks() != looks;
       looks = guard.looks();
-      const bool blocked = guard.is_blocked() || !guard.is_free(at, drag.targets[i], 0);
+      const bool blocked = !guard.is_free(at, drag.targets[i], 0);
       if (is_counted(i, blocked))
         counted.add_nanoseconds(moved.last());
       if (lists != nullptr && is_counted(i, blocked))

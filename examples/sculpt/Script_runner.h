@@ -113,7 +113,7 @@ private:
       grab_.emplace(sculptor_.grab(v));
     held_ = true;
     try {
-      const Result done = grab_->drag_to(point(command.points[0]));
+      const Result done = grab_->drag_to(point(command.points[0]), way_);
       finish(command, begin, done, coordinates(start), command.points[0], {index});
       if (done.position != start)
         moved_.insert(index);
@@ -185,7 +185,7 @@ private:
   void probe(const Command& command) {
     const auto begin = Clock::now();
     try {
-      const Result done = sculptor_.probe(point(command.points[0]), point(command.points[1]));
+      const Result done = sculptor_.probe(point(command.points[0]), point(command.points[1]), &way_);
       if (done.end == Drag_end::refused)
         refuse(command, "starts-in-clearance", ids(done.contacts[0]));
       else
@@ -228,6 +228,7 @@ private:
 
   std::optional<typename Sculptor<Mesh, Broad_phase>::Grab_type> grab_;
   bool held_ = false;
+  std::vector<Kernel::Point_3> way_; ///< of the last drag or probe
 
   template <class Ids = std::vector<std::size_t>>
   Ids ids(const Contact_3<Mesh>& contact) const {
@@ -281,7 +282,7 @@ private:
     edit.is_within_clearance = done.end == Drag_end::held && is_within_clearance(done, target);
     result_.within_clearance += edit.is_within_clearance;
     if (!done.reached && result_.blocked <= Edit_record::most_drawn)
-      for (const Kernel::Point_3& p : sculptor_.last_way())
+      for (const Kernel::Point_3& p : way_)
         edit.way.push_back(coordinates(p));
     for (const auto& contact : done.contacts)
       edit.contacts.push_back({name_of(contact.kind), ids<std::array<std::size_t, 3>>(contact), contact.normal});

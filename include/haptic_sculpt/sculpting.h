@@ -5,7 +5,11 @@
 /// \file
 /// Dragging the vertices of a closed triangle mesh so that no surface ever passes through a surface.
 
+#include <haptic_sculpt/sculpting/Allow_embedded_move.h>
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/sculpting/guarded_point_map.h>
+#include <haptic_sculpt/sculpting/isotropic_remeshing.h>
+#include <haptic_sculpt/sculpting/move_vertices.h>
 
 #endif

@@ -57,7 +57,7 @@ public:
         edges_.push_back({box_of(ends), ends});
     }
     for (const Vertex_index w : mesh.vertices())
-      if (w != v && !mesh.is_isolated(w))
+      if (w != v) // probes too
         vertices_.push_back(w);
   }
 

@@ -110,8 +110,9 @@ class Embedded_motion {
 
 public:
   Embedded_motion(const std::vector<Point<Integer>>& points, const std::vector<Corner_indices>& faces, int moving,
-                  const Point<Integer>& target)
-      : points_(points), faces_(faces), J_(moving), target_(target), signs_(points, moving, target) {}
+                  const Point<Integer>& target, bool isolated_are_obstacles)
+      : points_(points), faces_(faces), J_(moving), target_(target), isolated_are_obstacles_(isolated_are_obstacles),
+        signs_(points, moving, target) {}
 
   std::optional<Time<Integer>> first_failure() {
     std::vector<std::size_t> star, rest;
@@ -132,10 +133,26 @@ public:
     if (star.empty()) // a probe, which may not touch a face
       for (const std::size_t g : rest)
         look_for_failure({J_, J_, J_}, faces_[g]);
+    if (isolated_are_obstacles_)
+      for (const int a : isolated())
+        for (const std::size_t f : star)
+          look_for_failure(faces_[f], {a, a, a});
     return first_;
   }
 
 private:
+  std::vector<int> isolated() const {
+    std::vector<bool> is_used(points_.size(), false);
+    for (const Corner_indices& f : faces_)
+      for (const int v : f)
+        is_used[static_cast<std::size_t>(v)] = true;
+    std::vector<int> found;
+    for (int v = 0; v < static_cast<int>(points_.size()); ++v)
+      if (!is_used[static_cast<std::size_t>(v)] && v != J_)
+        found.push_back(v);
+    return found;
+  }
+
   static bool has(const Corner_indices& f, int v) { return f[0] == v || f[1] == v || f[2] == v; }
 
   bool still_part_is_embedded(const std::vector<std::size_t>& rest) const {
@@ -208,6 +225,8 @@ private:
     signs_.set_time(u);
     if (f[0] == f[1])
       return point_in_triangle(signs_, f[0], g[0], g[1], g[2]);
+    if (g[0] == g[1])
+      return on_one_line(signs_, f[0], f[1], f[2]) || point_in_triangle(signs_, g[0], f[0], f[1], f[2]);
     // A degenerate triangle is a failure; it is found by the search for those, and kept from the tests here.
     return on_one_line(signs_, f[0], f[1], f[2]) || on_one_line(signs_, g[0], g[1], g[2]) ||
            triangles_meet_improperly(signs_, f, g);
@@ -262,6 +281,7 @@ private:
   const std::vector<Corner_indices>& faces_;
   int J_;
   Point<Integer> target_;
+  bool isolated_are_obstacles_;
   Signs signs_;
   std::optional<Time<Integer>> first_;
 };
@@ -283,8 +303,10 @@ inline mpz_class to_mpz(__int128 x) {
 /// Every pair of faces of which one moves is tested at each critical time of the pair (each root of a determinant of J
 /// with others of its vertices) and between any two; every other pair once. A vertex without faces is a probe: it may
 /// not touch a face. Other isolated vertices are no part of the surface.
+/// \param isolated_are_obstacles whether it is a failure, too, that a moving face touches one of those
 /// \return nothing if it is embedded throughout, else the least u at which it is not (the failures are a closed set)
-inline std::optional<mpq_class> first_time_not_embedded(const Mesh_list& mesh, int J, const std::array<double, 3>& T) {
+inline std::optional<mpq_class> first_time_not_embedded(const Mesh_list& mesh, int J, const std::array<double, 3>& T,
+                                                        bool isolated_are_obstacles = false) {
   auto with_target = mesh.points;
   with_target.push_back(T);
   std::vector<Point<mpz_class>> points = scaled_to_integers(with_target);
@@ -296,7 +318,7 @@ inline std::optional<mpq_class> first_time_not_embedded(const Mesh_list& mesh, i
     const auto target = all.back();
     all.pop_back();
     using Integer = typename std::decay_t<decltype(target)>::value_type;
-    if (const auto u = Embedded_motion<Integer>(all, mesh.faces, J, target).first_failure())
+    if (const auto u = Embedded_motion<Integer>(all, mesh.faces, J, target, isolated_are_obstacles).first_failure())
       return mpq_class(to_mpz(u->numerator), to_mpz(u->denominator));
     return std::nullopt;
   };

@@ -135,10 +135,13 @@ BOOST_AUTO_TEST_CASE(an_isolated_vertex_is_a_probe) {
   const auto swept = sculptor.probe(Point_3(0.05, 0.02, 3), Point_3(0.05, 0.02, -3));
   BOOST_TEST((swept.position == result.position));
   BOOST_TEST((sculptor.probe(mesh.point(Vertex_index(0)), Point_3(0, 0, 9)).end == Drag_end::refused));
-  // Nothing touches a probe.
+  // No face passes over a probe.
   const Point_3 outward = mesh.point(Vertex_index(0));
   sculptor.grab(probe).drag_to(Point_3(1.5 * outward.x(), 1.5 * outward.y(), 1.5 * outward.z()));
-  BOOST_TEST(sculptor.grab(Vertex_index(0)).drag_to(Point_3(2 * outward.x(), 2 * outward.y(), 2 * outward.z())).reached);
+  const auto stopped = sculptor.grab(Vertex_index(0)).drag_to(Point_3(2 * outward.x(), 2 * outward.y(), 2 * outward.z()));
+  BOOST_TEST(!stopped.reached);
+  BOOST_TEST((stopped.contacts.at(0).kind == Contact_kind::face_vertex));
+  BOOST_TEST((stopped.contacts.at(0).vertices[2] == probe));
 }
 
 BOOST_AUTO_TEST_CASE(an_inside_out_mesh_is_guarded_like_any_other) {

@@ -16,8 +16,8 @@ namespace haptic_sculpt {
 ///
 /// Exact for all finite doubles (the 1997 paper, 3.2.1, test I: segment st meets triangle abc). `s == t` is allowed: then the question is
 /// whether the point lies in the triangle, and the time is 0.
-/// \pre All coordinates are finite, and a, b, c are not collinear.
-/// Where the checks are compiled out, degenerate static features are still answered exactly, as the hulls they are.
+/// Where a, b, c are collinear or coincide the answer is about their hull, exact as well.
+/// \pre All coordinates are finite.
 /// Cost: constant; 5 orientation signs at most outside of flat cases. Counts filter failures in `*counters`, if given.
 template <class K, class Counters = No_filter_counters>
 class Vertex_face_sweep_3 {
@@ -52,7 +52,6 @@ private:
   static internal::Sweep_points checked_points(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b, const Point_3& c) {
     const internal::Sweep_points points = internal::sweep_points(s, t, a, b, c);
     CGAL_precondition(internal::are_finite(points));
-    CGAL_precondition(!typename K::Collinear_3()(a, b, c));
     return points;
   }
 };

@@ -17,12 +17,14 @@ enum class Drag_end : std::uint8_t {
   leg_limit,   ///< as many legs were made as one drag may make; the next drag to the same target goes on
   refused,     ///< a probe that starts on a face, or nearer to it than the clearance
   stuck,       ///< the slide gave up on the way: nothing is said about what is nearer
-  stale        ///< the vertex has been removed: nothing was moved; undo that revives it makes the grab usable again
+  work_limit,  ///< as much work was done as one drag may do; the next drag to the same or a near target goes on
+  stale        ///< the vertex has been removed, or another Grab has the hand: nothing was moved (Grab)
 };
 
-/// The name used in reports: "reached", "held", "no-progress", "leg-limit", "refused", "stuck" or "stale".
+/// The name used in reports: "reached", "held", "no-progress", "leg-limit", "refused", "stuck", "work-limit"
+/// or "stale".
 inline const char* name_of(Drag_end end) {
-  constexpr const char* names[] = {"reached", "held", "no-progress", "leg-limit", "refused", "stuck", "stale"};
+  constexpr const char* names[] = {"reached", "held", "no-progress", "leg-limit", "refused", "stuck", "work-limit", "stale"};
   return names[static_cast<int>(end)];
 }
 
@@ -35,6 +37,14 @@ struct Drag_result {
   /// Like a std::vector.
   using Contacts = boost::container::small_vector<Contact_3<Mesh>, usual_contacts>;
 
+  /// Of a vertex that is not there any more.
+  static Drag_result stale_at(const typename Mesh::Point& target) {
+    Drag_result result;
+    result.position = target;
+    result.end = Drag_end::stale;
+    return result;
+  }
+
   typename Mesh::Point position;             ///< where the vertex is now; of one that has been removed, the target
   bool reached = false;                      ///< whether that is the target
   Drag_end end = Drag_end::reached;          ///< why the drag ended
@@ -44,6 +54,7 @@ struct Drag_result {
   /// flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.
   double stop_error = 0;
   double stop_error_along_path = 0;          ///< the distance from the exact point of impact, along the path
+  std::size_t work = 0;                      ///< pairs decided and candidates looked up: what a bound on the work counts
   double kkt_residual = 0;                   ///< |d - nearest point of the cone of pushes| / |d|, d = target - position
 };
 

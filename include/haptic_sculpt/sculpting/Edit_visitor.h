@@ -8,17 +8,19 @@ namespace haptic_sculpt {
 
 /// The concept EditVisitor, and its model that ignores everything: no call is then made, and nothing is looked up for one.
 ///
-/// A Sculptor tells its visitor of every element that a drag, creation, removal, flip, undo or redo moves, kills or creates. Derive
-/// from this class and hide the functions of interest; descriptors are those of the mesh.
+/// A Sculptor tells its visitor of every element that a drag, placement, creation, removal, flip, undo or redo moves, kills
+/// or creates. Derive from this class and hide the functions of interest; descriptors are those of the mesh.
 ///
-/// - A drag that moved its vertex, or such a one undone or redone: `vertex_moved`, after the move, once however many legs there were.
+/// - A drag that moved its vertex or a placement of a probe, or such a one undone or redone: `vertex_moved`, after the move, once
+///   however many legs there were.
 ///   A stroke is undone and redone change by change, the drags of a vertex between two other edits as one.
 /// - All other edits, undone and redone ones included, replace some faces by others. First, while the mesh is still as before,
 ///   `face_dies`, `edge_dies`, `vertex_dies` of what the edit takes away; then, when the mesh is complete again, `vertex_created`,
 ///   `edge_created`, `face_created` of what it has made. Each element once.
 /// - A face or edge is the triangle or segment of its vertices: one that is replaced has died, though one of the new ones may have
 ///   got its descriptor, as Surface_mesh uses them again, within one edit too. What died has to be forgotten before the new is noted.
-/// - Nothing is told of what was refused, of a drag that did not move, of a probe, of set_delta() and the like.
+/// - Nothing is told of what was refused, of a drag that did not move, of Sculptor::probe(), of set_delta() and the like; of an undo
+///   that a probe in its way refused halfway, what was taken back and made again.
 ///
 /// - An exception goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`, the change is
 ///   not made, though some of what it would have killed has been told; thrown in another function, it stands, and the rest of

@@ -4,12 +4,16 @@
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 
+#include <utility>
+#include <vector>
+
 namespace haptic_sculpt {
 
 /// A vertex in the hand: made by `Sculptor::grab()`, dragged as often as wanted, let go by `release()` or destruction.
 ///
-/// Refers to its Sculptor, which must outlive it. Stays usable across edits; while its vertex is removed, drags end as
-/// Drag_end::stale and move nothing, until undo or redo revives it.
+/// A Sculptor has one hand: once another Grab has been made, and once the Sculptor has died, this one is stale for good. It
+/// stays usable across edits; while its vertex is removed it is stale too, until undo or redo revives the vertex. Drags of
+/// a stale Grab end as Drag_end::stale and move nothing.
 template <class Sculptor>
 class Grab {
 public:
@@ -17,10 +21,18 @@ public:
   using Point = typename Mesh::Point;
   using Vertex_index = typename Mesh::Vertex_index;
 
-  Grab(Sculptor& sculptor, std::size_t name) : sculptor_(&sculptor), name_(name) {}
+  Grab(Grab&& other) noexcept { take_over(other); }
+  Grab& operator=(Grab&& other) noexcept {
+    if (this != &other) {
+      let_go();
+      take_over(other);
+    }
+    return *this;
+  }
+  ~Grab() { let_go(); }
 
-  /// The vertex; the null index once it has been removed, until undo revives it (maybe under another index).
-  Vertex_index vertex() const { return sculptor_->vertex(name_); }
+  /// The vertex; the null descriptor while the Grab is stale. A vertex that was revived may have another descriptor.
+  Vertex_index vertex() const { return sculptor_ != nullptr ? sculptor_->vertex(name_) : Vertex_index(); }
 
   /// Drags the vertex towards `target` in a straight line, until it is there or something would be touched.
   ///
@@ -29,14 +41,43 @@ public:
   /// Cost: the candidates near the star times its valence; a look at the broad phase when the star leaves its region.
   /// Allocates nothing once it is warm: no list longer than any before, no more contacts than Drag_result::usual_contacts, at most
   /// Edit_history::room moves since the grab, and no delta rule so nearly broken that it takes rational numbers to decide.
-  Drag_result<Mesh> drag_to(const Point& target) { return sculptor_->drag(vertex(), target); }
+  Drag_result<Mesh> drag_to(const Point& target) {
+    return sculptor_ != nullptr ? sculptor_->drag(vertex(), target) : Drag_result<Mesh>::stale_at(target);
+  }
 
-  /// Lets go. The next drag begins without contacts.
-  void release() { sculptor_->release(); }
+  /// The same, and says on which way: where the vertex was, and where it was after each of the `legs` of the result, each a straight
+  /// motion that was proven free; `position` is the last point. Of a stale Grab none. \param path is written anew
+  Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path) {
+    path.clear();
+    return sculptor_ != nullptr ? sculptor_->drag(vertex(), target, &path) : Drag_result<Mesh>::stale_at(target);
+  }
+
+  /// Lets go. The next drag takes the vertex again, without contacts.
+  void release() {
+    if (sculptor_ != nullptr)
+      sculptor_->release();
+  }
 
 private:
-  Sculptor* sculptor_;
-  std::size_t name_; ///< a number that lasts: the mesh's own indices are recycled
+  friend Sculptor;
+
+  Sculptor* sculptor_ = nullptr; ///< whose hand this is; none once it is another's
+  std::size_t name_ = 0;         ///< a number that lasts: the mesh's own indices are recycled
+
+  Grab(Sculptor& sculptor, std::size_t name) : sculptor_(&sculptor), name_(name) { sculptor_->set_hand(this); }
+
+  void take_over(Grab& other) noexcept {
+    sculptor_ = std::exchange(other.sculptor_, nullptr);
+    name_ = other.name_;
+    if (sculptor_ != nullptr)
+      sculptor_->set_hand(this);
+  }
+  void let_go() noexcept {
+    release();
+    if (sculptor_ != nullptr)
+      sculptor_->set_hand(nullptr);
+    sculptor_ = nullptr;
+  }
 };
 
 } // namespace haptic_sculpt

@@ -13,6 +13,9 @@ struct Sculptor_parameters {
   std::optional<double> clearance_length; ///< unset: default_clearance() at each contact
   double delta_length = 0;                ///< 0: only exactly degenerate triangles are refused
   Response response_rule = Response::slide;
+  std::optional<std::size_t> work_bound;  ///< unset: a drag takes what it takes
+  bool is_known_valid = false;            ///< whether the mesh has been validated by the caller
+  bool probes_are_recorded = true; ///< whether the history keeps the moves of probes
 
   /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates. Of use is what is at least an
   /// ulp of the scene's largest coordinate, and at most 1/128 of its extent.
@@ -29,6 +32,25 @@ struct Sculptor_parameters {
     response_rule = rule;
     return *this;
   }
+  /// Bounds the work of a drag, for a loop that has to be in time: so many pairs decided and candidates looked up, and it ends as
+  /// Drag_end::work_limit where it is (doc/work.md).
+  Sculptor_parameters& work_limit(std::size_t pairs) {
+    work_bound = pairs;
+    return *this;
+  }
+  /// Takes the caller's word that the mesh is valid, e.g. because read_surface() has just read it: it is not validated again. With a
+  /// mesh that is not, nothing is promised. Of no effect where delta is not 0.
+  Sculptor_parameters& known_valid(bool known) {
+    is_known_valid = known;
+    return *this;
+  }
+  /// Whether drags and placements of probes, vertices without faces, are steps that undo takes back. A hand that moves one a
+  /// thousand times a second had better leave them out; then undo and redo are refused where they would jump over a probe
+  /// (doc/probes.md).
+  Sculptor_parameters& record_probes(bool recorded) {
+    probes_are_recorded = recorded;
+    return *this;
+  }
 };
 
 /// Starts a chain of named parameters.
@@ -36,6 +58,9 @@ namespace parameters {
 inline Sculptor_parameters clearance(double length) { return Sculptor_parameters().clearance(length); }
 inline Sculptor_parameters delta(double length) { return Sculptor_parameters().delta(length); }
 inline Sculptor_parameters response(Response rule) { return Sculptor_parameters().response(rule); }
+inline Sculptor_parameters work_limit(std::size_t pairs) { return Sculptor_parameters().work_limit(pairs); }
+inline Sculptor_parameters known_valid(bool known) { return Sculptor_parameters().known_valid(known); }
+inline Sculptor_parameters record_probes(bool recorded) { return Sculptor_parameters().record_probes(recorded); }
 } // namespace parameters
 
 } // namespace haptic_sculpt

@@ -47,9 +47,10 @@ void check_point(const char* what, const Point_3& p) {
 /// What vertex `v` would touch first on its straight way to `target` while all else stands still: the impacts that come
 /// exactly first, or none when the way is free. Changes nothing.
 ///
-/// A mesh that is closed and embedded stays so up to `target` if and only if the result is empty; otherwise it stays so
-/// up to, and not at, the time of the impacts (doc/exact_sweeps.md, "Completeness"). On other meshes the answer is about
-/// the three sweeps only.
+/// A mesh that is closed and embedded stays so up to `target`, and passes over no probe, if and only if the result is empty;
+/// otherwise it stays so up to, and not at, the time of the impacts (doc/exact_sweeps.md, "Completeness"). On other meshes
+/// the answer is about the three sweeps only. A vertex without faces, a probe, stands in the way of a star like a vertex of
+/// the surface, and touches faces itself; probes do not touch each other.
 /// \throw Unknown_vertex, Out_of_range
 /// Cost: reads every face once; the sweeps cost valence times the candidates whose boxes meet the swept star's.
 template <class Mesh>
@@ -65,6 +66,13 @@ Star_impacts<Mesh> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v
   Brute_force_broad_phase<Mesh>(mesh).query(swept, candidates);
   internal::Checklist<Mesh> list;
   list.assign(mesh, [&mesh](auto f) { return internal::corners_of_face(mesh, f); }, star, candidates, swept.box());
+  if (star.valence() != 0) {
+    std::vector<typename Mesh::Vertex_index> isolated;
+    for (const auto w : mesh.vertices())
+      if (mesh.is_isolated(w))
+        isolated.push_back(w);
+    list.add_isolated(mesh, isolated);
+  }
   No_filter_counters uncounted;
   Star_impacts<Mesh> firsts;
   internal::Narrow_phase<Mesh, No_filter_counters>(uncounted).first_impacts(star, list, source, end, firsts);

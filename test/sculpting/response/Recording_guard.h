@@ -20,10 +20,11 @@ public:
   using Coordinates = typename Base::Coordinates;
   using Base::Base;
 
-  void decide(const Coordinates& source, const Coordinates& target, double delta) {
-    Base::decide(source, target, delta);
-    if (!this->is_blocked())
+  auto decide(const Coordinates& source, const Coordinates& target, double delta) {
+    const auto decision = Base::decide(source, target, delta);
+    if (decision.is_free())
       free_.emplace(source, target);
+    return decision;
   }
   bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
     const bool free = Base::is_free(source, target, delta);

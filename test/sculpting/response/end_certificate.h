@@ -32,7 +32,7 @@ public:
 
   /// The mesh must outlive it and may change between two calls of take().
   explicit End_certifier(const Mesh& mesh)
-      : mesh_(&mesh), broad_phase_(mesh), corners_(mesh), guard_(mesh, broad_phase_, corners_, counters_) {}
+      : mesh_(&mesh), broad_phase_(mesh), corners_(mesh), isolated_(mesh), guard_(mesh, broad_phase_, corners_, counters_, &isolated_) {}
 
   /// \param v is where the drag has left it, all else stands still \param way_asked |T - S|, how far it had to go
   End_certificate certify(Vertex_index v, const Point_3& target, double way_asked, double clearance, double delta,
@@ -56,6 +56,7 @@ private:
   Brute_force_broad_phase<Mesh> broad_phase_;
   internal::Face_corners<Mesh> corners_;
   Filter_counters counters_;
+  internal::Isolated_vertices<Mesh> isolated_;
   internal::Guarded_star<Mesh, Brute_force_broad_phase<Mesh>> guard_;
   Vertex_index v_;
   Coordinates x_{};
@@ -82,6 +83,7 @@ private:
 
   void begin(Vertex_index v, const Point_3& target, double delta) {
     corners_ = internal::Face_corners<Mesh>(*mesh_);
+    isolated_ = internal::Isolated_vertices<Mesh>(*mesh_);
     guard_.collect(v);
     v_ = v;
     x_ = vertex_coordinates(*mesh_, v);

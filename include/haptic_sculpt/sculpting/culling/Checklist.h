@@ -90,7 +90,7 @@ public:
     }
     for (std::size_t k = 0; k < n; ++k) {
       const auto& [a, b, c] = corners_[k];
-      if (star.valence() != 0 && ((a == star.centre) | (b == star.centre) | (c == star.centre)))
+      if (star.valence() != 0 && (int(a == star.centre) | int(b == star.centre) | int(c == star.centre)) != 0)
         continue;
       Face& face = faces_[faces++];
       face.index = candidates[k];
@@ -123,6 +123,12 @@ public:
   void assign(const Mesh& mesh, const Corners_of& corners_of, const Star<Mesh>& star,
               const std::vector<Face_index>& candidates, const Box_3& region) {
     assign(mesh, corners_of, star, candidates, region, [](Vertex_index) {});
+  }
+
+  /// Adds vertices without faces, which the star's faces may touch. \pre assigned, and the star has faces
+  void add_isolated(const Mesh& mesh, const std::vector<Vertex_index>& isolated) {
+    for (const Vertex_index v : isolated)
+      vertices_.push_back({v, vertex_coordinates(mesh, v)});
   }
 
 private:

@@ -7,6 +7,7 @@
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/edits/Vertex_names.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
+#include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 
 #include <type_traits>
 
@@ -28,8 +29,10 @@ public:
   using Face_index = typename Mesh::Face_index;
   using Halfedge_index = typename Mesh::Halfedge_index;
 
-  Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Visitor visitor)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), names_(mesh), visitor_(std::move(visitor)) {}
+  Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, internal::Isolated_vertices<Mesh>& isolated,
+               Visitor visitor)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(&isolated), names_(mesh),
+      visitor_(std::move(visitor)) {}
 
   const Vertex_names<Mesh>& names() const { return names_; }
   Visitor& visitor() { return visitor_; }
@@ -86,6 +89,7 @@ private:
   Mesh* mesh_;
   Broad_phase* broad_phase_;
   Face_corners<Mesh>* corners_of_;
+  internal::Isolated_vertices<Mesh>* isolated_;
   Vertex_names<Mesh> names_;
   Visitor visitor_;
   Star<Mesh> star_;
@@ -111,6 +115,7 @@ private:
     mesh_->point(v) = to_point(p);
     star_.collect(*mesh_, v);
     broad_phase_->faces_moved(star_.faces);
+    isolated_->moved(v);
     noted(v);
     visitor_.vertex_moved(v);
     return v;

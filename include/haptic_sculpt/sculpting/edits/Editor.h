@@ -9,6 +9,8 @@
 #include <haptic_sculpt/sculpting/edits/Edit_history.h>
 #include <haptic_sculpt/sculpting/edits/Flip_proof.h>
 #include <haptic_sculpt/sculpting/edits/Pivot_order.h>
+#include <haptic_sculpt/sculpting/edits/Placement_proof.h>
+#include <haptic_sculpt/sculpting/edits/Restoration_proof.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -25,16 +27,14 @@ public:
   using Point = typename Mesh::Point;
   using Result = Edit_result<Mesh>;
 
-  /// \param watch is told of what has changed
+  /// \param watch is told of what has changed \param isolated of probes that have moved
+  /// \param records_probes whether the moves of probes are kept in the history
   Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters, Mesh_watch<Mesh>& watch,
-         Visitor visitor = Visitor())
-    : mesh_(&mesh), watch_(&watch), changes_(mesh, broad_phase, corners, std::move(visitor)),
+         Isolated_vertices<Mesh>& isolated, bool records_probes, Visitor visitor = Visitor())
+    : mesh_(&mesh), watch_(&watch), changes_(mesh, broad_phase, corners, isolated, std::move(visitor)),
       creation_(mesh, broad_phase, corners, counters), collapse_(mesh, broad_phase, corners, counters),
-      flip_(mesh, broad_phase, corners, counters) {
-    for (const Vertex_index v : mesh.vertices())
-      if (mesh.is_isolated(v))
-        isolated_.push_back(v);
-  }
+      flip_(mesh, broad_phase, corners, counters), placement_(mesh, broad_phase, counters),
+      restoration_(mesh, isolated, counters), isolated_(isolated.all()), records_probes_(records_probes) {}
 
   const Vertex_names<Mesh>& names() const { return changes_.names(); }
   Visitor& visitor() { return changes_.visitor(); }
@@ -51,14 +51,35 @@ public:
     creation_.reserve(usual_candidates);
     collapse_.reserve(usual_valence, usual_candidates);
     flip_.reserve(usual_candidates);
+    placement_.reserve(usual_candidates);
     order_.reserve(usual_valence);
     edit_.around.reserve(usual_valence);
   }
 
   /// A drag that has been made.
   void note_move(Vertex_index v, const Coordinates& before, const Coordinates& after) {
-    history_.push_move(names().name(v), before, after);
+    if (records_probes_ || !mesh_->is_isolated(v))
+      history_.push_move(names().name(v), before, after);
     changes_.tell_moved(v);
+  }
+
+  /// Puts a probe elsewhere, whatever is on the way. \param largest_coordinate bounds those of all vertices
+  Result place(Vertex_index probe, const Coordinates& p, const Clearance_rule& rule, double largest_coordinate) {
+    if (auto refusal = placement_.refuse(probe, p, rule, largest_coordinate))
+      return {std::nullopt, std::move(refusal)};
+    const Coordinates before = vertex_coordinates(*mesh_, probe);
+    if (before == p)
+      return Result::done(probe);
+    edit_.kind = Edit_kind::move;
+    edit_.vertex = names().name(probe);
+    edit_.before = before;
+    edit_.after = p;
+    edit_.around.clear();
+    return Result::done(changes_.make(edit_, [this](Vertex_index changed) {
+      watch(changed);
+      if (records_probes_)
+        history_.push(edit_);
+    }));
   }
 
   Result insert_on_face(Face_index f, const Coordinates& p, double delta) {
@@ -111,16 +132,19 @@ public:
     return make();
   }
 
-  /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again.
+  /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. Only probes
+  /// that move outside of the history may be elsewhere now: a step that would jump over one is refused.
   Result undo() {
     history_.end_stroke();
     if (history_.to_undo() == nullptr)
       return Result::refused(Refusal_reason::nothing_to_undo);
-    for (;;) {
-      const Vertex_index v = changes_.take_back(*history_.to_undo(), [this](Vertex_index changed) {
-        watch(changed);
-        history_.undone();
-      });
+    for (std::size_t changes = 1;; ++changes) {
+      if (auto refusal = refuse_restoration(*history_.to_undo(), true)) {
+        while (--changes != 0)
+          make_again();
+        return {std::nullopt, std::move(refusal)};
+      }
+      const Vertex_index v = take_back();
       if (history_.is_between_steps())
         return Result::done(v);
     }
@@ -131,11 +155,13 @@ public:
     history_.end_stroke();
     if (history_.to_redo() == nullptr)
       return Result::refused(Refusal_reason::nothing_to_redo);
-    for (;;) {
-      const Vertex_index v = changes_.make(*history_.to_redo(), [this](Vertex_index changed) {
-        watch(changed);
-        history_.redone();
-      });
+    for (std::size_t changes = 1;; ++changes) {
+      if (auto refusal = refuse_restoration(*history_.to_redo(), false)) {
+        while (--changes != 0)
+          take_back();
+        return {std::nullopt, std::move(refusal)};
+      }
+      const Vertex_index v = make_again();
       if (history_.is_between_steps())
         return Result::done(v);
     }
@@ -173,9 +199,28 @@ private:
   Creation_proof<Mesh, Broad_phase> creation_;
   Collapse_proof<Mesh, Broad_phase> collapse_;
   Flip_proof<Mesh, Broad_phase> flip_;
+  Placement_proof<Mesh, Broad_phase> placement_;
+  Restoration_proof<Mesh> restoration_;
   Pivot_order<Mesh> order_;
-  std::vector<Vertex_index> isolated_; ///< they neither come nor go
+  const std::vector<Vertex_index>& isolated_; ///< they neither come nor go
+  bool records_probes_;
   Edit edit_;                          ///< the one that is made, kept to allocate no more
+
+  std::optional<Refusal<Mesh>> refuse_restoration(const Edit& edit, bool is_back) {
+    return records_probes_ ? std::nullopt : restoration_.refuse(edit, names(), is_back);
+  }
+  Vertex_index take_back() {
+    return changes_.take_back(*history_.to_undo(), [this](Vertex_index changed) {
+      watch(changed);
+      history_.undone();
+    });
+  }
+  Vertex_index make_again() {
+    return changes_.make(*history_.to_redo(), [this](Vertex_index changed) {
+      watch(changed);
+      history_.redone();
+    });
+  }
 
   void describe(Edit_kind kind, std::size_t vertex, const Coordinates& p, std::initializer_list<Vertex_index> around) {
     edit_.kind = kind;

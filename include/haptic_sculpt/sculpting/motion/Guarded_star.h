@@ -4,365 +4,184 @@
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/contact/clearance.h>
-#include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
+#include <haptic_sculpt/sculpting/culling/Star_candidates.h>
+#include <haptic_sculpt/sculpting/motion/Delta_limits.h>
 #include <haptic_sculpt/sculpting/motion/Narrow_phase.h>
-#include <haptic_sculpt/sculpting/motion/delta_limit.h>
-#include <haptic_sculpt/sculpting/motion/stop.h>
-#include <haptic_sculpt/sculpting/response/kkt_residual.h>
-#include <haptic_sculpt/surface/broad_phase/fetch_ahead.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// A star, or a probe, with the checklist of what it may touch: decides motions and makes legs that are proven free.
+/// Asks for no memory ahead.
+struct Fetch_nothing {
+  template <class Descriptor>
+  void operator()(Descriptor) const {}
+};
+
+/// A star, or a probe, with its candidates: decides motions and makes legs that are proven free.
 ///
-/// Knows nothing of who holds it; the mesh is read for candidates only.
-template <class Mesh, class Broad_phase>
+/// Knows nothing of who holds it or watches the mesh, which is read for candidates only. All motions of a drag are decided
+/// here, and here alone is said that one is free: never of a target that is not in range, and never once the work is spent.
+template <class Mesh, class Broad_phase, class Fetch = Fetch_nothing>
 class Guarded_star {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
   using Coordinates = internal::Coordinates;
 
-  /// \param watch is asked to fetch its copies of the candidates, where it is given
+  /// \param isolated stand in the way of stars, where they are given
   Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters,
-               const Mesh_watch<Mesh>* watch = nullptr)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), watch_(watch), counters_(&counters),
-      narrow_phase_(counters) {}
+               Isolated_vertices<Mesh>* isolated = nullptr, Fetch fetch = Fetch())
+    : narrow_phase_(counters)
+    , candidates_(mesh, broad_phase, corners, isolated, narrow_phase_.runs(), narrow_phase_.work(), std::move(fetch)) {}
+  Guarded_star(const Guarded_star&) = delete; // the candidates refer to the narrow phase
+  Guarded_star& operator=(const Guarded_star&) = delete;
 
-  Star<Mesh>& star() { return star_; }
-  const Star<Mesh>& star() const { return star_; }
-  const Checklist<Mesh>& checklist() const { return list_; }
-  /// How often a checklist has been filled: it has changed when this has.
-  std::size_t looks() const { return looks_; }
-
-  /// Takes the star of a vertex, and asks for the memory that its first motion will read. Cost: the valence.
-  void collect(Vertex_index v) {
-    // While the star is read, each of whose faces is found by what memory tells of the last one, the broad phase can wait
-    // for its own memory: the surroundings are about as large as those of the star before.
-    if (!mesh_->is_isolated(v)) {
-      const double size = usual_reach * link_extent();
-      Box_3 about(vertex_coordinates(*mesh_, v));
-      for (int i = 0; i < 3; ++i)
-        about.lower[i] -= size, about.upper[i] += size;
-      fetch_ahead(*broad_phase_, about);
-    }
-    star_.collect(*mesh_, v, [this](Vertex_index neighbour) {
-      prefetch_watched(neighbour);
-      fetch_on(*broad_phase_);
-    });
-    invalidate();
-  }
-
-  /// Makes room for a star and candidates of usual size.
+  Star<Mesh>& star() { return candidates_.star(); }
+  const Star<Mesh>& star() const { return candidates_.star(); }
+  const Checklist<Mesh>& checklist() const { return candidates_.list(); }
+  std::size_t looks() const { return candidates_.looks(); }
+  void collect(Vertex_index v) { candidates_.collect(v); }
+  void invalidate() { candidates_.invalidate(); }
+  void expect_one_motion(bool on) { candidates_.expect_one_motion(on); }
   void reserve(std::size_t valence, std::size_t faces) {
-    star_.reserve(valence);
-    list_.reserve(valence, faces);
-    candidates_.reserve(faces);
-    whole_candidates_.reserve(faces);
-    narrow_phase_.runs().reserve(valence + 3 * faces, 3 * faces);
+    candidates_.reserve(valence, faces);
     firsts_.reserve(faces);
   }
 
-  /// Forget the candidates: an element outside the star has changed.
-  void invalidate() {
-    list_.clear();
-    pairs_.clear();
-    patience_ = 1, waited_ = 0;
-    is_crowded_ = false;
-  }
+  /// What its decisions have cost, and may.
+  Work& work() { return narrow_phase_.work(); }
+  const Work& work() const { return narrow_phase_.work(); }
+  bool is_spent() const { return narrow_phase_.work().is_spent(); }
 
-  /// Finds what stops the motion: `firsts()` and the delta limits that come exactly first, or neither. A target that is
-  /// not in range, or no number, is blocked without either: whatever proposed it, no leg is made that is not proven.
-  void decide(const Coordinates& source, const Coordinates& target, double delta) {
+  /// A decided motion. Refers to what the star has found: of use until the star decides the next one.
+  class Decision {
+  public:
+    /// Whether the target is in range, and the closed way to it touches nothing and keeps the delta rule; exact.
+    bool is_free() const { return is_free_; }
+
+    /// The first of those that come exactly first.
+    std::optional<Star_impact<Mesh>> first_impact() const {
+      return star_->firsts_.empty() ? std::nullopt : std::optional<Star_impact<Mesh>>(star_->firsts_[0]);
+    }
+
+    /// Calls `found(contact, sine)` for all that come exactly first; `sine` is that of the angle between the path and the
+    /// contact plane. There are none where the motion is free, out of range, or cost more than the work that was left.
+    /// Returns when, as a fraction of the path.
+    template <class Found>
+    double for_each_first_contact(const Found& found) const {
+      double time = 1;
+      for (const Star_impact<Mesh>& first : star_->firsts_) {
+        const Path_at_plane at = path_at_plane(first.impact());
+        time = at.time;
+        found(haptic_sculpt::contact_of(first, at), at.sine);
+      }
+      if (!star_->limits_.empty())
+        time = star_->limits_.for_each_contact(star_->star(), source_, target_, [&](const Contact_3<Mesh>& contact) {
+          found(contact, -dot(contact.normal, normalized(minus(target_, source_))));
+        });
+      return time;
+    }
+
+  private:
+    friend class Guarded_star;
+    const Guarded_star* star_;
+    Coordinates source_, target_;
+    bool is_free_;
+
+    Decision(const Guarded_star& star, const Coordinates& source, const Coordinates& target, bool is_free)
+      : star_(&star), source_(source), target_(target), is_free_(is_free) {}
+  };
+
+  /// Finds what stops the motion: the impacts and the delta limits that come exactly first.
+  Decision decide(const Coordinates& source, const Coordinates& target, double delta) {
     firsts_.clear();
     limits_.clear();
-    is_out_of_range_ = !is_in_range(target);
-    if (is_out_of_range_)
-      return;
-    if (has_pairs(source, target))
-      narrow_phase_.first_impacts(star_, list_, pairs_, source, target, firsts_);
-    else
-      look_along(source, target, [&](const Swept_star_3& part) {
-        narrow_phase_.first_impacts_near(star_, list_, source, target, part.path(), firsts_);
-        return part.until < 1 && !firsts_.empty() && firsts_[0].impact().time().second <= part.until;
+    if (is_in_range(target) && !is_spent()) {
+      if (!candidates_.is_certainly_free(source, target))
+        find_first_impacts(source, target);
+      if (is_spent()) // others might come before them
+        firsts_.clear();
+      else {
+        limits_.find(star(), source, target, delta);
+        keep_the_first();
+      }
+    }
+    const bool is_free = firsts_.empty() && limits_.empty() && is_in_range(target) && !is_spent();
+    return Decision(*this, source, target, is_free);
+  }
+
+  /// Only whether it is free: costs less.
+  bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
+    if (!is_in_range(target) || is_spent())
+      return false;
+    bool free = candidates_.is_certainly_free(source, target);
+    if (!free && candidates_.has_pairs(source, target))
+      free = narrow_phase_.is_free(star(), checklist(), candidates_.pairs(), source, target);
+    else if (!free)
+      candidates_.look_along(source, target, [&](const Swept_star_3&) {
+        return !(free = narrow_phase_.is_free(star(), checklist(), source, target));
       });
-    find_delta_limits(source, target, delta);
+    return free && !is_spent() && Delta_limits<Mesh>::are_kept(star(), source, target, delta);
+  }
+
+  /// One leg from source towards target: all the way if it is free, else proven up to a stop. Fills contacts and stop error.
+  Coordinates leg(const Coordinates& source, const Coordinates& target, const Drag_rules& rules, Drag_result<Mesh>& result) {
+    ++result.legs;
+    result.contacts.clear();
+    result.stop_error = result.stop_error_along_path = 0;
+    const Decision decision = decide(source, target, rules.delta);
+    if (decision.is_free())
+      return target;
+    // Of several simultaneous contacts the least setback decides: they meet in a point, and a clearance from one plane
+    // through it is a clearance from it. The proof sees to the others.
+    double steepest = 0, reach = 0;
+    const double time = decision.for_each_first_contact([&](const Contact_3<Mesh>& contact, double sine) {
+      steepest = std::fmax(steepest, sine > 0 ? sine : 1);
+      reach = std::fmax(reach, largest_coordinate_of(contact));
+      result.contacts.push_back(contact);
+    });
+    reach = std::fmax(reach, largest_magnitude(point_of_path(source, target, time)));
+    const Coordinates end = stop_before(source, target, time, setback(rules.clearance.at(reach), steepest),
+                                        [&](const Coordinates& q) { return is_free(source, q, rules.delta); });
+    measure_stop(source, target, end, time, rules.delta, result);
+    return end;
+  }
+
+private:
+  Narrow_phase<Mesh, Filter_counters> narrow_phase_;
+  Star_candidates<Mesh, Broad_phase, Fetch> candidates_;
+  Star_impacts<Mesh> firsts_;  ///< of the motion last decided
+  Delta_limits<Mesh> limits_;  ///< the same
+
+  void find_first_impacts(const Coordinates& source, const Coordinates& target) {
+    if (candidates_.has_pairs(source, target))
+      narrow_phase_.first_impacts(star(), checklist(), candidates_.pairs(), source, target, firsts_);
+    else
+      candidates_.look_along(source, target, [&](const Swept_star_3& part) {
+        narrow_phase_.first_impacts_near(star(), checklist(), source, target, part.path(), firsts_);
+        return is_spent() || (part.until < 1 && !firsts_.empty() && firsts_[0].impact().time().second <= part.until);
+      });
+  }
+
+  void keep_the_first() {
     if (limits_.empty() || firsts_.empty())
       return;
     const CGAL::Gmpq impact_time(firsts_[0].impact().exact_time().get_mpq_t());
-    const CGAL::Comparison_result order = CGAL::compare(limits_[0].time, impact_time);
+    const CGAL::Comparison_result order = CGAL::compare(limits_.time(), impact_time);
     if (order == CGAL::SMALLER)
       firsts_.clear();
     else if (order == CGAL::LARGER)
       limits_.clear();
   }
 
-  const Star_impacts<Mesh>& firsts() const { return firsts_; }
-  bool is_blocked() const { return is_out_of_range_ || !firsts_.empty() || !limits_.empty(); }
-
-  /// Whether the target is in range and the closed way touches nothing and keeps the delta rule; exact.
-  bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
-    if (!is_in_range(target))
-      return false;
-    bool free = true;
-    if (has_pairs(source, target))
-      free = narrow_phase_.is_free(star_, list_, pairs_, source, target);
-    else
-      look_along(source, target,
-                 [&](const Swept_star_3&) { return !(free = narrow_phase_.is_free(star_, list_, source, target)); });
-    return free && keeps_delta(source, target, delta);
-  }
-
-  /// One leg from source towards target: all the way if it is free, else proven up to a stop. Fills contacts and stop error.
-  Coordinates leg(const Coordinates& source, const Coordinates& target, const Drag_rules& rules,
-                  Drag_result<Mesh>& result) {
-    ++result.legs;
-    result.contacts.clear();
-    result.stop_error = result.stop_error_along_path = 0;
-    decide(source, target, rules.delta);
-    if (!is_blocked())
-      return target;
-    // Of several simultaneous contacts the least setback decides: they meet in a point, and a clearance from one plane
-    // through it is a clearance from it. The proof sees to the others.
-    double steepest = 0, reach = 0;
-    const double time = for_each_first_contact(source, target, [&](const Contact_3<Mesh>& contact, double sine) {
-      steepest = std::fmax(steepest, sine > 0 ? sine : 1);
-      reach = std::fmax(reach, largest_coordinate_of(contact));
-      result.contacts.push_back(contact);
-    });
-    reach = std::fmax(reach, largest_magnitude(point_of_path(source, target, time)));
-    const Coordinates end =
-        stop_before(source, target, time, setback(rules.clearance.at(reach), steepest),
-                              [&](const Coordinates& q) { return is_free(source, q, rules.delta); });
-    measure_stop(source, target, end, time, rules.delta, result);
-    return end;
-  }
-
-  /// Calls `found(contact, sine)` for all that come first in the motion last decided; `sine` is that of the angle between
-  /// the path and the contact plane. Returns when, as a fraction of the path. \pre is_blocked()
-  template <class Found>
-  double for_each_first_contact(const Coordinates& source, const Coordinates& target, const Found& found) const {
-    double time = 1;
-    for (const Star_impact<Mesh>& first : firsts_) {
-      const Path_at_plane at = path_at_plane(first.impact());
-      time = at.time;
-      found(haptic_sculpt::contact_of(first, at), at.sine);
-    }
-    for (const Limit& limit : limits_) {
-      const Contact_3<Mesh> contact = contact_of_limit(limit, source, target, time);
-      found(contact, -dot(contact.normal, normalized(minus(target, source))));
-    }
-    return time;
-  }
-
-private:
-  /// The delta rule reached by face i of the star.
-  struct Limit {
-    std::size_t face;
-    Altitude_over side;
-    Limit_time time;
-  };
-
-  const Mesh* mesh_;
-  Broad_phase* broad_phase_;
-  const Face_corners<Mesh>* corners_of_;
-  const Mesh_watch<Mesh>* watch_;
-  Filter_counters* counters_;
-  Narrow_phase<Mesh, Filter_counters> narrow_phase_;
-  Star<Mesh> star_;
-  Checklist<Mesh> list_;
-  std::size_t looks_ = 0;
-  Near_pairs<Mesh> pairs_;
-  int patience_ = 1, waited_ = 0;
-  bool is_crowded_ = false; ///< the last long motion passed over many faces
-  std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
-  Star_impacts<Mesh> firsts_;
-  std::vector<Limit> limits_;
-  bool is_out_of_range_ = false; ///< of the motion last decided
-
-  /// How much larger than the motion, in extents of the link, the region of a checklist is: of the first, which has to be filled from
-  /// memory not seen lately, and of those that follow in one grab.
-  static constexpr double first_margin = 0.125, region_margin = 0.5;
-
-  /// From a vertex to the end of its first region, in extents of a link: half of one and the margin.
-  static constexpr double usual_reach = 0.5 + first_margin;
-
-  /// Pairs cost as much as to decide a motion or two without them, so they are taken at the second motion of a grab, and with every
-  /// one that leaves the ball. Where they cannot be had, or are too many, they are tried again after twice as many motions.
-  static constexpr int most_patience = 64;
-
-  /// So many faces are looked at at once. Of a long way that passes over more, first a part is looked at, about as long as the star is
-  /// wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many are soon stopped.
-  static constexpr std::size_t few_faces = 192;
-  static constexpr double least_part = 0x1p-10;
-
-  /// Whether pairs cover the motion; takes them where it is worth while.
-  bool has_pairs(const Coordinates& source, const Coordinates& target) {
-    if (pairs_.cover(source, target))
-      return true;
-    if (star_.valence() == 0 || is_long(source, target))
-      return false;
-    const bool is_due = ++waited_ > patience_;
-    const std::size_t looks = looks_;
-    look_around(source, target, is_due ? region_margin / 2 * link_extent() : 0);
-    if (!is_due || looks_ != looks) // not both in one motion: it would be the slowest of all
-      return false;
-    waited_ = 0;
-    pairs_.assign(star_, list_, narrow_phase_.runs(), source, target);
-    const bool covered = pairs_.cover(source, target);
-    patience_ = covered ? 0 : std::min(2 * patience_ + 1, most_patience);
-    return covered;
-  }
-
-  /// Longer than the link is wide.
-  bool is_long(const Coordinates& source, const Coordinates& target) const {
-    double way = 0;
-    for (int i = 0; i < 3; ++i)
-      way = std::fmax(way, std::abs(target[i] - source[i]));
-    return way > link_extent();
-  }
-
-  double link_extent() const {
-    Box_3 link;
-    for (const Coordinates& p : star_.link_points)
-      link.include(p);
-    double most = 0;
-    for (int i = 0; i < 3; ++i)
-      most = std::fmax(most, link.upper[i] - link.lower[i]);
-    return most;
-  }
-
-  /// Makes the checklist complete for a motion that is not long, and `room` around it. Those of one grab share a list.
-  void look_around(const Coordinates& source, const Coordinates& target, double room = 0) {
-    Box_3 region = Box_3(source).include(target), with_room = region;
-    for (int i = 0; i < 3; ++i)
-      with_room.lower[i] -= room, with_room.upper[i] += room;
-    if (list_.region().contains(with_room))
-      return;
-    const double margin = (list_.faces().empty() ? first_margin : region_margin) * link_extent();
-    for (int i = 0; i < 3; ++i) {
-      region.lower[i] -= margin;
-      region.upper[i] += margin;
-    }
-    Swept_star_3 anywhere = star_.swept(region.lower, region.upper);
-    anywhere.is_box = true;
-    look_at(anywhere);
-    take_candidates(region);
-  }
-
-  /// Makes the checklist complete for a motion, or for a part of it from the start, and calls `is_enough(part)`; for longer parts
-  /// until that is true, and at last for the whole.
-  template <class Is_enough>
-  void look_along(const Coordinates& source, const Coordinates& target, const Is_enough& is_enough) {
-    Swept_star_3 part = star_.swept(source, target);
-    if (!is_long(source, target)) {
-      look_around(source, target);
-      is_enough(part);
-      return;
-    }
-    const bool has_looked = !is_crowded_;
-    if (has_looked) {
-      look_at(part);
-      is_crowded_ = candidates_.size() > few_faces;
-    }
-    if (is_crowded_) {
-      const double way = path_length(source, target), size = std::fmax(link_extent(), way * least_part);
-      std::swap(candidates_, whole_candidates_);
-      part.until = 0.25;
-      while (part.until > least_part && part.until * way > 2 * size)
-        part.until /= 16;
-      for (; part.until < 1; part.until *= 16) {
-        look_at(part);
-        take_candidates();
-        if (is_enough(part))
-          return;
-      }
-      part.until = 1;
-      if (has_looked)
-        std::swap(candidates_, whole_candidates_);
-      else
-        look_at(part);
-      is_crowded_ = candidates_.size() > few_faces;
-    }
-    take_candidates();
-    is_enough(part);
-  }
-
-  void look_at(const Swept_star_3& part) {
-    candidates_.clear();
-    broad_phase_->query(part, candidates_);
-  }
-  /// \param region empty for one motion alone: the next one asks again
-  void take_candidates(const Box_3& region = Box_3()) {
-    pairs_.clear();
-    list_.assign(*mesh_, *corners_of_, star_, candidates_, region, [this](Vertex_index v) { prefetch_watched(v); });
-    ++looks_;
-  }
-
-  void prefetch_watched(Vertex_index v) const {
-    if (watch_ != nullptr)
-      watch_->prefetch(v);
-  }
-
-  template <class Found>
-  void for_each_delta_limit(const Coordinates& source, const Coordinates& target, double delta, const Found& found) const {
-    if (delta <= 0)
-      return;
-    for (std::size_t i = 0; i < star_.valence(); ++i)
-      for (const Altitude_over side : {Altitude_over::gi, Altitude_over::ji, Altitude_over::jg})
-        if (auto time = delta_limit(source, target, star_.link_points[i], star_.link_points[star_.next(i)], delta,
-                                              side))
-          if (!found(Limit{i, side, *std::move(time)}))
-            return;
-  }
-
-  bool keeps_delta(const Coordinates& source, const Coordinates& target, double delta) const {
-    bool kept = true;
-    for_each_delta_limit(source, target, delta, [&](const Limit&) { return kept = false; });
-    return kept;
-  }
-
-  void find_delta_limits(const Coordinates& source, const Coordinates& target, double delta) {
-    limits_.clear();
-    for_each_delta_limit(source, target, delta, [&](Limit limit) {
-      const CGAL::Comparison_result order = limits_.empty() ? CGAL::SMALLER : CGAL::compare(limit.time, limits_[0].time);
-      if (order == CGAL::SMALLER)
-        limits_.clear();
-      if (order != CGAL::LARGER)
-        limits_.push_back(std::move(limit));
-      return true;
-    });
-  }
-
-  /// Also tells the time in double.
-  Contact_3<Mesh> contact_of_limit(const Limit& limit, const Coordinates& source, const Coordinates& target, double& time) const {
-    const std::size_t next = star_.next(limit.face);
-    time = CGAL::to_double(limit.time);
-    Contact_3<Mesh> contact;
-    contact.kind = Contact_kind::delta;
-    const Vertex_index g = star_.link[limit.face], i = star_.link[next];
-    contact.vertices = {g, i, limit.side == Altitude_over::gi ? star_.centre
-                              : limit.side == Altitude_over::ji ? g : i};
-    contact.normal = altitude_gradient(point_of_path(source, target, time),
-                                                 star_.link_points[limit.face], star_.link_points[next], limit.side);
-    contact.plane = {star_.link_points[limit.face], star_.link_points[next], star_.link_points[next]};
-    contact.is_flat = true;
-    return contact;
-  }
-
   void measure_stop(const Coordinates& source, const Coordinates& target, const Coordinates& end, double time, double delta,
                     Drag_result<Mesh>& result) const {
     const double made = length(minus(end, source));
     result.stop_error_along_path = std::fmax(0.0, std::fma(time, path_length(source, target), -made));
-    double normal = std::numeric_limits<double>::infinity();
+    double normal = limits_.least_altitude(star(), end) - delta;
     for (const Contact_3<Mesh>& contact : result.contacts)
       if (!contact.is_flat)
-        normal = std::fmin(normal, std::abs(height_over_plane(contact.plane[0], contact.plane[1],
-                                                                        contact.plane[2], end)));
-    for (const Limit& limit : limits_)
-      normal = std::fmin(normal, altitude(end, star_.link_points[limit.face],
-                                                    star_.link_points[star_.next(limit.face)], limit.side) - delta);
+        normal = std::fmin(normal, std::abs(height_over_plane(contact.plane[0], contact.plane[1], contact.plane[2], end)));
     result.stop_error = std::isfinite(normal) ? normal : result.stop_error_along_path;
   }
 };

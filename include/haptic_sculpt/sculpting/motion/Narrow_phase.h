@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
 #include <haptic_sculpt/sculpting/Star_impact.h>
+#include <haptic_sculpt/sculpting/motion/Work.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -58,11 +59,17 @@ public:
   /// Working memory, to be shared.
   Star_runs<Mesh>& runs() { return runs_; }
 
+  /// Each pair that is swept counts. Once the bound is passed nothing more is decided: no way is free then, and no impacts
+  /// are told of.
+  Work& work() { return work_; }
+  const Work& work() const { return work_; }
+
 private:
   using Vertices = std::array<Vertex_index, 3>;
 
   Counters* counters_;
   Star_runs<Mesh> runs_;
+  Work work_;
 
   /// One motion, and what is in its way.
   struct Scene {
@@ -147,13 +154,16 @@ private:
   }
 
   template <class Hit>
-  bool vertex_on_face(Scene& scene, std::uint32_t f, const Hit& hit) const {
+  bool vertex_on_face(Scene& scene, std::uint32_t f, const Hit& hit) {
     const auto& face = scene.list.faces()[f];
     if (!do_meet(scene.list.box(face), scene.motion.path()))
       return true;
     const auto& vertices = scene.list.vertices();
     const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
     const Sweep_points points = {scene.motion.source(), scene.motion.target(), a.point, b.point, c.point};
+    work_.spend();
+    if (work_.is_spent())
+      return false;
     const Sweep_verdict verdict = vertex_face_verdict(points, *counters_);
     return !verdict.hits ||
            goes_on(scene, hit(Impact_feature::vertex_face, Vertices{a.index, b.index, c.index}, points, verdict));
@@ -161,7 +171,7 @@ private:
 
   /// The edge to link vertex i against a candidate.
   template <class Hit>
-  bool moving_edge(Scene& scene, std::size_t i, std::uint32_t e, const Hit& hit) const {
+  bool moving_edge(Scene& scene, std::size_t i, std::uint32_t e, const Hit& hit) {
     const auto& edge = scene.list.edges()[e];
     const auto& vertices = scene.list.vertices();
     const Vertex_index far_end = scene.star.link[i];
@@ -173,6 +183,9 @@ private:
     const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
     const Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point,
                                            high.point};
+    work_.spend();
+    if (work_.is_spent())
+      return false;
     const Sweep_verdict verdict = edge_edge_verdict(points, *counters_);
     return !verdict.hits ||
            goes_on(scene, hit(Impact_feature::edge_edge, Vertices{far_end, low.index, high.index}, points, verdict));
@@ -180,7 +193,7 @@ private:
 
   /// Face i against a candidate.
   template <class Hit>
-  bool moving_face(Scene& scene, std::size_t i, std::uint32_t v, const Hit& hit) const {
+  bool moving_face(Scene& scene, std::size_t i, std::uint32_t v, const Hit& hit) {
     const Star<Mesh>& star = scene.star;
     const std::size_t j = star.next(i);
     const auto& vertex = scene.list.vertices()[v];
@@ -188,6 +201,9 @@ private:
       return true;
     const Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i],
                                            star.link_points[j], vertex.point};
+    work_.spend();
+    if (work_.is_spent())
+      return false;
     const Sweep_verdict verdict = face_vertex_verdict(points, *counters_);
     return !verdict.hits || goes_on(scene, hit(Impact_feature::face_vertex,
                                                Vertices{star.link[i], star.link[j], vertex.index}, points, verdict));

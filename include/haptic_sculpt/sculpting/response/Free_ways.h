@@ -38,6 +38,8 @@ public:
       if (is_settled_)
         break;
       if (!look(walk, guard, target)) {
+        if (guard.is_spent())
+          break;
         is_settled_ = true;
         sought_ = true;
         sought_at_ = walk.x;
@@ -127,9 +129,12 @@ private:
     distance_ = length(pull_);
     lengths_ = walk.lengths();
     rules_ = walk.rules();
-    normals_.clear();
-    curved_.clear();
-    met_.clear();
+    guard.work().search_at(x_);
+    if (!guard.work().is_resumed()) {
+      normals_.clear();
+      curved_.clear();
+      met_.clear();
+    }
     const double least = gain_ = lengths_.lifted();
     if (distance_ <= lengths_.shortest_pull())
       return false;
@@ -189,6 +194,8 @@ private:
   /// Decides the way up to where it is nearest to the target, or up to what is in the way.
   template <class Guard>
   void try_way(Guard& guard, const Vector& way) {
+    if (!guard.work().is_due())
+      return;
     Vector direction = normalized(way);
     double along = dot(direction, pull_);
     if (along < 0) {
@@ -201,14 +208,14 @@ private:
                                         : nearest_to_planes(advanced(x_, along, direction), followed);
       if (!(gain_at(y) > gain_))
         return;
-      guard.decide(x_, y, rules_.delta);
-      if (!guard.is_blocked()) {
+      const auto decision = guard.decide(x_, y, rules_.delta);
+      if (decision.is_free()) {
         best_ = y;
         gain_ = gain_at(y);
         return;
       }
       boost::container::static_vector<Contact_3<Mesh>, most_planes> met;
-      const double time = guard.for_each_first_contact(x_, y, [&](const Contact_3<Mesh>& contact, double) {
+      const double time = decision.for_each_first_contact([&](const Contact_3<Mesh>& contact, double) {
         if (met.size() < met.capacity())
           met.push_back(contact);
       });

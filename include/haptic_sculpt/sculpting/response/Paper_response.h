@@ -25,9 +25,12 @@ class Paper_response {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
 
-  static constexpr int most_legs = Slide_path::most_legs;
+  static constexpr int most_legs = 32;
 
   void forget() { touched_.number = 0; }
+
+  /// The way of the last move.
+  const internal::Slide_path& path() const { return path_; }
 
   template <class Guard>
   Coordinates move(Guard& guard, const Mesh& mesh, const Coordinates& source, const Coordinates& target,
@@ -35,7 +38,7 @@ public:
     if (place_ != source)
       forget();
     place_ = source;
-    path_ = Slide_path(source);
+    path_ = internal::Slide_path(source);
     result.end = Drag_end::leg_limit;
     held_.clear();
     bool stands = false; // did not move in the turn before
@@ -73,17 +76,16 @@ public:
       }
       stands = !moved;
     }
+    if (guard.is_spent() && result.end != Drag_end::reached)
+      result.end = Drag_end::work_limit;
     result.contacts = held_;
     if (is_farther(target, place_, source)) {
       place_ = source;
-      path_ = Slide_path(source);
+      path_ = internal::Slide_path(source);
       result.legs = 0;
     }
     return place_;
   }
-
-  /// The legs of the last move().
-  const Slide_path& path() const { return path_; }
 
 private:
   /// A face, edge or vertex of the mesh, and the side of its faces J is on: +1 where their normals point.
@@ -108,9 +110,9 @@ private:
     double clearance;
   };
 
-  Slide_path path_;
   Touched touched_;
   Coordinates place_{};
+  internal::Slide_path path_;
   Drag_result<Mesh> leg_;                      ///< of the last leg; kept to allocate no more
   typename Drag_result<Mesh>::Contacts held_; ///< of the last leg that was stopped
 

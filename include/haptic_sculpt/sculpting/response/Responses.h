@@ -28,18 +28,17 @@ public:
   Coordinates move(Response response, Guard& guard, const Mesh& mesh, const Coordinates& source,
                    const Coordinates& target, const Drag_rules& rules, Drag_result<Mesh>& result) {
     Coordinates end;
-    last_ = response;
     if (response == Response::slide)
       end = slide_.move(guard, source, target, rules, result);
     else if (response == Response::paper)
       end = paper_.move(guard, mesh, source, target, rules, result);
     else {
       end = guard.leg(source, target, rules, result);
-      stop_path_ = Slide_path(source);
-      if (end != source)
-        stop_path_.add(end);
-      result.legs = stop_path_.legs(); // to be stopped where it stands is no leg
-      result.end = end == target ? Drag_end::reached : end == source ? Drag_end::no_progress : Drag_end::held;
+      result.legs = end == source ? 0 : 1; // to be stopped where it stands is no leg
+      result.end = end == target     ? Drag_end::reached
+                   : guard.is_spent() ? Drag_end::work_limit
+                   : end == source    ? Drag_end::no_progress
+                                      : Drag_end::held;
     }
     const Vector pull = minus(target, end);
     if (result.contacts.empty())
@@ -49,22 +48,24 @@ public:
     return end;
   }
 
-  /// Instead of a move(): nothing moved.
-  void stay(const Coordinates& at) {
-    last_ = Response::stop;
-    stop_path_ = Slide_path(at);
-  }
-
-  /// The legs of the last move().
-  const Slide_path& path() const {
-    return last_ == Response::slide ? slide_.path() : last_ == Response::paper ? paper_.path() : stop_path_;
+  /// Appends the points of the last move: where it began, and the ends of its legs. \pre that was between these
+  template <class Points>
+  void append_path(Response response, const Coordinates& source, const Coordinates& end, Points& points) const {
+    const auto append = [&points](const Coordinates& p) { points.emplace_back(p[0], p[1], p[2]); };
+    if (response == Response::stop) {
+      append(source);
+      if (end != source)
+        append(end);
+      return;
+    }
+    const internal::Slide_path& path = response == Response::slide ? slide_.path() : paper_.path();
+    for (int i = 0; i <= path.legs(); ++i)
+      append(path.point(i));
   }
 
 private:
   Slide_response<Mesh> slide_;
   Paper_response<Mesh> paper_;
-  Slide_path stop_path_;
-  Response last_ = Response::slide;
   std::vector<Vector> normals_;
 
   static double shortest_pull(const Drag_rules& rules, const Coordinates& end, const Drag_result<Mesh>& result) {

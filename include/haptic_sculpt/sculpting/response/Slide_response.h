@@ -39,6 +39,7 @@ public:
     way_out_.forget();
     free_ways_.forget();
     unmet_planes_.forget();
+    part_ = 1;
   }
 
   /// Goes from source towards target. Returns where the vertex is then; every leg on the way there is proven free.
@@ -48,6 +49,9 @@ public:
                    Drag_result<Mesh>& result) {
     if (walk_.x != source)
       forget();
+    const Vector aim = part_ < 1 ? advanced(source, part_, minus(target, source)) : target;
+    if (!guard.work().is_resumed())
+      searched_for_ = target;
     walk_.begin(source, rules);
     unmet_planes_.begin();
     Walk_end end;
@@ -55,46 +59,50 @@ public:
     Vector before = source, at_last_shortening = source;
     int until = legs_before_leaps, shortenings = 0;
     for (;;) {
-      end = walk_.go(guard, target, std::min(until, most_legs));
+      end = walk_.go(guard, aim, std::min(until, most_legs));
+      if (guard.is_spent())
+        break;
       // A target that is beyond reach brings forth legs each longer than the last, far from all that is to be seen: no
       // search for ways that are better there.
-      if (end == Walk_end::reached || (end != Walk_end::limit && walk_.is_beyond_reach(target)))
+      if (end == Walk_end::reached || (end != Walk_end::limit && walk_.is_beyond_reach(aim)))
         break;
       bool creeps = false;
       if (walk_.legs() + Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
         ++shortenings;
-        walk_.path.shorten(target, is_free, Ways::straight_and_bent);
-        if (leap_far(guard, at_last_shortening, target))
+        walk_.path.shorten(aim, is_free, Ways::straight_and_bent);
+        if (leap_far(guard, at_last_shortening, aim))
           until = 0;
         else
           creeps = end == Walk_end::limit &&
-                   nearer_by(target, at_last_shortening, walk_.x) < walk_.lengths().lifted();
+                   nearer_by(aim, at_last_shortening, walk_.x) < walk_.lengths().lifted();
         at_last_shortening = walk_.x;
       }
       if (walk_.legs() >= most_legs)
         break;
       if (creeps) {
         end = Walk_end::stuck;
-        if (!way_out_.take(walk_, guard, target, most_legs))
+        if (!way_out_.take(walk_, guard, aim, most_legs))
           break;
       } else if (end == Walk_end::limit) {
         if (until > legs_before_leaps)
-          leap(guard, before, target);
+          leap(guard, before, aim);
         before = walk_.x;
         until = walk_.legs() + legs_between_leaps;
-      } else if (!unmet_planes_.take(walk_, guard, target) &&
-                 !way_out_.take(walk_, guard, target, most_legs))
+      } else if (!unmet_planes_.take(walk_, guard, aim) &&
+                 !way_out_.take(walk_, guard, aim, most_legs))
         break;
     }
-    if (end != Walk_end::reached && !walk_.is_beyond_reach(target)) {
+    if (end != Walk_end::reached && !walk_.is_beyond_reach(aim) && !guard.is_spent()) {
       if (walk_.legs() + Free_ways<Mesh>::trial_legs > most_legs)
-        walk_.path.shorten(target, is_free, Ways::straight_and_bent);
-      free_ways_.take(walk_, guard, target, most_legs);
-      end = walk_.x == target         ? Walk_end::reached
+        walk_.path.shorten(aim, is_free, Ways::straight_and_bent);
+      free_ways_.take(walk_, guard, aim, most_legs);
+      end = walk_.x == aim         ? Walk_end::reached
             : free_ways_.is_settled() ? Walk_end::settled
                                       : Walk_end::stuck;
     }
-    if (end != Walk_end::reached && walk_.legs() >= most_legs)
+    if (is_cut_short(guard, end, target))
+      end = Walk_end::spent;
+    else if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
     // To keep a clearance from what was nearer J may have gone back: then it had better stay.
     if (end != Walk_end::reached && is_farther(target, walk_.x, source))
@@ -106,8 +114,8 @@ public:
     return walk_.x;
   }
 
-  /// The legs of the last move().
-  const Slide_path& path() const { return walk_.path; }
+  /// The way of the last move.
+  const internal::Slide_path& path() const { return walk_.path; }
 
 private:
   using Walk = Slide_walk<Mesh>;
@@ -117,6 +125,27 @@ private:
   Unmet_planes<Mesh> unmet_planes_;
   Way_out<Mesh> way_out_;
   Free_ways<Mesh> free_ways_;
+  double part_ = 1;        ///< of the way to the target, so much is asked for
+  Vector searched_for_{}; ///< for what target the search was begun
+
+  /// A decision that costs more than the bound alone is tried on a shorter way next time, past fewer candidates.
+  static constexpr double shorter = 0.25, shortest_part = 0x1p-20;
+
+  /// Whether the bound on the work has kept the walk from its end, or the search from being one for this target.
+  template <class Guard>
+  bool is_cut_short(const Guard& guard, Walk_end end, const Vector& target) {
+    const Work& work = guard.work();
+    const bool is_short = part_ < 1;
+    if (!guard.is_spent())
+      part_ = std::fmin(1.0, part_ / shorter);
+    else if (walk_.legs() == 0 && !work.is_searching())
+      part_ = std::fmax(shortest_part, part_ * shorter);
+    if (walk_.x == target)
+      return false;
+    const bool is_other_search =
+        work.is_resumed() && length(minus(target, searched_for_)) > 4 * walk_.lengths().clearance;
+    return guard.is_spent() || is_short || (end == Walk_end::settled && (is_other_search || work.has_left_out()));
+  }
 
   /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many
   /// times as far, and takes it if that, when J has come down, has brought it nearer than these did.
@@ -160,7 +189,7 @@ private:
     for (const Vector& way : {advanced(pull, -dot(pull, up), up), minus(start.x, before)})
       for (const double part : {1.0, 0x1p-2, 0x1p-4, 0x1p-6, 0x1p-8})
         for (const double slope : {1.0, 0x1p-2, 0x1p-4, 0.0}) {
-          if (start.legs() + 2 > most_legs)
+          if (start.legs() + 2 > most_legs || guard.is_spent())
             return false;
           trial_.begin_at(start);
           const Vector end = advanced(advanced(start.x, part * distance, normalized(way)), slope * part * distance, up);
@@ -191,6 +220,7 @@ private:
     result.legs = walk_.legs();
     const bool has_contacts = !walk_.facets.empty();
     result.end = end == Walk_end::reached                      ? Drag_end::reached
+                 : end == Walk_end::spent                      ? Drag_end::work_limit
                  : end == Walk_end::limit                      ? Drag_end::leg_limit
                  : end == Walk_end::settled && has_contacts    ? Drag_end::held
                  : walk_.x == source                           ? Drag_end::no_progress

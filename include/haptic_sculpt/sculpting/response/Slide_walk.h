@@ -2,51 +2,18 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_SLIDE_WALK_H
 #define HAPTIC_SCULPT_SCULPTING_SLIDE_WALK_H
 
-#include <haptic_sculpt/sculpting/contact/Facet.h>
-#include <haptic_sculpt/sculpting/motion/stop.h>
+#include <haptic_sculpt/sculpting/response/Slide_contacts.h>
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
-#include <haptic_sculpt/sculpting/response/nearest_permitted.h>
-
-#include <boost/container/static_vector.hpp>
-
-#include <algorithm>
-#include <optional>
 
 namespace haptic_sculpt {
 namespace internal {
-
-/// The lengths of a slide where J is. All in the unit of the coordinates.
-struct Slide_lengths {
-  double clearance;  ///< c: the largest that is kept from a contact plane here
-  double resolution; ///< one unit in the last place of the contacts and of J: what rounding a point can do
-
-  /// Higher than this over its plane J has left a contact.
-  double lifted() const { return clearances_of_lift * clearance; }
-  /// Nearer than this to the border of a facet another feature may be near.
-  double border() const { return 16 * clearance; }
-  /// A leg no longer than this is not worth making: it is what rounding leaves of a perfect one.
-  double settled() const { return 2 * resolution; }
-  /// A pull no longer than this says nothing about its direction.
-  double shortest_pull() const { return 16 * clearance; }
-  /// To be a clearance off two planes J may have to go back from its target by a clearance over the sine of half their
-  /// angle. No farther than this: in a gap more acute than a hundredth of a radian less than a clearance is kept.
-  double retreat() const { return clearances_of_retreat * clearance; }
-  /// Normals are rounded, and over a longer leg along a plane that would take J off it, or into it, by hundreds of
-  /// clearances. A target that is farther is approached in more than one leg: the cone of the contacts' normals, which
-  /// says whether J is at a nearest point, does not depend on how far the target is.
-  double farthest_pull() const { return 0x1p62 * resolution; }
-
-  double noise() const { return 0x1p-64 * resolution; }
-
-  /// In clearances of the contact at hand: higher over its plane J has left it.
-  static constexpr double clearances_of_lift = 8, clearances_of_retreat = 128;
-};
 
 /// How a walk ended.
 enum class Walk_end : std::uint8_t {
   reached, ///< at the target
   settled, ///< at the point nearest to the target that the contacts permit
   stuck,   ///< no representable point on the way there is free
+  spent,   ///< as much work as the drag may do
   limit    ///< as many legs as permitted
 };
 
@@ -55,9 +22,25 @@ enum class Walk_end : std::uint8_t {
 ///
 /// \tparam Guard decides motions exactly: Guarded_star
 template <class Mesh>
-struct Slide_walk {
-  /// More contacts than this at once are not carried; whoever matters is met again.
-  static constexpr std::size_t most_facets = 32;
+class Slide_walk : public Slide_contacts<Mesh> {
+  using Base = Slide_contacts<Mesh>;
+  using Base::lengths_;
+  using Base::rules_;
+
+public:
+  using Base::facets;
+  using Base::forget;
+  using Base::forget_what_was_left;
+  using Base::is_beyond_reach;
+  using Base::leave_what_is_past;
+  using Base::meet_first;
+  using Base::most_facets;
+  using Base::nearest;
+  using Base::place;
+  using Base::place_at;
+  using Base::pull_to;
+  using Base::x;
+
   /// Bounds the turns in which no leg is made: each of them learns of a contact or forgets one.
   static constexpr int most_turns = 128;
   /// How often a place near a new contact is sought with growing clearance, and how often at all, as each may meet yet
@@ -75,21 +58,9 @@ struct Slide_walk {
   /// that as well.
   static constexpr int legs_before_thrift = 8;
 
-  /// One unit in the last place of a unit vector, and how much alike two normals are that differ by rounding alone.
-  static constexpr double rounding_of_normals = 0x1p-52, alike = 2 * rounding_of_normals;
-
-  using Facets = boost::container::static_vector<Facet<Mesh>, most_facets>;
-  using Half_spaces = boost::container::static_vector<Half_space, most_facets>;
-
-  Vector x{};
-  Facets facets;
   Slide_path path; ///< made so far, ends at x
 
   int legs() const { return path.legs(); }
-  /// Where J is now.
-  const Slide_lengths& lengths() const { return lengths_; }
-  const Drag_rules& rules() const { return rules_; }
-  double delta() const { return rules_.delta; }
 
   /// Walks until it ends, or `most_legs` have been made.
   template <class Guard>
@@ -117,16 +88,18 @@ struct Slide_walk {
       }
       if (legs() >= most_legs)
         return Walk_end::limit;
-      guard.decide(x, y, rules_.delta);
-      if (is_far && !guard.is_blocked()) { // what is near has been decided, by numbers of about one size
+      auto decision = guard.decide(x, y, rules_.delta);
+      if (is_far && decision.is_free()) { // what is near has been decided, by numbers of about one size
         y = target;
-        guard.decide(x, y, rules_.delta);
+        decision = guard.decide(x, y, rules_.delta);
       }
-      if (guard.is_blocked()) {
+      if (!decision.is_free()) {
+        if (guard.is_spent())
+          return Walk_end::spent;
         const int legs_before = legs();
         const Vector before = x;
-        if (!approach(guard, y, target))
-          return Walk_end::stuck;
+        if (!approach(guard, decision, y, target))
+          return guard.is_spent() ? Walk_end::spent : Walk_end::stuck;
         if (legs() == legs_before)
           continue;
         // What is past is kept: over a flat groove a new contact is met c / tan(angle) behind the border of the last
@@ -153,47 +126,6 @@ struct Slide_walk {
     return legs() >= most_legs ? Walk_end::limit : Walk_end::stuck;
   }
 
-  /// From x towards the target, no longer than is of use.
-  Vector pull_to(const Vector& target) const {
-    const Vector pull = minus(target, x);
-    const double distance = length(pull), most = lengths_.farthest_pull();
-    return distance > most ? scaled(pull, most / distance) : pull;
-  }
-
-  bool is_beyond_reach(const Vector& target) const { return length(minus(target, x)) > lengths_.farthest_pull(); }
-
-  /// x and a displacement. What is less than the last bits of all else here is noise, which exact decisions would pay for.
-  Vector place_at(const Vector& displacement) const {
-    Vector place = plus(x, displacement);
-    for (double& coordinate : place)
-      coordinate = std::abs(coordinate) < lengths_.noise() ? 0 : coordinate;
-    return place;
-  }
-
-  /// Where the contacts let J go from x, when it wants to go by `pull`, keeping so many clearances from each; in a gap
-  /// too narrow for that, or too acute, a half or a quarter of it, and at last coming no nearer to any than it is.
-  Nearest_permitted nearest(const Vector& pull, double clearances) const {
-    const double distance = length(pull);
-    Nearest_permitted found;
-    for (const double share : {1.0, 0.5, 0.25}) {
-      found = nearest_among(pull, distance, [&](const Facet<Mesh>& f) { return share * clearances * f.clearance() - f.height(); });
-      found.is_squeezed = share < 1;
-      if (found.exists &&
-          (found.number_active < 2 || length(minus(pull, found.displacement)) <= distance + lengths_.retreat()))
-        return found;
-    }
-    found = nearest_among(pull, distance, [&](const Facet<Mesh>& f) {
-      return std::fmin(0.25 * clearances * f.clearance() - f.height(), 0.0);
-    });
-    found.is_squeezed = true;
-    return found;
-  }
-
-  /// Whether two normals differ by rounding alone.
-  static bool is_alike(const Vector& a, const Vector& b) {
-    return std::abs(a[0] - b[0]) <= alike && std::abs(a[1] - b[1]) <= alike && std::abs(a[2] - b[2]) <= alike;
-  }
-
   /// Makes a leg. \pre it is free, and legs() < Slide_path::most_legs
   void step_to(const Vector& place_reached) {
     place(place_reached);
@@ -206,77 +138,6 @@ struct Slide_walk {
     path = other.path;
     rules_ = other.rules_;
     place(other.x);
-  }
-
-  /// J is at x; contacts are measured from there.
-  void place(const Vector& place) {
-    x = place;
-    for (Facet<Mesh>& f : facets)
-      f.measure(x, rules_);
-    find_lengths();
-  }
-
-  /// Of length 1, over all contacts; zero where they cancel.
-  Vector mean_normal() const {
-    Vector sum{};
-    for (const auto& facet : facets)
-      sum = plus(sum, facet.normal());
-    return normalized(sum);
-  }
-
-  bool knows(const Contact_3<Mesh>& contact) const {
-    for (const Facet<Mesh>& f : facets)
-      if (f.is_of(contact))
-        return true;
-    return false;
-  }
-
-  /// Whether it was new.
-  bool meet(const Contact_3<Mesh>& contact, const Vector& where) {
-    if (knows(contact))
-      return false;
-    if (facets.size() == most_facets) // the one J is farthest out of makes room
-      facets.erase(std::max_element(facets.begin(), facets.end(), [this](const Facet<Mesh>& a, const Facet<Mesh>& b) {
-        return a.outside(x) < b.outside(x);
-      }));
-    facets.emplace_back(contact, where);
-    if (has_left(contact))
-      facets.back().hold_on();
-    facets.back().measure(x, rules_);
-    find_lengths();
-    return true;
-  }
-
-  /// J rests: takes in all the faces that come first in the motion last decided, from x to y. Returns whether there were
-  /// any new ones. \pre guard.is_blocked()
-  template <class Guard>
-  bool meet_faces(const Guard& guard, const Vector& y) {
-    boost::container::static_vector<Contact_3<Mesh>, most_facets> met;
-    guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double) {
-      const bool is_face = contact.kind == Contact_kind::vertex_face && !contact.is_flat;
-      if (is_face && met.size() < met.capacity() && !knows(contact))
-        met.push_back(contact);
-    });
-    for (const Contact_3<Mesh>& contact : met)
-      meet(contact, x);
-    return !met.empty();
-  }
-
-  /// J rests: edges and faces of the star may hold it, because they were left and met again, where it is not over their
-  /// facets. Lets them go, for by now more is known. Returns whether there were any.
-  bool let_go() {
-    return forget([&](const Facet<Mesh>& f) {
-      return f.contact().kind != Contact_kind::vertex_face && f.is_past(x, lengths_.resolution);
-    });
-  }
-
-  template <class Predicate>
-  bool forget(const Predicate& is_over) {
-    const auto kept = std::remove_if(facets.begin(), facets.end(), is_over);
-    const bool any = kept != facets.end();
-    facets.erase(kept, facets.end());
-    find_lengths();
-    return any;
   }
 
   /// A new drag begins: what was left in the last one may be met and left again.
@@ -294,8 +155,6 @@ struct Slide_walk {
     place(source);
   }
 
-  void forget_what_was_left() { left_.clear(); }
-
   /// Another target, or another way to it.
   void forget_progress() {
     nearest_so_far_.reset();
@@ -304,6 +163,10 @@ struct Slide_walk {
   }
 
 private:
+  std::optional<Vector> nearest_so_far_; ///< to the target
+  double last_gain_ = 0;                 ///< of the last approach
+  int rests_ = 0, shrinking_ = 0;
+
   /// Round a corner that is flat to within some clearances J would leave and meet the same contacts again and again.
   void forget_what_is_over() {
     const double clearances =
@@ -311,89 +174,13 @@ private:
     forget([clearances](const Facet<Mesh>& f) { return f.is_over(clearances); });
   }
 
-  void find_lengths() {
-    double reach = largest_magnitude(x);
-    for (const Facet<Mesh>& f : facets)
-      reach = std::fmax(reach, f.largest_coordinate());
-    lengths_ = {rules_.clearance.at(reach), unit_in_the_last_place(reach)};
-  }
-
-  /// As nearest(), with `least(facet)` the height above where it is now that J has to have over each. Normals that differ
-  /// by rounding alone count as one.
-  template <class Least>
-  Nearest_permitted nearest_among(const Vector& pull, double distance, const Least& least) const {
-    const double slack = lengths_.resolution, slack_there = slack + rounding_of_normals * distance;
-    Half_spaces spaces;
-    boost::container::static_vector<std::size_t, most_facets> facet_of;
-    for (std::size_t i = 0; i < facets.size(); ++i) {
-      const Half_space space = {facets[i].normal(), least(facets[i])};
-      const auto same = std::find_if(spaces.begin(), spaces.end(),
-                                     [&](const Half_space& other) { return is_alike(other.normal, space.normal); });
-      if (same == spaces.end()) {
-        spaces.push_back(space);
-        facet_of.push_back(i);
-      } else
-        same->least = std::fmax(same->least, space.least);
-    }
-    Nearest_permitted found = nearest_permitted(pull, spaces, slack, slack_there);
-    for (int i = 0; i < found.number_active; ++i)
-      found.active[i] = facet_of[found.active[i]];
-    return found;
-  }
-
-  boost::container::static_vector<Contact_3<Mesh>, most_facets> left_; ///< contacts gone past in this drag
-  Drag_rules rules_;
-  Slide_lengths lengths_{};
-  std::optional<Vector> nearest_so_far_;                               ///< to the target
-  double last_gain_ = 0;                                               ///< of the last approach
-  int rests_ = 0, shrinking_ = 0;
-
-  bool has_left(const Contact_3<Mesh>& contact) const {
-    return std::any_of(left_.begin(), left_.end(),
-                       [&](const Contact_3<Mesh>& before) { return Facet<Mesh>::is_same(before, contact); });
-  }
-
-  /// \param beside how far past a face: at rest within a clearance of a seam it makes no difference which of two holds
-  /// J
-  bool leave_what_is_past(double beside) {
-    return forget([&](const Facet<Mesh>& f) {
-      if (f.is_over(Slide_lengths::clearances_of_lift))
-        return true;
-      const double past = f.contact().kind == Contact_kind::vertex_face ? beside : lengths_.resolution;
-      if (!f.is_left(x, past, lengths_.border()))
-        return false;
-      if (left_.size() < left_.capacity())
-        left_.push_back(f.contact());
-      return true;
-    });
-  }
-
-  /// Takes in the steepest of the contacts that came first in the motion last decided, from x to y, and are not known
-  /// yet: of several features that meet in one point some are no obstacle, and whichever is will be met next. Returns
-  /// the fraction of the way.
-  template <class Guard>
-  double meet_first(const Guard& guard, const Vector& y, double& steepest, bool& is_new) {
-    std::optional<Contact_3<Mesh>> best;
-    double best_sine = -1;
-    const double time = guard.for_each_first_contact(x, y, [&](const Contact_3<Mesh>& contact, double sine) {
-      steepest = std::fmax(steepest, sine);
-      // A flat impact has the sine 0: it counts where there is no other.
-      if (sine > best_sine && !knows(contact)) {
-        best = contact;
-        best_sine = sine;
-      }
-    });
-    is_new = best && meet(*best, point_of_path(x, y, time));
-    return time;
-  }
-
   /// The way from x to y has just been found blocked: goes to the free point nearest to the impact that is c off all
   /// contacts, the new one included. Returns whether anything was gained, in place or in knowledge.
-  template <class Guard>
-  bool approach(Guard& guard, const Vector& y, const Vector& target) {
+  template <class Guard, class Decision>
+  bool approach(Guard& guard, const Decision& blocked, const Vector& y, const Vector& target) {
     double steepest = 0;
     bool any_new = false;
-    const double time = meet_first(guard, y, steepest, any_new);
+    const double time = meet_first(blocked, y, steepest, any_new);
     const Vector to_impact = scaled(minus(y, x), time);
     bool met = any_new;
     double clearances = 1;
@@ -403,15 +190,15 @@ private:
       const Vector z = place_at(near.displacement);
       if (!near.exists || z == x || -nearer_by(target, x, z) > lengths_.retreat())
         break;
-      guard.decide(x, z, rules_.delta);
-      if (!guard.is_blocked()) {
+      const auto decision = guard.decide(x, z, rules_.delta);
+      if (decision.is_free()) {
         const bool is_short = largest_magnitude(minus(z, x)) <= lengths_.border();
         if (!(met && is_short && legs() >= legs_before_thrift && facets.size() < most_facets))
           step_to(z);
         return true;
       }
       bool new_here = false;
-      meet_first(guard, z, steepest, new_here);
+      meet_first(decision, z, steepest, new_here);
       met = met || new_here;
       if (new_here)
         continue;

@@ -36,15 +36,16 @@ public:
     if (looks_ < most_looks && (is_near || walk.legs() == 0) && !has_looked(walk.x, target, is_near, lengths)) {
       ++looks_;
       walk.forget_what_was_left(); // of what J left it may be over some
-      if (is_near)
+      guard.work().search_at(walk.x);
+      if (is_near && guard.work().is_due())
         any = meet_towards(walk, guard, pull);
       for (int i = 0; i < 3; ++i)
         for (const double way : {reach, -reach}) {
           Vector step{};
           step[i] = way * lengths.clearance;
-          any = meet_towards(walk, guard, step) || any;
+          any = (guard.work().is_due() && meet_towards(walk, guard, step)) || any;
         }
-      looked_ = true;
+      looked_ = !guard.is_spent();
       looked_from_ = walk.x;
       looked_for_ = target;
     }
@@ -74,8 +75,7 @@ private:
     const Vector end = plus(walk.x, step);
     if (end == walk.x)
       return false;
-    guard.decide(walk.x, end, walk.delta());
-    return guard.is_blocked() && walk.meet_faces(guard, end);
+    return walk.meet_faces(guard.decide(walk.x, end, walk.delta()));
   }
 };
 

@@ -43,7 +43,9 @@ public:
     const double gain =
         std::fmax(8 * lengths.clearance, without_clearance.exists ? 4 * length(without_clearance.displacement) : 0);
     int trials = 0;
-    seen_ = walk_->facets;
+    guard.work().search_at(walk_->x);
+    if (!guard.work().is_resumed())
+      seen_ = walk_->facets;
     const auto brings_nearer = [&](const Vector& first_aim) {
       ++trials;
       trial_.forget_progress();
@@ -60,13 +62,13 @@ public:
       return true;
     };
     const bool all_legs_were_left = walk_->legs() + trial_legs <= most_legs;
-    if (leave_contacts(held, target, brings_nearer) || leave_walls(guard, target, brings_nearer) ||
+    if (leave_contacts(guard, held, target, brings_nearer) || leave_walls(guard, target, brings_nearer) ||
         follow_features(guard, pull, target, trials, brings_nearer) ||
         look_about(guard, pull, target, gain, brings_nearer)) {
       sought_ = false;
       return true;
     }
-    sought_ = all_legs_were_left;
+    sought_ = all_legs_were_left && !guard.is_spent();
     sought_at_ = walk_->x;
     sought_for_ = target;
     return false;
@@ -151,10 +153,12 @@ private:
   }
 
   /// Tries to go without some of the contacts that hold.
-  template <class Brings_nearer>
-  bool leave_contacts(const Nearest_permitted& held, const Vector& target, const Brings_nearer& brings_nearer) {
+  template <class Guard, class Brings_nearer>
+  bool leave_contacts(Guard& guard, const Nearest_permitted& held, const Vector& target, const Brings_nearer& brings_nearer) {
     const unsigned subsets = 1u << (held.exists ? held.number_active : 0);
     for (unsigned subset = 1; subset < subsets; ++subset) {
+      if (!guard.work().is_due())
+        continue;
       trial_ = *walk_;
       trial_.forget([&](const auto& facet) {
         for (int i = 0; i < held.number_active; ++i)
@@ -176,6 +180,8 @@ private:
       for (const double height : {4 * lengths.clearance, -4 * lengths.clearance}) {
         if (!facet.is_wall() || walk_->legs() >= most_legs_)
           break;
+        if (!guard.work().is_due())
+          continue;
         const Vector beside = advanced(walk_->x, height, facet.normal_of_wall());
         if (beside == walk_->x || !guard.is_free(walk_->x, beside, walk_->delta()))
           continue;
@@ -201,13 +207,15 @@ private:
     };
     // seen_ grows on the way.
     for (std::size_t i = 0; i < seen_.size() && trials < most_trials; ++i) {
-      start();
-      trial_.facets.push_back(seen_[i]);
-      trial_.place(trial_.x);
-      if (brings_nearer(target))
-        return true;
+      if (guard.work().is_due()) {
+        start();
+        trial_.facets.push_back(seen_[i]);
+        trial_.place(trial_.x);
+        if (brings_nearer(target))
+          return true;
+      }
       for (int k = 0; k < seen_[i].borders() && trials < most_trials; ++k) {
-        if (seen_[i].beyond_border(k, walk_->x) < -lengths.border())
+        if (seen_[i].beyond_border(k, walk_->x) < -lengths.border() || !guard.work().is_due())
           continue;
         // Past the border, where it may be only a clearance to free space.
         start();
@@ -223,6 +231,8 @@ private:
           return true;
       }
       for (std::size_t j = 0; j < i && trials < most_trials; ++j) {
+        if (!guard.work().is_due())
+          continue;
         start();
         trial_.facets.push_back(seen_[i]);
         trial_.facets.push_back(seen_[j]);
@@ -246,7 +256,7 @@ private:
         continue;
       for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted()) * std::sqrt(distance)}) {
         const Vector end = advanced(walk_->x, reach, direction);
-        if (walk_->legs() >= most_legs_ || end == walk_->x || nearer_by(target, walk_->x, end) < -gain ||
+        if (!guard.work().is_due() || walk_->legs() >= most_legs_ || end == walk_->x || nearer_by(target, walk_->x, end) < -gain ||
             !guard.is_free(walk_->x, end, walk_->delta()))
           continue;
         trial_.begin_at(*walk_);

@@ -39,7 +39,7 @@ struct Box_3 {
   bool contains(const Box_3& other) const {
     bool inside = true;
     for (int i = 0; i < 3; ++i)
-      inside &= (lower[i] <= other.lower[i]) & (other.upper[i] <= upper[i]);
+      inside &= int(lower[i] <= other.lower[i]) & int(other.upper[i] <= upper[i]);
     return inside;
   }
 };
@@ -48,7 +48,7 @@ struct Box_3 {
 inline bool contains(const Box_3& box, const Box_3::Coordinates& p) {
   bool inside = true;
   for (int i = 0; i < 3; ++i)
-    inside &= (box.lower[i] <= p[i]) & (p[i] <= box.upper[i]);
+    inside &= int(box.lower[i] <= p[i]) & int(p[i] <= box.upper[i]);
   return inside;
 }
 
@@ -56,7 +56,7 @@ inline bool contains(const Box_3& box, const Box_3::Coordinates& p) {
 inline bool do_meet(const Box_3& a, const Box_3& b) {
   bool meet = true;
   for (int i = 0; i < 3; ++i)
-    meet &= (a.lower[i] <= b.upper[i]) & (b.lower[i] <= a.upper[i]);
+    meet &= int(a.lower[i] <= b.upper[i]) & int(b.lower[i] <= a.upper[i]);
   return meet;
 }
 

@@ -36,7 +36,7 @@ struct alignas(64) Box_node {
   bool is(unsigned j, const Float_box& box) const {
     bool same = true;
     for (int i = 0; i < 3; ++i)
-      same &= (bounds[i][j] == box.lower[i]) & (bounds[i + 3][j] == box.upper[i]);
+      same &= int(bounds[i][j] == box.lower[i]) & int(bounds[i + 3][j] == box.upper[i]);
     return same;
   }
 
@@ -65,10 +65,10 @@ struct alignas(64) Box_node {
     static constexpr int bits[width] = {1, 2, 4, 8, 16, 32, 64, 128};
     int mask = 0;
     for (unsigned j = 0; j < width; ++j) {
-      const bool meets = (bounds[0][j] <= query.upper[0]) & (bounds[1][j] <= query.upper[1]) &
-                         (bounds[2][j] <= query.upper[2]) & (bounds[3][j] >= query.lower[0]) &
-                         (bounds[4][j] >= query.lower[1]) & (bounds[5][j] >= query.lower[2]);
-      mask |= meets ? bits[j] : 0;
+      const int meets = int(bounds[0][j] <= query.upper[0]) & int(bounds[1][j] <= query.upper[1]) &
+                        int(bounds[2][j] <= query.upper[2]) & int(bounds[3][j] >= query.lower[0]) &
+                        int(bounds[4][j] >= query.lower[1]) & int(bounds[5][j] >= query.lower[2]);
+      mask |= meets != 0 ? bits[j] : 0;
     }
     return static_cast<unsigned>(mask);
   }

@@ -39,6 +39,34 @@ public:
       descend([&filter](const Node& node) { return node.meeting(filter.box()); }, faces);
   }
 
+  /// Visits faces about in the order of a lower bound of what is sought, until nothing is left within the limit.
+  /// \param bound `bound(node, lowest)` writes a lower bound for each of a node's eight boxes, and returns the bits of
+  /// those that count, none of them empty \param visit `visit(face)` returns the limit from then on: faces whose boxes
+  /// have a larger bound are left out. Cost: log n and what is visited.
+  template <class Bound, class Visit>
+  void visit_nearest_first(const Bound& bound, double limit, const Visit& visit) {
+    nearest_.clear();
+    if (levels_ != 0)
+      nearest_.push({-std::numeric_limits<double>::infinity(), 0, levels_ - 1});
+    for (internal::Nearest_first_stack::Entry next; nearest_.pop(limit, next);) {
+      if (next.level < 0) {
+        limit = visit(Face_index(next.number));
+        continue;
+      }
+      const std::uint32_t first = next.number * width;
+      const int level = next.level;
+      nearest_.push_children(nodes_[level_begin_[level] + next.number], level - 1, bound, limit, [&](unsigned j) {
+        if (level == 0)
+          return face_of_slot_[first + j];
+        internal::prefetch(&nodes_[level_begin_[level - 1] + first + j], sizeof(Node));
+        if (level == 1)
+          internal::prefetch(&face_of_slot_[std::size_t{first + j} * width], width * sizeof(std::uint32_t));
+        return first + j;
+      });
+    }
+    overflow_.visit_nearest_first(bound, limit, [&visit](std::uint32_t f) { return visit(Face_index(f)); });
+  }
+
   /// Begins to fetch from memory what a query about here will read. Changes no answer. Cost: log n.
   void fetch_ahead(const Box_3& box) {
     if (levels_ == 0 || level_begin_[0] < nodes_in_cache)
@@ -106,6 +134,7 @@ public:
     slot_of_face_.reserve(faces);
     overflow_.reserve(insertions);
     touched_.reserve(std::max(touched_.capacity(), usual_touched));
+    nearest_.reserve(std::size_t{width} * (most_levels + 1));
     if (queue_.size() < usual_queue)
       queue_.resize(usual_queue);
   }
@@ -114,7 +143,7 @@ public:
   std::size_t memory() const {
     return nodes_.capacity() * sizeof(Node) + slot_of_face_.capacity() * sizeof(std::uint32_t) +
            face_of_slot_.capacity() * sizeof(std::uint32_t) + (touched_.capacity() + queue_.capacity()) * sizeof(std::uint32_t) +
-           overflow_.memory() + sizeof *this;
+           nearest_.memory() + overflow_.memory() + sizeof *this;
   }
 
 private:
@@ -144,6 +173,7 @@ private:
   std::size_t begin_ = 0, end_ = 0;    ///< those of the level at hand
   int level_ = 0;                      ///< of which the nodes at hand are
   internal::Float_box ahead_;          ///< what is fetched ahead
+  internal::Nearest_first_stack nearest_;
 
   static bool is_in_overflow(std::uint32_t slot) { return slot >= first_overflow && slot != no_slot; }
 

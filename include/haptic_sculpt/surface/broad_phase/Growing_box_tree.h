@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_GROWING_BOX_TREE_H
 #define HAPTIC_SCULPT_SURFACE_GROWING_BOX_TREE_H
 
-#include <haptic_sculpt/surface/broad_phase/Box_node.h>
+#include <haptic_sculpt/surface/broad_phase/nearest_first.h>
 
 #include <algorithm>
 #include <memory>
@@ -94,6 +94,24 @@ public:
     }
   }
 
+  /// Visits items as Box_tree_broad_phase does. Returns the last limit.
+  template <class Bound, class Visit>
+  double visit_nearest_first(const Bound& bound, double limit, const Visit& visit) {
+    if (root_ == none)
+      return limit;
+    nearest_.clear();
+    nearest_.push({-std::numeric_limits<double>::infinity(), root_, 0});
+    for (Nearest_first_stack::Entry next; nearest_.pop(limit, next);) {
+      if (next.level < 0) {
+        limit = visit(next.number);
+        continue;
+      }
+      const Node& n = node(next.number);
+      nearest_.push_children(n.boxes, n.height == 0 ? -1 : 0, bound, limit, [&n](unsigned j) { return n.child[j]; });
+    }
+    return limit;
+  }
+
   /// Makes room for so many insertions, whatever is removed meanwhile.
   ///
   /// Nodes come by halving alone, and by a new root. A full node is halved at once, another only after at least four more children have
@@ -107,11 +125,12 @@ public:
       blocks_.push_back(std::make_unique<Node[]>(block_size));
     free_nodes_.reserve(blocks_.size() * block_size);
     stack_.reserve(Box_node::width * most_height);
+    nearest_.reserve(Box_node::width * most_height);
   }
 
   std::size_t memory() const {
     return blocks_.size() * block_size * sizeof(Node) + blocks_.capacity() * sizeof(blocks_[0]) +
-           (free_nodes_.capacity() + stack_.capacity()) * sizeof(std::uint32_t);
+           (free_nodes_.capacity() + stack_.capacity()) * sizeof(std::uint32_t) + nearest_.memory();
   }
 
 private:
@@ -127,6 +146,7 @@ private:
   std::vector<std::unique_ptr<Node[]>> blocks_;
   std::uint32_t used_ = 0, root_ = none;
   std::vector<std::uint32_t> free_nodes_, stack_;
+  Nearest_first_stack nearest_;
 
   Node& node(std::uint32_t k) { return blocks_[k / block_size][k % block_size]; }
 

@@ -71,7 +71,7 @@ public:
     int mask = 0;
     for (int j = 0; j < 8; ++j) {
       const float error = 0x1p-19f * size[j] + least_error;
-      mask |= (least[j] - error > high_) | (most[j] + error < low_) ? 0 : bits[j];
+      mask |= ((least[j] - error > high_) | (most[j] + error < low_)) ? 0 : bits[j];
     }
     return static_cast<unsigned>(mask);
   }

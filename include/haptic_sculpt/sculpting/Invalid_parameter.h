@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_INVALID_PARAMETER_H
+#define HAPTIC_SCULPT_SCULPTING_INVALID_PARAMETER_H
+
+#include <haptic_sculpt/Error.h>
+
+namespace haptic_sculpt {
+
+/// A parameter outside of its range, e.g. a negative clearance.
+class Invalid_parameter : public Error {
+public:
+  using Error::Error;
+};
+
+} // namespace haptic_sculpt
+
+#endif

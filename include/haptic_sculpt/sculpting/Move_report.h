@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_MOVE_REPORT_H
+#define HAPTIC_SCULPT_SCULPTING_MOVE_REPORT_H
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace haptic_sculpt {
+
+/// What became of many vertices that were to go to targets. Lengths are in the unit of the coordinates.
+struct Move_report {
+  std::size_t asked = 0;   ///< vertices, each once
+  std::size_t reached = 0; ///< of these, how many are at their targets, to the last bit
+  std::size_t drags = 0;   ///< how many motions were asked for, those that took steps back included
+
+  double asked_l2 = 0;  ///< sqrt of the sum of the squares of the distances to the targets, before
+  double left_l2 = 0;   ///< the same after; never more than asked_l2
+  double asked_max = 0; ///< the largest distance before
+  double left_max = 0;  ///< the largest distance after; never more than asked_max
+
+  bool cancelled = false;   ///< the progress function asked to stop
+  bool out_of_work = false; ///< `most_drags` were made
+};
+
+/// How far a call that moves many vertices has come.
+struct Move_progress {
+  std::size_t asked;  ///< vertices
+  std::size_t behind; ///< of these, how many are not where they are to be; of a step on the way, where the step ends
+  std::size_t drags;  ///< made so far
+  double way;         ///< the share of the way that the step under way ends at: 1 unless many stand in each other's way
+};
+
+/// The options of move_vertices(), named and chained: `Move_parameters().most_drags(1000000).progress(f)`.
+struct Move_parameters {
+  std::size_t drag_limit = std::numeric_limits<std::size_t>::max();
+  std::function<bool(const Move_progress&)> progress_function;
+  bool takes_steps = true, slides = true;
+
+  /// So many drags are made at most; then the call ends as it would if it had been cancelled.
+  Move_parameters& most_drags(std::size_t n) {
+    drag_limit = n;
+    return *this;
+  }
+  /// Called every `drags_between_calls` drags; false ends the call, with all vertices as near to their targets as they
+  /// have come. What it throws goes on to the caller; what was done by then is one step of the history.
+  Move_parameters& progress(std::function<bool(const Move_progress&)> function) {
+    progress_function = std::move(function);
+    return *this;
+  }
+  static constexpr std::size_t drags_between_calls = 256;
+
+  /// Whether, where many vertices stand in each other's way, all go in smaller steps. On by default; a brush is faster
+  /// without.
+  Move_parameters& steps(bool on) {
+    takes_steps = on;
+    return *this;
+  }
+  /// Whether what is left at the end slides along what it may not cross. On by default.
+  Move_parameters& slide(bool on) {
+    slides = on;
+    return *this;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_REMESHING_REPORT_H
+#define HAPTIC_SCULPT_SCULPTING_REMESHING_REPORT_H
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+namespace haptic_sculpt {
+
+/// What a guarded remeshing did. `refused` counts what was worth doing but would have broken the promise, or the delta
+/// rule.
+struct Remeshing_report {
+  struct Count {
+    std::size_t done = 0, refused = 0;
+  };
+  Count splits, collapses, flips;
+  Count moves;               ///< of relaxation and projection; refused: no eighth of the way was free
+  std::size_t shortened = 0; ///< of the moves done, those that went only a half, a fourth or an eighth of the way
+  unsigned iterations = 0;   ///< completed
+  bool cancelled = false;
+};
+
+/// How far a remeshing has come.
+struct Remeshing_progress {
+  enum class Phase { split, collapse, flip, relax };
+  unsigned iteration; ///< from 0
+  Phase phase;
+  std::size_t operations; ///< asked for so far
+};
+
+/// The options of isotropic_remeshing() that CGAL does not have, named and chained.
+struct Remeshing_parameters {
+  double feature_angle_degrees = 180;
+  std::function<bool(const Remeshing_progress&)> progress_function;
+
+  /// Edges whose two faces have normals that differ by more than this are constrained, as if they were in the
+  /// edge_is_constrained_map. In degrees, from 0 to 180; 180, the default, is none.
+  Remeshing_parameters& feature_angle(double degrees) {
+    feature_angle_degrees = degrees;
+    return *this;
+  }
+  /// Called every `operations_between_calls` operations; false ends the call, with the mesh as it is then. What it
+  /// throws goes on to the caller; what was done by then is one step of the history.
+  Remeshing_parameters& progress(std::function<bool(const Remeshing_progress&)> function) {
+    progress_function = std::move(function);
+    return *this;
+  }
+  static constexpr std::size_t operations_between_calls = 256;
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_CHECK_PARAMETERS_H
+#define HAPTIC_SCULPT_SCULPTING_CHECK_PARAMETERS_H
+
+#include <haptic_sculpt/sculpting/Invalid_parameter.h>
+#include <haptic_sculpt/sculpting/Sculptor_parameters.h>
+#include <haptic_sculpt/sculpting/contact/clearance.h>
+#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/response/Slide_lengths.h>
+#include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/coordinate_range.h>
+#include <haptic_sculpt/surface/validate.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// \throw Out_of_range; Invalid_parameter where a length would be refused in every scene.
+inline void check_parameters(const Sculptor_parameters& parameters) {
+  if (parameters.clearance_length)
+    check_range("the clearance", *parameters.clearance_length);
+  check_range("delta", parameters.delta_length);
+  if (parameters.clearance_length && !(*parameters.clearance_length > 0))
+    throw Invalid_parameter("the clearance must be a length > 0, not " + number(*parameters.clearance_length));
+  if (!(parameters.delta_length >= 0))
+    throw Invalid_parameter("delta must be a length >= 0, not " + number(parameters.delta_length));
+}
+
+/// Where the vertices of a mesh are.
+struct Scene_extent {
+  Box_3 box;
+  double largest = 0; ///< magnitude of a coordinate
+
+  template <class Mesh>
+  explicit Scene_extent(const Mesh& mesh) {
+    for (const auto v : mesh.vertices()) {
+      const Coordinates p = vertex_coordinates(mesh, v);
+      box.include(p);
+      largest = std::fmax(largest, largest_magnitude(p));
+    }
+  }
+};
+
+/// \throw Invalid_parameter unless a clearance that is set serves the scene: what is less than an ulp cannot be kept, and the
+/// longest way that a slide goes back to keep it from several planes should not be longer than the scene.
+template <class Mesh>
+void check_clearance(const Mesh& mesh, const Sculptor_parameters& parameters) {
+  if (!parameters.clearance_length)
+    return;
+  const Scene_extent extent(mesh);
+  double widest = 0;
+  for (int i = 0; i < 3; ++i)
+    widest = std::fmax(widest, extent.box.upper[i] - extent.box.lower[i]);
+  const double least = unit_in_the_last_place(extent.largest), most = widest / Slide_lengths::clearances_of_retreat;
+  if (!(*parameters.clearance_length >= least && *parameters.clearance_length <= most))
+    throw Invalid_parameter("the clearance " + number(*parameters.clearance_length) + " does not serve this scene: give " +
+                            number(least) + " (an ulp of its largest coordinate) to " + number(most) +
+                            " (1/128 of its extent), or none");
+}
+
+/// Returns the mesh. \throw Invalid_surface, Invalid_parameter, Out_of_range unless a Sculptor can guard it. Cost: that of validate().
+template <class Mesh>
+const Mesh& checked_scene(const Mesh& mesh, const Sculptor_parameters& parameters) {
+  check_parameters(parameters);
+  for (const auto v : mesh.vertices()) {
+    const Coordinates p = vertex_coordinates(mesh, v);
+    // Of those that are no numbers the report of validate() names all.
+    if (!is_in_range(p) && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
+      check_range("vertex " + std::to_string(static_cast<std::size_t>(v)) + " at", p);
+  }
+  if (!parameters.is_known_valid || parameters.delta_length > 0) {
+    Validity_report report = validate(mesh, parameters.delta_length);
+    if (!report.is_valid())
+      throw Invalid_surface("the mesh", std::move(report));
+  }
+  check_clearance(mesh, parameters);
+  return mesh;
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_SURFACE_FINDER_H
+#define HAPTIC_SCULPT_SCULPTING_SURFACE_FINDER_H
+
+#include <haptic_sculpt/collision.h>
+#include <haptic_sculpt/sculpting/Surface_hit.h>
+#include <haptic_sculpt/sculpting/finding/box_bounds.h>
+#include <haptic_sculpt/sculpting/finding/compare_distances.h>
+#include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/broad_phase/nearest_first.h>
+
+#include <optional>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Finds the vertex nearest to a point, and what of the surface a segment meets first. Exact; vertices without faces
+/// are no part of the surface (doc/finding.md).
+template <class Mesh, class Broad_phase>
+class Surface_finder {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
+  using Hit = Surface_hit<Mesh>;
+
+  Surface_finder(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
+                 Filter_counters& counters)
+      : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), counters_(&counters) {}
+
+  /// The null index where none is within that distance, which may be infinite. Of several at the same distance that of
+  /// the smallest index.
+  Vertex_index nearest_vertex(const Coordinates& p, double within) {
+    Vertex_index best;
+    Coordinates best_point{};
+    double limit = within * within * (1 + Distance_bound::rounding);
+    if (limit < least_limit) // else what is nearer still would be lost to underflow
+      limit = least_limit;
+    const auto visit = [&](Face_index f) {
+      for (const Vertex_index v : (*corners_of_)(f)) {
+        if (v == best)
+          continue;
+        const Coordinates q = vertex_coordinates(*mesh_, v);
+        const int order = best.is_valid()                       ? compare_distances(p, q, best_point)
+                          : compare_distance(p, q, within) <= 0 ? -1
+                                                                : 1;
+        if (order > 0 || (order == 0 && best < v))
+          continue;
+        best = v;
+        best_point = q;
+        const double nearer = rounded_square(p, q) * (1 + 2 * Distance_bound::rounding);
+        limit = nearer < least_limit ? least_limit : nearer < limit ? nearer : limit;
+      }
+      return limit;
+    };
+    const Distance_bound bound(p);
+    if constexpr (Visits_nearest_first<Broad_phase, Distance_bound, decltype(visit)>::value)
+      broad_phase_->visit_nearest_first(bound, limit, visit);
+    else
+      visit_all(box_around(p, within), visit);
+    return best;
+  }
+
+  std::optional<Hit> first_hit(const Coordinates& source, const Coordinates& target) {
+    std::optional<Impact> first;
+    double limit = 1;
+    const auto visit = [&](Face_index f) {
+      const auto& corners = (*corners_of_)(f);
+      const Sweep_points points = {source, target, vertex_coordinates(*mesh_, corners[0]),
+                                   vertex_coordinates(*mesh_, corners[1]), vertex_coordinates(*mesh_, corners[2])};
+      const Sweep_verdict verdict = vertex_face_verdict(points, *counters_);
+      if (!verdict.hits)
+        return limit;
+      const int order = first ? compare_times(points, verdict, first->points, first->verdict, *counters_) : -1;
+      // Of an embedded surface all that is met first is one vertex, or the inside of one edge or face.
+      if (order < 0 || (order == 0 && f < first->face))
+        first = Impact{f, points, verdict};
+      if (order < 0)
+        limit = std::fmin(1.0, filtered_time(points, verdict).second);
+      return limit;
+    };
+    const Entry_bound bound(source, target);
+    if constexpr (Visits_nearest_first<Broad_phase, Entry_bound, decltype(visit)>::value)
+      broad_phase_->visit_nearest_first(bound, limit, visit);
+    else
+      visit_all(Swept_star_3{source, target}, visit);
+    if (!first)
+      return std::nullopt;
+    return hit(*first);
+  }
+
+private:
+  struct Impact {
+    Face_index face;
+    Sweep_points points;
+    Sweep_verdict verdict;
+  };
+
+  /// Squares below this are not told apart by their rounded values.
+  static constexpr double least_limit = 0x1p-900;
+
+  const Mesh* mesh_;
+  Broad_phase* broad_phase_;
+  const Face_corners<Mesh>* corners_of_;
+  Filter_counters* counters_;
+  std::vector<Face_index> faces_;
+
+  /// Where a broad phase does not search nearest first: all that it names.
+  template <class Region, class Visit>
+  void visit_all(const Region& region, const Visit& visit) {
+    faces_.clear();
+    broad_phase_->query(region, faces_);
+    for (const Face_index f : faces_)
+      visit(f);
+  }
+
+  static Box_3 box_around(const Coordinates& p, double within) {
+    constexpr double largest = std::numeric_limits<double>::max();
+    Box_3 box;
+    for (int i = 0; i < 3; ++i) {
+      box.lower[i] = std::fmax(-largest, std::nextafter(p[i] - within, -largest));
+      box.upper[i] = std::fmin(largest, std::nextafter(p[i] + within, largest));
+    }
+    return box;
+  }
+
+  Hit hit(const Impact& impact) const {
+    using L = Triangle_location;
+    const auto& [a, b, c] = (*corners_of_)(impact.face);
+    const auto edge = [this](Vertex_index v, Vertex_index w) { return mesh_->edge(mesh_->halfedge(v, w)); };
+    Hit hit;
+    hit.face = impact.face;
+    switch (impact.verdict.location) {
+    case L::vertex_a:
+      hit.vertex = a;
+      break;
+    case L::vertex_b:
+      hit.vertex = b;
+      break;
+    case L::vertex_c:
+      hit.vertex = c;
+      break;
+    case L::edge_ab:
+      hit.edge = edge(a, b);
+      break;
+    case L::edge_bc:
+      hit.edge = edge(b, c);
+      break;
+    case L::edge_ca:
+      hit.edge = edge(c, a);
+      break;
+    default:
+      break;
+    }
+    hit.feature = hit.vertex.is_valid() ? Surface_feature::vertex
+                  : hit.edge.is_valid() ? Surface_feature::edge
+                                        : Surface_feature::face;
+    const auto [earliest, latest] = enclosed_time(impact.points, impact.verdict);
+    hit.time = earliest + (latest - earliest) / 2;
+    const Coordinates& s = impact.points[0];
+    const Coordinates& t = impact.points[1];
+    const auto at = [&](int i) { return hit.time == 1 ? t[i] : s[i] + hit.time * (t[i] - s[i]); };
+    hit.point = typename Mesh::Point(at(0), at(1), at(2));
+    return hit;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

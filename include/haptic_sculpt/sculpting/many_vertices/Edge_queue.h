@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_EDGE_QUEUE_H
+#define HAPTIC_SCULPT_SCULPTING_EDGE_QUEUE_H
+
+#include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
+#include <haptic_sculpt/surface/star.h>
+
+#include <queue>
+
+namespace haptic_sculpt {
+namespace internal {
+
+template <class Mesh>
+double squared_length(const Mesh& mesh, typename Mesh::Edge_index e) {
+  return squared_length(vertex_coordinates(mesh, mesh.vertex(e, 0)), vertex_coordinates(mesh, mesh.vertex(e, 1)));
+}
+
+/// Edges by length. Those that have died, or have another length than when they were put in, are left out: their slots
+/// may have been used again, and what is new is put in anew.
+template <class Mesh>
+class Edge_queue {
+public:
+  using Edge_index = typename Mesh::Edge_index;
+
+  struct Entry {
+    double length; ///< squared
+    Edge_index edge;
+  };
+
+  Edge_queue(const Mesh& mesh, bool longest_first) : mesh_(&mesh), sign_(longest_first ? 1 : -1) {}
+
+  void push(Edge_index e, double squared_length) { queue_.push({sign_ * squared_length, e}); }
+
+  /// The next one; its edge is the null index when there is none.
+  Entry pop() {
+    while (!queue_.empty()) {
+      const Entry entry{sign_ * queue_.top().length, queue_.top().edge};
+      queue_.pop();
+      if (!mesh_->is_removed(entry.edge) && squared_length(*mesh_, entry.edge) == entry.length)
+        return entry;
+    }
+    return {0, Edge_index()};
+  }
+
+private:
+  struct Comes_later {
+    bool operator()(const Entry& a, const Entry& b) const { return a.length < b.length; }
+  };
+
+  const Mesh* mesh_;
+  double sign_;
+  std::priority_queue<Entry, std::vector<Entry>, Comes_later> queue_;
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

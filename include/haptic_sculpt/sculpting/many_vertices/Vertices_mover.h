@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
+#define HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
+
+#include <haptic_sculpt/sculpting/Move_report.h>
+#include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
+#include <haptic_sculpt/sculpting/many_vertices/leading_order.h>
+#include <haptic_sculpt/sculpting/motion/stop.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Brings many vertices as near to their targets as single drags do (doc/many_vertices.md).
+///
+/// No drag ends farther from where it was to go than it began. So a vertex that goes by points of its way is never
+/// farther from such a point than that point is from where it began, nor from its target than that was.
+template <class Sculptor>
+class Vertices_mover {
+public:
+  using Mesh = typename Sculptor::Mesh_type;
+  using Moving = Moving_vertex<Mesh>;
+
+  /// \param vertices in the order in which they are to go; all targets are in range
+  /// \param are_short whether the ways are so short that few vertices stand in each other's way: then the first drags
+  /// are made in a way that costs less where there is nothing in the way, and more where there is
+  Vertices_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
+                 bool are_short)
+      : sculptor_(sculptor), vertices_(vertices), parameters_(parameters), tries_whole_(are_short) {}
+
+  /// Fills in what the report tells of drags, `cancelled` and `out_of_work`.
+  void run(Move_report& report) {
+    report_ = &report;
+    const Response_scope scope(sculptor_, Response::stop, true);
+    Positions behind = all_behind();
+    // To be taken back if too many stay behind; else the log is of no use.
+    log_.reserve(parameters_.takes_steps ? behind.size() : 0);
+    stop_passes(behind, 1, parameters_.takes_steps);
+    tries_whole_ = false;
+    if (behind.size() > few(vertices_.size()) && parameters_.takes_steps && goes_on_) {
+      take_back();
+      walk_in_steps();
+    }
+    log_ = {};
+    finish();
+  }
+
+private:
+  using Position = std::uint32_t; ///< in vertices_
+  using Positions = std::vector<Position>;
+  /// A motion that was made.
+  struct Made {
+    Position position;
+    Coordinates before;
+  };
+
+  /// Steps are not made shorter than this share of the way, nor than half the shortest edge of a vertex that moves.
+  static constexpr double least_step = 1.0 / 128;
+  /// So many passes of slides are made when few are left.
+  static constexpr int slide_passes_of_few = 3;
+  /// Another pass is made at the end while the last has gained more than this share of what was left, as a sum of
+  /// distances.
+  static constexpr double least_gain = 0.01;
+
+  /// So few of n do not stand in each other's way as a whole: what blocks them is local.
+  static std::size_t few(std::size_t n) { return 8 + n / 32; }
+
+  Sculptor& sculptor_;
+  const std::vector<Moving>& vertices_;
+  const Move_parameters& parameters_;
+  Move_report* report_ = nullptr;
+  std::vector<Made> log_; ///< of the step under way
+  bool tries_whole_;
+  bool goes_on_ = true; ///< neither cancelled nor out of work
+  std::size_t behind_ = 0;
+  double way_ = 1;
+
+  Coordinates place(Position k) const { return vertex_coordinates(sculptor_.mesh(), vertices_[k].vertex); }
+  double distance_left(Position k) const { return distance(place(k), vertices_[k].target); }
+
+  Positions all_behind() const {
+    Positions behind;
+    for (Position k = 0; k < vertices_.size(); ++k)
+      if (place(k) != vertices_[k].target)
+        behind.push_back(k);
+    return behind;
+  }
+
+  /// One drag. \return whether the vertex is there
+  bool drag(Position k, const Coordinates& p) {
+    ++report_->drags;
+    if (tries_whole_ && sculptor_.move_if_free(vertices_[k].vertex, {p[0], p[1], p[2]}))
+      return true;
+    return sculptor_.grab(vertices_[k].vertex).drag_to({p[0], p[1], p[2]}).reached;
+  }
+
+  /// Whether another drag may be made; asks the progress function in its turn.
+  bool may_drag() {
+    if (!goes_on_)
+      return false;
+    if (report_->drags >= parameters_.drag_limit) {
+      report_->out_of_work = true;
+      return goes_on_ = false;
+    }
+    if (parameters_.progress_function && report_->drags % Move_parameters::drags_between_calls == 0 &&
+        !parameters_.progress_function(Move_progress{vertices_.size(), behind_, report_->drags, way_})) {
+      report_->cancelled = true;
+      return goes_on_ = false;
+    }
+    return true;
+  }
+
+  /// Where a vertex is to be when a share of the way has been made; where it is, unless that is nearer to the target.
+  Coordinates waypoint(Position k, double share) const {
+    const Moving& v = vertices_[k];
+    if (share == 1)
+      return v.target;
+    const Coordinates p = point_of_path(v.source, v.target, share);
+    return is_farther(v.target, place(k), p) ? p : place(k);
+  }
+
+  /// Whether `from` is farther from the target than `to`. Rounded; so by more than rounding can do.
+  static bool is_farther(const Coordinates& target, const Coordinates& from, const Coordinates& to) {
+    return distance(from, target) * (1 - 0x1p-48) > distance(to, target);
+  }
+
+  /// Drags those that are behind to a share of the way, again while they at least halve. Leaves in `behind` those that
+  /// stay behind.
+  void stop_passes(Positions& behind, double share, bool logs) {
+    way_ = share;
+    for (;;) {
+      const std::size_t before = behind.size();
+      pass(behind, share, logs);
+      if (!goes_on_ || behind.empty() || 2 * behind.size() > before)
+        return;
+    }
+  }
+
+  /// Drags each once.
+  void pass(Positions& behind, double share, bool logs) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < behind.size(); ++i) {
+      const Position k = behind[i];
+      behind_ = behind.size() - i + kept;
+      const Coordinates from = place(k), to = waypoint(k, share);
+      if (from == to)
+        continue;
+      if (!may_drag()) {
+        behind[kept++] = k;
+        continue;
+      }
+      const bool reached = drag(k, to);
+      if (logs && place(k) != from)
+        log_.push_back({k, from});
+      if (!reached)
+        behind[kept++] = k;
+    }
+    behind.resize(kept);
+  }
+
+  /// Takes the motions of the log back, the last one first: each is free, for all stands as it did when the motion was
+  /// made.
+  void take_back() {
+    for (; !log_.empty() && may_drag(); log_.pop_back())
+      drag(log_.back().position, log_.back().before);
+  }
+
+  /// All go on together, in steps that halve where many stay behind and double after two in which few did. At the
+  /// shortest those that stay behind are given up.
+  void walk_in_steps() {
+    Positions going = all_behind();
+    const double shortest = shortest_step();
+    double way = 0, step = 0.5;
+    for (int successes = 0; way < 1 && !going.empty();) {
+      const double next = std::fmin(1, way + step);
+      const bool is_shortest = step <= shortest;
+      Positions behind = going;
+      log_.clear();
+      stop_passes(behind, next, !is_shortest);
+      if (!goes_on_)
+        return;
+      if (behind.size() <= few(going.size())) {
+        slide_few(behind, next);
+        way = next;
+        if (++successes % 2 == 0)
+          step *= 2;
+        continue;
+      }
+      successes = 0;
+      if (is_shortest) {
+        way = next;
+        give_up(going, behind);
+      } else {
+        take_back();
+        step /= 2;
+      }
+      if (!goes_on_)
+        return;
+    }
+  }
+
+  /// So that they do not stay in the way of others.
+  void slide_few(Positions& behind, double share) {
+    if (behind.empty() || !parameters_.slides)
+      return;
+    const Response_scope scope(sculptor_, Response::slide, false);
+    for (int i = 0; i < slide_passes_of_few && goes_on_ && !behind.empty(); ++i)
+      pass(behind, share, false);
+  }
+
+  /// Takes away from `going` what is in `behind`, which has the same order.
+  static void give_up(Positions& going, const Positions& behind) {
+    Positions left;
+    std::set_difference(going.begin(), going.end(), behind.begin(), behind.end(), std::back_inserter(left));
+    going = std::move(left);
+  }
+
+  /// As a share of the way: that on which the vertex with the longest way goes half the shortest edge.
+  double shortest_step() const {
+    const Mesh& mesh = sculptor_.mesh();
+    double edge = std::numeric_limits<double>::infinity(), way = 0;
+    for (const Moving& v : vertices_) {
+      way = std::fmax(way, distance(v.source, v.target));
+      if (!mesh.is_isolated(v.vertex))
+        for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v.vertex)))
+          edge = std::fmin(edge, distance(vertex_coordinates(mesh, mesh.source(h)), v.source));
+    }
+    return std::fmax(least_step, 0.5 * edge / way);
+  }
+
+  double sum_left() const {
+    double sum = 0;
+    for (Position k = 0; k < vertices_.size(); ++k)
+      sum += distance_left(k);
+    return sum;
+  }
+
+  /// Whole ways, stopped and then sliding, until a pass gains little.
+  void finish() {
+    passes_to_the_end(std::numeric_limits<int>::max());
+    if (!parameters_.slides)
+      return;
+    const Response_scope scope(sculptor_, Response::slide, false);
+    passes_to_the_end(all_behind().size() <= few(vertices_.size()) ? slide_passes_of_few
+                                                                   : std::numeric_limits<int>::max());
+  }
+
+  void passes_to_the_end(int most_passes) {
+    double left = sum_left();
+    for (int i = 0; i < most_passes && goes_on_ && left > 0; ++i) {
+      Positions behind = all_behind();
+      way_ = 1;
+      pass(behind, 1, false);
+      const double before = std::exchange(left, sum_left());
+      if (!(before - left > least_gain * before))
+        return;
+    }
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

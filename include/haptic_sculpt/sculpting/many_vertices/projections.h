@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_PROJECTIONS_H
+#define HAPTIC_SCULPT_SCULPTING_PROJECTIONS_H
+
+#include <haptic_sculpt/sculpting/many_vertices/Input_surface.h>
+
+#include <optional>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Projects onto the faces as they were at first, or nowhere.
+template <class Mesh>
+class Projection_onto_input {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  template <class Faces>
+  Projection_onto_input(const Mesh& mesh, const Faces& faces, bool is_on) {
+    if (!is_on)
+      return;
+    surface_.emplace(mesh, faces);
+    near_.assign(mesh.num_vertices(), 0);
+    typename Input_surface<Mesh>::Place place = 0;
+    for (const auto f : faces) {
+      for (const Vertex_index v : corners_of_face(mesh, f))
+        near_[static_cast<std::size_t>(v)] = place;
+      ++place;
+    }
+  }
+
+  Coordinates operator()(Vertex_index v, const Coordinates& p) {
+    return surface_ ? coordinates(surface_->project({p[0], p[1], p[2]}, near_[static_cast<std::size_t>(v)])) : p;
+  }
+
+  void created(Vertex_index v, Vertex_index beside) {
+    if (!surface_)
+      return;
+    near_.resize(std::max(near_.size(), static_cast<std::size_t>(v) + 1), 0);
+    near_[static_cast<std::size_t>(v)] = near_[static_cast<std::size_t>(beside)];
+  }
+
+private:
+  std::optional<Input_surface<Mesh>> surface_;
+  std::vector<typename Input_surface<Mesh>::Place> near_; ///< by vertex, where it was projected to last
+};
+
+/// The caller's: it is asked for a vertex, which has to be where it is to be projected from. So relaxation comes first,
+/// in drags of its own.
+template <class Mesh, class Function>
+class Projection_by_function {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  explicit Projection_by_function(const Function& function) : function_(&function) {}
+
+  Coordinates operator()(Vertex_index, const Coordinates& p) const { return p; }
+  Coordinates of_vertex(Vertex_index v) const { return coordinates((*function_)(v)); }
+  void created(Vertex_index, Vertex_index) {}
+
+private:
+  const Function* function_;
+};
+
+template <class Projection>
+struct Comes_after_relaxation : std::false_type {};
+template <class Mesh, class Function>
+struct Comes_after_relaxation<Projection_by_function<Mesh, Function>> : std::true_type {};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

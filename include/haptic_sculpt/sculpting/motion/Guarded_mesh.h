@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_GUARDED_MESH_H
+#define HAPTIC_SCULPT_SCULPTING_GUARDED_MESH_H
+
+#include <haptic_sculpt/Rounding_to_nearest.h>
+#include <haptic_sculpt/sculpting/contact/Scene_bound.h>
+#include <haptic_sculpt/sculpting/edits/Editor.h>
+#include <haptic_sculpt/sculpting/finding/Surface_finder.h>
+#include <haptic_sculpt/sculpting/finding/find_face_within.h>
+#include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/sculpting/motion/Hand.h>
+#include <haptic_sculpt/surface/broad_phase/reserve_faces.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// A mesh with all that guards it, and the ways of a drag, a probe, a search and an edit through that. What its users see of it
+/// is the Sculptor, which says what each operation promises.
+template <class Mesh, class Broad_phase, class Visitor>
+class Guarded_mesh {
+public:
+  using Point = typename Mesh::Point;
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
+  using Result = Drag_result<Mesh>;
+  using Edited = Edit_result<Mesh>;
+
+  Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor)
+    : parameters(parameters), mesh_(&mesh), watch_(mesh), broad_phase_(checked_scene(mesh, parameters)), corners_(mesh), isolated_(mesh)
+    , editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, parameters.probes_are_recorded, std::move(visitor))
+    , hand_(mesh, broad_phase_, corners_, isolated_, counters_, watch_), probe_(mesh, broad_phase_, corners_, isolated_, counters_, watch_)
+    , finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh) {}
+  Guarded_mesh(const Guarded_mesh&) = delete; // its parts refer to each other
+  Guarded_mesh& operator=(const Guarded_mesh&) = delete;
+
+  Sculptor_parameters parameters; ///< to be changed by the Sculptor, which checks them
+
+  const Mesh& mesh() const { return *mesh_; }
+  const Filter_counters& counters() const { return counters_; }
+  auto& editor() { return editor_; }
+  const auto& editor() const { return editor_; }
+
+  void release() { hand_.release(); }
+
+  /// \throw Unknown_vertex, Mesh_changed
+  void hold(Vertex_index v) {
+    check_vertex(*mesh_, v);
+    if (!hand_.holds(v))
+      hand_.take(v, [this] { editor_.prepare_for_moves(); });
+  }
+
+  bool expects_single_drags() const { return hand_.expects_single_drags(); }
+  void expect_single_drags(bool on) { hand_.expect_single_drags(on); }
+
+  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path) {
+    const Rounding_to_nearest rounding;
+    check_point("the target", target);
+    if (!v.is_valid())
+      return Result::stale_at(target);
+    scene_.check_clearance_serves(parameters);
+    hold(v);
+    const Coordinates s = vertex_coordinates(*mesh_, v), t = coordinates(target);
+    Result result;
+    const Coordinates end = s == t ? t : hand_.move(s, t, parameters, result);
+    hand_.check_candidates();
+    if (path != nullptr)
+      hand_.write_path(parameters.response_rule, s, end, *path);
+    if (end != s)
+      put(v, s, end);
+    finish(end, t, result);
+    return result;
+  }
+
+  bool move_if_free(Vertex_index v, const Point& target) {
+    const Rounding_to_nearest rounding;
+    check_point("the target", target);
+    hold(v);
+    const Coordinates s = vertex_coordinates(*mesh_, v), t = coordinates(target);
+    if (s == t)
+      return true;
+    const bool is_free = hand_.is_free(s, t, parameters);
+    hand_.check_candidates();
+    if (is_free)
+      put(v, s, t);
+    return is_free;
+  }
+
+  std::optional<Star_impact<Mesh>> first_impact(Vertex_index v, const Point& target) {
+    const Rounding_to_nearest rounding;
+    check_point("the target", target);
+    hold(v);
+    const auto first = hand_.first_impact(vertex_coordinates(*mesh_, v), coordinates(target));
+    hand_.check_candidates();
+    return first;
+  }
+
+  Result probe(const Point& source, const Point& target, std::vector<Point>* path) {
+    const Rounding_to_nearest rounding;
+    if (path != nullptr)
+      path->assign(1, source);
+    check_point("the source", source);
+    check_point("the target", target);
+    scene_.check_clearance_serves(parameters);
+    release();
+    look_for_changes();
+    const Coordinates s = coordinates(source), t = coordinates(target);
+    Result result;
+    result.position = source;
+    result.reached = s == t;
+    if (const Face_index f = find_face_within(*mesh_, broad_phase_, s, Clearance_rule(parameters.clearance_length),
+                                              scene_.largest_coordinate(), faces_near_start_);
+        f.is_valid()) {
+      Contact_3<Mesh> contact;
+      contact.vertices = corners_of_face(*mesh_, f);
+      contact.is_flat = true;
+      result.contacts.push_back(contact);
+      result.end = Drag_end::refused;
+      return result;
+    }
+    if (s == t)
+      return result;
+    probe_.take_point();
+    const Coordinates end = probe_.move(s, t, parameters, result);
+    if (path != nullptr)
+      probe_.write_path(parameters.response_rule, s, end, *path);
+    probe_.release();
+    finish(end, t, result);
+    return result;
+  }
+
+  Vertex_index nearest_vertex(const Point& p, double within) {
+    const Rounding_to_nearest rounding;
+    check_point("the point", p);
+    if (!(within >= 0))
+      throw Invalid_parameter("the distance within which a vertex is sought must be >= 0, not " + number(within));
+    hand_.tell_where_it_is();
+    look_for_changes();
+    const Vertex_index v = finder_.nearest_vertex(coordinates(p), within);
+    if (v.is_valid())
+      watch_.check(v);
+    return v;
+  }
+
+  std::optional<Surface_hit<Mesh>> first_hit(const Point& source, const Point& target) {
+    const Rounding_to_nearest rounding;
+    check_point("the source", source);
+    check_point("the target", target);
+    hand_.tell_where_it_is();
+    look_for_changes();
+    const auto hit = finder_.first_hit(coordinates(source), coordinates(target));
+    if (hit)
+      for (const Vertex_index v : corners_(hit->face))
+        watch_.check(v);
+    return hit;
+  }
+
+  Edited place(Vertex_index probe, const Point& p) {
+    check_point("the place", p);
+    scene_.check_clearance_serves(parameters);
+    return edited([&] {
+      return editor_.place(probe, coordinates(p), Clearance_rule(parameters.clearance_length), scene_.largest_coordinate());
+    });
+  }
+
+  /// Runs an edit between looking for changes by others and noting what it changed.
+  template <class Edit_function>
+  Edited edited(const Edit_function& edit) {
+    const Rounding_to_nearest rounding;
+    release();
+    look_for_changes();
+    const Edited result = edit();
+    if (result && !mesh_->is_removed(*result.vertex))
+      scene_.include(vertex_coordinates(*mesh_, *result.vertex));
+    return result;
+  }
+  /// The same where many vertices may move.
+  template <class Edit_function>
+  Edited restored(const Edit_function& edit) {
+    scene_.include_the_past();
+    return edited(edit);
+  }
+
+  void reserve(std::size_t edits, std::size_t moves) {
+    const auto n = static_cast<typename Mesh::size_type>(edits);
+    mesh_->reserve(mesh_->num_vertices() + n, mesh_->num_edges() + 3 * n, mesh_->num_faces() + 2 * n);
+    watch_.reserve(mesh_->num_vertices() + edits);
+    corners_.reserve(mesh_->num_faces() + 2 * edits);
+    reserve_faces(broad_phase_, mesh_->num_faces() + 2 * edits, 4 * edits);
+    editor_.reserve(edits, moves);
+    hand_.reserve(editor_.usual_valence, editor_.usual_candidates);
+  }
+
+  void check_unchanged() const { watch_.check_all(corners_); }
+  std::size_t memory() const {
+    return broad_phase_.memory() + corners_.memory() + watch_.memory() + isolated_.memory() + editor_.names().memory();
+  }
+
+private:
+  Mesh* mesh_;
+  Mesh_watch<Mesh> watch_;
+  Filter_counters counters_;
+  Broad_phase broad_phase_;
+  Face_corners<Mesh> corners_;
+  Isolated_vertices<Mesh> isolated_;
+  Editor<Mesh, Broad_phase, Visitor> editor_;
+  Hand<Mesh, Broad_phase> hand_, probe_;
+  Surface_finder<Mesh, Broad_phase> finder_;
+  Scene_bound<Mesh> scene_;
+  std::vector<Face_index> faces_near_start_; ///< of a probe; kept to allocate no more
+
+  void look_for_changes() {
+    watch_.check_counts();
+    watch_.check_some();
+  }
+
+  /// The one place where a drag writes the mesh. Whatever the response has proposed: each leg has been proven by the sweeps, which
+  /// take no end that is not in range.
+  void put(Vertex_index v, const Coordinates& from, const Coordinates& to) {
+    if (!is_in_range(to))
+      throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");
+    mesh_->point(v) = Point(to[0], to[1], to[2]);
+    watch_.remember(v);
+    scene_.include(to);
+    hand_.note_moved();
+    editor_.note_move(v, from, to);
+  }
+
+  static void finish(const Coordinates& end, const Coordinates& target, Result& result) {
+    result.position = Point(end[0], end[1], end[2]);
+    result.reached = end == target;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

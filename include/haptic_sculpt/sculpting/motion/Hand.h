@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_HAND_H
+#define HAPTIC_SCULPT_SCULPTING_HAND_H
+
+#include <haptic_sculpt/sculpting/Sculptor_parameters.h>
+#include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
+#include <haptic_sculpt/sculpting/motion/Guarded_star.h>
+#include <haptic_sculpt/sculpting/response/Responses.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// The vertex that is being dragged: its guarded star, the contacts it carries along, and when the mesh about it is
+/// compared with how it was left.
+template <class Mesh, class Broad_phase>
+class Hand {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  Hand(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Isolated_vertices<Mesh>& isolated,
+       Filter_counters& counters, Mesh_watch<Mesh>& watch)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), isolated_(&isolated), watch_(&watch)
+    , guard_(mesh, broad_phase, corners, counters, &isolated, Fetch_watched{&watch}) {}
+
+  /// Whether vertices are dragged once each: see Sculptor.
+  void expect_single_drags(bool on) {
+    release();
+    guard_.expect_one_motion(on);
+    expects_single_drags_ = on;
+  }
+  bool expects_single_drags() const { return expects_single_drags_; }
+
+  void reserve(std::size_t valence, std::size_t faces) { guard_.reserve(valence, faces); }
+
+  /// Whether v is held already; its place is compared then. \throw Mesh_changed
+  bool holds(Vertex_index v) const {
+    watch_->check_counts();
+    if (held_ != v)
+      return false;
+    watch_->check(v);
+    return true;
+  }
+
+  /// Takes another vertex, having let go of the last. \param meanwhile is called while memory is waited for \throw Mesh_changed
+  template <class Meanwhile>
+  void take(Vertex_index v, const Meanwhile& meanwhile) {
+    prefetch(&mesh_->point(v), sizeof(typename Mesh::Point));
+    watch_->prefetch(v);
+    release();
+    if (!expects_single_drags_) {
+      meanwhile();
+      watch_->check_some();
+    }
+    guard_.collect(v);
+    watch_->check(v);
+    for (const Vertex_index neighbour : guard_.star().link)
+      watch_->check(neighbour);
+    held_ = v;
+  }
+
+  /// Takes a point that is no vertex, for one way: release() before and after.
+  void take_point() {
+    guard_.star().clear();
+    guard_.invalidate();
+  }
+
+  /// Lets go, if anything is held. The next drag begins without contacts.
+  void release() {
+    tell_where_it_is();
+    held_ = Vertex_index();
+    responses_.forget();
+    guard_.work().forget();
+  }
+
+  /// Tells the broad phase where the vertex has come to: it may be asked by others then.
+  void tell_where_it_is() {
+    if (held_.is_valid() && has_moved_) {
+      broad_phase_->faces_moved(guard_.star().faces);
+      isolated_->moved(held_);
+    }
+    has_moved_ = false;
+  }
+
+  /// Goes from source towards target as the response tells; the mesh is not written. \pre source != target
+  Coordinates move(const Coordinates& source, const Coordinates& target, const Sculptor_parameters& parameters,
+                   Drag_result<Mesh>& result) {
+    guard_.work().begin(parameters.work_bound.value_or(Work::unbounded));
+    const Drag_rules rules = {Clearance_rule(parameters.clearance_length), parameters.delta_length};
+    const Coordinates end = responses_.move(parameters.response_rule, guard_, *mesh_, source, target, rules, result);
+    result.work = guard_.work().done();
+    return end;
+  }
+
+  /// Writes where the last move was after each leg, the start first.
+  template <class Point>
+  void write_path(Response response, const Coordinates& source, const Coordinates& end, std::vector<Point>& path) const {
+    path.clear();
+    if (source == end)
+      path.emplace_back(source[0], source[1], source[2]);
+    else
+      responses_.append_path(response, source, end, path);
+  }
+
+  /// Whether the straight way is free, and that has been decided within the bound on the work.
+  bool is_free(const Coordinates& source, const Coordinates& target, const Sculptor_parameters& parameters) {
+    guard_.work().begin(parameters.work_bound.value_or(Work::unbounded));
+    return guard_.is_free(source, target, parameters.delta_length);
+  }
+
+  std::optional<Star_impact<Mesh>> first_impact(const Coordinates& source, const Coordinates& target) {
+    guard_.work().begin(Work::unbounded);
+    return guard_.decide(source, target, 0).first_impact();
+  }
+
+  /// The mesh has been written: v has moved.
+  void note_moved() { has_moved_ = true; }
+
+  /// Compares candidates with where they were left: all where they have just been looked up, else some of them in turn.
+  /// \throw Mesh_changed, and what was looked up is not used any more.
+  void check_candidates() {
+    try {
+      compare_candidates();
+    } catch (const Mesh_changed&) {
+      release();
+      throw;
+    }
+  }
+
+private:
+  /// Asks for the watch's copy of what will be read.
+  struct Fetch_watched {
+    const Mesh_watch<Mesh>* watch;
+    void operator()(Vertex_index v) const { watch->prefetch(v); }
+  };
+
+  const Mesh* mesh_;
+  Broad_phase* broad_phase_;
+  const Face_corners<Mesh>* corners_;
+  Isolated_vertices<Mesh>* isolated_;
+  Mesh_watch<Mesh>* watch_;
+  Guarded_star<Mesh, Broad_phase, Fetch_watched> guard_;
+  Responses<Mesh> responses_;
+  Vertex_index held_;      ///< whose star guard_ has; invalid when none
+  bool expects_single_drags_ = false;
+  bool has_moved_ = false; ///< the broad phase has not been told yet where the held star is
+  std::size_t compared_look_ = 0, next_compared_ = 0;
+
+  /// So many candidates are compared at every drag; a list that holds for long is seen whole soon.
+  static constexpr std::size_t candidates_per_drag = 4;
+
+  void compare_candidates() {
+    if (expects_single_drags_) // whatever is near is the vertex or a neighbour at another drag
+      return;
+    const auto& candidates = guard_.checklist().vertices();
+    if (compared_look_ != guard_.looks()) {
+      compared_look_ = guard_.looks();
+      for (const auto& candidate : candidates)
+        watch_->check(candidate.index);
+      watch_->check_faces(*corners_, guard_.star().faces);
+      return;
+    }
+    for (std::size_t left = std::min(candidates.size(), candidates_per_drag); left != 0; --left) {
+      next_compared_ = next_compared_ + 1 < candidates.size() ? next_compared_ + 1 : 0;
+      watch_->check(candidates[next_compared_].index);
+    }
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

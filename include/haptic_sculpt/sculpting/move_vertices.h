@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_MOVE_VERTICES_H
+#define HAPTIC_SCULPT_SCULPTING_MOVE_VERTICES_H
+
+#include <haptic_sculpt/sculpting/Sculptor.h>
+#include <haptic_sculpt/sculpting/many_vertices/Vertices_mover.h>
+
+#include <CGAL/Iterator_range.h>
+#include <CGAL/iterator.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Reads all targets before anything moves.
+/// \throw Unknown_vertex, Out_of_range, Invalid_parameter
+template <class Sculptor, class Vertex_range, class Target_map>
+std::vector<Moving_vertex<typename Sculptor::Mesh_type>>
+read_targets(const Sculptor& sculptor, const Vertex_range& vertices, const Target_map& target_map) {
+  using Mesh = typename Sculptor::Mesh_type;
+  const Mesh& mesh = sculptor.mesh();
+  std::vector<Moving_vertex<Mesh>> moving;
+  moving.reserve(static_cast<std::size_t>(std::distance(std::begin(vertices), std::end(vertices))));
+  std::vector<bool> is_given(mesh.num_vertices(), false);
+  double largest = 0;
+  for (const typename Mesh::Vertex_index v : vertices) {
+    check_vertex(mesh, v);
+    if (is_given[static_cast<std::size_t>(v)])
+      continue;
+    is_given[static_cast<std::size_t>(v)] = true;
+    const typename Mesh::Point& target = get(target_map, v);
+    const Coordinates t = coordinates(target);
+    check_range("the target of vertex " + std::to_string(static_cast<std::size_t>(v)), t);
+    largest = std::fmax(largest, largest_magnitude(t));
+    moving.push_back({v, vertex_coordinates(mesh, v), t});
+  }
+  if (const auto& clearance = sculptor.options().clearance_length;
+      clearance && *clearance < unit_in_the_last_place(largest))
+    throw Invalid_parameter("the clearance " + number(*clearance) +
+                            " does not serve where the targets are: give at least " +
+                            number(unit_in_the_last_place(largest)) + " (an ulp of their largest coordinate), or none");
+  return moving;
+}
+
+/// Tells of the distances from where the vertices are to their targets.
+template <class Mesh>
+void measure_distances(const Mesh& mesh, const std::vector<Moving_vertex<Mesh>>& moving, double& l2, double& largest) {
+  largest = 0;
+  for (const auto& v : moving)
+    largest = std::fmax(largest, distance(vertex_coordinates(mesh, v.vertex), v.target));
+  double sum = 0; // of squares of shares, lest they overflow
+  for (const auto& v : moving) {
+    const double share = largest > 0 ? distance(vertex_coordinates(mesh, v.vertex), v.target) / largest : 0;
+    sum += share * share;
+  }
+  l2 = largest * std::sqrt(sum);
+}
+
+} // namespace internal
+
+/// Moves vertices as near to their targets as single drags can bring them, each proven: no surface passes through a
+/// surface on the way, and no vertex ends farther from its target than it was.
+///
+/// \param vertices a range of vertices; one that is given again counts once
+/// \param target_map a model of `ReadablePropertyMap` from vertices to points
+/// \param left_behind an output iterator, told the vertices that are not at their targets at the end, in the order
+/// given
+///
+/// All targets are read and checked before the first vertex moves. The whole is one stroke, one step of the history;
+/// its own response is used, that of the Sculptor is as before afterwards. doc/many_vertices.md tells how the vertices
+/// are brought on. \throw Unknown_vertex, Out_of_range, Invalid_parameter: nothing has moved; Mesh_changed, and what
+/// the progress function throws Cost: some microseconds a vertex where the targets are free; about a millisecond for
+/// one that has to slide.
+template <class Sculptor, class Vertex_range, class Target_map, class Output_iterator = CGAL::Emptyset_iterator>
+Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, const Target_map& target_map,
+                          const Move_parameters& parameters = Move_parameters(),
+                          Output_iterator left_behind = Output_iterator()) {
+  const internal::Rounding_to_nearest rounding;
+  const auto asked = internal::read_targets(sculptor, vertices, target_map);
+  Move_report report;
+  report.asked = asked.size();
+  internal::measure_distances(sculptor.mesh(), asked, report.asked_l2, report.asked_max);
+  {
+    auto moving = asked;
+    internal::order_in_space(moving);
+    const bool are_short = internal::are_ways_short(sculptor.mesh(), moving);
+    if (!are_short)
+      internal::order_leaders_first(sculptor.mesh(), moving);
+    const auto stroke = sculptor.stroke();
+    internal::Vertices_mover<Sculptor>(sculptor, moving, parameters, are_short).run(report);
+  }
+  internal::measure_distances(sculptor.mesh(), asked, report.left_l2, report.left_max);
+  // Each distance is exactly no longer than it was; its root may be rounded up.
+  report.left_l2 = std::fmin(report.left_l2, report.asked_l2);
+  report.left_max = std::fmin(report.left_max, report.asked_max);
+  for (const auto& v : asked)
+    if (vertex_coordinates(sculptor.mesh(), v.vertex) == v.target)
+      ++report.reached;
+    else
+      *left_behind++ = v.vertex;
+  return report;
+}
+
+} // namespace haptic_sculpt
+
+#endif

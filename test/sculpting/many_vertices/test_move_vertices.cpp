@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Many vertices at once against what every run has to keep: embedded, never farther, one step, counted right.
+#include "sculpting/many_vertices/many_vertices_scene.h"
+
+#include <haptic_sculpt/sculpting/move_vertices.h>
+
+#include <numeric>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+/// Where `function(v)` says.
+template <class Function>
+Point_map targets(Mesh& mesh, const Function& function) {
+  const Point_map map = mesh.add_property_map<Vertex_index, Point_3>("v:target").first;
+  for (const Vertex_index v : mesh.vertices())
+    map[v] = function(v);
+  return map;
+}
+
+std::vector<Vertex_index> all(const Mesh& mesh) {
+  return {mesh.vertices().begin(), mesh.vertices().end()};
+}
+
+long double distance(const Point_3& p, const Point_3& q) {
+  const long double x = static_cast<long double>(p.x()) - q.x(), y = static_cast<long double>(p.y()) - q.y(),
+                    z = static_cast<long double>(p.z()) - q.z();
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+/// Runs it and checks all that holds for every run. \return the report
+Move_report checked_run(const std::string& name, Mesh mesh,
+                        const std::function<Point_3(const Mesh&, Vertex_index)>& function,
+                        const Move_parameters& parameters = Move_parameters()) {
+  BOOST_TEST_CONTEXT(name) {
+    const Point_map map = targets(mesh, [&](Vertex_index v) { return function(mesh, v); });
+    const Mesh old = mesh;
+    Sculptor<Mesh> sculptor(mesh);
+    const Mesh_snapshot before = snapshot(sculptor);
+    std::vector<Vertex_index> behind;
+    const Move_report report = move_vertices(sculptor, mesh.vertices(), map, parameters, std::back_inserter(behind));
+    BOOST_TEST(validate(mesh).is_valid());
+    sculptor.check_unchanged();
+
+    long double asked = 0, left = 0, asked_max = 0, left_max = 0;
+    std::vector<Vertex_index> not_there;
+    for (const Vertex_index v : mesh.vertices()) {
+      const long double a = distance(old.point(v), map[v]), b = distance(mesh.point(v), map[v]);
+      // Long doubles round too.
+      BOOST_TEST(b <= a * (1 + 1e-15L), "vertex " << v << " ends at " << b << " from its target, it was at " << a);
+      asked += a * a, left += b * b;
+      asked_max = std::max(asked_max, a), left_max = std::max(left_max, b);
+      if (mesh.point(v) != map[v])
+        not_there.push_back(v);
+    }
+    BOOST_TEST(report.asked == mesh.number_of_vertices());
+    BOOST_TEST(report.reached == report.asked - not_there.size());
+    BOOST_TEST((behind == not_there));
+    BOOST_TEST(report.left_l2 <= report.asked_l2);
+    BOOST_TEST(std::abs(report.asked_l2 - static_cast<double>(std::sqrt(asked))) <= 1e-12 * report.asked_l2);
+    BOOST_TEST(std::abs(report.left_l2 - static_cast<double>(std::sqrt(left))) <= 1e-12 * report.asked_l2);
+    BOOST_TEST(std::abs(report.asked_max - static_cast<double>(asked_max)) <= 1e-12 * report.asked_max);
+    BOOST_TEST(std::abs(report.left_max - static_cast<double>(left_max)) <= 1e-12 * report.asked_max);
+    BOOST_TEST(sculptor.history().number_of_undo_steps() <= 1u);
+    BOOST_TEST((sculptor.history().number_of_undo_steps() == 1u || snapshot(sculptor) == before));
+    BOOST_TEST((sculptor.options().response_rule == Response::slide));
+    BOOST_TEST(!sculptor.expects_single_drags());
+    check_undo_and_redo(sculptor, before);
+    BOOST_TEST_MESSAGE(name << ": reached " << report.reached << " of " << report.asked << " in " << report.drags
+                            << " drags, " << 100 * (1 - report.left_l2 / report.asked_l2) << " % of the way");
+    return report;
+  }
+  return {};
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(translations_by_ten_edges_arrive_to_the_bit) {
+  for (const auto& [name, mesh] : scenes()) {
+    const double l = 10 * mean_edge(mesh);
+    for (const Vector_3& d : {Vector_3(0.6, 0.64, 0.48), Vector_3(-1, 0, 0)}) {
+      const Move_report report = checked_run("translation of " + name, mesh,
+                                             [&](const Mesh& m, Vertex_index v) { return m.point(v) + l * d; });
+      BOOST_TEST(report.reached == report.asked, name);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(turns_by_a_right_angle_arrive_to_the_bit) {
+  for (const auto& [name, mesh] : scenes()) {
+    const Move_report report = checked_run("turn of " + name, mesh, [](const Mesh& m, Vertex_index v) {
+      return Point_3(-m.point(v).y(), m.point(v).x(), m.point(v).z());
+    });
+    BOOST_TEST(report.reached == report.asked, name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_arrive_stays_embedded_and_comes_nearer) {
+  std::mt19937 random(7);
+  BOOST_TEST_MESSAGE("seed 7");
+  for (const auto& [name, mesh] : scenes()) {
+    const double l = mean_edge(mesh);
+    const auto inflated = [&](const Mesh& m, Vertex_index v) { return m.point(v) + 2 * l * normal(m, v); };
+    const auto deflated = [&](const Mesh& m, Vertex_index v) { return m.point(v) - 2 * l * normal(m, v); };
+    const auto noisy = [&](const Mesh& m, Vertex_index v) {
+      return m.point(v) + l * Vector_3(meshes::uniform(random), meshes::uniform(random), meshes::uniform(random));
+    };
+    const auto mirrored = [](const Mesh& m, Vertex_index v) {
+      return Point_3(-m.point(v).x(), m.point(v).y(), m.point(v).z());
+    };
+    const Move_parameters bounded = Move_parameters().most_drags(3 * mesh.number_of_vertices());
+    checked_run("inflated " + name, mesh, inflated, bounded);
+    checked_run("deflated " + name, mesh, deflated, bounded);
+    checked_run("noisy " + name, mesh, noisy, bounded);
+    checked_run("mirrored " + name, mesh, mirrored, bounded);
+    checked_run("noisy " + name + ", stops only", mesh, noisy, Move_parameters().slide(false).steps(false));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_moves_where_a_target_cannot_be_used) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2));
+  const Point_map map = targets(mesh, [&](Vertex_index v) { return mesh.point(v) + Vector_3(0.1, 0, 0); });
+  Sculptor<Mesh> sculptor(mesh);
+  const Mesh_snapshot before = snapshot(sculptor);
+  const Vertex_index last(static_cast<Mesh::size_type>(mesh.num_vertices() - 1));
+  const Point_3 good = map[last];
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  for (const Point_3& bad : {Point_3(nan, 0, 0), Point_3(0, infinity, 0), Point_3(0, 0, -0x1.1p1000)}) {
+    map[last] = bad;
+    BOOST_CHECK_EXCEPTION(move_vertices(sculptor, mesh.vertices(), map), Out_of_range, [&](const Out_of_range& error) {
+      return std::string(error.what()).find("vertex " + std::to_string(static_cast<std::size_t>(last))) !=
+             std::string::npos;
+    });
+    BOOST_TEST((snapshot(sculptor) == before));
+  }
+  map[last] = good;
+  std::vector<Vertex_index> vertices = all(mesh);
+  vertices.push_back(Vertex_index(static_cast<Mesh::size_type>(mesh.num_vertices())));
+  BOOST_CHECK_THROW(move_vertices(sculptor, vertices, map), Unknown_vertex);
+  vertices.back() = Vertex_index();
+  BOOST_CHECK_THROW(move_vertices(sculptor, vertices, map), Unknown_vertex);
+  sculptor.set_clearance(1e-9);
+  map[last] = Point_3(1e9, 0, 0); // where an ulp is more than the clearance
+  BOOST_CHECK_THROW(move_vertices(sculptor, mesh.vertices(), map), Invalid_parameter);
+  BOOST_TEST((snapshot(sculptor) == before));
+  BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(cancelled_bounded_and_thrown_out_of) {
+  struct Thrown {};
+  for (const std::size_t after : {0, 1, 3}) {
+    Mesh mesh = meshes::to_mesh(meshes::hollow_ball(3));
+    const double l = mean_edge(mesh);
+    const Point_map map = targets(mesh, [&](Vertex_index v) { return mesh.point(v) + 2 * l * normal(mesh, v); });
+    Sculptor<Mesh> sculptor(mesh);
+    const Mesh_snapshot before = snapshot(sculptor);
+
+    std::size_t calls = 0;
+    const auto cancelling = [&](const Move_progress& progress) {
+      BOOST_TEST(progress.asked == mesh.number_of_vertices());
+      BOOST_TEST(progress.behind <= progress.asked);
+      BOOST_TEST(validate(mesh).is_valid());
+      return calls++ < after;
+    };
+    const Move_report cancelled = move_vertices(sculptor, mesh.vertices(), map, Move_parameters().progress(cancelling));
+    BOOST_TEST(cancelled.cancelled);
+    BOOST_TEST(!cancelled.out_of_work);
+    BOOST_TEST(calls == after + 1);
+    BOOST_TEST(cancelled.drags == Move_parameters::drags_between_calls * after);
+    check_undo_and_redo(sculptor, before);
+    if (cancelled.drags != 0)
+      sculptor.undo();
+
+    calls = 0;
+    const auto throwing = [&](const Move_progress&) -> bool {
+      if (calls++ == after)
+        throw Thrown();
+      return true;
+    };
+    BOOST_CHECK_THROW(move_vertices(sculptor, mesh.vertices(), map, Move_parameters().progress(throwing)), Thrown);
+    BOOST_TEST(validate(mesh).is_valid());
+    BOOST_TEST(!sculptor.history().is_in_stroke());
+    BOOST_TEST((sculptor.options().response_rule == Response::slide));
+    BOOST_TEST(!sculptor.expects_single_drags());
+    check_undo_and_redo(sculptor, before);
+    if (after != 0)
+      sculptor.undo();
+
+    const Move_report bounded =
+        move_vertices(sculptor, mesh.vertices(), map, Move_parameters().most_drags(100 * after));
+    BOOST_TEST(bounded.drags == 100 * after);
+    BOOST_TEST(bounded.out_of_work);
+    BOOST_TEST(!bounded.cancelled);
+    BOOST_TEST(validate(mesh).is_valid());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(few_none_repeated_and_isolated) {
+  Mesh mesh = meshes::to_mesh(meshes::ball_in_a_cavity());
+  const Vertex_index probe = mesh.add_vertex(Point_3(0, 0, 0));
+  const Point_map map = targets(mesh, [&](Vertex_index v) { return mesh.point(v) + Vector_3(0.125, 0, 0); });
+  Sculptor<Mesh> sculptor(mesh);
+  const Move_report none = move_vertices(sculptor, std::vector<Vertex_index>(), map);
+  BOOST_TEST(none.asked == 0u);
+  BOOST_TEST(none.asked_l2 == 0);
+  BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
+  const std::vector<Vertex_index> twice = {Vertex_index(5), probe, Vertex_index(5)};
+  const Point_3 five = map[Vertex_index(5)], middle = map[probe];
+  const Move_report report = move_vertices(sculptor, twice, map);
+  BOOST_TEST(report.asked == 2u);
+  BOOST_TEST(report.reached == 2u);
+  BOOST_TEST((mesh.point(Vertex_index(5)) == five && mesh.point(probe) == middle));
+  // There already: nothing is dragged, no step is made.
+  BOOST_TEST(move_vertices(sculptor, twice, map).drags == 0u);
+  BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
+  // In a stroke of the caller's it joins that.
+  {
+    const auto stroke = sculptor.stroke();
+    map[Vertex_index(5)] = five + Vector_3(0.01, 0, 0);
+    move_vertices(sculptor, twice, map);
+    map[Vertex_index(5)] = five;
+    move_vertices(sculptor, twice, map);
+    BOOST_TEST(stroke.is_open());
+  }
+  BOOST_TEST(sculptor.history().number_of_undo_steps() == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(expecting_single_drags_changes_no_result) {
+  std::mt19937 random(11);
+  BOOST_TEST_MESSAGE("seed 11");
+  for (const auto& [name, scene] : scenes()) {
+    Mesh usual = scene, single = scene;
+    Sculptor<Mesh> one(usual, parameters::response(Response::stop)),
+        other(single, parameters::response(Response::stop));
+    other.expect_single_drags(true);
+    std::size_t free = 0, tries = 1500, wrong = 0;
+    for (std::size_t i = 0; i < tries; ++i) {
+      const Vertex_index v(static_cast<Mesh::size_type>(random() % usual.num_vertices()));
+      const Point_3 p = usual.point(v), q = usual.point(usual.source(usual.halfedge(v)));
+      const double size =
+          std::sqrt(CGAL::squared_distance(p, q)) * std::pow(2, -0.5 * static_cast<double>(random() % 12));
+      // Across the surface, along it, and straight at a neighbour, where stars fold over.
+      const Vector_3 noise(meshes::uniform(random), meshes::uniform(random), meshes::uniform(random)),
+          n = normal(usual, v);
+      const Vector_3 way = i % 3 == 0   ? noise
+                           : i % 3 == 1 ? noise - (noise * n) * n
+                                        : 1.1 * (q - p) / std::sqrt(CGAL::squared_distance(p, q));
+      const Point_3 target = p + size * way;
+      const bool reached = one.grab(v).drag_to(target).reached;
+      // Whether the whole way is free, by the sweeps alone and by the cheaper proof.
+      wrong += other.grab(v).drag_to(target).reached != reached || usual.point(v) != single.point(v);
+      free += reached;
+    }
+    BOOST_TEST(wrong == 0u, name);
+    BOOST_TEST(free > tries / 8, name);
+    BOOST_TEST(free < tries, name);
+    BOOST_TEST((snapshot(one) == snapshot(other)), name);
+    one.check_unchanged();
+    other.check_unchanged();
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_whole_way_or_none) {
+  std::mt19937 random(12);
+  BOOST_TEST_MESSAGE("seed 12");
+  for (const auto& [name, scene] : scenes(false)) {
+    Mesh mesh = scene;
+    Sculptor<Mesh> sculptor(mesh);
+    for (int i = 0; i < 100; ++i) {
+      const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
+      const Point_3 p = mesh.point(v);
+      const Point_3 target =
+          p + mean_edge(mesh) * Vector_3(meshes::uniform(random), meshes::uniform(random), meshes::uniform(random));
+      const bool is_free = !first_impact(mesh, v, target); // brute force over all faces
+      BOOST_TEST(sculptor.move_if_free(v, target) == is_free);
+      BOOST_TEST((mesh.point(v) == (is_free ? target : p)));
+      BOOST_TEST(sculptor.history().number_of_undo_steps() == (is_free ? 1u : 0u));
+      if (is_free)
+        sculptor.undo();
+      BOOST_TEST((mesh.point(v) == p));
+    }
+    BOOST_CHECK_THROW(sculptor.move_if_free(Vertex_index(0), Point_3(std::nan(""), 0, 0)), Out_of_range);
+    BOOST_CHECK_THROW(sculptor.move_if_free(Vertex_index(), Point_3(0, 0, 0)), Unknown_vertex);
+  }
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A bound on the work of a drag: what holds whatever it is, and that drags with one come to where drags without one end.
+#include "sculpting/Random_scene.h"
+
+#include <boost/test/unit_test.hpp>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+double distance(const Point_3& a, const Point_3& b) { return std::sqrt(CGAL::squared_distance(a, b)); }
+
+Mesh terrain() { return meshes::to_mesh(meshes::bumpy_sphere(3, 0.3, 0.03)); }
+
+Point_3 random_target(Random& random, const Point_3& from, double size) {
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+  const double x = uniform(), y = uniform(), z = uniform();
+  return from + size * meshes::Kernel::Vector_3(x, y, z);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(a_bound_that_no_drag_comes_to_changes_no_bit) {
+  Mesh mesh = terrain(), other = terrain();
+  Sculptor<Mesh> without(mesh), with(other, parameters::work_limit(1000000000));
+  Random random(seed_from_environment(5));
+  std::size_t most = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
+    const Point_3 target = random_target(random, mesh.point(v), 0.5);
+    const auto a = without.grab(v).drag_to(target), b = with.grab(v).drag_to(target);
+    BOOST_REQUIRE((a.position == b.position));
+    BOOST_REQUIRE((a.end == b.end));
+    BOOST_REQUIRE(a.work == b.work);
+    most = std::max(most, a.work);
+  }
+  BOOST_TEST(most > 100);
+}
+
+BOOST_AUTO_TEST_CASE(with_any_bound_a_mesh_stays_embedded) {
+  Random random(seed_from_environment(6));
+  std::size_t cut = 0, moved = 0;
+  for (const std::size_t bound : {0, 1, 3, 10, 30, 100, 300})
+    for (int scene = 0; scene < 12; ++scene) {
+      Mesh mesh = scene % 4 == 0 ? terrain() : meshes::to_mesh(random_small_list(random, 3));
+      Sculptor<Mesh> sculptor(mesh, parameters::work_limit(bound).response(scene % 3 == 0 ? Response::paper : scene % 3 == 1 ? Response::stop : Response::slide));
+      for (int k = 0; k < 30; ++k) {
+        const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
+        auto grab = sculptor.grab(v);
+        Point_3 target = random_target(random, mesh.point(v), 1);
+        for (int i = 0; i < 5; ++i) {
+          const Point_3 before = mesh.point(v);
+          const auto result = grab.drag_to(target);
+          BOOST_REQUIRE((result.position == mesh.point(v)));
+          BOOST_REQUIRE(result.reached == (result.position == target));
+          if (result.end == Drag_end::work_limit)
+            BOOST_REQUIRE(result.work > bound);
+          if (bound == 0)
+            BOOST_REQUIRE((result.position == before || result.work == 0));
+          cut += result.end == Drag_end::work_limit;
+          moved += result.position != before;
+        }
+      }
+      BOOST_REQUIRE(validate(mesh).is_valid());
+      sculptor.check_unchanged();
+    }
+  BOOST_TEST_MESSAGE(cut << " drags were cut short, " << moved << " moved");
+  BOOST_TEST(cut > 500);
+  BOOST_TEST(moved > 500);
+}
+
+BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_an_end_that_is_one_without_a_bound) {
+  Random random(seed_from_environment(7));
+  std::size_t held = 0, went_on = 0, calls = 0, not_ended = 0, improved = 0, drags = 0;
+  for (const std::size_t bound : {40, 80, 160, 320}) {
+    Mesh mesh = terrain();
+    const Vertex_index probe = mesh.add_vertex(Point_3(2, 0, 0));
+    Sculptor<Mesh> sculptor(mesh, parameters::work_limit(bound));
+    for (int k = 0; k < 60; ++k) {
+      const Vertex_index v = k % 2 == 0 ? probe : Vertex_index(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
+      const Point_3 target = random_target(random, mesh.point(v), 0.4);
+      auto grab = sculptor.grab(v);
+      auto result = grab.drag_to(target);
+      int more = 0;
+      for (; result.end == Drag_end::work_limit && more < 200; ++more)
+        result = grab.drag_to(target);
+      ++drags;
+      went_on += more > 0;
+      calls += static_cast<std::size_t>(more);
+      not_ended += result.end == Drag_end::work_limit;
+      if (result.end != Drag_end::held)
+        continue;
+      ++held;
+      // The same from there, by a Sculptor without a bound that knows nothing of what was tried.
+      Mesh copy = mesh;
+      Sculptor<Mesh> fresh(copy);
+      const auto further = fresh.grab(v).drag_to(target);
+      improved += distance(result.position, target) - distance(further.position, target) > 64 * fresh.clearance(result.position);
+      grab.release();
+      sculptor.undo();
+    }
+  }
+  BOOST_TEST_MESSAGE(drags << " drags, " << went_on << " of which went on over " << calls << " calls; " << held << " held, of which "
+                           << improved << " could go on; " << not_ended << " did not end");
+  BOOST_TEST(went_on > 20);
+  BOOST_TEST(held > 50);
+  BOOST_TEST(not_ended <= drags / 20);
+  BOOST_TEST(improved <= held / 50);
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The life of a Grab.
+#include "sculpting/Random_scene.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <memory>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+using Grab_type = Grab<Sculptor<Mesh>>;
+
+Mesh ball() { return meshes::to_mesh(meshes::icosphere(1)); }
+
+Point_3 beside(const Mesh& mesh, Vertex_index v) { return mesh.point(v) + meshes::Kernel::Vector_3(0.01, 0.02, 0.005); }
+
+} // namespace
+
+static_assert(!std::is_copy_constructible<Grab_type>::value && !std::is_copy_assignable<Grab_type>::value, "");
+static_assert(std::is_nothrow_move_constructible<Grab_type>::value && std::is_nothrow_move_assignable<Grab_type>::value, "");
+
+BOOST_AUTO_TEST_CASE(a_grab_is_stale_once_another_has_the_hand) {
+  Mesh mesh = ball();
+  Sculptor<Mesh> sculptor(mesh);
+  auto first = sculptor.grab(Vertex_index(1));
+  auto second = sculptor.grab(Vertex_index(2));
+  BOOST_TEST(!first.vertex().is_valid());
+  const Point_3 before = mesh.point(Vertex_index(1));
+  const auto result = first.drag_to(beside(mesh, Vertex_index(1)));
+  BOOST_TEST((result.end == Drag_end::stale));
+  BOOST_TEST(!result.reached);
+  BOOST_TEST((mesh.point(Vertex_index(1)) == before));
+  BOOST_TEST(second.drag_to(beside(mesh, Vertex_index(2))).reached);
+  first.release(); // nothing of the second's
+  {
+    const Grab_type dying = std::move(first);
+  }
+  BOOST_TEST((second.vertex() == Vertex_index(2)));
+  BOOST_TEST(second.drag_to(beside(mesh, Vertex_index(2))).reached);
+}
+
+BOOST_AUTO_TEST_CASE(a_grab_moves_and_lets_go_of_its_own_vertex_only) {
+  Mesh mesh = ball();
+  Sculptor<Mesh> sculptor(mesh);
+  auto grab = sculptor.grab(Vertex_index(3));
+  BOOST_TEST(grab.drag_to(beside(mesh, Vertex_index(3))).reached);
+  Grab_type moved = std::move(grab);
+  BOOST_TEST(!grab.vertex().is_valid());
+  BOOST_TEST((grab.drag_to(Point_3(0, 0, 0)).end == Drag_end::stale));
+  BOOST_TEST(moved.drag_to(beside(mesh, Vertex_index(3))).reached);
+  moved = sculptor.grab(Vertex_index(4)); // the old one lets go after the new one has taken the hand
+  BOOST_TEST((moved.vertex() == Vertex_index(4)));
+  BOOST_TEST(moved.drag_to(beside(mesh, Vertex_index(4))).reached);
+  moved.release();
+  BOOST_TEST(moved.drag_to(beside(mesh, Vertex_index(4))).reached); // takes it again
+  BOOST_TEST(validate(mesh).is_valid());
+}
+
+BOOST_AUTO_TEST_CASE(a_grab_is_harmless_after_its_sculptor) {
+  Mesh mesh = ball();
+  auto sculptor = std::make_unique<Sculptor<Mesh>>(mesh);
+  auto grab = sculptor->grab(Vertex_index(5));
+  sculptor.reset();
+  BOOST_TEST((grab.drag_to(Point_3(1, 1, 1)).end == Drag_end::stale));
+  BOOST_TEST(!grab.vertex().is_valid());
+  grab.release();
+}
+
+BOOST_AUTO_TEST_CASE(undo_that_revives_a_vertex_makes_its_grab_usable) {
+  Mesh mesh = ball();
+  Sculptor<Mesh> sculptor(mesh);
+  auto grab = sculptor.grab(Vertex_index(6));
+  BOOST_REQUIRE(sculptor.remove(Vertex_index(6)));
+  BOOST_TEST((grab.drag_to(Point_3(1, 1, 1)).end == Drag_end::stale));
+  BOOST_REQUIRE(sculptor.undo());
+  BOOST_REQUIRE(grab.vertex().is_valid());
+  BOOST_TEST(grab.drag_to(beside(mesh, grab.vertex())).reached);
+  BOOST_TEST(validate(mesh).is_valid());
+}
+
+BOOST_AUTO_TEST_CASE(a_broad_phase_knows_where_a_grab_has_left_its_vertex) {
+  Mesh mesh = ball();
+  Sculptor<Mesh> sculptor(mesh);
+  const auto out = mesh.point(Vertex_index(7)) - CGAL::ORIGIN;
+  {
+    auto grab = sculptor.grab(Vertex_index(7));
+    BOOST_REQUIRE(grab.drag_to(CGAL::ORIGIN + 3 * out).reached);
+  }
+  const auto across = CGAL::cross_product(out, meshes::Kernel::Vector_3(1, 2, 3));
+  const Point_3 in_the_spike = CGAL::ORIGIN + 2 * out;
+  BOOST_TEST(!sculptor.probe(in_the_spike + across, in_the_spike - across).reached);
+}
