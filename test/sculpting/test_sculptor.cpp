@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_refused_and_change_nothing) {
 }
 
 // Each leg is asked for again on a copy of the mesh in which the vertex stands where the leg begins.
-BOOST_AUTO_TEST_CASE(the_last_way_is_made_of_free_legs) {
+BOOST_AUTO_TEST_CASE(the_way_of_a_drag_is_made_of_free_legs) {
   Random random(seed_from_environment(16));
   std::uniform_real_distribution<double> unit(-2, 2);
   const auto point = [&] {
@@ -61,8 +61,8 @@ BOOST_AUTO_TEST_CASE(the_last_way_is_made_of_free_legs) {
       const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
       const Point_3 start = mesh.point(v), target = i % 10 == 0 ? start : point();
       Mesh before = mesh;
-      const auto result = sculptor.grab(v).drag_to(target);
-      const std::vector<Point_3> way = sculptor.last_way();
+      std::vector<Point_3> way;
+      const auto result = sculptor.grab(v).drag_to(target, way);
       BOOST_REQUIRE_EQUAL(way.size(), static_cast<std::size_t>(result.legs) + 1);
       BOOST_TEST((way.front() == start && way.back() == result.position));
       for (std::size_t leg = 1; leg < way.size(); ++leg) {
@@ -74,8 +74,9 @@ BOOST_AUTO_TEST_CASE(the_last_way_is_made_of_free_legs) {
       if (i % 4 == 0)
         sculptor.undo();
     }
-    const auto swept = sculptor.probe(Point_3(3, 3, 3), Point_3(0.1, 0.2, 0.3));
-    BOOST_TEST((sculptor.last_way().front() == Point_3(3, 3, 3) && sculptor.last_way().back() == swept.position));
+    std::vector<Point_3> way;
+    const auto swept = sculptor.probe(Point_3(3, 3, 3), Point_3(0.1, 0.2, 0.3), &way);
+    BOOST_TEST((way.front() == Point_3(3, 3, 3) && way.back() == swept.position));
   }
   BOOST_TEST(with_bends > 50);
   BOOST_TEST(still >= 60);
