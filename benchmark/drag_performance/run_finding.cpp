@@ -20,13 +20,15 @@ public:
       , random_(seed) {}
 
   void nearest_vertex(Json& rows, std::size_t count) {
-    Latencies near, far;
+    Latencies near, off, far;
     for (std::size_t k = 0; k < count; ++k) {
-      const Point_3 p = beside_the_surface(0.5), q = anywhere(1.5);
+      const Point_3 p = beside_the_surface(0.5), o = beside_the_surface(10), q = anywhere(1.5);
       found_ += near.measure([&] { return sculptor_.nearest_vertex(p, 2 * edge_); }).is_valid();
+      found_ += off.measure([&] { return sculptor_.nearest_vertex(o, 20 * edge_); }).is_valid();
       found_ += far.measure([&] { return sculptor_.nearest_vertex(q, 10); }).is_valid();
     }
     add_row(rows, "nearest vertex: half an edge away", near);
+    add_row(rows, "nearest vertex: ten edges away", off);
     add_row(rows, "nearest vertex: anywhere", far);
   }
 

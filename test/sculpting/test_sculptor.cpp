@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(an_isolated_vertex_is_a_probe) {
   BOOST_TEST((sculptor.probe(mesh.point(Vertex_index(0)), Point_3(0, 0, 9)).end == Drag_end::refused));
   // No face passes over a probe.
   const Point_3 outward = mesh.point(Vertex_index(0));
-  sculptor.grab(probe).drag_to(Point_3(1.5 * outward.x(), 1.5 * outward.y(), 1.5 * outward.z()));
+  BOOST_REQUIRE(static_cast<bool>(sculptor.place(probe, Point_3(1.5 * outward.x(), 1.5 * outward.y(), 1.5 * outward.z()))));
   const auto stopped = sculptor.grab(Vertex_index(0)).drag_to(Point_3(2 * outward.x(), 2 * outward.y(), 2 * outward.z()));
   BOOST_TEST(!stopped.reached);
   BOOST_TEST((stopped.contacts.at(0).kind == Contact_kind::face_vertex));
