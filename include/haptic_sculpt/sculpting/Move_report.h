@@ -38,7 +38,8 @@ struct Move_parameters {
   std::function<bool(const Move_progress&)> progress_function;
   bool takes_steps = true, slides = true;
 
-  /// So many drags are made at most; then the call ends as it would if it had been cancelled.
+  /// So many drags are made at most; then the call ends as it would if it had been cancelled: where many stand in each other's way, with
+  /// all of them on their ways.
   Move_parameters& most_drags(std::size_t n) {
     drag_limit = n;
     return *this;

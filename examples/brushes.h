@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_BRUSHES_H
+#define HAPTIC_SCULPT_EXAMPLES_BRUSHES_H
+
+/// \file
+/// Brushes: each fills a map with targets for move_vertices(), which makes the dab without a self-intersection.
+
+#include <CGAL/Kernel/global_functions.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+namespace brushes {
+
+enum class Kind {
+  grab,    ///< along `direction`, by `strength` as a length
+  inflate, ///< along each vertex's normal, by `strength` as a length
+  smooth,  ///< towards the mean of the neighbours, by the share `strength`
+  flatten, ///< onto the plane through the mean of what is touched, across `direction`, by the share `strength`
+  pinch    ///< towards the line through the centre along `direction`, by the share `strength`
+};
+
+/// "grab", "inflate", "smooth", "flatten", "pinch", or nothing.
+inline std::optional<Kind> kind_named(const std::string& name) {
+  const char* const names[] = {"grab", "inflate", "smooth", "flatten", "pinch"};
+  for (int i = 0; i < 5; ++i)
+    if (name == names[i])
+      return static_cast<Kind>(i);
+  return std::nullopt;
+}
+
+template <class Kernel>
+struct Dab {
+  Kind kind;
+  typename Kernel::Point_3 centre;
+  double radius, strength;                                 ///< the effect falls off to nothing at the radius
+  std::optional<typename Kernel::Vector_3> direction = {}; ///< any length; the mean normal where none is given
+};
+
+/// The same dab on the other side of a plane.
+template <class Kernel>
+Dab<Kernel> mirrored(Dab<Kernel> dab, const typename Kernel::Plane_3& plane) {
+  const auto n = plane.orthogonal_vector();
+  const auto reflect = [&](const typename Kernel::Vector_3& v) { return v - 2 * (v * n) / n.squared_length() * n; };
+  const auto foot = plane.projection(dab.centre);
+  dab.centre = foot + reflect(dab.centre - foot);
+  if (dab.direction)
+    dab.direction = reflect(*dab.direction);
+  return dab;
+}
+
+/// Unit length; zero for zero.
+template <class Vector_3>
+Vector_3 unit(const Vector_3& v) {
+  const double length = std::sqrt(v.squared_length());
+  return length > 0 ? v / length : v;
+}
+
+template <class Mesh>
+auto normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
+  auto sum = mesh.point(v) - mesh.point(v);
+  for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
+    sum = sum + CGAL::cross_product(mesh.point(mesh.source(h)) - mesh.point(v),
+                                    mesh.point(mesh.target(mesh.next(h))) - mesh.point(v));
+  return unit(-sum);
+}
+
+/// The vertices within the radius that are connected to the one nearest to the centre: not those on the other side of a
+/// thin wall.
+template <class Mesh, class Kernel>
+std::vector<typename Mesh::Vertex_index> touched(const Mesh& mesh, const Dab<Kernel>& dab) {
+  using Vertex_index = typename Mesh::Vertex_index;
+  const auto distance = [&](Vertex_index v) { return CGAL::squared_distance(mesh.point(v), dab.centre); };
+  Vertex_index nearest;
+  for (const Vertex_index v : mesh.vertices())
+    if (!mesh.is_isolated(v) && (!nearest.is_valid() || distance(v) < distance(nearest)))
+      nearest = v;
+  std::vector<Vertex_index> result;
+  if (!nearest.is_valid() || distance(nearest) >= dab.radius * dab.radius)
+    return result;
+  std::unordered_set<Vertex_index> met = {nearest};
+  result.push_back(nearest);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    for (const auto h : mesh.halfedges_around_target(mesh.halfedge(result[i])))
+      if (const Vertex_index w = mesh.source(h); distance(w) < dab.radius * dab.radius && met.insert(w).second)
+        result.push_back(w);
+  return result;
+}
+
+/// Writes where a dab wants its vertices, and returns these.
+/// \param targets a writable map from vertices to points
+/// \param mask a readable map from vertices to how much they take part, from 0 to 1
+template <class Mesh, class Kernel, class Target_map, class Mask_map>
+std::vector<typename Mesh::Vertex_index> fill_targets(const Mesh& mesh, const Dab<Kernel>& dab, Target_map targets,
+                                                      const Mask_map& mask) {
+  using Vector_3 = typename Kernel::Vector_3;
+  const auto vertices = touched(mesh, dab);
+  const auto weight = [&](typename Mesh::Vertex_index v) {
+    const double square = CGAL::squared_distance(mesh.point(v), dab.centre) / (dab.radius * dab.radius);
+    return (1 - square) * (1 - square) * get(mask, v);
+  };
+  Vector_3 direction = CGAL::NULL_VECTOR, mean = CGAL::NULL_VECTOR;
+  double sum = 0;
+  for (const auto v : vertices) {
+    direction = direction + weight(v) * normal(mesh, v);
+    mean = mean + weight(v) * (mesh.point(v) - dab.centre);
+    sum += weight(v);
+  }
+  direction = unit(dab.direction.value_or(direction));
+  mean = sum > 0 ? mean / sum : mean;
+  const auto wanted = [&](typename Mesh::Vertex_index v) -> Vector_3 {
+    const Vector_3 from_centre = mesh.point(v) - dab.centre;
+    switch (dab.kind) {
+    case Kind::grab:
+      return direction;
+    case Kind::inflate:
+      return normal(mesh, v);
+    case Kind::flatten:
+      return -((from_centre - mean) * direction) * direction;
+    case Kind::pinch:
+      return (from_centre * direction) * direction - from_centre;
+    default: {
+      Vector_3 to_mean = CGAL::NULL_VECTOR;
+      for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
+        to_mean = to_mean + (mesh.point(mesh.source(h)) - mesh.point(v)) / mesh.degree(v);
+      return to_mean;
+    }
+    }
+  };
+  for (const auto v : vertices)
+    put(targets, v, mesh.point(v) + dab.strength * weight(v) * wanted(v));
+  return vertices;
+}
+
+/// Nothing is masked.
+template <class Mesh, class Kernel, class Target_map>
+std::vector<typename Mesh::Vertex_index> fill_targets(const Mesh& mesh, const Dab<Kernel>& dab, Target_map targets) {
+  return fill_targets(mesh, dab, targets, boost::static_property_map<double, typename Mesh::Vertex_index>(1.0));
+}
+
+} // namespace brushes
+
+#endif
