@@ -88,12 +88,12 @@ private:
   }
 
   /// Whether what holds J are facets with J so far inside of them, or at borders over which another one goes on as
-  /// high, that no way leads round them.
+  /// high, that no way leads round them. Not where its clearances alone hold it, so that it could go far if it kept
+  /// none: in a gap that closes by less than a clearance on a long way.
   static bool is_certain(const Walk& walk, const Vector& target) {
     const Slide_lengths& lengths = walk.lengths();
-    const Nearest_permitted held = walk.nearest(walk.pull_to(target), 1);
-    if (!held.exists || held.is_squeezed || held.number_active == 0 ||
-        length(held.displacement) > 2 * lengths.settled())
+    const Nearest_permitted held = walk.nearest(walk.pull_to(target), 0);
+    if (!held.exists || held.is_squeezed || held.number_active == 0 || length(held.displacement) > lengths.lifted())
       return false;
     const auto is_solid = [&](const Facet<Mesh>& facet) {
       if (facet.contact().is_flat || facet.is_over(Slide_lengths::clearances_of_lift))
