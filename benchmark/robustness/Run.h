@@ -8,6 +8,7 @@
 
 #include <haptic_sculpt/surface.h>
 
+#include <cmath>
 #include <iostream>
 #include <sstream>
 
@@ -57,12 +58,13 @@ public:
       rows_.push_back(row);
   }
 
-  /// Drags with extreme targets, clearances and deltas.
-  void extreme(const std::string& name, const Mesh& mesh) {
+  /// Drags with extreme targets, clearances and deltas: a share of all that are asked for.
+  void extreme(const std::string& name, const Mesh& mesh, double share) {
     Extreme_tally tally;
-    for (std::size_t done = 0; done < options_.extreme; done += options_.batch)
+    const auto drags = static_cast<std::size_t>(std::ceil(share * static_cast<double>(options_.extreme)));
+    for (std::size_t done = 0; done < drags; done += options_.batch)
       if (is_ours())
-        tally += Extreme_batch(mesh, response_, seed_of_batch()).run(std::min(options_.batch, options_.extreme - done));
+        tally += Extreme_batch(mesh, response_, seed_of_batch()).run(std::min(options_.batch, drags - done));
     if (tally.drags + tally.refused == 0)
       return;
     extremes_ += tally;

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   app.add_option("--drags-on-large", options.drags_on_large, "Drags on meshes of 200,000 faces or more")->capture_default_str();
   app.add_option("--edits", options.edits, "Mixed edits on each mesh, in batches of 5000, each undone and redone whole")->capture_default_str();
   app.add_option("--edits-on-large", options.edits_on_large, "Mixed edits on meshes of 200,000 faces or more")->capture_default_str();
-  app.add_option("--extreme", options.extreme, "Drags on each of some small meshes with targets, clearances and deltas anywhere among the doubles")->capture_default_str();
+  app.add_option("--extreme", options.extreme, "Drags in all, on some small meshes, with targets, clearances and deltas anywhere among the doubles")->capture_default_str();
   app.add_option("--response", options.response, "What a blocked vertex does")
       ->check(CLI::IsMember({"slide", "stop", "paper"}))
       ->capture_default_str();
@@ -36,8 +36,8 @@ int main(int argc, char** argv) {
     robustness::Run run(options);
     for (const auto& [name, mesh] : robustness::robustness_meshes())
       run.mesh(name, mesh);
-    for (const auto& [name, mesh] : robustness::small_meshes())
-      run.extreme(name, mesh);
+    for (const auto& small : robustness::small_meshes())
+      run.extreme(small.name, small.mesh, small.share);
     if (!options.folder.empty())
       run.folder();
     return run.finish();

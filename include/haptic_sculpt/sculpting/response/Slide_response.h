@@ -61,8 +61,13 @@ public:
       end = walk_.go(guard, target, std::min(until, most_legs));
       // A target that is beyond reach brings forth legs each longer than the last, far from all that is to be seen: no
       // search for ways that are better there.
-      if (end == Walk_end::reached || (end != Walk_end::limit && walk_.is_beyond_reach(target)))
+      const bool is_beyond_reach = walk_.is_beyond_reach(target);
+      if (end == Walk_end::reached || (is_beyond_reach && (end != Walk_end::limit || walk_.legs() >= most_legs)))
         break;
+      if (is_beyond_reach) {
+        until = most_legs;
+        continue;
+      }
       bool creeps = false;
       if (walk_.legs() + internal::Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
         ++shortenings;
