@@ -38,16 +38,16 @@ inline std::vector<std::pair<std::string, Mesh>> robustness_meshes() {
 struct Small_mesh {
   std::string name;
   Mesh mesh;
-  double share; ///< of all drags: those of a tetrahedron take a fraction of the time of the others
+  double share; ///< of all drags: those of a tetrahedron take 1 ms, of cubes 2 to 6, of the stack 50
 };
 
 /// For drags with extreme targets and lengths. The shares add up to 1.
 inline std::vector<Small_mesh> small_meshes() {
   using namespace meshes;
-  return {{"tetrahedron", to_mesh(tetrahedron()), 0.9},
+  return {{"tetrahedron", to_mesh(tetrahedron()), 0.915},
           {"cube", to_mesh(cube()), 0.02},
           {"split cube far off", to_mesh(box(2).scale_and_move(1, 1e6, -1e6, 0)), 0.02},
-          {"sliver stack", to_mesh(sliver_stack(4, 1e-9)), 0.02},
+          {"sliver stack", to_mesh(sliver_stack(4, 1e-9)), 0.005},
           {"nearly pinched", to_mesh(nearly_pinched(1e-9)), 0.02},
           {"bipyramid", to_mesh(bipyramid(7)), 0.02}};
 }
