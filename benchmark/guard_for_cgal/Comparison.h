@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_COMPARISON_H
+#define HAPTIC_SCULPT_BENCHMARK_COMPARISON_H
+
+#include "meshes/generated_meshes.h"
+
+#include <haptic_sculpt/surface.h>
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt::benchmark {
+
+using Mesh = meshes::Mesh;
+using Point_3 = meshes::Point_3;
+using Vector_3 = meshes::Kernel::Vector_3;
+using Vertex_index = Mesh::Vertex_index;
+using Edge_index = Mesh::Edge_index;
+using Face_index = Mesh::Face_index;
+using Json = nlohmann::ordered_json;
+
+struct Named_mesh {
+  std::string name;
+  Mesh mesh;
+};
+
+/// What came out of a function, by CGAL alone or under the guard.
+struct Outcome {
+  double seconds = 0;
+  std::size_t pairs = 0; ///< of self-intersecting faces
+  bool is_valid = false; ///< validate()
+  std::size_t faces = 0;
+  double least_angle = 0, mean_least_angle = 0; ///< degrees: of all triangles, and of the least of each
+  double valence_six = 0;                       ///< share of the vertices
+  double length = 0; ///< mean of the edges, in target lengths of a remeshing, else in those of the input
+  double hausdorff =
+      0; ///< the largest distance of vertices and face centres to the other surface, both ways, in the same unit
+  bool failed = false; ///< the function said so
+};
+
+/// One function on one mesh.
+struct Comparison {
+  std::string mesh, function, way; ///< way: how the guard comes in: "map", "functor", "targets" or "remesher"
+  Outcome plain, guarded;
+  double set_up = 0; ///< seconds to make the Sculptor
+  double share = 1;  ///< of the way asked for that was made
+  std::size_t asked = 0, refused = 0;
+};
+
+inline double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double mean_edge(const Mesh& mesh);
+/// All but seconds. \param unit a length \param input what the surface was; nullptr where its distance is of no
+/// interest
+void measure(Mesh mesh, double unit, const Mesh* input, Outcome& outcome);
+Json to_json(const Comparison& comparison);
+
+/// CGAL's functions that move points, on one mesh.
+void compare_functions(const Named_mesh& scene, unsigned seed, std::vector<Comparison>& results);
+/// Remeshing to 0.7, 1, 1.5, 2 and 3 mean edges.
+void compare_remeshing(const Named_mesh& scene, unsigned iterations, std::vector<Comparison>& results);
+/// Every vertex of a mesh by a tenth of an edge, in a random direction, in one stroke.
+Json move_all_by_a_tenth(Mesh mesh, unsigned seed);
+
+} // namespace haptic_sculpt::benchmark
+
+#endif

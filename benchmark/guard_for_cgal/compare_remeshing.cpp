@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "guard_for_cgal/Comparison.h"
+
+#include <haptic_sculpt/sculpting/isotropic_remeshing.h>
+#include <haptic_sculpt/sculpting/move_vertices.h>
+
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+
+#include <cstdio>
+
+namespace haptic_sculpt::benchmark {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+using Clock = std::chrono::steady_clock;
+
+void compare_remeshing(const Named_mesh& scene, unsigned iterations, std::vector<Comparison>& results) {
+  for (const double factor : {0.7, 1.0, 1.5, 2.0, 3.0}) {
+    Comparison comparison;
+    comparison.mesh = scene.name;
+    char name[64];
+    std::snprintf(name, sizeof name, "isotropic_remeshing, %.1f mean edges", factor);
+    comparison.function = name;
+    comparison.way = "remesher";
+    const double length = factor * mean_edge(scene.mesh);
+    const auto np = CGAL::parameters::number_of_iterations(iterations);
+
+    Mesh plain = scene.mesh, guarded = scene.mesh;
+    auto start = Clock::now();
+    PMP::isotropic_remeshing(plain.faces(), length, plain, np);
+    comparison.plain.seconds = seconds_since(start);
+    measure(plain, length, &scene.mesh, comparison.plain);
+
+    start = Clock::now();
+    Sculptor<Mesh> sculptor(guarded);
+    comparison.set_up = seconds_since(start);
+    start = Clock::now();
+    const Remeshing_report report = haptic_sculpt::isotropic_remeshing(sculptor, length, np);
+    comparison.guarded.seconds = seconds_since(start);
+    for (const auto& count : {report.splits, report.collapses, report.flips, report.moves}) {
+      comparison.asked += count.done + count.refused;
+      comparison.refused += count.refused;
+    }
+    measure(guarded, length, &scene.mesh, comparison.guarded);
+    results.push_back(comparison);
+  }
+}
+
+Json move_all_by_a_tenth(Mesh mesh, unsigned seed) {
+  const auto targets = mesh.add_property_map<Vertex_index, Point_3>("v:target").first;
+  std::mt19937 random(seed);
+  const auto uniform = [&] { return random() / 2147483648.0 - 1; };
+  for (const Vertex_index v : mesh.vertices()) {
+    const double edge = std::sqrt(CGAL::squared_distance(mesh.point(v), mesh.point(mesh.source(mesh.halfedge(v)))));
+    Vector_3 d;
+    do
+      d = Vector_3(uniform(), uniform(), uniform());
+    while (d.squared_length() > 1 || d.squared_length() < 0.01);
+    targets[v] = mesh.point(v) + 0.1 * edge / std::sqrt(d.squared_length()) * d;
+  }
+  auto start = Clock::now();
+  Sculptor<Mesh> sculptor(mesh);
+  const double set_up = seconds_since(start);
+  start = Clock::now();
+  const Move_report report = move_vertices(sculptor, mesh.vertices(), targets);
+  const double seconds = seconds_since(start);
+  start = Clock::now();
+  const bool intersects = PMP::does_self_intersect(mesh);
+  const double check = seconds_since(start);
+  return {{"faces", mesh.number_of_faces()},
+          {"asked", report.asked},
+          {"reached", report.reached},
+          {"drags", report.drags},
+          {"set_up_seconds", set_up},
+          {"seconds", seconds},
+          {"does_self_intersect_seconds", check},
+          {"self_intersects", intersects}};
+}
+
+} // namespace haptic_sculpt::benchmark

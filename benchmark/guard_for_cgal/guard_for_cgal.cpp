@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// CGAL's functions alone and under the guard: self-intersections, share of the way, quality, time.
+#include "guard_for_cgal/Comparison.h"
+#include "meshes/thin_walls.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::benchmark;
+
+namespace {
+
+struct Options {
+  std::string folder, large, json;
+  unsigned seed = 1, iterations = 5;
+  std::size_t largest = 120000;
+  bool no_generated = false, no_functions = false, no_remeshing = false, no_large = false, quick = false;
+};
+
+std::vector<Named_mesh> generated(const Options& options) {
+  std::vector<Named_mesh> meshes = {
+      {"hidden cavity", meshes::to_mesh(meshes::hidden_cavity())},
+      {"wavy plate", meshes::to_mesh(meshes::wavy_plate(16, 0.1, 0.5, 0.2, options.seed))}};
+  if (!options.quick) {
+    meshes.push_back({"hollow ball", meshes::to_mesh(meshes::hollow_ball(3, 0.012, options.seed))});
+    meshes.push_back({"Swiss cheese", meshes::to_mesh(meshes::swiss_cheese(2, 0.01, 2, options.seed))});
+  }
+  return meshes;
+}
+
+/// Meshes that are refused, or too large, are named and left out.
+std::vector<Named_mesh> of_folder(const Options& options) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(options.folder))
+    if (const auto extension = entry.path().extension();
+        extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl")
+      paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  std::vector<Named_mesh> meshes;
+  for (const auto& path : paths) {
+    if (std::filesystem::file_size(path) > 64 * options.largest) {
+      std::fprintf(stderr, "%s: left out, it is too large (--largest)\n", path.filename().c_str());
+      continue;
+    }
+    try {
+      meshes.push_back({path.stem().string(), read_surface<Mesh>(path.string())});
+    } catch (const Error& error) {
+      std::fprintf(stderr, "%s: left out: %s\n", path.filename().c_str(), error.what());
+    }
+  }
+  return meshes;
+}
+
+void print(const Comparison& c) {
+  std::printf("| %s | %s | %s | %zu | %zu | %.1f | %.2g / %.2g | %.1f / %.1f | %.2f / %.2f | %.3f | %.1f |\n",
+              c.mesh.c_str(), c.function.c_str(), c.way.c_str(), c.plain.pairs, c.guarded.pairs, 100 * c.share,
+              c.plain.least_angle, c.guarded.least_angle, c.plain.mean_least_angle, c.guarded.mean_least_angle,
+              c.plain.hausdorff, c.guarded.hausdorff, c.guarded.seconds, c.guarded.seconds / c.plain.seconds);
+  std::fflush(stdout);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("CGAL's functions alone and under the guard: self-intersecting pairs, share of the way, quality, time.");
+  Options options;
+  app.add_option("--meshes", options.folder, "A folder of .off, .obj, .ply, .stl; beside the generated ones")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--largest", options.largest, "Leave out files of about more triangles than this")
+      ->capture_default_str();
+  app.add_option("--large", options.large,
+                 "The mesh of which every vertex moves by a tenth of an edge; generated where none is given")
+      ->check(CLI::ExistingFile);
+  app.add_option("--iterations", options.iterations, "Of remeshing")->capture_default_str();
+  app.add_option("--seed", options.seed, "Of generated meshes, perturbations and directions")->capture_default_str();
+  app.add_option("--json", options.json, "Write all figures here");
+  app.add_flag("--no-generated", options.no_generated, "Leave out the generated meshes");
+  app.add_flag("--no-functions", options.no_functions, "Leave out the functions that move points");
+  app.add_flag("--no-remeshing", options.no_remeshing, "Leave out remeshing");
+  app.add_flag("--no-large", options.no_large, "Leave out the large mesh");
+  app.add_flag("--quick", options.quick, "Small meshes only");
+  CLI11_PARSE(app, argc, argv);
+
+  std::printf("seed %u\n\n| mesh | function | way | pairs alone | pairs guarded | %% of the way | least angle alone / "
+              "guarded | mean least angle "
+              "alone / guarded | Hausdorff alone / guarded | s guarded | time ratio "
+              "|\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+              options.seed);
+  std::vector<Named_mesh> scenes;
+  if (!options.no_generated)
+    scenes = generated(options);
+  if (!options.folder.empty())
+    for (Named_mesh& scene : of_folder(options))
+      scenes.push_back(std::move(scene));
+  Json report = {{"seed", options.seed}, {"comparisons", Json::array()}};
+  bool kept = true;
+  for (const Named_mesh& scene : scenes) {
+    std::vector<Comparison> results;
+    const auto tell = [&] {
+      for (const Comparison& c : results) {
+        print(c);
+        report["comparisons"].push_back(to_json(c));
+        kept = kept && c.guarded.pairs == 0 && c.guarded.is_valid;
+      }
+      results.clear();
+    };
+    try {
+      if (!options.no_functions)
+        compare_functions(scene, options.seed, results);
+      tell();
+      if (!options.no_remeshing)
+        compare_remeshing(scene, options.iterations, results);
+      tell();
+    } catch (const Invalid_surface& error) {
+      std::fprintf(stderr, "%s: left out: %s\n", scene.name.c_str(), error.what());
+    }
+  }
+  if (!options.no_large) {
+    const std::size_t cells = options.quick ? 40 : 516; // 2 x 2 x 516^2 = 1,065,024 triangles
+    Mesh large =
+        options.large.empty() ? meshes::to_mesh(meshes::torus(2 * cells, cells)) : read_surface<Mesh>(options.large);
+    report["large"] = move_all_by_a_tenth(std::move(large), options.seed);
+    std::cout << "\nevery vertex by a tenth of an edge: " << report["large"].dump() << '\n';
+    kept = kept && !report["large"]["self_intersects"].get<bool>();
+  }
+  if (!options.json.empty()) {
+    std::ofstream out(options.json);
+    if (!(out << report.dump(1) << '\n')) {
+      std::cerr << "cannot write " << options.json << '\n';
+      return 5;
+    }
+  }
+  if (!kept)
+    std::cerr << "a guarded run ended with a mesh that is not valid\n";
+  return kept ? 0 : 1;
+}
