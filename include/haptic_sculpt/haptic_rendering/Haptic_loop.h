@@ -3,18 +3,12 @@
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_HAPTIC_LOOP_H
 
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
-#include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
+#include <haptic_sculpt/haptic_rendering/check_coupling.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
 #include <haptic_sculpt/haptic_rendering/Tool.h>
 #include <haptic_sculpt/haptic_rendering/Watchdog.h>
 
 namespace haptic_sculpt {
-
-/// Thrown where a coupling is neither passive nor stable on a device; says what would be.
-class Unstable_coupling : public Error {
-public:
-  using Error::Error;
-};
 
 /// How a loop runs.
 struct Haptic_parameters {
@@ -24,20 +18,9 @@ struct Haptic_parameters {
   Force_limits limits;
   Watchdog_limits watchdog;
   Gravity_compensation gravity = Gravity_compensation::spatial;
-  double reach = 0.005;   ///< of a grab, m in the device
+  double reach = 0.001;   ///< of a grab, m in the device
   std::size_t work = 400; ///< pairs a drag may decide (doc/work.md)
 };
-
-/// \throw Unstable_coupling
-inline void check_coupling(const Virtual_coupling& coupling, const Passivity_limits& limits) {
-  if (limits.permits(coupling))
-    return;
-  throw Unstable_coupling("the stiffness " + internal::number(coupling.stiffness) + " N/m is neither passive (up to " +
-                          internal::number(std::max(0.0, limits.passive_stiffness)) + ") nor stable (up to " +
-                          internal::number(std::max(0.0, limits.stable_stiffness)) +
-                          ") on this device with the damping " + internal::number(coupling.damping) +
-                          " N s/m; ask for less, for a higher rate or for a shorter delay");
-}
 
 /// What a tick did; places in the scene, forces on the hand in axes of the device.
 struct Haptic_tick {

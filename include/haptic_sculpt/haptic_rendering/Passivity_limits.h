@@ -7,6 +7,7 @@
 #include <haptic_sculpt/haptic_rendering/reach_position.h>
 
 #include <algorithm>
+#include <random>
 #include <vector>
 
 namespace haptic_sculpt {
@@ -39,14 +40,16 @@ struct Worst_pose {
 namespace internal {
 
 /// sigma_max^2 times the share that is rendered: what makes a pose bad. Negative where nothing is.
+/// Poses with a knee on the other side than at `home` do not count: the way there leads through poses without any
+/// force.
 template <class Contains>
-Worst_pose rated_pose(const Device_parameters<double>& parameters, const Device_vector<double>& theta,
-                      const Force_limits& limits, const Contains& contains) {
+Worst_pose rated_pose(const Device_parameters<double>& parameters, const Device_pose<double>& home,
+                      const Device_vector<double>& theta, const Force_limits& limits, const Contains& contains) {
   Worst_pose rated;
   if (!within_joint_limits(parameters, theta))
     return rated;
   const auto pose = forward_kinematics(parameters, theta);
-  if (!pose || !contains(pose->position))
+  if (!pose || working_mode(parameters, *pose) != working_mode(parameters, home) || !contains(pose->position))
     return rated;
   const auto map = jacobian(parameters, *pose);
   if (!map)
@@ -60,37 +63,44 @@ Worst_pose rated_pose(const Device_parameters<double>& parameters, const Device_
 } // namespace internal
 
 /// Searches the poses whose handle's place `contains(position)` for the worst: a grid of joint angles, and from its
-/// eight worst a pattern search. Allocates; some tenths of a second.
+/// worst a climb by random steps that get smaller. Allocates; some tenths of a second.
 template <class Contains>
 Worst_pose worst_pose(const Device_parameters<double>& parameters, const Force_limits& limits, const Contains& contains,
                       int per_joint = 25) {
   using V = Device_vector<double>;
   const auto badness = [](const Worst_pose& p) { return p.is_found ? p.greatest * p.greatest * p.fading : -1.0; };
+  constexpr std::size_t starts = 24;
   std::vector<Worst_pose> worst;
+  const auto home = home_pose(parameters);
+  if (!home)
+    return Worst_pose();
   const V span = parameters.greatest_angle() - parameters.least_angle();
   for (int i = 0; i < per_joint * per_joint * per_joint; ++i) {
     const V part(i % per_joint, i / per_joint % per_joint, i / per_joint / per_joint);
     const V theta = parameters.least_angle() + span.cwiseProduct(part / (per_joint - 1.0));
-    const Worst_pose rated = internal::rated_pose(parameters, theta, limits, contains);
+    const Worst_pose rated = internal::rated_pose(parameters, *home, theta, limits, contains);
     if (!rated.is_found)
       continue;
     worst.push_back(rated);
     std::sort(worst.begin(), worst.end(),
               [&](const Worst_pose& a, const Worst_pose& b) { return badness(a) > badness(b); });
-    if (worst.size() > 8)
+    if (worst.size() > starts)
       worst.pop_back();
   }
+  // At the edge of what counts, and on ridges, the axes lead nowhere: directions are drawn.
+  std::mt19937_64 draw(1);
+  const auto number = [&draw] { return 2 * (static_cast<double>(draw() >> 11) * 0x1p-53) - 1; };
   Worst_pose found;
   for (Worst_pose& start : worst) {
-    for (double step = span.maxCoeff() / (per_joint - 1); step > 1e-5; step /= 2)
-      for (bool is_better = true; is_better;) {
-        is_better = false;
-        for (int way = 0; way < 27; ++way) {
-          const V theta = start.pose.theta + step * V(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
-          const Worst_pose next = internal::rated_pose(parameters, theta, limits, contains);
-          if (badness(next) > badness(start) * (1 + 1e-9))
-            start = next, is_better = true;
-        }
+    for (double step = 2 * span.maxCoeff() / (per_joint - 1); step > 1e-5; step /= 2)
+      for (int failures = 0; failures < 40;) {
+        const double x = number(), y = number(), z = number();
+        const Worst_pose next =
+            internal::rated_pose(parameters, *home, V(start.pose.theta + step * V(x, y, z)), limits, contains);
+        if (badness(next) > badness(start))
+          start = next, failures = 0;
+        else
+          ++failures;
       }
     if (badness(start) > badness(found))
       found = start;

@@ -42,7 +42,7 @@ private:
 
   static int octave_of(std::uint64_t n) {
     int octave = 0;
-    while (n >> (octave + bits + 1) != 0)
+    for (std::uint64_t rest = n >> (bits + 1); rest != 0; rest >>= 1)
       ++octave;
     return octave;
   }
