@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_H
+
+/// \file
+/// What the surface says, the hand feels: from a device's joint angles to drags, and back to torques. Needs CGAL and
+/// Eigen.
+
+#include <haptic_sculpt/device.h>
+#include <haptic_sculpt/haptic_rendering/Hand_path.h>
+#include <haptic_sculpt/haptic_rendering/Haptic_loop.h>
+#include <haptic_sculpt/haptic_rendering/Simulated_device.h>
+#include <haptic_sculpt/haptic_rendering/Simulated_hand.h>
+#include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
+#include <haptic_sculpt/haptic_rendering/reach_position.h>
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_FORCE_LIMIT_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_FORCE_LIMIT_H
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptic_sculpt {
+
+/// What may reach the hand.
+struct Force_limits {
+  double largest = 5;         ///< norm of the force, N
+  double slew = 300;          ///< its change, N/s; serves hands whose speed times the stiffness is no more
+  double full_condition = 10; ///< cond(J) up to which the whole force is rendered
+  double no_condition = 20;   ///< cond(J) from which nothing is: encoder steps turn the force by degrees there
+  double ramp_time = 0.3;     ///< from 0 to the whole force after a start, s
+  double fade_time = 0.1;     ///< to 0 on a fault, s
+};
+
+/// The share of the force that is rendered at a pose: 1 to 0, linear in cond(J).
+inline double fading_by_condition(const Force_limits& limits, double condition) {
+  if (!(condition < limits.no_condition))
+    return 0;
+  return condition <= limits.full_condition
+             ? 1
+             : (limits.no_condition - condition) / (limits.no_condition - limits.full_condition);
+}
+
+/// A force of at most the given norm, in the same direction.
+inline Eigen::Vector3d clamped(const Eigen::Vector3d& force, double largest) {
+  const double norm = force.norm();
+  return norm > largest ? Eigen::Vector3d(force * (largest / norm)) : force;
+}
+
+/// Follows a force at a bounded rate. Reaches it exactly, so that a force of 0 becomes 0.
+class Slew_limit {
+public:
+  /// \param step the largest change in a tick, N
+  const Eigen::Vector3d& follow(const Eigen::Vector3d& force, double step) {
+    const Eigen::Vector3d change = force - value_;
+    const double norm = change.norm();
+    value_ = norm <= step ? force : Eigen::Vector3d(value_ + change * (step / norm));
+    return value_;
+  }
+  const Eigen::Vector3d& value() const { return value_; }
+  void reset() { value_.setZero(); }
+
+private:
+  Eigen::Vector3d value_ = Eigen::Vector3d::Zero();
+};
+
+/// The largest share, at most 1, of `torque` that all three motors can add to `carried`, N m: 0 where that alone is too
+/// much for one of them. One share for all three keeps the direction of the force; clipping each motor by itself turns
+/// it by 20 to 30 degrees.
+inline double share_in_room(const Eigen::Vector3d& torque, const Eigen::Vector3d& carried, double limit) {
+  double share = 1;
+  for (int joint = 0; joint < 3; ++joint) {
+    const double room = torque[joint] > 0 ? limit - carried[joint] : limit + carried[joint];
+    const double wanted = std::abs(torque[joint]);
+    if (wanted > room)
+      share = std::min(share, std::max(0.0, room / wanted));
+  }
+  return share;
+}
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_HANDLE_MOTION_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_HANDLE_MOTION_H
+
+#include <haptic_sculpt/device/conditioning.h>
+#include <haptic_sculpt/device/forward_kinematics.h>
+#include <haptic_sculpt/haptic_rendering/Velocity_estimate.h>
+
+namespace haptic_sculpt {
+
+/// Where the handle is and how it moves, from joint angles tick by tick. The assembly mode is carried on.
+class Handle_motion {
+public:
+  /// \param start a pose near the first angles
+  Handle_motion(const Device_parameters<double>& parameters, const Device_pose<double>& start, double tick)
+      : parameters_(parameters), pose_(start), velocity_(tick) {}
+
+  /// \return the condition number of the position Jacobian; infinite where there is none, and the last pose stays
+  double follow(const Eigen::Vector3d& theta) {
+    const auto pose = forward_kinematics(parameters_, theta, pose_);
+    if (!pose)
+      return std::numeric_limits<double>::infinity();
+    const auto map = haptic_sculpt::jacobian(parameters_, *pose);
+    if (!map)
+      return std::numeric_limits<double>::infinity();
+    joint_step_ = is_first_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(theta - pose_.theta);
+    step_ = is_first_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(pose->position - pose_.position);
+    is_first_ = false;
+    pose_ = *pose, jacobian_ = *map;
+    velocity_.add(step_);
+    condition_ = translation_conditioning(jacobian_).condition;
+    return condition_;
+  }
+
+  const Device_parameters<double>& parameters() const { return parameters_; }
+  const Device_pose<double>& pose() const { return pose_; }
+  const Device_jacobian<double>& jacobian() const { return jacobian_; }
+  const Eigen::Vector3d& position() const { return pose_.position; }
+  const Eigen::Vector3d& step() const { return step_; }             ///< since the last tick, m
+  const Eigen::Vector3d& joint_step() const { return joint_step_; } ///< since the last tick, rad
+  const Eigen::Vector3d& velocity() const { return velocity_.value(); }
+  double condition() const { return condition_; }
+
+  /// The next angles are taken as they are: no step leads there.
+  void restart() { is_first_ = true, velocity_.reset(); }
+
+private:
+  Device_parameters<double> parameters_;
+  Device_pose<double> pose_;
+  Device_jacobian<double> jacobian_{};
+  Velocity_estimate velocity_;
+  Eigen::Vector3d step_ = Eigen::Vector3d::Zero(), joint_step_ = Eigen::Vector3d::Zero();
+  double condition_ = std::numeric_limits<double>::infinity();
+  bool is_first_ = true;
+};
+
+} // namespace haptic_sculpt
+
+#endif

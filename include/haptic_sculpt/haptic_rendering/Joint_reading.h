@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_JOINT_READING_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_JOINT_READING_H
+
+#include <Eigen/Core>
+
+namespace haptic_sculpt {
+
+/// What a device says at a tick. A device is whatever has `Joint_reading read()` and `void write(const Eigen::Vector3d&
+/// torque)`, N m, neither of which waits.
+struct Joint_reading {
+  Eigen::Vector3d theta = Eigen::Vector3d::Zero();  ///< joint angles as the encoders tell, rad
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero(); ///< of the motors, N m, where they are measured; else 0
+  int button = 0;                                   ///< 0: none, 1: grab or create, 2: remove
+  double elapsed = 0;                               ///< since the last reading, s
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_OBSERVER_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_OBSERVER_H
+
+#include <haptic_sculpt/device/simulation/Torque_delay.h>
+
+namespace haptic_sculpt {
+
+/// Counts the energy that the rendered force takes from the hand, at the joints: minus the sum of the torque in force
+/// times the joints' way. What stays below the work of friction for good is active: the device gives what nobody put
+/// in.
+///
+/// The torque commanded at a tick works on the joint step to the *next* one. A delay of n + f ticks splits it:
+/// (1 - f) tau(k - n) + f tau(k - n - 1). Exact for whole delays and exact angles.
+class Passivity_observer {
+public:
+  /// \param encoder_step rad; 0: exact angles
+  Passivity_observer(double delay_in_ticks, double tick, double viscous_friction, double encoder_step)
+      : delay_(delay_in_ticks), tick_(tick), friction_(viscous_friction), encoder_step_(encoder_step) {}
+
+  /// Takes the joint step since the last tick, before the torque of this one is commanded.
+  /// \param stiffness N/m, of the credit for encoders \param handle_step the handle's way, m
+  void add_step(const Eigen::Vector3d& joint_step, double stiffness, const Eigen::Vector3d& handle_step) {
+    port_ -= delay_.mean().dot(joint_step);
+    dissipated_ += friction_ * joint_step.squaredNorm() / tick_;
+    // A spring that sees steps is pulled half a step late on the way in and on the way out: it seems to give energy.
+    if (encoder_step_ > 0 && delay_.mean().squaredNorm() > 0)
+      credit_ += stiffness * handle_step.squaredNorm() / 12;
+    least_ = std::fmin(least_, energy() + dissipated_);
+  }
+  /// The torque of this tick without what carries the mechanism's own weight, N m.
+  void command(const Eigen::Vector3d& torque) { delay_.command(torque); }
+
+  double port() const { return port_; }             ///< J, as seen; negative: given to the hand
+  double energy() const { return port_ + credit_; } ///< J, with the credit for encoder steps
+  double dissipated() const { return dissipated_; } ///< J, by viscous friction, as the joint steps say
+  /// The least of energy() + dissipated() so far, J. Below 0: somewhere the device was active.
+  double least() const { return least_; }
+
+private:
+  Torque_delay<double> delay_;
+  double tick_, friction_, encoder_step_;
+  double port_ = 0, credit_ = 0, dissipated_ = 0, least_ = 0;
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATED_HAND_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATED_HAND_H
+
+#include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/device/leg_frame.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace haptic_sculpt {
+
+/// A hand as a chain from the handle to the place where it wants to be: each stage is a mass with a spring and a damper
+/// to the next mass, the last stage's to that place. The first mass moves with the handle, and may be 0. The hand
+/// carries its own weight.
+struct Simulated_hand {
+  static constexpr int most_stages = 3;
+  struct Stage {
+    double mass = 0;      ///< kg; 0 for the first stage only
+    double stiffness = 0; ///< N/m
+    double damping = 0;   ///< N s/m
+  };
+
+  int stages = 0;
+  std::array<Stage, most_stages> stage{};
+
+  /// Places and velocities of the masses that do not move with the handle, in three coordinates each.
+  static constexpr int most_states = 6 * (most_stages - 1);
+  using States = Eigen::Matrix<double, most_states, 1>;
+
+  /// \throw Error naming the stage
+  void check() const {
+    if (stages < 1 || stages > most_stages)
+      throw Error("a hand has from 1 to " + std::to_string(most_stages) + " stages, not " + std::to_string(stages));
+    for (int i = 0; i < stages; ++i) {
+      const auto is_length = [](double x) { return x >= 0 && x <= 1e6; };
+      if (!is_length(stage[i].mass) || !is_length(stage[i].stiffness) || !is_length(stage[i].damping))
+        throw Error("stage " + std::to_string(i) + " of the hand: mass, stiffness and damping must be from 0 to 1e6");
+      if (i > 0 && stage[i].mass == 0)
+        throw Error("stage " + std::to_string(i) + " of the hand needs a mass; only the first may have none");
+    }
+  }
+
+  /// A finger on a handle: 300 N/m and 3 N s/m, of the order of measured impedances.
+  static Simulated_hand finger() { return {1, {{{0, 300, 3}}}}; }
+  /// A hand and arm: 375 N/m and 7.9 N s/m of grip, 1.46 kg, and 48.8 N/m and 4.5 N s/m that hold it.
+  static Simulated_hand arm() { return {2, {{{0, 375, 7.9}, {1.46, 48.8, 4.5}}}}; }
+  static std::optional<Simulated_hand> named(std::string_view name) {
+    if (name == "finger")
+      return finger();
+    if (name == "arm")
+      return arm();
+    return std::nullopt;
+  }
+
+  /// At rest, every mass where the handle is.
+  States at_rest(const Eigen::Vector3d& handle) const {
+    States states = States::Zero();
+    for (int i = 1; i < stages; ++i)
+      states.segment<3>(6 * (i - 1)) = handle;
+    return states;
+  }
+
+  struct Effect {
+    Eigen::Vector3d force; ///< on the handle, N
+    States rates;
+    double dissipated; ///< by the dampers, W
+  };
+  /// \param wish, wish_velocity where the hand wants to be, and how that moves
+  Effect effect(const States& states, const Eigen::Vector3d& handle, const Eigen::Vector3d& handle_velocity,
+                const Eigen::Vector3d& wish, const Eigen::Vector3d& wish_velocity) const {
+    Effect effect{Eigen::Vector3d::Zero(), States::Zero(), 0};
+    Eigen::Vector3d place = handle, velocity = handle_velocity;
+    for (int i = 0; i < stages; ++i) {
+      const bool is_last = i + 1 == stages;
+      const Eigen::Vector3d next = is_last ? wish : Eigen::Vector3d(states.segment<3>(6 * i));
+      const Eigen::Vector3d next_velocity = is_last ? wish_velocity : Eigen::Vector3d(states.segment<3>(6 * i + 3));
+      const Eigen::Vector3d pull = stage[i].stiffness * (next - place) + stage[i].damping * (next_velocity - velocity);
+      effect.dissipated += stage[i].damping * (next_velocity - velocity).squaredNorm();
+      if (i == 0)
+        effect.force = pull;
+      else
+        effect.rates.segment<3>(6 * (i - 1) + 3) += pull / stage[i].mass;
+      if (!is_last) {
+        effect.rates.segment<3>(6 * i) = next_velocity;
+        effect.rates.segment<3>(6 * i + 3) -= pull / stage[i + 1].mass;
+      }
+      place = next, velocity = next_velocity;
+    }
+    return effect;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_H
+
+#include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
+#include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
+
+#include <optional>
+
+namespace haptic_sculpt {
+
+/// What the button has done in a tick.
+enum class Tool_event { none, grabbed, created_on_face, created_on_edge, released, removed, refused };
+
+/// Where the hand wants what it holds, and where that is.
+struct Tool_step {
+  Eigen::Vector3d target = Eigen::Vector3d::Zero(), proxy = Eigen::Vector3d::Zero(); ///< in the scene
+  bool reached = true;
+  std::optional<Drag_end> end; ///< none: nothing is held, and there is no probe
+  std::size_t pairs = 0;       ///< of the drag's work
+  int contacts = 0;
+  Contact_span span; ///< of the contacts' pushes, in axes of the device
+  Tool_event event = Tool_event::none;
+};
+
+/// What a button did, counted.
+struct Tool_edits {
+  std::size_t grabbed = 0, created = 0, removed = 0, released = 0, refused = 0;
+};
+
+/// What a hand does in a scene: a probe that touches, a vertex that is grabbed, created, dragged, let go or removed.
+///
+/// Button 1 takes the nearest vertex in reach; else creates one where the probe touches a face or, near it, an edge.
+/// Button 2 removes the vertex held, or the nearest in reach. What cannot be done is refused, and all is as it was.
+/// Targets are anchored: at each change of what is held the target is where that is, so no force begins; the offset
+/// fades where nothing is touched.
+template <class Sculptor>
+class Tool {
+public:
+  using Mesh = typename Sculptor::Mesh_type;
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Point = typename Mesh::Point;
+  using Grab_type = typename Sculptor::Grab_type;
+
+  /// Nearer to an edge than this share of the face's altitude, a vertex is created on the edge: on the face it would
+  /// leave a sliver.
+  static constexpr double edge_share = 0.05;
+  /// In free motion the offset of the target fades with this time, s.
+  static constexpr double offset_time = 0.2;
+
+  /// \param probe an isolated vertex outside of all solids \param reach of a grab, in the device, m
+  Tool(Sculptor& sculptor, Vertex_index probe, const Workspace_map& map, double reach, double tick)
+      : sculptor_(&sculptor)
+      , probe_(probe)
+      , map_(map)
+      , reach_(reach * map.scale())
+      , offset_share_(std::exp(-tick / offset_time)) {}
+
+  /// One tick: the button first, then the drag. Allocates nothing but what edits do; its work is that of the drag,
+  /// bounded by the Sculptor. \throw what drags throw
+  Tool_step move(const Eigen::Vector3d& handle, int button) {
+    const Eigen::Vector3d hand = map_.to_scene(handle);
+    Tool_step step;
+    if (!is_started_)
+      start(hand);
+    step.event = press(hand, button);
+    step.target = hand + offset_;
+    step.proxy = step.target;
+    if (!grab_) {
+      take_probe(hand);
+      step.target = step.proxy = hand + offset_;
+      if (!grab_)
+        return step;
+    }
+    const auto result = grab_->drag_to(internal::point_of<Point>(step.target));
+    take(result, step);
+    if (step.reached && !held_)
+      offset_ *= offset_share_;
+    return step;
+  }
+
+  /// Lets go of everything, as at a fault. The next move begins anew, anchored.
+  void let_go() {
+    grab_.reset();
+    held_ = false, button_ = 0, is_anchored_ = false;
+  }
+
+  bool holds_vertex() const { return held_; }
+  /// What is dragged: the vertex held, or the probe; null where there is none.
+  Vertex_index vertex() const { return grab_ ? grab_->vertex() : Vertex_index(); }
+  Vertex_index probe() const { return probe_; }
+  const Tool_edits& edits() const { return edits_; }
+  /// The push of the last contact, of length 1 in the scene; up where nothing was touched yet.
+  const Eigen::Vector3d& last_push() const { return last_push_; }
+
+private:
+  Sculptor* sculptor_;
+  Vertex_index probe_;
+  Workspace_map map_;
+  double reach_, offset_share_;
+  std::optional<Grab_type> grab_;
+  bool held_ = false, is_started_ = false, is_anchored_ = false, is_probe_placed_ = false;
+  int button_ = 0;
+  Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(), last_push_ = Eigen::Vector3d::UnitZ();
+  std::optional<std::array<Vertex_index, 3>> touched_; ///< the face that the probe touches
+  Tool_edits edits_;
+
+  Eigen::Vector3d place_of(Vertex_index v) const { return internal::vector_of(sculptor_->mesh().point(v)); }
+  void anchor(Vertex_index v, const Eigen::Vector3d& hand) { offset_ = place_of(v) - hand, is_anchored_ = true; }
+
+  void start(const Eigen::Vector3d& hand) {
+    is_started_ = true;
+    is_probe_placed_ = internal::put_probe(*sculptor_, probe_, hand);
+  }
+
+  /// Without a vertex the probe is in hand, if it is anywhere.
+  void take_probe(const Eigen::Vector3d& hand) {
+    if (!is_probe_placed_) {
+      offset_.setZero();
+      is_probe_placed_ = internal::put_probe(*sculptor_, probe_, hand);
+    }
+    if (!is_probe_placed_)
+      return;
+    if (!is_anchored_)
+      anchor(probe_, hand);
+    grab_.emplace(sculptor_->grab(probe_));
+  }
+
+  template <class Result>
+  void take(const Result& result, Tool_step& step) {
+    step.proxy = internal::vector_of(result.position);
+    step.reached = result.reached;
+    step.end = result.end;
+    step.pairs = result.work;
+    step.contacts = static_cast<int>(result.contacts.size());
+    if (!held_)
+      touched_.reset();
+    for (const auto& contact : result.contacts) {
+      const Eigen::Vector3d normal(contact.normal[0], contact.normal[1], contact.normal[2]);
+      step.span.add(map_.direction_to_device(normal));
+      last_push_ = normal;
+      if (!held_ && contact.kind == Contact_kind::vertex_face)
+        touched_ = contact.vertices;
+    }
+  }
+
+  Tool_event press(const Eigen::Vector3d& hand, int button) {
+    const int before = button_;
+    button_ = button;
+    if (button == before)
+      return Tool_event::none;
+    if (button == 1)
+      return counted(grab_or_create(hand));
+    const Tool_event released = held_ && button == 0 ? release(hand) : Tool_event::none;
+    return counted(button == 2 ? remove(hand) : released);
+  }
+
+  Tool_event counted(Tool_event event) {
+    edits_.grabbed += event == Tool_event::grabbed;
+    edits_.created += event == Tool_event::created_on_face || event == Tool_event::created_on_edge;
+    edits_.released += event == Tool_event::released;
+    edits_.removed += event == Tool_event::removed;
+    edits_.refused += event == Tool_event::refused;
+    return event;
+  }
+
+  Tool_event grab_or_create(const Eigen::Vector3d& hand) {
+    const Eigen::Vector3d probe = place_of(probe_);
+    const Vertex_index nearest = internal::nearest_vertex(*sculptor_, is_probe_placed_ ? probe : hand, reach_);
+    if (nearest.is_valid()) {
+      hold(nearest, hand, internal::vertex_normal(sculptor_->mesh(), nearest));
+      return Tool_event::grabbed;
+    }
+    if (!touched_)
+      return Tool_event::refused;
+    const auto face = *touched_;
+    const Eigen::Vector3d away = last_push_;
+    park_probe(away); // or it would stand where the new vertex is to be
+    Tool_event event = Tool_event::refused;
+    const auto made = create(face, probe, event);
+    if (made) {
+      hold(*made.vertex, hand, away);
+      return event;
+    }
+    is_probe_placed_ = internal::put_probe(*sculptor_, probe_, probe);
+    touched_ = face;
+    return Tool_event::refused;
+  }
+
+  void hold(Vertex_index v, const Eigen::Vector3d& hand, const Eigen::Vector3d& away) {
+    park_probe(away);
+    grab_.emplace(sculptor_->grab(v));
+    held_ = true;
+    anchor(v, hand);
+  }
+
+  /// Out of the way of what will be dragged.
+  void park_probe(const Eigen::Vector3d& away) {
+    grab_.reset();
+    touched_.reset();
+    if (is_probe_placed_)
+      internal::put_probe(*sculptor_, probe_, place_of(probe_) + 4 * map_.scale() * away);
+    is_probe_placed_ = false;
+  }
+
+  /// On the face, or on the edge that is nearer than edge_share of the altitude over it.
+  typename Sculptor::Edited create(const std::array<Vertex_index, 3>& face, const Eigen::Vector3d& p,
+                                   Tool_event& event) {
+    const std::size_t names[3] = {sculptor_->name(face[0]), sculptor_->name(face[1]), sculptor_->name(face[2])};
+    const Eigen::Vector3d corners[3] = {place_of(face[0]), place_of(face[1]), place_of(face[2])};
+    const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
+      if ((b - a).cross(p - a).dot(normal) < edge_share * normal.squaredNorm()) {
+        event = Tool_event::created_on_edge;
+        return sculptor_->insert_on_edge(sculptor_->edge_of(names[(i + 1) % 3], names[(i + 2) % 3]),
+                                         internal::point_of<Point>(p));
+      }
+    }
+    event = Tool_event::created_on_face;
+    return sculptor_->insert_on_face(sculptor_->face_of(names[0], names[1], names[2]), internal::point_of<Point>(p));
+  }
+
+  Tool_event release(const Eigen::Vector3d& hand) {
+    const Vertex_index v = grab_->vertex();
+    const Eigen::Vector3d place = place_of(v), away = internal::vertex_normal(sculptor_->mesh(), v);
+    grab_.reset();
+    held_ = false;
+    put_probe_near(place, away, hand);
+    return Tool_event::released;
+  }
+
+  /// Outside, a little off the surface; where that is not possible it comes back where the hand leaves the solid.
+  void put_probe_near(const Eigen::Vector3d& place, const Eigen::Vector3d& away, const Eigen::Vector3d& hand) {
+    is_probe_placed_ = false;
+    for (const double share : {0.02, 0.2, 1.0})
+      if (internal::put_probe(*sculptor_, probe_, place + share * reach_ * away)) {
+        is_probe_placed_ = true;
+        anchor(probe_, hand);
+        return;
+      }
+  }
+
+  Tool_event remove(const Eigen::Vector3d& hand) {
+    const Eigen::Vector3d from = is_probe_placed_ ? place_of(probe_) : hand;
+    const Vertex_index v = held_ ? grab_->vertex() : internal::nearest_vertex(*sculptor_, from, reach_);
+    if (!v.is_valid())
+      return Tool_event::refused;
+    const Eigen::Vector3d place = place_of(v), away = internal::vertex_normal(sculptor_->mesh(), v);
+    const bool was_held = held_;
+    grab_.reset();
+    held_ = false;
+    const bool is_removed = static_cast<bool>(sculptor_->remove(v));
+    if (was_held)
+      put_probe_near(place, away, hand);
+    return is_removed ? Tool_event::removed : Tool_event::refused;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_WORKSPACE_MAP_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_WORKSPACE_MAP_H
+
+#include <haptic_sculpt/Error.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace haptic_sculpt {
+
+/// How places of the device, in metres, and places of the scene, in its own unit, belong together:
+/// `scene = origin + scale * R (device - home)`.
+class Workspace_map {
+public:
+  /// \param scale units of the scene a metre of the device, > 0
+  /// \param rotation the rotation vector of R, rad
+  /// \param origin where `home` is in the scene
+  /// \param home the place in the middle of the device's workspace, m
+  /// \throw Error for a scale that is not positive, or a number that is not finite
+  Workspace_map(double scale, const Eigen::Vector3d& rotation, const Eigen::Vector3d& origin,
+                const Eigen::Vector3d& home)
+      : scale_(scale), rotation_vector_(rotation), origin_(origin), home_(home) {
+    if (!(scale > 0) || !std::isfinite(scale))
+      throw Error("the scale of the workspace map must be a finite number > 0, not " + internal::number(scale));
+    if (!rotation.allFinite() || !origin.allFinite() || !home.allFinite())
+      throw Error("the rotation and the places of the workspace map must be finite numbers");
+    const double angle = rotation.norm();
+    if (angle > 0)
+      rotation_ = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+  }
+
+  /// The map without rotation under which a ball of the device about `home` holds a box of the scene.
+  /// \throw Error for a box or ball without extent
+  static Workspace_map fitted(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, const Eigen::Vector3d& home,
+                              double radius) {
+    if (!(radius > 0))
+      throw Error("a ball of the device with the radius " + internal::number(radius) + " m holds no scene");
+    return Workspace_map(0.5 * (upper - lower).norm() / radius, Eigen::Vector3d::Zero(), 0.5 * (lower + upper), home);
+  }
+
+  double scale() const { return scale_; }
+  const Eigen::Matrix3d& rotation() const { return rotation_; }
+  const Eigen::Vector3d& rotation_vector() const { return rotation_vector_; }
+  const Eigen::Vector3d& origin() const { return origin_; }
+  const Eigen::Vector3d& home() const { return home_; }
+
+  Eigen::Vector3d to_scene(const Eigen::Vector3d& device) const {
+    return origin_ + scale_ * (rotation_ * (device - home_));
+  }
+  Eigen::Vector3d to_device(const Eigen::Vector3d& scene) const {
+    return home_ + rotation_.transpose() * (scene - origin_) / scale_;
+  }
+  /// A difference of two places of the scene, in metres and axes of the device.
+  Eigen::Vector3d way_to_device(const Eigen::Vector3d& way) const { return rotation_.transpose() * way / scale_; }
+  /// A direction of the scene in axes of the device; lengths stay.
+  Eigen::Vector3d direction_to_device(const Eigen::Vector3d& direction) const {
+    return rotation_.transpose() * direction;
+  }
+
+private:
+  double scale_;
+  Eigen::Vector3d rotation_vector_, origin_, home_;
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+};
+
+} // namespace haptic_sculpt
+
+#endif

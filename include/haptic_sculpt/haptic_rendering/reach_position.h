@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_REACH_POSITION_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_REACH_POSITION_H
+
+#include <haptic_sculpt/device/conditioning.h>
+#include <haptic_sculpt/device/forward_kinematics.h>
+#include <haptic_sculpt/device/general_inverse.h>
+
+#include <cmath>
+
+namespace haptic_sculpt {
+
+/// The pose in the middle of the joint limits, where a device is said to be at home. Failures as of
+/// forward_kinematics().
+inline Outcome<Device_pose<double>> home_pose(const Device_parameters<double>& parameters) {
+  return forward_kinematics(parameters,
+                            Device_vector<double>((parameters.least_angle() + parameters.greatest_angle()) / 2));
+}
+
+/// The pose, of either form, with the handle at `position`, reached from `start` on a straight line through regular
+/// poses.
+///
+/// Newton's method on the position in steps of at most a millimetre, to 1e-12 m. Failures: those of the kinematics on
+/// the way; `unreachable` where the way leaves the joint limits or cond(J) exceeds `most_condition`, or no step comes
+/// nearer; shortfall the distance left, m.
+inline Outcome<Device_pose<double>> reach_position(const Device_parameters<double>& parameters,
+                                                   const Device_pose<double>& start,
+                                                   const Device_vector<double>& position, double most_condition = 50) {
+  using Result = Outcome<Device_pose<double>>;
+  constexpr double longest_step = 1e-3, precision = 1e-12;
+  Device_pose<double> pose = start;
+  const Device_vector<double> way = position - start.position;
+  const int steps = 1 + static_cast<int>(way.norm() / longest_step);
+  for (int k = 1; k <= steps; ++k) {
+    const Device_vector<double> aim = start.position + way * (double(k) / steps);
+    for (int iteration = 0; iteration < 20 && (aim - pose.position).norm() > precision; ++iteration) {
+      const auto map = jacobian(parameters, pose);
+      if (!map || !(translation_conditioning(*map).condition <= most_condition))
+        return Result(Device_status::unreachable, (position - pose.position).norm());
+      const Device_vector<double> turn = map->linear.partialPivLu().solve(aim - pose.position);
+      const auto next = forward_kinematics(parameters, Device_vector<double>(pose.theta + turn), pose);
+      if (!next)
+        return Result(next.status(), (position - pose.position).norm());
+      pose = *next;
+    }
+    if ((aim - pose.position).norm() > precision || !within_joint_limits(parameters, pose.theta))
+      return Result(Device_status::unreachable, (position - pose.position).norm());
+  }
+  return pose;
+}
+
+/// The radius of the largest ball about the handle's place at `home` in which a straight way leads to poses with
+/// cond(J) of at most `most_condition` within the joint limits; tried in 200 directions, to a millimetre.
+inline double workspace_radius(const Device_parameters<double>& parameters, const Device_pose<double>& home,
+                               double most_condition = 10) {
+  constexpr int directions = 200;
+  constexpr double step = 1e-3, golden_angle = 2.39996322972865332;
+  double radius = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < directions; ++k) {
+    const double z = 1 - (2.0 * k + 1) / directions, ring = std::sqrt(1 - z * z);
+    const Device_vector<double> direction(ring * std::cos(golden_angle * k), ring * std::sin(golden_angle * k), z);
+    Device_pose<double> pose = home;
+    double reached = 0;
+    while (reached + step <= radius) {
+      const auto next = reach_position(
+          parameters, pose, Device_vector<double>(home.position + (reached + step) * direction), most_condition);
+      if (!next)
+        break;
+      const auto map = jacobian(parameters, *next);
+      if (!map || !(translation_conditioning(*map).condition <= most_condition))
+        break;
+      pose = *next, reached += step;
+    }
+    radius = std::fmin(radius, reached);
+  }
+  return radius;
+}
+
+} // namespace haptic_sculpt
+
+#endif
