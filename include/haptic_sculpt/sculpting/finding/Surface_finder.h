@@ -42,6 +42,9 @@ public:
         if (v == best)
           continue;
         const Coordinates q = vertex_coordinates(*mesh_, v);
+        const double square = rounded_square(p, q);
+        if (square > limit) // certainly
+          continue;
         const int order = best.is_valid()                       ? compare_distances(p, q, best_point)
                           : compare_distance(p, q, within) <= 0 ? -1
                                                                 : 1;
@@ -49,7 +52,7 @@ public:
           continue;
         best = v;
         best_point = q;
-        const double nearer = rounded_square(p, q) * (1 + 2 * Distance_bound::rounding);
+        const double nearer = square * (1 + 2 * Distance_bound::rounding);
         limit = nearer < least_limit ? least_limit : nearer < limit ? nearer : limit;
       }
       return limit;

@@ -49,15 +49,15 @@ public:
     if (levels_ != 0)
       nearest_.push({-std::numeric_limits<double>::infinity(), 0, levels_ - 1});
     for (internal::Nearest_first_stack::Entry next; nearest_.pop(limit, next);) {
-      if (next.level < 0) {
-        limit = visit(Face_index(next.number));
-        continue;
-      }
       const std::uint32_t first = next.number * width;
       const int level = next.level;
-      nearest_.push_children(nodes_[level_begin_[level] + next.number], level - 1, bound, limit, [&](unsigned j) {
-        if (level == 0)
-          return face_of_slot_[first + j];
+      const Node& node = nodes_[level_begin_[level] + next.number];
+      if (level == 0) {
+        limit = internal::Nearest_first_stack::visit_items(
+            node, bound, limit, [&](unsigned j) { return Face_index(face_of_slot_[first + j]); }, visit);
+        continue;
+      }
+      nearest_.push_children(node, level - 1, bound, limit, [&](unsigned j) {
         internal::prefetch(&nodes_[level_begin_[level - 1] + first + j], sizeof(Node));
         if (level == 1)
           internal::prefetch(&face_of_slot_[std::size_t{first + j} * width], width * sizeof(std::uint32_t));

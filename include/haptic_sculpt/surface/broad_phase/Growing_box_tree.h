@@ -102,12 +102,12 @@ public:
     nearest_.clear();
     nearest_.push({-std::numeric_limits<double>::infinity(), root_, 0});
     for (Nearest_first_stack::Entry next; nearest_.pop(limit, next);) {
-      if (next.level < 0) {
-        limit = visit(next.number);
-        continue;
-      }
       const Node& n = node(next.number);
-      nearest_.push_children(n.boxes, n.height == 0 ? -1 : 0, bound, limit, [&n](unsigned j) { return n.child[j]; });
+      const auto child = [&n](unsigned j) { return n.child[j]; };
+      if (n.height == 0)
+        limit = Nearest_first_stack::visit_items(n.boxes, bound, limit, child, visit);
+      else
+        nearest_.push_children(n.boxes, 0, bound, limit, child);
     }
     return limit;
   }

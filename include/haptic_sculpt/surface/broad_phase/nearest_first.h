@@ -11,8 +11,7 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// What a search of a tree of boxes has found and not looked at yet: nodes, and faces where the level is below the
-/// lowest. The nearest of what was found last is on top.
+/// The nodes that a search of a tree of boxes has found and not looked at yet. The nearest of those found last is on top.
 class Nearest_first_stack {
 public:
   struct Entry {
@@ -39,6 +38,16 @@ public:
       for (std::size_t k = entries_.size() - 1; k > first && entries_[k - 1].bound < entries_[k].bound; --k)
         std::swap(entries_[k - 1], entries_[k]);
     }
+  }
+
+  /// Visits the items of a lowest node that are not farther than the limit, `visit(item(j))` telling the next one. Returns the last.
+  template <class Bound, class Item, class Visit>
+  static double visit_items(const Box_node& node, const Bound& bound, double limit, const Item& item, const Visit& visit) {
+    alignas(64) double lowest[Box_node::width];
+    for (unsigned mask = bound(node, lowest); mask != 0; mask &= mask - 1)
+      if (const unsigned j = lowest_bit(mask); !(lowest[j] > limit))
+        limit = visit(item(j));
+    return limit;
   }
 
   /// Takes the top entry that is not farther than `limit`. Returns false where there is none.
