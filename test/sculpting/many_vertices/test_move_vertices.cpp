@@ -285,3 +285,32 @@ BOOST_AUTO_TEST_CASE(a_whole_way_or_none) {
     BOOST_CHECK_THROW(sculptor.move_if_free(Vertex_index(), Point_3(0, 0, 0)), Unknown_vertex);
   }
 }
+
+BOOST_AUTO_TEST_CASE(the_cheaper_proof_is_right_and_often_found) {
+  std::mt19937 random(13);
+  BOOST_TEST_MESSAGE("seed 13");
+  std::size_t free = 0, proven = 0, wrong = 0;
+  for (const auto& [name, mesh] : scenes(false))
+    for (int i = 0; i < 150; ++i) {
+      const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
+      const double size = mean_edge(mesh) * std::pow(2, -static_cast<double>(random() % 6));
+      const Point_3 target =
+          mesh.point(v) + size * Vector_3(meshes::uniform(random), meshes::uniform(random), meshes::uniform(random));
+      Star<Mesh> star;
+      star.collect(mesh, v);
+      internal::Convex_star<Mesh> proof;
+      const bool is_proven =
+          proof.assign(star, vertex_coordinates(mesh, v), internal::coordinates(target)) &&
+          std::all_of(mesh.faces().begin(), mesh.faces().end(), [&](Face_index f) {
+            const auto corners = corners_of_face(mesh, f);
+            return std::count(corners.begin(), corners.end(), v) != 0 || proof.is_apart(mesh, corners);
+          });
+      const bool is_free = !first_impact(mesh, v, target); // exact, over all faces
+      wrong += is_proven && !is_free;
+      free += is_free;
+      proven += is_proven;
+    }
+  BOOST_TEST_MESSAGE("proven " << proven << " of " << free << " free motions");
+  BOOST_TEST(wrong == 0u);
+  BOOST_TEST(2 * proven > free);
+}

@@ -309,21 +309,22 @@ private:
   }
 
   void move_all(const std::vector<std::pair<Vertex_index, Coordinates>>& targets) {
-    for (const auto& [v, target] : targets)
-      if (target != place(v)) {
-        if (!goes_on())
-          return;
-        counted(move(v, target), report_.moves);
-      }
+    for (const auto& [v, target] : targets) {
+      star_.collect(mesh_, v);
+      if (target == place(v) || !is_smooth_at(star_, place(v)))
+        continue;
+      if (!goes_on())
+        return;
+      counted(move(v, target), report_.moves);
+    }
   }
 
-  /// As far of the way, of four shares, as the shape allows and is free.
+  /// As far of the way, of four shares, as the shape allows and is free. \pre star_ is that of v
   bool move(Vertex_index v, const Coordinates& target) {
-    star_.collect(mesh_, v);
     const Coordinates from = place(v);
     for (const double share : shares) {
       const Coordinates p = share == 1 ? target : point_of_path(from, target, share);
-      if (is_in_range(p) && shape_after_move(star_, from, p) >= 0 &&
+      if (is_in_range(p) && shape_after_move(star_, from, p) >= 0 && is_smooth_at(star_, p) &&
           sculptor_.move_if_free(v, Point(p[0], p[1], p[2]))) {
         report_.shortened += share != 1;
         return true;

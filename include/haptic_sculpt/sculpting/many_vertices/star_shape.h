@@ -32,6 +32,25 @@ double shape_after_move(const Star<Mesh>& star, const Coordinates& from, const C
   return least >= smaller(least_wanted_angle, least_before) ? least : -1;
 }
 
+/// Whether no two neighbouring triangles of a star with its vertex at p have normals a right angle or more apart. As
+/// CGAL does, relaxation leaves vertices where they have: they are on a crease, or the rim of a plate, which has no
+/// tangent plane.
+template <class Mesh>
+bool is_smooth_at(const Star<Mesh>& star, const Coordinates& p) {
+  const std::size_t n = star.valence();
+  const auto normal = [&](std::size_t i) {
+    return area_normal(p, star.link_points[star.next(i)], star.link_points[i]);
+  };
+  Vector last = normal(n - 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector next = normal(i);
+    if (!point_alike(last, next))
+      return false;
+    last = next;
+  }
+  return true;
+}
+
 /// Whether triangles abc and bad may become adc and dbc: no normal turns over, and no sliver is made. If it is not
 /// wanted for other reasons it has to make a sliver better.
 inline bool shape_permits_flip(const Vector& a, const Vector& b, const Vector& c, const Vector& d, bool is_wanted) {
