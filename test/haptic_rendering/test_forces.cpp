@@ -325,6 +325,110 @@ BOOST_AUTO_TEST_CASE(the_observer_counts_the_true_energy_of_the_port) {
     }
 }
 
+/// Nothing between the wanted force and the motors.
+Force_limits no_limits() {
+  Force_limits limits;
+  limits.slew = limits.largest = 1e9, limits.ramp_time = 1e-9;
+  return limits;
+}
+
+BOOST_AUTO_TEST_CASE(a_device_within_the_passive_limit_gives_no_energy) {
+  Random random(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  double least = 0, largest_port = 0;
+  std::size_t ticks_in_contact = 0;
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
+    Device_description<double> description = named_design<double>(Named_design::D1, form);
+    description.viscous_friction = 0.005, description.torque_limit = 10;
+    const Device_parameters<double> parameters(description);
+    const auto home = home_pose(parameters);
+    const double radius = 0.9 * workspace_radius(parameters, *home);
+    const Worst_pose worst = worst_pose(parameters, Force_limits(),
+                                        [&](const Vector3d& p) { return (p - home->position).norm() <= 1.2 * radius; });
+    for (int run = 0; run < 40; ++run) {
+      const double tick = 2.5e-4 * std::pow(8.0, unit(random)), delay = run % 3 == 0 ? 0 : 2 * unit(random);
+      const double friction = worst.friction(parameters), damping = run % 2 == 0 ? 0 : 0.5 * friction * unit(random);
+      const Virtual_coupling coupling{passive_stiffness(friction, damping, tick, delay) * (0.2 + 0.8 * unit(random)),
+                                      damping};
+      Vector3d normal = random_vector(random).normalized();
+      std::vector<Hand_path::Row> rows;
+      for (int row = 0; row < 12; ++row)
+        rows.push_back(
+            {0.1 * row, home->position + radius * 0.5 * unit(random) * random_vector(random).normalized(), 0});
+      if (normal.dot(rows[0].position - home->position) < 0) // begins outside: no energy is stored
+        normal = -normal;
+      const Hand_path path(rows);
+      const auto start = reach_position(parameters, *home, rows[0].position);
+      BOOST_REQUIRE(start);
+      Handle_motion handle(parameters, *start, tick);
+      Simulated_device simulated(parameters, *start, run % 4 < 2 ? Simulated_hand::finger() : Simulated_hand::arm(),
+                                 path, tick, delay);
+      Force_renderer renderer(no_limits(), Gravity_compensation::spatial, tick);
+      Contact_span span;
+      span.add(normal);
+      while (simulated.time() < 1) {
+        if (!(handle.follow(simulated.read().theta) < 10))
+          break;
+        const double depth = -normal.dot(handle.position() - home->position);
+        const bool reached = depth <= 0;
+        ticks_in_contact += !reached;
+        const Vector3d wall = reached ? Vector3d(0, 0, 0) : Vector3d(coupling.stiffness * depth * normal);
+        const Rendered_force rendered =
+            renderer.render(handle, wall + coupling.damping_force(span, handle.velocity(), reached));
+        if (simulated.write(rendered.torque, rendered.interaction_torque) != Device_status::success)
+          break;
+        least = std::min(least, simulated.port() + simulated.dissipated());
+        largest_port = std::max(largest_port, std::abs(simulated.port()));
+      }
+    }
+  }
+  BOOST_TEST_MESSAGE("80 runs within the passive limit, "
+                     << ticks_in_contact << " ticks in contact: least energy of port and friction " << least
+                     << " J, port at most " << largest_port << " J");
+  BOOST_TEST(ticks_in_contact > 10000u);
+  BOOST_TEST(least >= -1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(the_force_that_is_held_lags_by_no_more_than_the_rate_explains) {
+  const Device_parameters<double> parameters = device(Device_form::ditetrahedral, 0.005);
+  const auto home = home_pose(parameters);
+  const double speed = 0.06, stiffness = 500;
+  for (const double rate : {250.0, 1000.0, 4000.0, 10000.0})
+    for (const double delay : {0.0, 0.5, 1.0}) {
+      Handle_motion handle(parameters, *home, 1 / rate);
+      Force_renderer renderer(no_limits(), Gravity_compensation::none, 1 / rate);
+      Torque_delay<double> held(delay);
+      double sum = 0, largest = 0;
+      int samples = 0;
+      Device_pose<double> pose = *home;
+      const int ticks = static_cast<int>(0.1 * rate), parts = 8;
+      for (int k = 0; k < ticks; ++k)
+        for (int part = 0; part < parts; ++part) {
+          const double fraction = (part + 0.5) / parts, time = (k + fraction) / rate;
+          const auto depth_at = [&](double t) { return Vector3d(0, 0, -speed * t); };
+          if (part == 0) {
+            const auto now = reach_position(parameters, pose, Vector3d(home->position + depth_at(k / rate)));
+            pose = *now;
+            handle.follow(pose.theta);
+            held.command(renderer.render(handle, -stiffness * (handle.position() - home->position)).interaction_torque);
+          }
+          if (k < 3)
+            continue; // nothing has come through yet
+          const auto there = reach_position(parameters, pose, Vector3d(home->position + depth_at(time)));
+          const Vector3d torque = fraction < held.fraction() ? held.before() : held.after();
+          const Vector3d felt = jacobian(parameters, *there)->linear.transpose().partialPivLu().solve(torque);
+          const double error = (felt + stiffness * depth_at(time)).norm();
+          sum += error, largest = std::max(largest, error), ++samples;
+        }
+      const double unit = stiffness * speed / rate;
+      BOOST_TEST_MESSAGE(rate << " Hz, delay " << delay << ": mean error " << sum / samples << " N, "
+                              << sum / samples / unit << " k v T; largest " << largest / unit << " k v T");
+      // J turns while the torque is held: a few per cent of the force of that moment more.
+      BOOST_TEST(sum / samples <= unit * (0.5 + delay) * 1.1);
+      BOOST_TEST(largest <= unit * (1 + delay) * 1.2);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_watchdog_sees_each_fault_and_nothing_else) {
   Random random(7);
   Watchdog dog(Watchdog_limits(), 0.001, 0.2);
