@@ -49,7 +49,7 @@ public:
     return Decision(decision, *this);
   }
   bool is_spent() const { return guard_->is_spent(); }
-  internal::Work& work() { return guard_->work(); }
+  internal::Work& work() const { return guard_->work(); }
   bool is_free(const Coordinates& source, const Coordinates& target, double delta) {
     ++motions;
     bool free = false;
