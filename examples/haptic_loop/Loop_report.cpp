@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Loop_report.h"
+
+#include <haptic_sculpt/version.h>
+
+#include <iomanip>
+
+namespace haptic_sculpt::loop_program {
+namespace {
+
+using nlohmann::json;
+
+json percentiles(const Tick_statistics& s) {
+  return {{"p50", s.percentile(0.5)},
+          {"p99", s.percentile(0.99)},
+          {"p999", s.percentile(0.999)},
+          {"p9999", s.percentile(0.9999)},
+          {"max", s.largest()}};
+}
+
+} // namespace
+
+std::string report_of(const Run_result& r, const Settings& settings, const std::vector<std::string>& notes) {
+  json faults = json::array();
+  for (const auto& [time, what] : r.faults)
+    faults.push_back({{"t", time}, {"what", what}});
+  const json report = {
+      {"version", HAPTIC_SCULPT_VERSION},
+      {"ticks", r.ticks},
+      {"missed", r.missed},
+      {"missed_by_cpu", r.missed_by_cpu},
+      {"cpu_ns", percentiles(r.cpu)},
+      {"wall_ns", percentiles(r.wall)},
+      {"wakeup_ns", percentiles(r.wakeup)},
+      {"allocations", r.allocations},
+      {"force", {{"max", r.largest_force}, {"free_max", r.largest_free_force}}},
+      {"energy",
+       {{"port", r.port},
+        {"dissipated", r.dissipated},
+        {"observer", r.observed},
+        {"observer_least", r.least_observed},
+        {"is_true", r.has_true_energy}}},
+      {"limits", {{"passive_k", r.passive_stiffness}, {"stable_k", r.stable_stiffness}, {"friction", r.friction}}},
+      {"edits",
+       {{"grabbed", r.grabbed},
+        {"created", r.created},
+        {"removed", r.removed},
+        {"released", r.released},
+        {"refused", r.refused}}},
+      {"faults", faults},
+      {"valid", r.is_valid},
+      {"interrupted", r.is_cut_short},
+      {"map", r.map},
+      {"settings", json_of(settings)},
+      {"notes", notes}};
+  return report.dump(2) + "\n";
+}
+
+void print_summary(std::ostream& out, const Run_result& r, const Settings& settings) {
+  const auto microseconds = [](std::uint64_t ns) { return static_cast<double>(ns) / 1000; };
+  out << std::fixed << std::setprecision(1) << r.ticks << " ticks at " << settings.rate
+      << " Hz; CPU time of a tick, microseconds: median " << microseconds(r.cpu.percentile(0.5)) << ", 99.9 % "
+      << microseconds(r.cpu.percentile(0.999)) << ", largest " << microseconds(r.cpu.largest()) << "; missed "
+      << r.missed << " (by CPU time " << r.missed_by_cpu << "), allocations " << r.allocations << '\n';
+  out << std::setprecision(3) << "force: at most " << r.largest_force << " N, in free motion " << r.largest_free_force
+      << " N; stiffness " << settings.stiffness << " N/m, passive up to " << r.passive_stiffness << ", stable up to "
+      << r.stable_stiffness << '\n';
+  out << std::setprecision(6) << "energy: from the hand " << r.port << " J, friction " << r.dissipated
+      << " J, observer " << r.observed << " J\n";
+  out << "edits: " << r.grabbed << " grabbed, " << r.created << " created, " << r.removed << " removed, " << r.refused
+      << " refused; mesh " << (r.is_valid ? "valid" : "NOT VALID") << '\n';
+  for (const auto& [time, what] : r.faults)
+    out << "fault at " << time << " s: " << what << "; the force has been taken back\n";
+}
+
+} // namespace haptic_sculpt::loop_program

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_H
+#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_H
+
+#include "Recording.h"
+
+#include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
+
+#include <atomic>
+#include <cstdint>
+
+namespace haptic_sculpt::loop_program {
+
+/// How often this program's thread has asked for memory so far.
+std::size_t allocations();
+
+/// What is to be done.
+struct Plan {
+  std::string mesh, out;
+  Settings settings;
+  std::optional<Recording> replay;
+  std::optional<Hand_path> path; ///< none in a replay
+  std::optional<Injected_fault> fault;
+  double seconds = 0; ///< 0: as long as path or recording
+  bool waits = false; ///< for the time of each tick
+  std::FILE* trace = nullptr;
+  std::FILE* record = nullptr;
+};
+
+/// What came of it.
+struct Run_result {
+  std::uint64_t ticks = 0, missed = 0, missed_by_cpu = 0, allocations = 0;
+  Tick_statistics cpu, wall, wakeup;
+  double largest_force = 0,
+         largest_free_force = 0; ///< N; free: nothing is touched, and the slew limit has had its time
+  bool has_true_energy = false;
+  double port = 0, dissipated = 0, observed = 0, least_observed = 0; ///< J
+  double friction = 0, passive_stiffness = 0, stable_stiffness = 0;
+  std::size_t grabbed = 0, created = 0, removed = 0, released = 0, refused = 0;
+  std::vector<std::pair<double, std::string>> faults; ///< s
+  std::vector<double> map;                            ///< scale, origin, rotation vector, home
+  bool is_valid = false, is_cut_short = false;
+};
+
+/// Reads the mesh, runs, and writes the sculpted mesh. \param notes gets what people should know
+/// \param is_interrupted ends the run in order \throw what reading and writing meshes throws; Unstable_coupling;
+/// Foreign_recording; Usage_error
+Run_result run_loop(const Plan& plan, std::vector<std::string>& notes, const std::atomic<bool>& is_interrupted);
+
+} // namespace haptic_sculpt::loop_program
+
+#endif

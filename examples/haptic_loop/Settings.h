@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_SETTINGS_H
+#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_SETTINGS_H
+
+#include <haptic_sculpt/device/Device_parameters.h>
+#include <haptic_sculpt/haptic_rendering/Hand_path.h>
+#include <haptic_sculpt/haptic_rendering/Simulated_hand.h>
+#include <haptic_sculpt/haptic_rendering/Watchdog.h>
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt::loop_program {
+
+/// Options or files that cannot be used.
+struct Usage_error : Error {
+  using Error::Error;
+};
+
+/// A recording of another mesh, or none at all.
+struct Foreign_recording : Error {
+  using Error::Error;
+};
+
+struct Injected_fault {
+  Loop_fault kind = Loop_fault::none;
+  double time = 0; ///< s
+};
+
+/// What a run is about, apart from where its results go. All of it is in a recording.
+struct Settings {
+  double rate = 1000, delay = 0, stiffness = 500, damping = 0, reach = 0.001;
+  std::size_t work = 400;
+  std::vector<double> map; ///< scale, origin and, if given, the rotation vector; empty: the scene is fitted
+  Device_description<double> device;
+  Simulated_hand hand = Simulated_hand::finger();
+};
+
+/// D1, di-tetrahedral, with joints of a built device.
+Device_description<double> default_device();
+
+/// \throw Usage_error naming file and member
+Device_description<double> read_device(const std::string& path);
+Simulated_hand read_hand(const std::string& path);
+/// \throw Hand_path_error
+Hand_path read_path(const std::string& path);
+/// `nan@0.5` and the like. \throw Usage_error
+Injected_fault fault_of(const std::string& text);
+
+nlohmann::json json_of(const Device_description<double>& device);
+/// Number types as the double they are, so that reading gives the same settings.
+nlohmann::json json_of(const Settings& settings);
+/// \throw Foreign_recording
+Settings settings_of(const nlohmann::json& json);
+
+/// \throw Usage_error if it cannot be read
+std::string contents_of(const std::string& path);
+
+} // namespace haptic_sculpt::loop_program
+
+#endif

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sculpts in a closed loop with a simulated device in a simulated hand. See --help; formats: doc/haptic_rendering.md.
+#include "Loop_report.h"
+
+#include "../sculpt/output_targets.h"
+
+#include <haptic_sculpt/device/simulation/Torque_delay.h>
+#include <haptic_sculpt/haptic_rendering/check_coupling.h>
+#include <haptic_sculpt/surface/read_surface.h>
+
+#include <CLI/CLI.hpp>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <memory>
+#include <new>
+
+namespace {
+thread_local std::size_t allocated = 0;
+
+void* counted(std::size_t size) noexcept {
+  ++allocated;
+  return std::malloc(size != 0 ? size : 1);
+}
+} // namespace
+
+// Not inlined, or g++ sees free() meet operator new and warns. The array and nothrow forms call these.
+__attribute__((noinline)) void* operator new(std::size_t size) {
+  if (void* p = counted(size))
+    return p;
+  throw std::bad_alloc();
+}
+__attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocated;
+  const auto a = static_cast<std::size_t>(alignment);
+  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a))
+    return p;
+  throw std::bad_alloc();
+}
+__attribute__((noinline)) void operator delete(void* p) noexcept {
+  std::free(p);
+}
+__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+__attribute__((noinline)) void operator delete(void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+__attribute__((noinline)) void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+
+std::size_t haptic_sculpt::loop_program::allocations() {
+  return allocated;
+}
+
+namespace {
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::loop_program;
+
+enum Exit {
+  done = 0,
+  no_memory = 1,
+  usage = 2,
+  mesh_refused = 3,
+  path_error = 4,
+  cannot_write = 5,
+  foreign_recording = 6,
+  unstable = 7,
+  fault = 8
+};
+
+struct Arguments {
+  std::string mesh = HAPTIC_SCULPT_EXAMPLE_DATA "/ball_and_moon.off",
+              path = HAPTIC_SCULPT_EXAMPLE_DATA "/hand_path.csv";
+  std::string out, device, hand, record, replay, trace, report, fault;
+  double seconds = 0;
+  bool does_not_wait = false;
+};
+
+std::atomic<bool> is_interrupted{false};
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+/// \throw Write_error
+File opened(const std::string& path) {
+  if (path.empty())
+    return {nullptr, &std::fclose};
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr)
+    throw Write_error("cannot write '" + path + "': " + std::strerror(errno));
+  return {file, &std::fclose};
+}
+
+void close(File& file, const std::string& path) {
+  std::FILE* const raw = file.release();
+  if (raw == nullptr)
+    return;
+  const bool has_failed = std::ferror(raw) != 0;
+  if (std::fclose(raw) != 0 || has_failed)
+    throw Write_error("cannot write all of '" + path + "': the disk may be full");
+}
+
+void check_numbers(const Settings& s, double seconds) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds)
+      throw Usage_error(what);
+  };
+  require(s.rate >= 100 && s.rate <= 100000, "--rate must be from 100 to 100000 Hz");
+  require(s.delay >= 0 && s.delay <= Torque_delay<double>::most_ticks, "--delay must be from 0 to 16 ticks");
+  require(s.stiffness >= 0 && std::isfinite(s.stiffness), "--stiffness must be a finite number >= 0, N/m");
+  require(s.damping >= 0 && std::isfinite(s.damping), "--damping must be a finite number >= 0, N s/m");
+  require(s.reach >= 0 && std::isfinite(s.reach), "--reach must be a finite length >= 0, m");
+  require(s.work > 0, "--work must be at least 1");
+  require(seconds >= 0 && std::isfinite(seconds), "--seconds must be a finite time >= 0");
+  require(s.map.empty() || s.map.size() == 4 || s.map.size() == 7,
+          "--map needs 4 numbers, SCALE X Y Z, or 7, with RX RY RZ");
+  for (double x : s.map)
+    require(std::isfinite(x), "--map must be finite numbers");
+  require(s.map.empty() || s.map[0] > 0, "the scale of --map must be > 0");
+}
+
+void check_targets(const Arguments& a) {
+  if (!a.out.empty() && !mesh_file_format(a.out))
+    throw Usage_error("'" + a.out + "' does not end in .off, .ply, .obj or .stl");
+  const std::string files[] = {a.out, a.trace, a.report, a.record, a.replay, a.device, a.hand, a.path, a.mesh};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < std::size(files); ++j)
+      if (!files[i].empty() && !files[j].empty() && !(i == 0 && j + 1 == std::size(files)) &&
+          sculpt_program::are_one_file(files[i], files[j]))
+        throw Usage_error("'" + files[i] + "' and '" + files[j] + "' are one file; give each its own");
+  for (std::size_t i = 0; i < 4; ++i)
+    if (!files[i].empty())
+      sculpt_program::check_target(files[i]);
+}
+
+Exit loop(const Arguments& arguments, Plan& plan) {
+  Settings& settings = plan.settings;
+  check_numbers(settings, arguments.seconds);
+  check_targets(arguments);
+  settings.device = arguments.device.empty() ? default_device() : read_device(arguments.device);
+  if (!arguments.hand.empty())
+    settings.hand = read_hand(arguments.hand);
+  if (!arguments.fault.empty())
+    plan.fault = fault_of(arguments.fault);
+  if (!arguments.replay.empty()) {
+    plan.replay = Recording::read(arguments.replay);
+    settings = plan.replay->settings;
+  } else
+    plan.path = read_path(arguments.path);
+  plan.mesh = arguments.mesh, plan.out = arguments.out;
+  plan.seconds = arguments.seconds;
+  plan.waits = !arguments.does_not_wait && !plan.replay;
+  File trace = opened(arguments.trace), record = opened(arguments.record);
+  plan.trace = trace.get(), plan.record = record.get();
+  std::vector<std::string> notes;
+  const Run_result result = run_loop(plan, notes, is_interrupted);
+  for (const std::string& note : notes)
+    std::cerr << "haptic_loop: " << note << '\n';
+  close(trace, arguments.trace), close(record, arguments.record);
+  if (!arguments.report.empty())
+    replace_file(arguments.report, report_of(result, settings, notes));
+  print_summary(std::cout, result, settings);
+  if (!std::cout.flush())
+    throw Write_error("cannot write the summary to standard output");
+  return result.faults.empty() ? done : fault;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGINT, [](int) { is_interrupted = true; });
+  std::signal(SIGTERM, [](int) { is_interrupted = true; });
+  Arguments arguments;
+  Plan plan;
+  Settings& settings = plan.settings;
+  CLI::App app("Sculpts in a closed loop: a simulated device in a simulated hand that follows a path.\n"
+               "Exit: 0 done, 1 out of memory, 2 usage, 3 mesh refused, 4 path cannot be read, 5 cannot write, "
+               "6 recording of another mesh, 7 stiffness neither passive nor stable, 8 a fault ended the run.");
+  app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->capture_default_str();
+  app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes");
+  app.add_option("--seconds", arguments.seconds, "How long; by default as long as the path");
+  app.add_option("--rate", settings.rate, "Ticks a second, Hz")->capture_default_str();
+  app.add_option("--delay", settings.delay, "From a command to its torque, ticks")->capture_default_str();
+  app.add_option("--stiffness", settings.stiffness, "Of the coupling, at the handle, N/m")->capture_default_str();
+  app.add_option("--damping", settings.damping, "Of the coupling, at the handle, N s/m")->capture_default_str();
+  app.add_option("--map", settings.map,
+                 "SCALE X Y Z [RX RY RZ]: scene = (X, Y, Z) + SCALE R (device - home); by default the scene is fitted")
+      ->expected(4, 7);
+  app.add_option("--reach", settings.reach, "Of a grab, m in the device")->capture_default_str();
+  app.add_option("--work", settings.work, "Pairs that a drag may decide")->capture_default_str();
+  app.add_option("--device", arguments.device, "Device, JSON");
+  app.add_option("--hand", arguments.hand, "Hand, JSON");
+  app.add_option("--path", arguments.path, "Where the hand wants to be: t,x,y,z,button")->capture_default_str();
+  app.add_option("--fault", arguments.fault, "KIND@SECONDS: nan, jump, stall, singular or torque");
+  app.add_option("--record", arguments.record, "Where the readings of the device go");
+  app.add_option("--replay", arguments.replay, "A recording instead of device, hand and path; its settings hold");
+  app.add_option("--trace", arguments.trace, "Where a row a tick goes: .csv");
+  app.add_option("--report", arguments.report, "Where the JSON report goes");
+  app.add_flag("--no-wait", arguments.does_not_wait, "As fast as it goes");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : usage;
+  }
+  const auto fail = [](const std::exception& error, Exit code) {
+    std::cerr << "haptic_loop: " << error.what() << '\n';
+    return code;
+  };
+  try {
+    return loop(arguments, plan);
+  } catch (const Unstable_coupling& error) {
+    return fail(error, unstable);
+  } catch (const Hand_path_error& error) {
+    return fail(error, path_error);
+  } catch (const Foreign_recording& error) {
+    return fail(error, foreign_recording);
+  } catch (const Write_error& error) {
+    return fail(error, cannot_write);
+  } catch (const Read_error& error) {
+    return fail(error, mesh_refused);
+  } catch (const Invalid_surface& error) {
+    return fail(error, mesh_refused);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "haptic_loop: the memory does not suffice for this mesh\n";
+    return no_memory;
+  } catch (const Error& error) {
+    return fail(error, usage);
+  }
+}

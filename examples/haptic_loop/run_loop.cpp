@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Fault_injection.h"
+#include "Run.h"
+
+#include "../sculpt/sha256_of_file.h"
+
+#include <haptic_sculpt/haptic_rendering.h>
+#include <haptic_sculpt/surface.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cerrno>
+#include <ctime>
+
+namespace haptic_sculpt::loop_program {
+namespace {
+
+using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
+
+std::uint64_t nanoseconds(clockid_t clock) {
+  timespec now;
+  clock_gettime(clock, &now);
+  return static_cast<std::uint64_t>(now.tv_sec) * 1000000000u + static_cast<std::uint64_t>(now.tv_nsec);
+}
+
+struct Box {
+  Eigen::Vector3d lower, upper;
+};
+
+Box box_of(const Mesh& mesh) {
+  Box box{Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()),
+          Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity())};
+  for (const auto v : mesh.vertices()) {
+    const Eigen::Vector3d p = internal::vector_of(mesh.point(v));
+    box.lower = box.lower.cwiseMin(p), box.upper = box.upper.cwiseMax(p);
+  }
+  return box;
+}
+
+Workspace_map map_of(const Settings& settings, const Box& box, const Device_parameters<double>& device,
+                     const Device_pose<double>& home) {
+  if (settings.map.empty())
+    return Workspace_map::fitted(box.lower, box.upper, home.position, workspace_radius(device, home));
+  const std::vector<double>& m = settings.map;
+  const Eigen::Vector3d rotation = m.size() == 7 ? Eigen::Vector3d(m[4], m[5], m[6]) : Eigen::Vector3d(0, 0, 0);
+  return Workspace_map(m[0], rotation, {m[1], m[2], m[3]}, home.position);
+}
+
+/// One run.
+class Run {
+public:
+  Run(const Plan& plan, std::vector<std::string>& notes, const std::atomic<bool>& is_interrupted)
+      : plan_(plan)
+      , settings_(plan.settings)
+      , notes_(notes)
+      , is_interrupted_(is_interrupted)
+      , tick_(1 / settings_.rate)
+      , device_(settings_.device)
+      , home_(home_pose(device_))
+      , faults_(plan.fault, device_, tick_) {}
+
+  Run_result run() {
+    if (!home_)
+      throw Usage_error("the device has no pose in the middle of its joint limits");
+    const std::string hash = sculpt_program::sha256_of_file(plan_.mesh);
+    if (plan_.replay && plan_.replay->mesh != hash)
+      throw Foreign_recording("the recording is of a mesh with the SHA-256 " + plan_.replay->mesh + ", but that of '" +
+                              plan_.mesh + "' is " + hash);
+    mesh_ = read_surface<Mesh>(plan_.mesh);
+    const Box box = box_of(mesh_);
+    const Workspace_map map = map_of(settings_, box, device_, *home_);
+    Haptic_parameters parameters;
+    parameters.tick = tick_, parameters.delay = settings_.delay;
+    parameters.coupling = {settings_.stiffness, settings_.damping};
+    parameters.reach = settings_.reach, parameters.work = settings_.work;
+    const Passivity_limits limits = limits_of(parameters, box, map);
+    // From far outside, so that it comes to the surface from outside wherever the hand begins.
+    const Eigen::Vector3d outside = box.upper + (box.upper - box.lower);
+    const auto probe = mesh_.add_vertex(internal::point_of<Mesh::Point>(outside));
+    Sculptor<Mesh> sculptor(mesh_);
+    sculptor.reserve(200, 100000);
+    const Device_pose<double> start = start_pose();
+    Haptic_loop<Sculptor<Mesh>> loop(sculptor, probe, device_, start, map, parameters, limits);
+    if (plan_.record != nullptr)
+      std::fputs(recording_head(hash, settings_).c_str(), plan_.record);
+    if (plan_.trace != nullptr)
+      std::fputs(
+          "t,theta1,theta2,theta3,tx,ty,tz,x,y,z,fcx,fcy,fcz,fx,fy,fz,tau1,tau2,tau3,end,contacts,pairs,cpu_ns\n",
+          plan_.trace);
+    if (plan_.replay)
+      replay(loop);
+    else
+      simulate(loop, start);
+    finish(loop, sculptor, probe, map);
+    return std::move(result_);
+  }
+
+private:
+  const Plan& plan_;
+  const Settings& settings_;
+  std::vector<std::string>& notes_;
+  const std::atomic<bool>& is_interrupted_;
+  double tick_;
+  Device_parameters<double> device_;
+  Outcome<Device_pose<double>> home_;
+  Fault_injection faults_;
+  Mesh mesh_;
+  Run_result result_;
+  double free_since_ = 0;
+
+  Passivity_limits limits_of(const Haptic_parameters& parameters, const Box& box, const Workspace_map& map) {
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (box.upper - box.lower).norm());
+    const Passivity_limits limits = passivity_limits(device_, parameters.limits, map, box.lower - margin,
+                                                     box.upper + margin, settings_.damping, tick_, settings_.delay);
+    if (!limits.worst.is_found)
+      throw Usage_error("the map leads to no place that the device can reach; see --map");
+    result_.friction = limits.friction;
+    result_.passive_stiffness = limits.passive_stiffness;
+    result_.stable_stiffness = limits.stable_stiffness;
+    if (limits.permits(parameters.coupling) && !limits.is_passive(parameters.coupling))
+      notes_.push_back("the stiffness " + internal::number(settings_.stiffness) +
+                       " N/m is stable, but not passive: that ends at " +
+                       internal::number(std::fmax(0.0, limits.passive_stiffness)) + " N/m");
+    return limits;
+  }
+
+  Device_pose<double> start_pose() const {
+    if (plan_.replay) {
+      const auto& readings = plan_.replay->readings;
+      const auto pose = readings.empty() || !readings[0].theta.allFinite()
+                            ? home_
+                            : forward_kinematics(device_, readings[0].theta, *home_);
+      return pose ? *pose : *home_;
+    }
+    const auto start = reach_position(device_, *home_, plan_.path->at(0).position);
+    if (!start)
+      throw Usage_error("the device cannot come to where the path begins");
+    return *start;
+  }
+
+  template <class Loop>
+  void replay(Loop& loop) {
+    for (const Joint_reading& reading : plan_.replay->readings)
+      if (!tick(loop, reading, result_.ticks * tick_))
+        return;
+  }
+
+  template <class Loop>
+  void simulate(Loop& loop, const Device_pose<double>& start) {
+    const double seconds = plan_.seconds > 0 ? plan_.seconds : plan_.path->end();
+    Simulated_device device(device_, start, settings_.hand, *plan_.path, tick_, settings_.delay);
+    std::uint64_t due = nanoseconds(CLOCK_MONOTONIC);
+    Haptic_tick last;
+    while (device.time() < seconds && !is_interrupted_) {
+      if (plan_.waits)
+        wait(due += static_cast<std::uint64_t>(1e9 * tick_));
+      if (faults_.is_stall() && faults_.is_due(device.time()) && !faults_.has_begun())
+        stall(device, last);
+      Joint_reading reading = device.read();
+      reading.elapsed += std::exchange(stalled_, 0.0);
+      if (!faults_.is_stall() && faults_.is_due(device.time()))
+        faults_.spoil(reading, device.state().pose);
+      if (!tick(loop, reading, device.time()))
+        break;
+      last = *tick_made_;
+      if (device.write(last.rendered.torque, last.rendered.interaction_torque) != Device_status::success)
+        throw Usage_error(
+            "at " + std::to_string(device.time()) +
+            " s the hand has torn the mechanism through a singular pose; give a path within the workspace");
+    }
+    result_.has_true_energy = true;
+    result_.port = device.port(), result_.dissipated = device.dissipated();
+  }
+
+  /// Nobody comes for 50 ms. The device lets go by itself after 20.
+  void stall(Simulated_device& device, const Haptic_tick& last) {
+    faults_.begin();
+    const double begin = device.time();
+    const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+    while (device.time() < begin + 0.05) {
+      const bool holds = device.time() < begin + 0.02;
+      device.write(holds ? last.rendered.torque : none, holds ? last.rendered.interaction_torque : none);
+    }
+    stalled_ = device.time() - begin;
+  }
+
+  double stalled_ = 0;
+  const Haptic_tick* tick_made_ = nullptr;
+
+  /// \return whether the run goes on
+  template <class Loop>
+  bool tick(Loop& loop, const Joint_reading& reading, double time) {
+    if (plan_.record != nullptr)
+      write_reading(plan_.record, reading);
+    const std::size_t allocated = allocations();
+    const std::uint64_t cpu = nanoseconds(CLOCK_THREAD_CPUTIME_ID), wall = nanoseconds(CLOCK_MONOTONIC);
+    const Haptic_tick& made = loop.tick(reading);
+    const std::uint64_t cpu_taken = nanoseconds(CLOCK_THREAD_CPUTIME_ID) - cpu,
+                        wall_taken = nanoseconds(CLOCK_MONOTONIC) - wall;
+    result_.allocations += allocations() - allocated;
+    tick_made_ = &made;
+    ++result_.ticks;
+    result_.cpu.add(cpu_taken), result_.wall.add(wall_taken);
+    result_.missed += static_cast<double>(wall_taken) > 1e9 * tick_;
+    result_.missed_by_cpu += static_cast<double>(cpu_taken) > 1e9 * tick_;
+    const double force = made.rendered.force.norm();
+    result_.largest_force = std::fmax(result_.largest_force, force);
+    if (!made.tool.reached || made.tool.event == Tool_event::refused || made.fault != Loop_fault::none)
+      free_since_ = time;
+    if (time - free_since_ > loop.parameters().limits.largest / loop.parameters().limits.slew + Refusal_burst::duration)
+      result_.largest_free_force = std::fmax(result_.largest_free_force, force);
+    if (made.is_new_fault)
+      result_.faults.emplace_back(time, name_of(made.fault));
+    if (plan_.trace != nullptr)
+      write_row(reading, made, time, cpu_taken);
+    return !loop.has_stopped();
+  }
+
+  void write_row(const Joint_reading& reading, const Haptic_tick& made, double time, std::uint64_t cpu) const {
+    const auto put = [&](const Eigen::Vector3d& v) {
+      std::fprintf(plan_.trace, ",%.17g,%.17g,%.17g", v[0], v[1], v[2]);
+    };
+    std::fprintf(plan_.trace, "%.17g", time);
+    put(reading.theta), put(made.tool.target), put(made.tool.proxy), put(made.coupling), put(made.rendered.force),
+        put(made.rendered.torque);
+    std::fprintf(plan_.trace, ",%s,%d,%zu,%llu\n", made.tool.end ? name_of(*made.tool.end) : "none", made.tool.contacts,
+                 made.tool.pairs, static_cast<unsigned long long>(cpu));
+  }
+
+  void wait(std::uint64_t due) {
+    const timespec until{static_cast<std::time_t>(due / 1000000000u), static_cast<long>(due % 1000000000u)};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR && !is_interrupted_)
+      ;
+    const std::uint64_t now = nanoseconds(CLOCK_MONOTONIC);
+    result_.wakeup.add(now > due ? now - due : 0);
+  }
+
+  template <class Loop>
+  void finish(const Loop& loop, const Sculptor<Mesh>& sculptor, Mesh::Vertex_index probe, const Workspace_map& map) {
+    result_.observed = loop.observer().energy();
+    result_.least_observed = loop.observer().least();
+    if (!result_.has_true_energy)
+      result_.port = loop.observer().port(), result_.dissipated = loop.observer().dissipated();
+    const Tool_edits& edits = loop.tool().edits();
+    result_.grabbed = edits.grabbed, result_.created = edits.created, result_.removed = edits.removed;
+    result_.released = edits.released, result_.refused = edits.refused;
+    result_.is_cut_short = is_interrupted_;
+    result_.map = {map.scale(),
+                   map.origin()[0],
+                   map.origin()[1],
+                   map.origin()[2],
+                   map.rotation_vector()[0],
+                   map.rotation_vector()[1],
+                   map.rotation_vector()[2],
+                   map.home()[0],
+                   map.home()[1],
+                   map.home()[2]};
+    Write_options options;
+    for (std::size_t name = 0; name < sculptor.number_of_names(); ++name)
+      if (const auto v = sculptor.vertex(name); v.is_valid() && v != probe)
+        options.vertex_order.emplace_back(static_cast<Mesh::size_type>(v));
+    Mesh sculpted = mesh_; // without the probe
+    sculpted.remove_vertex(probe);
+    result_.is_valid = validate(sculpted).is_valid();
+    if (plan_.out.empty())
+      return;
+    if (const std::string lost = write_surface(plan_.out, sculpted, options); !lost.empty())
+      notes_.push_back(lost);
+  }
+};
+
+} // namespace
+
+Run_result run_loop(const Plan& plan, std::vector<std::string>& notes, const std::atomic<bool>& is_interrupted) {
+  return Run(plan, notes, is_interrupted).run();
+}
+
+} // namespace haptic_sculpt::loop_program

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks haptic_loop as a user would run it: trace, report, replay, faults and exit codes. Arguments: program, source folder."""
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+LOOP, SOURCE = map(os.path.abspath, sys.argv[1:3])
+MESH = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
+COLUMNS = "t,theta1,theta2,theta3,tx,ty,tz,x,y,z,fcx,fcy,fcz,fx,fy,fz,tau1,tau2,tau3,end,contacts,pairs,cpu_ns".split(",")
+KEYS = {"version", "ticks", "missed", "missed_by_cpu", "cpu_ns", "wall_ns", "wakeup_ns", "allocations", "force", "energy", "limits", "edits",
+        "faults", "valid"}
+FAULTS = []
+
+
+def check(condition, what):
+    if not condition:
+        FAULTS.append(what)
+        print("FAULT:", what)
+
+
+def run(*arguments, code=0):
+    done = subprocess.run([LOOP, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    check(done.returncode == code, f"{arguments}: exit {done.returncode}, expected {code}: {done.stderr}")
+    return done
+
+
+def rows_of(path):
+    with open(path) as file:
+        reader = csv.DictReader(file)
+        check(reader.fieldnames == COLUMNS, f"columns of the trace: {reader.fieldnames}")
+        return list(reader)
+
+
+def vector(row, *names):
+    return [float(row[name]) for name in names]
+
+
+folder = tempfile.mkdtemp()
+at = lambda name: os.path.join(folder, name)
+
+run(MESH, "--no-wait", "-o", at("a.off"), "--report", at("a.json"), "--trace", at("a.csv"), "--record", at("a.rec"))
+report = json.load(open(at("a.json")))
+check(KEYS <= set(report), f"keys of the report: {sorted(report)}")
+check(report["valid"] is True and report["faults"] == [], "the run is valid and has no faults")
+check(set(report["cpu_ns"]) == {"p50", "p99", "p999", "p9999", "max"}, "percentiles")
+check({"port", "dissipated", "observer"} <= set(report["energy"]), "energies")
+check(report["energy"]["port"] + report["energy"]["dissipated"] > 0, "the device gives no energy")
+check(report["limits"]["passive_k"] > 500, "the default is passive")
+edits = report["edits"]
+check(edits["grabbed"] >= 1 and edits["created"] >= 1 and edits["removed"] >= 1 and edits["refused"] >= 1, f"edits: {edits}")
+rows = rows_of(at("a.csv"))
+check(len(rows) == report["ticks"], "a row a tick")
+check({row["end"] for row in rows} >= {"reached", "held"}, "free motion and contact")
+scale, stiffness, touching = report["map"][0], report["settings"]["stiffness"], 0
+for row in rows:  # the fitted map is not turned
+    target, proxy, coupling = vector(row, "tx", "ty", "tz"), vector(row, "x", "y", "z"), vector(row, "fcx", "fcy", "fcz")
+    wanted = [stiffness * (x - t) / scale for x, t in zip(proxy, target)]
+    check(math.dist(wanted, coupling) <= 1e-9 * max(1e-3, math.hypot(*wanted)), f"coupling force at {row['t']}")
+    if row["end"] == "reached":
+        check(coupling == [0, 0, 0], f"no force in free motion at {row['t']}")
+    touching += row["end"] != "reached"
+check(touching > 500, f"touching in {touching} ticks")
+print("report:", {key: report[key] for key in ("ticks", "cpu_ns", "allocations", "force", "energy", "limits", "edits", "missed_by_cpu")})
+
+run(MESH, "--replay", at("a.rec"), "-o", at("b.off"), "--trace", at("b.csv"))
+check(open(at("a.off")).read() == open(at("b.off")).read(), "a replay has the same mesh")
+strip = lambda rows: [[row[name] for name in COLUMNS if name != "cpu_ns"] for row in rows]
+check(strip(rows) == strip(rows_of(at("b.csv"))), "a replay has the same forces")
+
+for kind in ("nan", "jump", "stall", "singular", "torque"):
+    run(MESH, "--no-wait", "--fault", kind + "@1.2", "--report", at("f.json"), "--trace", at("f.csv"), "-o", at("f.off"), code=8)
+    report = json.load(open(at("f.json")))
+    check([fault["what"] for fault in report["faults"]] == [kind], f"{kind}: {report['faults']}")
+    check(report["valid"] is True, f"{kind}: the mesh is valid")
+    last = rows_of(at("f.csv"))[-1]
+    check(vector(last, "fx", "fy", "fz", "tau1", "tau2", "tau3") == [0] * 6, f"{kind} ends at zero")
+
+run(MESH, "--no-wait", "--stiffness", 100000, code=7)
+run(MESH, "--nonsense", code=2)
+run(MESH, "--no-wait", "--rate", 5, code=2)
+run(MESH, "--no-wait", "--fault", "fire@1", code=2)
+open(at("device.json"), "w").write('{"form": "general", "params": {"R": 0.03}}')
+run(MESH, "--no-wait", "--device", at("device.json"), code=2)
+open(at("open.off"), "w").write("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+run(at("open.off"), "--no-wait", code=3)
+open(at("path.csv"), "w").write("t,x,y,z,button\n0,0,0,x,0\n")
+check("line 2, column 7" in run(MESH, "--no-wait", "--path", at("path.csv"), code=4).stderr, "a bad path is told by line and column")
+run(MESH, "--no-wait", "-o", at("missing/a.off"), code=5)
+run(at("a.off"), "--replay", at("a.rec"), code=6)
+print(len(FAULTS), "faults")
+sys.exit(1 if FAULTS else 0)
