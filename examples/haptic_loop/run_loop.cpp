@@ -77,7 +77,8 @@ public:
     // From far outside, so that it comes to the surface from outside wherever the hand begins.
     const Eigen::Vector3d outside = box.upper + (box.upper - box.lower);
     const auto probe = mesh_.add_vertex(internal::point_of<Mesh::Point>(outside));
-    Sculptor<Mesh> sculptor(mesh_);
+    // A hand moves the probe a thousand times a second: undo is for what it sculpts.
+    Sculptor<Mesh> sculptor(mesh_, parameters::record_probes(false));
     sculptor.reserve(200, 100000);
     const Device_pose<double> start = start_pose();
     Haptic_loop<Sculptor<Mesh>> loop(sculptor, probe, device_, start, map, parameters, limits);
