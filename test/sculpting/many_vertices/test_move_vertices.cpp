@@ -296,13 +296,13 @@ BOOST_AUTO_TEST_CASE(the_cheaper_proof_is_right_and_often_found) {
       const double size = mean_edge(mesh) * std::pow(2, -static_cast<double>(random() % 6));
       const Point_3 target =
           mesh.point(v) + size * Vector_3(meshes::uniform(random), meshes::uniform(random), meshes::uniform(random));
-      Star<Mesh> star;
+      internal::Star<Mesh> star;
       star.collect(mesh, v);
       internal::Convex_star<Mesh> proof;
       const bool is_proven =
           proof.assign(star, vertex_coordinates(mesh, v), internal::coordinates(target)) &&
           std::all_of(mesh.faces().begin(), mesh.faces().end(), [&](Face_index f) {
-            const auto corners = corners_of_face(mesh, f);
+            const auto corners = internal::corners_of_face(mesh, f);
             return std::count(corners.begin(), corners.end(), v) != 0 || proof.is_apart(mesh, corners);
           });
       const bool is_free = !first_impact(mesh, v, target); // exact, over all faces
