@@ -42,7 +42,7 @@ public:
   /// device says.
   Rendered_force fade_out() {
     fade_ = std::fmax(0.0, fade_ - tick_ / limits_.fade_time);
-    if (fade_ < 1e-9) // what sums of tenths leave
+    if (fade_ < least_fade)
       fade_ = 0;
     Rendered_force faded = last_;
     faded.force *= fade_, faded.interaction_torque *= fade_, faded.torque *= fade_;
@@ -61,6 +61,9 @@ public:
 private:
   Force_limits limits_;
   Gravity_compensation compensation_;
+  /// A share of the force that is nothing but what sums of rounded shares leave.
+  static constexpr double least_fade = 1e-9;
+
   double tick_, ramp_ = 0, fade_ = 1;
   Slew_limit slew_;
   Refusal_burst burst_;

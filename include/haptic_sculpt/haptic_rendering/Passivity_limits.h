@@ -91,8 +91,10 @@ Worst_pose worst_pose(const Device_parameters<double>& parameters, const Force_l
   std::mt19937_64 draw(1);
   const auto number = [&draw] { return 2 * (static_cast<double>(draw() >> 11) * 0x1p-53) - 1; };
   Worst_pose found;
+  // In radians, where climbing ends: the limit differs by less than a hundred-thousandth between such neighbours.
+  constexpr double finest_step = 1e-5;
   for (Worst_pose& start : worst) {
-    for (double step = 2 * span.maxCoeff() / (per_joint - 1); step > 1e-5; step /= 2)
+    for (double step = 2 * span.maxCoeff() / (per_joint - 1); step > finest_step; step /= 2)
       for (int failures = 0; failures < 40;) {
         const double x = number(), y = number(), z = number();
         const Worst_pose next =

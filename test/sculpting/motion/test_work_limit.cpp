@@ -54,8 +54,7 @@ BOOST_AUTO_TEST_CASE(with_any_bound_a_mesh_stays_embedded) {
           const auto result = grab.drag_to(target);
           BOOST_REQUIRE((result.position == mesh.point(v)));
           BOOST_REQUIRE(result.reached == (result.position == target));
-          if (result.end == Drag_end::work_limit)
-            BOOST_REQUIRE(result.work > bound);
+          BOOST_REQUIRE(!(result.reached && result.end == Drag_end::work_limit));
           if (bound == 0)
             BOOST_REQUIRE((result.position == before || result.work == 0));
           cut += result.end == Drag_end::work_limit;
@@ -77,7 +76,7 @@ BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_an_end_that_is_one_without_a_bound
     Mesh mesh = terrain();
     const Vertex_index probe = mesh.add_vertex(Point_3(2, 0, 0));
     Sculptor<Mesh> sculptor(mesh, parameters::work_limit(bound));
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < 160; ++k) {
       const Vertex_index v = k % 2 == 0 ? probe : Vertex_index(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
       const Point_3 target = random_target(random, mesh.point(v), 0.4);
       auto grab = sculptor.grab(v);
