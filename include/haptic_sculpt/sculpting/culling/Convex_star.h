@@ -11,10 +11,11 @@ namespace internal {
 /// A cheap proof that the motion of an ordinary star is free: its link, seen along some direction n, is a strictly convex polygon, its
 /// centre stays strictly inside, and every other face nearby is beyond one of the walls that stand on the link's edges along n.
 ///
-/// The wall of link edge AB is the plane through AB along n; its normal n x AB points out, A to B being the order of the link about the star. If all other link vertices, and both ends of
-/// the motion, are strictly inside of all walls, then the star's triangles tile the polygon at all times, so the star is embedded and meets
-/// its link where it has to. All of it is on the inner side of each wall, and on the wall itself there is only AB. So a face whose
-/// vertices are strictly outside of a wall, but for those it shares with the wall's edge, meets the star only there.
+/// The wall of link edge AB is the plane through AB along n; its normal n x AB points out, A to B being the order of the link about
+/// the star. If all other link vertices, and both ends of the motion, are strictly inside of all walls, then the star's triangles
+/// tile the polygon at all times, so the star is embedded and meets its link where it has to. All of it is on the inner side of
+/// each wall, and on the wall itself there is only AB. So a face whose vertices are strictly outside of a wall, but for those it
+/// shares with the wall's edge, meets the star only there.
 ///
 /// n is taken as it was rounded; the wall of AB is the exact plane through AB along that n. `error_` bounds what rounding can do to the
 /// side of a point, a hundred times over. Where nothing is proven, nothing is said: the sweeps decide.

@@ -50,8 +50,6 @@ public:
     if (walk_.x != source)
       forget();
     const Vector aim = part_ < 1 ? advanced(source, part_, minus(target, source)) : target;
-    if (!guard.work().is_resumed())
-      searched_for_ = target;
     walk_.begin(source, rules);
     unmet_planes_.begin();
     Walk_end end;
@@ -105,7 +103,7 @@ public:
             : free_ways_.is_settled() ? Walk_end::settled
                                       : Walk_end::stuck;
     }
-    if (is_cut_short(guard, end, target))
+    if (is_cut_short(guard, end, aim, target))
       end = Walk_end::spent;
     else if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
@@ -131,15 +129,17 @@ private:
   Way_out<Mesh> way_out_;
   Free_ways<Mesh> free_ways_;
   double part_ = 1;        ///< of the way to the target, so much is asked for
-  Vector searched_for_{}; ///< for what target the search was begun
+  Vector searched_for_{}; ///< the aim of the drag in which the search was begun
 
   /// A decision that costs more than the bound alone is tried on a shorter way next time, past fewer candidates.
   static constexpr double shorter = 0.25, shortest_part = 0x1p-20;
 
   /// Whether the bound on the work has kept the walk from its end, or the search from being one for this target.
   template <class Guard>
-  bool is_cut_short(const Guard& guard, Walk_end end, const Vector& target) {
+  bool is_cut_short(const Guard& guard, Walk_end end, const Vector& aim, const Vector& target) {
     const Work& work = guard.work();
+    if (!work.is_resumed()) // asked now: a search left at another place has been given up meanwhile
+      searched_for_ = aim;
     const bool is_short = part_ < 1;
     if (!guard.is_spent())
       part_ = std::fmin(1.0, part_ / shorter);
