@@ -12,7 +12,7 @@ namespace haptic_sculpt::sculpt_program {
 
 /// The command line. Names that were not given are empty.
 struct Arguments {
-  std::string mesh, script, out, report, log, response, broad_phase = "tree", picture;
+  std::string mesh, script, out, report, log, response, broad_phase = "tree", picture, comparison;
   std::optional<double> clearance, delta;
   bool append = false, triangulate = false, numbers = false;
   std::optional<std::array<double, 3>> nearest;

@@ -5,6 +5,7 @@
 #include "Arguments.h"
 #include "Report.h"
 #include "Run_result.h"
+#include "comparison.h"
 
 #include "../drawing/surface_mesh_arrays.h"
 #include "../drawing/write_picture.h"
@@ -56,7 +57,8 @@ inline std::string write_picture_of(const Mesh& mesh, const Run_result& result, 
 /// Writes what was asked for. A file that cannot be written does not keep the others from being written: the work is
 /// done. The report comes last, with what there is to say of the others.
 inline bool write_all(const Mesh& mesh, const Run_result& result, const Arguments& arguments,
-                      std::vector<std::string>& notes, const std::vector<Near_vertex>& nearest) {
+                      std::vector<std::string>& notes, const std::vector<Near_vertex>& nearest,
+                      const std::optional<Mesh>& without_guard) {
   bool all_written = true;
   const auto note = [&](const std::string& text) {
     std::cerr << "sculpt: " << text << '\n';
@@ -83,6 +85,8 @@ inline bool write_all(const Mesh& mesh, const Run_result& result, const Argument
   });
   attempt(arguments.picture,
           [&](const std::string& path) { return write_picture_of(mesh, result, path, arguments.numbers); });
+  attempt(arguments.comparison,
+          [&](const std::string& path) { return write_comparison(*without_guard, mesh, path); });
   attempt(arguments.report,
           [&](const std::string& path) { return replace_file(path, report_of(result, notes, nearest)); });
   return all_written;
