@@ -3,7 +3,7 @@
 """Writes a trefoil knot of round cross section to standard output, as OFF: a closed, embedded triangle mesh."""
 import math
 
-ALONG, AROUND, RADIUS = 300, 24, 0.3
+ALONG, AROUND, RADIUS = 480, 40, 0.3
 
 
 def on_knot(t):

@@ -54,7 +54,8 @@ Pairs self_intersecting_pairs(const Mesh& mesh) {
   return result;
 }
 
-/// Adds a mesh, its box in the middle of the place given, with crevices darker. Each face has corners of its own, so that it
+/// Adds a mesh, its box in the middle of the place given, with crevices darker, but for
+/// what is red. Each face has corners of its own, so that it
 /// may have a colour of its own.
 void add(drawing::Scene& scene, const Mesh& mesh, const Pairs& pairs, const Eigen::Vector3d& place) {
   const auto open = drawing::openness(mesh);
@@ -64,7 +65,7 @@ void add(drawing::Scene& scene, const Mesh& mesh, const Pairs& pairs, const Eige
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
       corners[i++] = static_cast<int>(scene.points.size());
       scene.points.push_back(drawing::to_eigen(mesh.point(v)) + place);
-      scene.point_colors.push_back(open[v] * (pairs.is_red[f] ? drawing::colors::red : drawing::colors::surface));
+      scene.point_colors.push_back(pairs.is_red[f] ? drawing::colors::red : open[v] * drawing::colors::surface);
     }
     scene.triangles.push_back(corners);
   }
@@ -92,7 +93,7 @@ Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
 
 std::string write_comparison(const Mesh& without_guard, const Mesh& with_guard, const std::string& path) {
   drawing::View view;
-  view.direction = {0.15, 0.45, -1};
+  view.direction = {0, 0.45, -1};
   view.up = {0, 1, 0};
   view.width = 1500, view.height = 800;
   CGAL::Bbox_3 box;
