@@ -22,14 +22,14 @@ for axes, field, title in ((panels[0], "crossed", "touched or crossed something 
                            (panels[1], "wrongly_blocked", "stopped although the way was free")):
     for script in report["scripts"]:
         for a in script["arithmetics"]:
-            axes.plot(a["mean_us"], max(a[field] / a["drags"], FLOOR), color=colours[a["name"]], marker=markers[script["name"]],
+            axes.plot(a["median_us"], max(a[field] / a["drags"], FLOOR), color=colours[a["name"]], marker=markers[script["name"]],
                       linestyle="none", markersize=8, alpha=0.8)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.axhline(FLOOR, color="grey", linewidth=0.8)
     axes.text(1, FLOOR * 1.1, "none", color="grey", transform=axes.get_yaxis_transform(), horizontalalignment="right")
     axes.set_title(title, fontsize=10)
-    axes.set_xlabel("mean time of a drag, µs")
+    axes.set_xlabel("median time of a drag, µs")
     axes.grid(alpha=0.3)
 panels[0].set_ylabel("share of drags")
 handles = [plt.Line2D([], [], color=colours[n], marker="o", linestyle="none", label=n) for n in names]
