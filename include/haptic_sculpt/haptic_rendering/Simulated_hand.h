@@ -17,6 +17,7 @@ namespace haptic_sculpt {
 /// carries its own weight.
 struct Simulated_hand {
   static constexpr int most_stages = 3;
+  /// A mass, and what ties it to the next.
   struct Stage {
     double mass = 0;      ///< kg; 0 for the first stage only
     double stiffness = 0; ///< N/m
@@ -63,6 +64,7 @@ struct Simulated_hand {
     return states;
   }
 
+  /// What the hand does to the handle, and to itself.
   struct Effect {
     Eigen::Vector3d force; ///< on the handle, N
     States rates;

@@ -45,15 +45,15 @@ struct Contact_3 {
 };
 
 /// The contact of an impact. `at` describes its path, see path_at_plane().
-template <class Mesh>
-Contact_3<Mesh> contact_of(const Star_impact<Mesh>& impact, const internal::Path_at_plane& at) {
+template <class Mesh, class Impact>
+Contact_3<Mesh> contact_of(const Star_impact<Mesh, Impact>& impact, const internal::Path_at_plane& at) {
   Contact_3<Mesh> contact;
   contact.kind = static_cast<Contact_kind>(impact.feature());
   contact.vertices = impact.vertices();
   contact.normal = at.normal;
-  const internal::Sweep_points& p = impact.impact().coordinates();
-  contact.plane = {p[2], p[3], p[4]};
-  contact.is_flat = impact.impact().is_flat();
+  for (int i = 0; i < 3; ++i)
+    contact.plane[static_cast<std::size_t>(i)] = internal::coordinates(impact.impact().static_point(i));
+  contact.is_flat = at.side == 0;
   contact.location = impact.impact().location();
   contact.side = at.side;
   return contact;

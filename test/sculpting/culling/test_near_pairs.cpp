@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(near_pairs_give_what_all_pairs_give) {
       continue;
     ++balls;
     Filter_counters counters;
-    internal::Narrow_phase<Mesh> narrow(counters);
+    internal::Narrow_phase<Mesh> narrow{Exact_sweep_traits<Mesh>(&counters)};
     Star_impacts<Mesh> all, near;
     for (int i = 0; i < 20; ++i) {
       // As far as the ball goes in a random direction, found by halving; or a part of it.
