@@ -48,6 +48,7 @@ std::string report_of(const Run_result& r, const Settings& settings, const std::
         {"released", r.released},
         {"refused", r.refused}}},
       {"faults", faults},
+      {"log", {{"ticks", r.ticks_written}, {"lost", r.log_lost}, {"failure", r.log_failure}}},
       {"valid", r.is_valid},
       {"interrupted", r.is_cut_short},
       {"map", r.map},

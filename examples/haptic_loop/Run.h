@@ -16,7 +16,7 @@ std::size_t allocations();
 
 /// What is to be done.
 struct Plan {
-  std::string mesh, out;
+  std::string mesh, out, log;
   Settings settings;
   std::optional<Recording> replay;
   std::optional<Hand_path> path; ///< none in a replay
@@ -38,13 +38,15 @@ struct Run_result {
   double friction = 0, passive_stiffness = 0, stable_stiffness = 0;
   std::size_t grabbed = 0, created = 0, removed = 0, released = 0, refused = 0;
   std::vector<std::pair<double, std::string>> faults; ///< s
+  std::uint64_t ticks_written = 0, log_lost = 0;      ///< ticks with edits; entries that found no room
+  std::string log_failure;                            ///< why the log does not hold all; empty if it does
   std::vector<double> map;                            ///< scale, origin, rotation vector, home
   bool is_valid = false, is_cut_short = false;
 };
 
 /// Reads the mesh, runs, and writes the sculpted mesh. \param notes gets what people should know
 /// \param is_interrupted ends the run in order \throw what reading and writing meshes throws; Unstable_coupling;
-/// Foreign_recording; Usage_error
+/// Foreign_recording; Usage_error; Foreign_log, Script_error
 Run_result run_loop(const Plan& plan, std::vector<std::string>& notes, const std::atomic<bool>& is_interrupted);
 
 } // namespace haptic_sculpt::loop_program

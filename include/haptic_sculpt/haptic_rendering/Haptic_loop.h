@@ -79,6 +79,9 @@ public:
     return tick_;
   }
 
+  /// Ends the run at the next tick, in order, for a reason that the loop itself does not see.
+  void end_by(Loop_fault fault) { watchdog_.report(fault); }
+
   /// After a fault: forces come back slowly, from 0, from where everything is.
   void restart() {
     watchdog_.reset(), handle_.restart(), renderer_.restart(), tool_.let_go();

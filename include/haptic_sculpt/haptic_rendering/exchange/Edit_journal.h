@@ -42,8 +42,7 @@ public:
   /// To be called at the end of each tick, with growing numbers.
   void end_tick(std::uint64_t tick) {
     const std::uint64_t taken = taken_.load(std::memory_order_acquire);
-    // One that waits is never older than the limit: neither here nor until the next tick.
-    if (taken != ended_ && tick + 1 - waiting_[taken % waiting_.size()] > most_age_)
+    if (age(tick) > most_age_)
       has_overrun_ = true;
     if (!std::exchange(has_entries_, false) || has_overrun_)
       return;
@@ -61,6 +60,11 @@ public:
   /// Ticks with entries that are not written yet.
   std::uint64_t waiting() const { return ended_ - taken_.load(std::memory_order_acquire); }
   std::uint64_t most_age() const { return most_age_; }
+  /// Of the oldest tick that waits, at the end of this one; 0: none does.
+  std::uint64_t age(std::uint64_t tick) const {
+    const std::uint64_t taken = taken_.load(std::memory_order_acquire);
+    return taken != ended_ ? tick + 1 - waiting_[taken % waiting_.size()] : 0;
+  }
   ///@}
 
   /// \name The thread that writes

@@ -110,6 +110,13 @@ public:
     return made;
   }
 
+  /// Lets go, and what is done is in the journal. To be called after the last tick.
+  void end() {
+    loop_->tool().let_go();
+    if (journal_ != nullptr)
+      journal_->end_tick(ticks_++);
+  }
+
   std::uint64_t ticks() const { return ticks_; }
   /// That is sculpted now.
   Scene& scene() { return *scene_; }
