@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CPU time of whole ticks of the haptic loop, from joint angles to torques, when a hand goes fast over a fine mesh, a little
-// deep in it: with the probe, with a vertex that it grabs or creates, letting go and removing. Counts allocations, too.
+// CPU time of whole ticks of the haptic loop, from joint angles to torques, when a hand goes fast over a fine mesh, a
+// little deep in it: with the probe, with a vertex that it grabs or creates, letting go and removing. Counts
+// allocations, too.
 #include "meshes/generated_meshes.h"
 
 #include "../examples/count_allocations.h"
@@ -45,7 +46,8 @@ struct Hand {
   Vector3d home;
 
   Vector3d position(std::size_t tick) const {
-    const double angle = options.speed / options.rate / options.radius * static_cast<double>(tick), turn = 0.0137 * angle;
+    const double angle = options.speed / options.rate / options.radius * static_cast<double>(tick),
+                 turn = 0.0137 * angle;
     const Vector3d direction(std::cos(angle), std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn));
     return home + 1e-3 * (options.radius - options.depth) * direction;
   }
@@ -71,11 +73,12 @@ Json run(const Options& options) {
   const Device_parameters<double> device(description);
   const auto home = home_pose(device);
   meshes::Triangle_list list = meshes::bumpy_sphere(options.level, 0.05);
-  Scene scene(meshes::to_mesh(list.scale_and_move(options.radius, 0, 0, 0)),
-              [&](const Vector3d&, const Vector3d&) {
-                return Workspace_map(1000, Vector3d::Zero(), Vector3d::Zero(), home->position);
-              },
-              10000, 100000);
+  Scene scene(
+      meshes::to_mesh(list.scale_and_move(options.radius, 0, 0, 0)),
+      [&](const Vector3d&, const Vector3d&) {
+        return Workspace_map(1000, Vector3d::Zero(), Vector3d::Zero(), home->position);
+      },
+      10000, 100000);
   Haptic_parameters parameters;
   parameters.tick = 1 / options.rate, parameters.work = options.work, parameters.reach = 1e-3 * options.reach;
   const Passivity_limits limits = passivity_limits(device, parameters.limits, scene.map, 1.1 * scene.lower,
@@ -130,13 +133,16 @@ Json run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("CPU time of whole ticks of the haptic loop under a fast hand. The object is a sphere with hills, 60 mm wide.");
-  app.add_option("--level", options.level, "Times the icosahedron is divided: 20 * 4^level triangles")->capture_default_str();
+  CLI::App app(
+      "CPU time of whole ticks of the haptic loop under a fast hand. The object is a sphere with hills, 60 mm wide.");
+  app.add_option("--level", options.level, "Times the icosahedron is divided: 20 * 4^level triangles")
+      ->capture_default_str();
   app.add_option("--ticks", options.ticks)->capture_default_str();
   app.add_option("--speed", options.speed, "Of the hand, mm/s")->capture_default_str();
   app.add_option("--rate", options.rate, "Ticks a second")->capture_default_str();
   app.add_option("--depth", options.depth, "How deep the hand is under the mean surface, mm")->capture_default_str();
-  app.add_option("--reach", options.reach, "Of a grab, mm; where no vertex is so near, one is created")->capture_default_str();
+  app.add_option("--reach", options.reach, "Of a grab, mm; where no vertex is so near, one is created")
+      ->capture_default_str();
   app.add_option("--work", options.work, "Pairs that a drag may decide")->capture_default_str();
   app.add_option("--json", options.json, "Write the report here");
   CLI11_PARSE(app, argc, argv);

@@ -107,7 +107,8 @@ private:
     for (const double value : y_.marks()) {
       const double y = y_.place_of(value);
       image_.fill_box({x_.first, y - 0.5}, {x_.last, y + 0.5}, pale);
-      text_.write(image_, int(x_.first) - text_.width(number(value)) - 4, int(y) + text_.height() / 3, number(value), ink);
+      text_.write(image_, int(x_.first) - text_.width(number(value)) - 4, int(y) + text_.height() / 3, number(value),
+                  ink);
     }
     image_.fill_box({x_.first, y_.first - 0.5}, {x_.last, y_.first + 0.5}, dark);
     image_.fill_box({x_.first - 0.5, y_.last}, {x_.first + 0.5, y_.first}, dark);

@@ -19,14 +19,22 @@ Command command_of(const Journal_entry& entry) {
     return command;
   };
   switch (entry.kind) {
-  case Journal_entry::Kind::move: return of_kind(Command::Kind::drag, 1, true);
-  case Journal_entry::Kind::insert_on_face: return of_kind(Command::Kind::insert_face, 3, true);
-  case Journal_entry::Kind::insert_on_edge: return of_kind(Command::Kind::insert_edge, 2, true);
-  case Journal_entry::Kind::remove: return of_kind(Command::Kind::remove, 1, false);
-  case Journal_entry::Kind::undo: return of_kind(Command::Kind::undo, 0, false);
-  case Journal_entry::Kind::redo: return of_kind(Command::Kind::redo, 0, false);
-  case Journal_entry::Kind::stroke: return of_kind(Command::Kind::stroke, 0, false);
-  default: return of_kind(Command::Kind::end, 0, false);
+  case Journal_entry::Kind::move:
+    return of_kind(Command::Kind::drag, 1, true);
+  case Journal_entry::Kind::insert_on_face:
+    return of_kind(Command::Kind::insert_face, 3, true);
+  case Journal_entry::Kind::insert_on_edge:
+    return of_kind(Command::Kind::insert_edge, 2, true);
+  case Journal_entry::Kind::remove:
+    return of_kind(Command::Kind::remove, 1, false);
+  case Journal_entry::Kind::undo:
+    return of_kind(Command::Kind::undo, 0, false);
+  case Journal_entry::Kind::redo:
+    return of_kind(Command::Kind::redo, 0, false);
+  case Journal_entry::Kind::stroke:
+    return of_kind(Command::Kind::stroke, 0, false);
+  default:
+    return of_kind(Command::Kind::end, 0, false);
   }
 }
 

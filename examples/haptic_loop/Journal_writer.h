@@ -11,8 +11,8 @@
 
 namespace haptic_sculpt::loop_program {
 
-/// Writes a journal into a log, in a thread of its own: one write a tick, so that a log always ends at the end of a tick or
-/// in the middle of one write.
+/// Writes a journal into a log, in a thread of its own: one write a tick, so that a log always ends at the end of a
+/// tick or in the middle of one write.
 class Journal_writer {
 public:
   /// How long it sleeps where nothing is there, s. What is lost by a kill is at least as old as that.

@@ -3,6 +3,7 @@
 #include "Loop_report.h"
 
 #include "../count_allocations.h"
+#include "../drawing/Scene.h"
 #include "../sculpt/Log_text.h"
 #include "../sculpt/output_targets.h"
 
@@ -16,6 +17,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -43,9 +45,9 @@ enum Exit {
 struct Arguments {
   std::string mesh = HAPTIC_SCULPT_EXAMPLE_DATA "/ball_and_moon.off",
               path = HAPTIC_SCULPT_EXAMPLE_DATA "/hand_path.csv";
-  std::string out, log, device, hand, record, replay, trace, report, fault;
+  std::string out, log, device, hand, record, replay, trace, report, picture, fault;
   double seconds = 0;
-  bool does_not_wait = false;
+  bool does_not_wait = false, is_real_time = false;
 };
 
 std::atomic<bool> is_interrupted{false};
@@ -93,17 +95,24 @@ void check_numbers(const Settings& s, double seconds) {
 void check_targets(const Arguments& a) {
   if (!a.out.empty() && !mesh_file_format(a.out))
     throw Usage_error("'" + a.out + "' does not end in .off, .ply, .obj or .stl");
-  const std::string files[] = {a.out, a.trace, a.report, a.record, a.log, a.replay, a.device, a.hand, a.path, a.mesh};
+  const std::string files[] = {a.out,    a.trace,  a.report, a.record, a.picture, a.log,
+                               a.replay, a.device, a.hand,   a.path,   a.mesh};
   const auto may_be_one = [&](std::size_t i, std::size_t j) { // a log begins with the mesh
     return i == 0 && j + 1 == std::size(files) && a.log.empty();
   };
-  for (std::size_t i = 0; i < 5; ++i)
+  constexpr std::size_t outputs = 6;
+  for (std::size_t i = 0; i < outputs; ++i)
     for (std::size_t j = i + 1; j < std::size(files); ++j)
       if (!files[i].empty() && !files[j].empty() && !may_be_one(i, j) &&
           sculpt_program::are_one_file(files[i], files[j]))
         throw Usage_error("'" + files[i] + "' and '" + files[j] + "' are one file; give each its own");
-  for (std::size_t i = 0; i < 4; ++i)
-    if (!files[i].empty())
+  const auto is_stream = [&](const std::string& file) { // rows may go into a pipe as they come
+    std::error_code error;
+    return (file == a.trace || file == a.record) && std::filesystem::exists(file, error) &&
+           !std::filesystem::is_regular_file(file, error) && !std::filesystem::is_directory(file, error);
+  };
+  for (std::size_t i = 0; i + 1 < outputs; ++i) // a log looks for itself
+    if (!files[i].empty() && !is_stream(files[i]))
       sculpt_program::check_target(files[i]);
 }
 
@@ -122,6 +131,10 @@ Exit loop(const Arguments& arguments, Plan& plan) {
   } else
     plan.path = read_path(arguments.path);
   plan.mesh = arguments.mesh, plan.out = arguments.out, plan.log = arguments.log;
+  if (arguments.is_real_time && (arguments.does_not_wait || !arguments.replay.empty()))
+    throw Usage_error(
+        "--real-time is for a run that waits for the time of each tick; leave out --no-wait and --replay");
+  plan.picture = arguments.picture, plan.is_real_time = arguments.is_real_time;
   plan.seconds = arguments.seconds;
   plan.waits = !arguments.does_not_wait && !plan.replay;
   File trace = opened(arguments.trace), record = opened(arguments.record);
@@ -169,12 +182,17 @@ int main(int argc, char** argv) {
   app.add_option("--hand", arguments.hand, "Hand, JSON");
   app.add_option("--path", arguments.path, "Where the hand wants to be: t,x,y,z,button")->capture_default_str();
   app.add_option("--fault", arguments.fault, "KIND@SECONDS: nan, jump, stall, singular, torque or log");
-  app.add_option("--log", arguments.log,
-                 "Where what is done goes while it is done, for `sculpt` too; one that is there is made again, then gone on with");
+  app.add_option(
+      "--log", arguments.log,
+      "Where what is done goes while it is done, for `sculpt` too; one that is there is made again, then gone on with");
   app.add_option("--record", arguments.record, "Where the readings of the device go");
   app.add_option("--replay", arguments.replay, "A recording instead of device, hand and path; its settings hold");
   app.add_option("--trace", arguments.trace, "Where a row a tick goes: .csv");
   app.add_option("--report", arguments.report, "Where the JSON report goes");
+  app.add_option("--picture", arguments.picture, "Where a picture of the run goes: .png");
+  app.add_flag(
+      "--real-time", arguments.is_real_time,
+      "Asks the system for a thread that goes first (SCHED_FIFO) and memory that stays; says what it does not give");
   app.add_flag("--no-wait", arguments.does_not_wait, "As fast as it goes");
   try {
     app.parse(argc, argv);
@@ -198,6 +216,8 @@ int main(int argc, char** argv) {
   } catch (const sculpt_program::Script_error& error) {
     return fail(error, path_error);
   } catch (const Write_error& error) {
+    return fail(error, cannot_write);
+  } catch (const drawing::Picture_error& error) {
     return fail(error, cannot_write);
   } catch (const Read_error& error) {
     return fail(error, mesh_refused);

@@ -8,8 +8,8 @@
 
 namespace haptic_sculpt::loop_program {
 
-/// Makes the lines of a log again in a scene, whose probe is somewhere far away: what can be undone afterwards is what could
-/// be before. Numbers of the log are those that vertices have without a probe.
+/// Makes the lines of a log again in a scene, whose probe is somewhere far away: what can be undone afterwards is what
+/// could be before. Numbers of the log are those that vertices have without a probe.
 template <class Scene>
 class Log_replay {
 public:
@@ -44,25 +44,48 @@ private:
     if (c.kind != Kind::drag)
       held_ = false;
     switch (c.kind) {
-    case Kind::drag: drag(c); break;
+    case Kind::drag:
+      drag(c);
+      break;
     case Kind::insert_face:
       sculptor_.insert_on_face(sculptor_.face_of(name(c, 0), name(c, 1), name(c, 2)), point(c));
       break;
-    case Kind::insert_edge: sculptor_.insert_on_edge(sculptor_.edge_of(name(c, 0), name(c, 1)), point(c)); break;
-    case Kind::remove: sculptor_.remove(sculptor_.vertex(name(c, 0))); break;
-    case Kind::collapse: sculptor_.collapse(halfedge(c)); break;
-    case Kind::flip: sculptor_.flip(sculptor_.edge_of(name(c, 0), name(c, 1))); break;
-    case Kind::undo: sculptor_.undo(); break;
-    case Kind::redo: sculptor_.redo(); break;
-    case Kind::stroke: strokes_.push_back(sculptor_.stroke()); break;
+    case Kind::insert_edge:
+      sculptor_.insert_on_edge(sculptor_.edge_of(name(c, 0), name(c, 1)), point(c));
+      break;
+    case Kind::remove:
+      sculptor_.remove(sculptor_.vertex(name(c, 0)));
+      break;
+    case Kind::collapse:
+      sculptor_.collapse(halfedge(c));
+      break;
+    case Kind::flip:
+      sculptor_.flip(sculptor_.edge_of(name(c, 0), name(c, 1)));
+      break;
+    case Kind::undo:
+      sculptor_.undo();
+      break;
+    case Kind::redo:
+      sculptor_.redo();
+      break;
+    case Kind::stroke:
+      strokes_.push_back(sculptor_.stroke());
+      break;
     case Kind::end:
       if (!strokes_.empty())
         strokes_.pop_back();
       break;
-    case Kind::response: sculptor_.set_response(*response_named(c.word)); break;
-    case Kind::clearance: clearance(c); break;
-    case Kind::delta: delta(c); break;
-    default: sculptor_.release();
+    case Kind::response:
+      sculptor_.set_response(*response_named(c.word));
+      break;
+    case Kind::clearance:
+      clearance(c);
+      break;
+    case Kind::delta:
+      delta(c);
+      break;
+    default:
+      sculptor_.release();
     }
   }
 

@@ -2,6 +2,10 @@
 #include "Fault_injection.h"
 #include "Run.h"
 #include "Run_log.h"
+#include "Real_time.h"
+#include "write_run_picture.h"
+
+#include "../drawing/surface_mesh_arrays.h"
 
 #include "../sculpt/sha256_of_file.h"
 
@@ -75,6 +79,11 @@ public:
     log_->begin(recording_head(hash, settings_), tick_);
     Session session(loop, scene, nullptr, nullptr, log_->journal());
     session_ = &session;
+    Happenings happenings(scene.sculptor, scene.map.scale());
+    happenings_ = &happenings;
+    if (plan_.is_real_time)
+      for (const std::string& refused : ask_for_real_time())
+        notes_.push_back(refused);
     if (plan_.record != nullptr)
       std::fputs(recording_head(hash, settings_).c_str(), plan_.record);
     if (plan_.trace != nullptr)
@@ -86,6 +95,8 @@ public:
     else
       simulate(loop, start);
     session.end();
+    if (plan_.is_real_time)
+      leave_real_time();
     finish(loop, scene);
     return std::move(result_);
   }
@@ -101,6 +112,9 @@ private:
   Fault_injection faults_;
   std::optional<Run_log> log_;
   Session* session_ = nullptr;
+  Happenings* happenings_ = nullptr;
+  Run_samples samples_;
+  double port_ = 0, dissipated_ = 0;
   Run_result result_;
   double free_since_ = 0;
 
@@ -137,6 +151,7 @@ private:
   void replay(Loop& loop) {
     for (const Joint_reading& reading : plan_.replay->readings) {
       log_->let_catch_up(session_->ticks());
+      port_ = loop.observer().port(), dissipated_ = loop.observer().dissipated();
       if (!tick(loop, reading, result_.ticks * tick_))
         return;
     }
@@ -160,6 +175,7 @@ private:
       reading.elapsed += std::exchange(stalled_, 0.0);
       if (!faults_.is_stall() && faults_.is_due(device.time()))
         faults_.spoil(reading, device.state().pose);
+      port_ = device.port(), dissipated_ = device.dissipated();
       if (!tick(loop, reading, device.time()))
         break;
       last = *tick_made_;
@@ -204,7 +220,11 @@ private:
     result_.cpu.add(cpu_taken), result_.wall.add(wall_taken);
     result_.missed += static_cast<double>(wall_taken) > 1e9 * tick_;
     result_.missed_by_cpu += static_cast<double>(cpu_taken) > 1e9 * tick_;
+    const auto held = loop.tool().holds_vertex() ? loop.tool().vertex() : Mesh::Vertex_index();
+    happenings_->add(time, made.tool, session_->scene().sculptor, held);
     const double force = made.rendered.force.norm();
+    if (!plan_.picture.empty())
+      sample(made, time, cpu_taken);
     result_.largest_force = std::fmax(result_.largest_force, force);
     if (!made.tool.reached || made.tool.event == Tool_event::refused || made.fault != Loop_fault::none)
       free_since_ = time;
@@ -215,6 +235,16 @@ private:
     if (plan_.trace != nullptr)
       write_row(reading, made, time, cpu_taken);
     return !loop.has_stopped();
+  }
+
+  void sample(const Haptic_tick& made, double time, std::uint64_t cpu) {
+    const Tool_step& tool = made.tool;
+    samples_.add({time, made.coupling.norm(), made.rendered.force.norm(), port_, dissipated_, tool.target, tool.proxy,
+                  !tool.reached},
+                 cpu);
+    constexpr const char* words[] = {"", "grabbed", "created", "created", "released", "removed", "refused"};
+    if (tool.event != Tool_event::none)
+      samples_.events.push_back({tool.proxy, words[static_cast<int>(tool.event)]});
   }
 
   void write_row(const Joint_reading& reading, const Haptic_tick& made, double time, std::uint64_t cpu) const {
@@ -269,7 +299,14 @@ private:
     if (!plan_.out.empty())
       if (const std::string lost = write_surface(plan_.out, sculpted, options); !lost.empty())
         notes_.push_back(lost);
+    if (!plan_.picture.empty())
+      if (const std::string lost =
+              write_run_picture(drawing::scene_of(sculpted), samples_, result_.has_true_energy, plan_.picture);
+          !lost.empty())
+        notes_.push_back(lost);
     log_->end();
+    for (int what = 0; what < Happenings::number; ++what)
+      result_.happened[what] = happenings_->first(static_cast<Happenings::What>(what));
     result_.ticks_written = log_->ticks(), result_.log_lost = log_->lost();
     result_.log_failure = log_->failure();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How a driver plugs in: one that tells a place and takes a force (joints: Haptic_loop, with read() and write(torque)).
 #include <haptic_sculpt/haptic_rendering.h>
+#include <haptic_sculpt/surface.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -11,15 +12,20 @@ using namespace haptic_sculpt;
 using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
 using Scene = Loop_scene<Mesh>;
 
-/// Stands for what a vendor ships: here a handle of 0.1 kg with some friction, which a hand lets down with half a newton.
+/// Stands for what a vendor ships: here a handle of 0.1 kg with some friction, which a hand lets down with half a
+/// newton.
 namespace vendor {
 double z = 0.05, speed = 0, force[3];
 void get_position(double p[3]) {
   speed += 0.001 * (force[2] - 0.5 - 3 * speed) / 0.1, z += 0.001 * speed;
   p[0] = 0.003, p[1] = 0.002, p[2] = z;
 }
-void set_force(const double f[3]) { std::copy(f, f + 3, force); }
-bool is_button_down() { return false; }
+void set_force(const double f[3]) {
+  std::copy(f, f + 3, force);
+}
+bool is_button_down() {
+  return false;
+}
 } // namespace vendor
 
 struct Driver { // models PoseDevice

@@ -34,8 +34,8 @@ std::unique_ptr<Scene> scene_of(int level) {
 Pose_reading reading_at(std::uint64_t tick) {
   const double a = 0.002 * static_cast<double>(tick), r = 1.1 + 0.25 * std::sin(3.1 * a);
   Pose_reading reading;
-  reading.position =
-      map_of_tests.to_device(r * Vector3d(std::cos(a), std::sin(a) * std::cos(0.3 * a), std::sin(a) * std::sin(0.3 * a)));
+  reading.position = map_of_tests.to_device(
+      r * Vector3d(std::cos(a), std::sin(a) * std::cos(0.3 * a), std::sin(a) * std::sin(0.3 * a)));
   const std::uint64_t phase = tick % 700;
   reading.button = phase < 300 ? 0 : phase < 600 ? 1 : phase < 620 ? 2 : 0;
   reading.elapsed = 0.001;
@@ -106,15 +106,32 @@ Surface made_again(int level, const Entries& entries) {
     const Mesh::Point p(e.point[0], e.point[1], e.point[2]);
     const auto& v = e.vertices;
     switch (e.kind) {
-    case Kind::move: failed += !sculptor.grab(sculptor.vertex(v[0])).drag_to(p).reached; break;
-    case Kind::insert_on_face: failed += !sculptor.insert_on_face(sculptor.face_of(v[0], v[1], v[2]), p); break;
-    case Kind::insert_on_edge: failed += !sculptor.insert_on_edge(sculptor.edge_of(v[0], v[1]), p); break;
-    case Kind::remove: failed += !sculptor.remove(sculptor.vertex(v[0])); break;
-    case Kind::undo: failed += !sculptor.undo(); break;
-    case Kind::redo: failed += !sculptor.redo(); break;
-    case Kind::stroke: strokes.push_back(sculptor.stroke()); break;
-    case Kind::end: strokes.pop_back(); break;
-    case Kind::tick: break;
+    case Kind::move:
+      failed += !sculptor.grab(sculptor.vertex(v[0])).drag_to(p).reached;
+      break;
+    case Kind::insert_on_face:
+      failed += !sculptor.insert_on_face(sculptor.face_of(v[0], v[1], v[2]), p);
+      break;
+    case Kind::insert_on_edge:
+      failed += !sculptor.insert_on_edge(sculptor.edge_of(v[0], v[1]), p);
+      break;
+    case Kind::remove:
+      failed += !sculptor.remove(sculptor.vertex(v[0]));
+      break;
+    case Kind::undo:
+      failed += !sculptor.undo();
+      break;
+    case Kind::redo:
+      failed += !sculptor.redo();
+      break;
+    case Kind::stroke:
+      strokes.push_back(sculptor.stroke());
+      break;
+    case Kind::end:
+      strokes.pop_back();
+      break;
+    case Kind::tick:
+      break;
     }
   }
   BOOST_TEST(failed == 0u);
@@ -283,8 +300,9 @@ BOOST_AUTO_TEST_CASE(a_window_asks_and_sees_and_a_journal_is_kept_while_the_loop
       window.look();
   });
   window.look();
-  BOOST_TEST_MESSAGE(threads.ticks << " ticks, " << threads.edits << " grabs and creations, " << window.done << " commands done, "
-                                   << window.refused << " refused, " << threads.entries.size() << " entries");
+  BOOST_TEST_MESSAGE(threads.ticks << " ticks, " << threads.edits << " grabs and creations, " << window.done
+                                   << " commands done, " << window.refused << " refused, " << threads.entries.size()
+                                   << " entries");
   BOOST_TEST(window.done > 20u);
   BOOST_TEST(window.refused > 0u);
   BOOST_TEST(threads.edits > 3u);
@@ -404,7 +422,9 @@ BOOST_AUTO_TEST_CASE(a_device_of_pose_and_force_feels_a_wall_and_its_faults_end_
     BOOST_TEST((tick.force - Vector3d(0, 0, 700 * 0.1 / 50)).norm() <= 1e-9);
     reading.position[0] += fault == 0 ? NAN : fault == 1 ? 0.5 : 0, reading.elapsed = fault == 2 ? 0.1 : 0.001;
     tick = loop.tick(reading);
-    BOOST_TEST((tick.fault == (fault == 0 ? Loop_fault::not_finite : fault == 1 ? Loop_fault::jump : Loop_fault::stall)));
+    BOOST_TEST((tick.fault == (fault == 0   ? Loop_fault::not_finite
+                               : fault == 1 ? Loop_fault::jump
+                                            : Loop_fault::stall)));
     for (int k = 0; k < 101; ++k)
       tick = go(0.9);
     BOOST_TEST(tick.force == Vector3d::Zero());

@@ -70,8 +70,8 @@ public:
     held_ = false, is_anchored_ = false;
   }
 
-  /// Lets go and does an edit that somebody else asks for: an undo or redo, a creation or removal. The probe is out of its way
-  /// meanwhile. \param wanted with `Sculptor::name()`s \pre its kind is one of these
+  /// Lets go and does an edit that somebody else asks for: an undo or redo, a creation or removal. The probe is out of
+  /// its way meanwhile. \param wanted with `Sculptor::name()`s \pre its kind is one of these
   typename Sculptor::Edited edit(const Journal_entry& wanted) {
     const Eigen::Vector3d probe = place_of(probe_);
     const bool was_placed = is_probe_placed_;
@@ -140,11 +140,16 @@ private:
     const auto& v = wanted.vertices;
     const Point p(wanted.point[0], wanted.point[1], wanted.point[2]);
     switch (wanted.kind) {
-    case Kind::undo: return sculptor_->undo();
-    case Kind::redo: return sculptor_->redo();
-    case Kind::insert_on_face: return sculptor_->insert_on_face(sculptor_->face_of(v[0], v[1], v[2]), p);
-    case Kind::insert_on_edge: return sculptor_->insert_on_edge(sculptor_->edge_of(v[0], v[1]), p);
-    default: return sculptor_->remove(sculptor_->vertex(v[0]));
+    case Kind::undo:
+      return sculptor_->undo();
+    case Kind::redo:
+      return sculptor_->redo();
+    case Kind::insert_on_face:
+      return sculptor_->insert_on_face(sculptor_->face_of(v[0], v[1], v[2]), p);
+    case Kind::insert_on_edge:
+      return sculptor_->insert_on_edge(sculptor_->edge_of(v[0], v[1]), p);
+    default:
+      return sculptor_->remove(sculptor_->vertex(v[0]));
     }
   }
 
@@ -182,6 +187,8 @@ private:
       const Eigen::Vector3d normal(contact.normal[0], contact.normal[1], contact.normal[2]);
       step.span.add(map_.direction_to_device(normal));
       last_push_ = normal;
+      if (held_)
+        step.obstacle = sculptor_->name(contact.vertices[2]);
       if (!held_ && contact.kind == Contact_kind::vertex_face)
         touched_ = contact.vertices;
     }

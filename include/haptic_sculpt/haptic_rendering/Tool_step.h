@@ -19,7 +19,8 @@ struct Tool_step {
   std::optional<Drag_end> end; ///< none: nothing is held, and there is no probe
   std::size_t pairs = 0;       ///< of the drag's work
   int contacts = 0;
-  Contact_span span; ///< of the contacts' pushes, in axes of the device
+  std::optional<std::uint64_t> obstacle; ///< of a vertex held: a vertex of what it touches, by its number that lasts
+  Contact_span span;                     ///< of the contacts' pushes, in axes of the device
   Tool_event event = Tool_event::none;
 };
 

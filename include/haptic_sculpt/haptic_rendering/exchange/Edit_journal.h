@@ -11,8 +11,8 @@
 
 namespace haptic_sculpt {
 
-/// What was done to a sculpture, by value. Made again one after the other, each entry is certain to succeed: a move is one
-/// straight leg that was proven free, so no contact, bound on work or probe plays a role in it.
+/// What was done to a sculpture, by value. Made again one after the other, each entry is certain to succeed: a move is
+/// one straight leg that was proven free, so no contact, bound on work or probe plays a role in it.
 struct Journal_entry {
   enum class Kind : std::uint8_t { move, insert_on_face, insert_on_edge, remove, undo, redo, stroke, end, tick };
   Kind kind = Kind::tick;
@@ -20,11 +20,11 @@ struct Journal_entry {
   std::array<double, 3> point{};
 };
 
-/// What the loop's thread has done, on its way to the thread that writes it down. Bounded, without a lock; the entries of a
-/// tick come through whole or not at all.
+/// What the loop's thread has done, on its way to the thread that writes it down. Bounded, without a lock; the entries
+/// of a tick come through whole or not at all.
 ///
-/// Once an entry finds no room, or the oldest that waits is older than `most_age` ticks, the journal has overrun: it takes
-/// nothing more, so that what is written ends at the end of a tick, and the run should end.
+/// Once an entry finds no room, or the oldest that waits is older than `most_age` ticks, the journal has overrun: it
+/// takes nothing more, so that what is written ends at the end of a tick, and the run should end.
 class Edit_journal {
 public:
   /// \param most_age in ticks \param entries_a_tick room, in the mean; a slide makes a move a leg, mostly one
@@ -69,7 +69,8 @@ public:
 
   /// \name The thread that writes
   ///@{
-  /// \return false where there is none yet. The entries of the last tick may be followed by none: they wait for its end.
+  /// \return false where there is none yet. The entries of the last tick may be followed by none: they wait for its
+  /// end.
   bool take(Journal_entry& entry) { return queue_.pop(entry); }
   /// So many more ticks are written, or cannot be.
   void wrote(std::uint64_t ticks) { taken_.fetch_add(ticks, std::memory_order_release); }

@@ -11,8 +11,8 @@ namespace haptic_sculpt {
 template <class Scene>
 struct Loop_command {
   enum class Kind : std::uint8_t {
-    let_go,         ///< what the hand holds, until the button is pressed again
-    undo,           ///< a grab, from the button's press to its release, is one step
+    let_go, ///< what the hand holds, until the button is pressed again
+    undo,   ///< a grab, from the button's press to its release, is one step
     redo,
     insert_on_face, ///< a vertex at `point` on the face of three `vertices`
     insert_on_edge, ///< a vertex at `point` on the edge of the first two
@@ -35,7 +35,7 @@ struct Loop_answer {
   typename Loop_command<Scene>::Kind kind{};
   std::uint64_t ticket = 0, tick = 0; ///< the first tick after it
   bool done = false;
-  Refusal_reason reason{}; ///< where an edit was refused
+  Refusal_reason reason{};  ///< where an edit was refused
   std::uint64_t vertex = 0; ///< of an edit: the vertex that it says, `Sculptor::name()`
   Scene_copy* copy = nullptr;
   Scene* left = nullptr; ///< the asking thread's again, to be destroyed there
@@ -71,8 +71,8 @@ private:
   std::size_t room_, asked_ = 0, answered_ = 0; ///< of the asking thread
 };
 
-/// A loop that others may talk to: takes a command before a tick, at most one, tells a viewer of each change and tick, and
-/// keeps a journal. Only the thread that calls `tick()` touches the mesh; it waits for nobody.
+/// A loop that others may talk to: takes a command before a tick, at most one, tells a viewer of each change and tick,
+/// and keeps a journal. Only the thread that calls `tick()` touches the mesh; it waits for nobody.
 ///
 /// \tparam Loop Haptic_loop or Pose_loop on the Sculptor of a Loop_scene
 template <class Loop, class Scene>
@@ -156,8 +156,12 @@ private:
     Loop_answer<Scene> answer = answer_to(command);
     answer.done = true;
     switch (command.kind) {
-    case Kind::let_go: loop_->tool().let_go(); break;
-    case Kind::restart: loop_->restart(); break;
+    case Kind::let_go:
+      loop_->tool().let_go();
+      break;
+    case Kind::restart:
+      loop_->restart();
+      break;
     case Kind::copy:
       copying_ = command;
       command.copy->begin();
@@ -167,7 +171,8 @@ private:
       answer.done = journal_ == nullptr; // a log is of one mesh
       answer.left = answer.done ? enter(*command.scene) : command.scene;
       break;
-    default: edit(command, answer);
+    default:
+      edit(command, answer);
     }
     desk_->answer(answer);
   }

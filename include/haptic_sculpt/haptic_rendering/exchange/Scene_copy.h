@@ -38,12 +38,23 @@ public:
     if (change.index >= (is_face ? faces.size() : points.size()))
       return;
     switch (change.kind) {
-    case Kind::vertex_created: names[change.index] = change.name; [[fallthrough]];
-    case Kind::vertex_moved: points[change.index] = change.point; break;
-    case Kind::vertex_dies: names[change.index] = absent; break;
-    case Kind::face_created: faces[change.index] = change.corners; break;
-    case Kind::face_dies: faces[change.index][0] = no_corner; break;
-    case Kind::replaced: break;
+    case Kind::vertex_created:
+      names[change.index] = change.name;
+      [[fallthrough]];
+    case Kind::vertex_moved:
+      points[change.index] = change.point;
+      break;
+    case Kind::vertex_dies:
+      names[change.index] = absent;
+      break;
+    case Kind::face_created:
+      faces[change.index] = change.corners;
+      break;
+    case Kind::face_dies:
+      faces[change.index][0] = no_corner;
+      break;
+    case Kind::replaced:
+      break;
     }
   }
 

@@ -7,8 +7,8 @@
 
 namespace haptic_sculpt {
 
-/// An EditVisitor that passes changes of a mesh on by value: to a viewer, and into a copy under way. Of the probe nothing
-/// is told; where it is, a Tick_view says.
+/// An EditVisitor that passes changes of a mesh on by value: to a viewer, and into a copy under way. Of the probe
+/// nothing is told; where it is, a Tick_view says.
 template <class Mesh>
 class Scene_teller : public Default_edit_visitor {
 public:

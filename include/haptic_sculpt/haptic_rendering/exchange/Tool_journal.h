@@ -6,8 +6,8 @@
 
 namespace haptic_sculpt {
 
-/// What a tool does, as entries of a journal, if there is one. Vertices have the numbers that they would have without the
-/// probe: those of the mesh's file, and of what was created since.
+/// What a tool does, as entries of a journal, if there is one. Vertices have the numbers that they would have without
+/// the probe: those of the mesh's file, and of what was created since.
 class Tool_journal {
 public:
   using Kind = Journal_entry::Kind;
