@@ -73,11 +73,17 @@ private:
     bool has_bars = false;
     for (const Curve& curve : plot_.curves) {
       has_bars = has_bars || curve.has_bars;
-      for (const auto& p : curve.points)
+      for (std::size_t i = 0; i < curve.points.size(); ++i) {
+        const Eigen::Vector2d& p = curve.points[i];
+        if (is_shown(p) && which == 0 && curve.has_bars && i + 1 < curve.points.size()) { // to where the bar ends
+          const double end = curve.points[i + 1].x();
+          greatest = std::max(greatest, is_logarithmic ? std::log10(end) : end);
+        }
         if (is_shown(p)) {
           const double v = is_logarithmic ? std::log10(p[which]) : p[which];
           least = std::min(least, v), greatest = std::max(greatest, v);
         }
+      }
     }
     if (which == 1 && !is_logarithmic)
       least = std::min(least, 0.0), greatest = std::max(greatest, 0.0);

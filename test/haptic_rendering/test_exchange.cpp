@@ -377,8 +377,10 @@ BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_
     std::uint64_t whole = 0, rest = 0;
     while (journal.take(taken)) {
       ++rest;
-      if (taken.kind == Journal_entry::Kind::tick)
-        BOOST_TEST(taken.vertices[0] == whole++), rest = 0;
+      if (taken.kind == Journal_entry::Kind::tick) {
+        BOOST_TEST(taken.vertices[0] == whole);
+        ++whole, rest = 0;
+      }
     }
     BOOST_TEST(whole == tick - 1);
     BOOST_TEST(rest < 11u);
