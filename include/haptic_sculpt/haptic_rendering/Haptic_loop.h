@@ -79,15 +79,27 @@ public:
     return tick_;
   }
 
+  /// Ends the run at the next tick, in order, for a reason that the loop itself does not see.
+  void end_by(Loop_fault fault) { watchdog_.report(fault); }
+
   /// After a fault: forces come back slowly, from 0, from where everything is.
   void restart() {
     watchdog_.reset(), handle_.restart(), renderer_.restart(), tool_.let_go();
     tick_ = Haptic_tick();
   }
 
+  /// From here on in another sculpture; forces begin at 0. The old one is let go of, and may be destroyed.
+  void enter(Sculptor& sculptor, Vertex_index probe, const Workspace_map& map) {
+    tool_.enter(sculptor, probe, map);
+    sculptor_ = &sculptor, map_ = map;
+    sculptor.set_work_limit(parameters_.work);
+    restart();
+  }
+
   /// Whether a fault has let go of the hand altogether.
   bool has_stopped() const { return tick_.fault != Loop_fault::none && renderer_.has_faded(); }
   const Tool<Sculptor>& tool() const { return tool_; }
+  Tool<Sculptor>& tool() { return tool_; }
   const Handle_motion& handle() const { return handle_; }
   const Passivity_observer& observer() const { return observer_; }
   const Haptic_parameters& parameters() const { return parameters_; }
