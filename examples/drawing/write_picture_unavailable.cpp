@@ -2,9 +2,17 @@
 // Compiled instead of the drawing code where the libraries it needs were not found.
 #include "write_picture.h"
 
-std::string haptic_sculpt::drawing::write_picture(const Scene&, const std::filesystem::path& path, const View&) {
+namespace haptic_sculpt::drawing {
+
+std::string write_picture(const Scene&, const std::filesystem::path& path, const View&) {
   throw Picture_error(
       "Cannot write the picture " + path.string() +
       ": this program was built without pictures. Install "
       "libepoxy-dev, libegl-dev, libgl1-mesa-dri, libpng-dev, libfreetype-dev and fonts-dejavu-core and build it anew, or ask for no picture.");
 }
+
+std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view) {
+  return write_picture(scenes.at(0), path, view);
+}
+
+} // namespace haptic_sculpt::drawing
