@@ -11,8 +11,9 @@
 
 namespace haptic_sculpt::robustness {
 
-/// One batch of drags, creations, removals, undo and redo mixed, on a fresh copy of the mesh; in the end all is undone, which has to
-/// give the input bit for bit, and redone, which has to give the end.
+/// One batch of drags, creations, removals, collapses, flips, undo and redo mixed, part of them in strokes, on a fresh
+/// copy of the mesh; in the end all is undone, which has to give the input bit for bit, and redone, which has to give
+/// the end.
 class Edit_batch {
 public:
   /// \param validate_every 0: only in the end, undone, and redone
@@ -24,12 +25,14 @@ public:
     const test::Mesh_snapshot input = test::snapshot(sculptor_);
     std::size_t next_check = validate_every_;
     while (tally_.edits < edits) {
+      begin_or_end_stroke();
       one();
       if (validate_every_ != 0 && tally_.edits >= next_check) { // a run of undos may have gone past it by a few
         check();
         next_check += validate_every_;
       }
     }
+    stroke_.reset();
     check();
     while (sculptor_.redo())
       ;
@@ -56,10 +59,21 @@ private:
   Random_places places_;
   std::size_t validate_every_, vertices_at_first_;
   std::optional<Grab<Sculptor<Mesh>>> grab_; ///< kept in hand while other edits go on
+  std::optional<Stroke<Sculptor<Mesh>>> stroke_;
   Edit_tally tally_;
 
+  /// Half of the edits are in strokes, of ten on average; one that undo has ended is ended again.
+  void begin_or_end_stroke() {
+    if (places_.below(10) != 0)
+      return;
+    if (stroke_)
+      stroke_.reset();
+    else
+      stroke_.emplace(sculptor_.stroke()), ++tally_.strokes;
+  }
+
   void one() {
-    const std::size_t kind = places_.below(20);
+    const std::size_t kind = places_.below(26);
     // Creations succeed more often than removals; this keeps the mesh from growing without end.
     const bool is_full = mesh_.number_of_vertices() > 2 * vertices_at_first_ + 100;
     if (kind < 6)
@@ -72,8 +86,12 @@ private:
       count("remove", sculptor_.remove(places_.vertex()));
     else if (kind < 19)
       go_back();
-    else
+    else if (kind < 20)
       count("redo", sculptor_.redo());
+    else if (kind < 22)
+      count("collapse", sculptor_.collapse(places_.halfedge()));
+    else
+      count("flip", sculptor_.flip(mesh_.edge(places_.halfedge())));
   }
 
   /// A few steps back and, half of the time, some forth before a new edit clears them.

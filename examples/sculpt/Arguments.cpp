@@ -16,6 +16,7 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
                "nearest to a point by @X,Y,Z:\n"
                "  drag V X Y Z | release | probe X Y Z X2 Y2 Z2\n"
                "  insert_face A B C X Y Z | insert_edge A B X Y Z | remove V | collapse A B | flip A B\n"
+               "  brush grab|inflate|smooth|flatten|pinch X Y Z RADIUS STRENGTH [NX NY NZ] | remesh L\n"
                "  undo | redo | stroke ... end (what is between is one step of undo)\n"
                "  response slide|stop|paper | clearance L|default | delta L | mesh SHA256");
   const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
@@ -60,6 +61,11 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
                  "triangles at a vertex)")
       ->check(CLI::IsMember({"displacement", "altitude"}))
       ->needs("--picture");
+  app.add_option("--compare", arguments.comparison,
+                 "Where a picture goes (.png): left what the same script makes without the guard, right with it")
+      ->check(named)
+      ->needs("--script")
+      ->excludes("--log");
   app.add_option("--nearest", arguments.nearest,
                  "Prints the vertices nearest to the point X Y Z, with their numbers, after the edits")
       ->type_name("X Y Z");

@@ -22,7 +22,7 @@ struct Picture_arguments {
 
 /// The command line. Names that were not given are empty.
 struct Arguments {
-  std::string mesh, script, out, report, log, response, broad_phase = "tree", picture;
+  std::string mesh, script, out, report, log, response, broad_phase = "tree", picture, comparison;
   std::optional<double> clearance, delta;
   bool append = false, triangulate = false;
   Picture_arguments shown;

@@ -30,12 +30,21 @@ std::string hexadecimal(double x) {
 
 std::string text_of(const Command& command) {
   std::string text = name_of(command.kind);
+  const auto add = [&text](const std::array<double, 3>& point) {
+    for (const double x : point)
+      text += ' ' + hexadecimal(x);
+  };
+  if (command.kind == Kind::brush) {
+    text += ' ' + command.word;
+    add(command.points[0]);
+    text += ' ' + hexadecimal(command.length) + ' ' + hexadecimal(command.strength);
+    std::for_each(command.points.begin() + 1, command.points.end(), add);
+    return text;
+  }
   for (std::size_t index : command.indices)
     text += ' ' + std::to_string(index);
-  for (const auto& point : command.points)
-    for (double x : point)
-      text += ' ' + hexadecimal(x);
-  if ((command.kind == Kind::clearance && command.word.empty()) || command.kind == Kind::delta)
+  std::for_each(command.points.begin(), command.points.end(), add);
+  if ((command.kind == Kind::clearance && command.word.empty()) || command.kind == Kind::delta || command.kind == Kind::remesh)
     text += ' ' + hexadecimal(command.length);
   return command.word.empty() ? text : text + ' ' + command.word;
 }

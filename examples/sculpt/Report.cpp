@@ -33,6 +33,7 @@ Json json_of(const Edit_record& edit) {
           {"reason", edit.reason ? Json(edit.reason) : Json()},
           {"detail", edit.detail.empty() ? Json() : Json(edit.detail)},
           {"elements", edit.elements},
+          {"many", edit.many ? Json{{"asked", (*edit.many)[0]}, {"done", (*edit.many)[1]}} : Json()},
           {"position", edit.motion ? Json(edit.motion->stop) : Json()},
           {"legs", edit.legs},
           {"stop_error", edit.stop_error},
@@ -72,7 +73,7 @@ std::string cause_of(const Edit_record& edit) {
   if (edit.status == Edit_record::Status::refused)
     name(edit.elements);
   if (!edit.detail.empty())
-    text += ": " + edit.detail;
+    text += (text.empty() ? "" : ": ") + edit.detail;
   constexpr std::size_t most_contacts = 8;
   for (std::size_t i = 0; i < edit.contacts.size(); ++i) {
     const auto& contact = edit.contacts[i];

@@ -4,6 +4,8 @@
 
 #include "Script.h"
 
+#include "../brushes.h"
+
 #include <haptic_sculpt/sculpting.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -20,6 +22,15 @@ namespace haptic_sculpt::sculpt_program {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex_index = Mesh::Vertex_index;
+
+/// \pre `command` is a brush
+inline brushes::Dab<Kernel> dab_of(const Command& command) {
+  const auto& c = command.points[0];
+  brushes::Dab<Kernel> dab{*brushes::kind_named(command.word), {c[0], c[1], c[2]}, command.length, command.strength};
+  if (command.points.size() == 2)
+    dab.direction = Kernel::Vector_3(command.points[1][0], command.points[1][1], command.points[1][2]);
+  return dab;
+}
 
 /// What became of one edit. Small: a benchmark's script has millions of lines.
 struct Edit_record {
@@ -42,10 +53,12 @@ struct Edit_record {
   Command::Kind kind = Command::Kind::release;
   Status status = Status::refused;
   const char* reason = nullptr; ///< why it was not reached, or nullptr
-  std::string detail;           ///< for people: what would serve instead, where there is more to say than the reason
+  std::string detail;           ///< for people: what would serve instead, or what was done, where there is more to say
   std::vector<std::size_t>
       elements;                 ///< the vertices that the edit names; of a refused `delta`, those of too low triangles
   std::optional<Motion> motion; ///< none where refused; a creation, removal, undo or redo stands still
+  /// Of a brush or a remeshing: how many vertices or operations were asked for, and how many of them arrived or were done.
+  std::optional<std::array<std::size_t, 2>> many;
   int legs = 0;
   double stop_error = 0, stop_error_along_path = 0, kkt_residual = 0;
   std::vector<Contact> contacts;

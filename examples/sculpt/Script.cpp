@@ -3,6 +3,8 @@
 
 #include "printable.h"
 
+#include "../brushes.h"
+
 #include <haptic_sculpt/sculpting/Response.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 
@@ -22,7 +24,7 @@ struct Syntax {
   const char* name;
   Kind kind;
   int indices, points;
-  enum Last { nothing, length, word } last;
+  enum Last { nothing, length, word, brush } last;
 };
 
 constexpr Syntax syntaxes[] = {{"drag", Kind::drag, 1, 1, Syntax::nothing},
@@ -33,6 +35,8 @@ constexpr Syntax syntaxes[] = {{"drag", Kind::drag, 1, 1, Syntax::nothing},
                                {"remove", Kind::remove, 1, 0, Syntax::nothing},
                                {"collapse", Kind::collapse, 2, 0, Syntax::nothing},
                                {"flip", Kind::flip, 2, 0, Syntax::nothing},
+                               {"brush", Kind::brush, 0, 0, Syntax::brush},
+                               {"remesh", Kind::remesh, 0, 0, Syntax::length},
                                {"undo", Kind::undo, 0, 0, Syntax::nothing},
                                {"redo", Kind::redo, 0, 0, Syntax::nothing},
                                {"stroke", Kind::stroke, 0, 0, Syntax::nothing},
@@ -78,6 +82,13 @@ public:
     return value;
   }
 
+  std::array<double, 3> coordinates(const std::string& expected) {
+    std::array<double, 3> point;
+    for (double& coordinate : point)
+      coordinate = number(expected);
+    return point;
+  }
+
   /// A vertex by index, or as @X,Y,Z.
   void vertex(Command& command) {
     const std::string found = word("a vertex index, or @X,Y,Z,");
@@ -117,8 +128,28 @@ private:
   std::size_t number_, begin_ = 0, end_ = 0;
 };
 
+/// KIND X Y Z RADIUS STRENGTH [NX NY NZ]
+void read_brush(Line& line, Command& command) {
+  command.word = line.word("grab, inflate, smooth, flatten or pinch");
+  if (!brushes::kind_named(command.word))
+    line.fail("'" + printable(command.word) + "' is not a brush: grab, inflate, smooth, flatten or pinch");
+  command.points.push_back(line.coordinates("a coordinate of the centre"));
+  command.length = line.number("a radius");
+  if (!(command.length > 0))
+    line.fail("the radius must be more than 0");
+  command.strength = line.number("a strength");
+  if (const auto first = line.next_word())
+    command.points.push_back({line.number("a coordinate of the direction", *first),
+                              line.number("a coordinate of the direction"),
+                              line.number("a coordinate of the direction")});
+  if (command.points.back() == std::array<double, 3>{} && command.points.size() == 2)
+    line.fail("the direction must not be 0 0 0; leave it out for the mean normal");
+}
+
 void read_last(Line& line, const Syntax& syntax, Command& command) {
-  if (syntax.last == Syntax::length) {
+  if (syntax.last == Syntax::brush) {
+    read_brush(line, command);
+  } else if (syntax.last == Syntax::length) {
     const bool may_be_default = command.kind == Kind::clearance;
     const std::string expected = may_be_default ? "a length, or 'default'" : "a length";
     const std::string found = line.word(expected);
@@ -127,7 +158,7 @@ void read_last(Line& line, const Syntax& syntax, Command& command) {
       return;
     }
     command.length = line.number(expected, found);
-    if (command.length < 0 || (command.length == 0 && command.kind == Kind::clearance))
+    if (command.length < 0 || (command.length == 0 && command.kind != Kind::delta))
       line.fail(std::string("the ") + syntax.name + " must be " + (command.kind == Kind::delta ? "at least 0" : "more than 0"));
   } else if (syntax.last == Syntax::word && command.kind == Kind::response) {
     command.word = line.word("slide, stop or paper");
@@ -162,12 +193,8 @@ std::optional<Command> read_line(const std::string& text, std::size_t number, co
   command.kind = syntax->kind;
   for (int i = 0; i < syntax->indices; ++i)
     line.vertex(command);
-  for (int i = 0; i < syntax->points; ++i) {
-    std::array<double, 3> point;
-    for (double& coordinate : point)
-      coordinate = line.number("a coordinate");
-    command.points.push_back(point);
-  }
+  for (int i = 0; i < syntax->points; ++i)
+    command.points.push_back(line.coordinates("a coordinate"));
   read_last(line, *syntax, command);
   if (const auto surplus = line.next_word())
     line.fail("'" + printable(*surplus) + "' is more than '" + *first + "' takes");

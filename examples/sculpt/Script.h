@@ -16,6 +16,7 @@ namespace haptic_sculpt::sculpt_program {
 struct Command {
   enum class Kind {
     drag, release, probe, insert_face, insert_edge, remove, collapse, flip, undo, redo, // edits
+    brush, remesh,                                                                      // edits of many vertices
     stroke, end,                                                                        // what is between is one step of undo
     response, clearance, delta, mesh                                                    // directives
   };
@@ -31,9 +32,10 @@ struct Command {
     std::array<double, 3> point;
   };
   std::vector<Place> places;
-  std::vector<std::array<double, 3>> points;
-  double length = 0;                       ///< clearance, delta
-  std::string word;                        ///< response; mesh: in lower case; clearance: "default", or empty for `length`
+  std::vector<std::array<double, 3>> points; ///< brush: the centre, and the direction where one is given
+  double length = 0;                         ///< clearance, delta; brush: the radius; remesh: of an edge
+  double strength = 0;                       ///< brush
+  std::string word; ///< response; brush: its kind; mesh: in lower case; clearance: "default", or empty for `length`
 };
 
 /// The word that a line of this kind begins with.

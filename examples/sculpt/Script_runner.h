@@ -5,6 +5,7 @@
 #include "Progress.h"
 #include "nearest_vertices.h"
 #include "Run_result.h"
+#include "many_vertices_lines.h"
 
 #include <algorithm>
 #include <chrono>
@@ -87,6 +88,8 @@ private:
     case Kind::remove: remove(command); break;
     case Kind::collapse: collapse(command); break;
     case Kind::flip: flip(command); break;
+    case Kind::brush: many_vertices(command, [&] { return carry_out_brush(sculptor_, command); }); break;
+    case Kind::remesh: many_vertices(command, [&] { return carry_out_remesh(sculptor_, command); }); break;
     case Kind::stroke: strokes_.push_back(sculptor_.stroke()); break;
     case Kind::end: end_stroke(command); break;
     case Kind::undo: edit(command, [&] { return sculptor_.undo(); }); break;
@@ -180,6 +183,24 @@ private:
     Edit_record& done_edit = record(command, Status::reached, nullptr, names_an_edge ? command.indices : std::vector{name});
     if (command.kind != Kind::flip) // which leaves every vertex where it is
       done_edit.motion = {p, p, p};
+  }
+
+  template <class Edit>
+  void many_vertices(const Command& command, const Edit& make) {
+    sculptor_.release();
+    const auto begin = Clock::now();
+    const Many_vertices_outcome done = make();
+    if (done.refusal) {
+      refuse(command, done.refusal, {}).detail = done.detail;
+      return;
+    }
+    result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+    // A remesher leaves out what is not proven: that is its work, not a fault of it.
+    const bool is_whole = command.kind == Kind::remesh || done.done == done.asked;
+    ++(is_whole ? result_.reached : result_.blocked);
+    Edit_record& edit = record(command, is_whole ? Status::reached : Status::blocked, is_whole ? nullptr : "in-part", {});
+    edit.many = {done.asked, done.done};
+    edit.detail = done.detail;
   }
 
   void probe(const Command& command) {

@@ -20,7 +20,7 @@ inline bool needs_before(const Picture_arguments& shown) {
   return shown.before || shown.color == "displacement";
 }
 
-namespace internal {
+namespace pictures {
 
 inline Eigen::Vector3d vector_of(const Edit_record::Coordinates& p) {
   return {p[0], p[1], p[2]};
@@ -152,7 +152,7 @@ inline std::optional<Eigen::Vector3d> focus_of(const std::string& at, const Mesh
   throw drawing::Picture_error("--picture-at: there is no vertex " + at);
 }
 
-} // namespace internal
+} // namespace pictures
 
 /// \param before the mesh before the edits, where needs_before() \throw drawing::Picture_error
 inline std::string write_picture_of(const Mesh& mesh, const Run_result& result, const drawing::Scene& before,
@@ -160,7 +160,7 @@ inline std::string write_picture_of(const Mesh& mesh, const Run_result& result, 
   drawing::View view;
   if (!shown.view.empty())
     view.direction = {shown.view[0], shown.view[1], shown.view[2]};
-  view.focus = internal::focus_of(shown.at, mesh, result);
+  view.focus = pictures::focus_of(shown.at, mesh, result);
   view.magnification = shown.zoom > 0 ? shown.zoom : view.focus ? 8 : 1;
   std::vector<drawing::Scene> scenes;
   if (shown.before) {
@@ -171,17 +171,17 @@ inline std::string write_picture_of(const Mesh& mesh, const Run_result& result, 
   drawing::Scene after = drawing::scene_of(mesh);
   if (shown.before)
     after.title = "after";
-  internal::add_marks(after, mesh, result, shown.numbers);
+  pictures::add_marks(after, mesh, result, shown.numbers);
   std::vector<int> rank(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), -1);
   int vertices = 0;
   for (const auto v : mesh.vertices())
     rank[std::size_t(v)] = vertices++;
   if (shown.color == "displacement")
-    internal::color_by_displacement(after, result, before, rank);
+    pictures::color_by_displacement(after, result, before, rank);
   else if (shown.color == "altitude")
-    internal::color_by_altitude(after);
+    pictures::color_by_altitude(after);
   if (shown.before && shown.color == "altitude")
-    internal::color_by_altitude(scenes.back());
+    pictures::color_by_altitude(scenes.back());
   scenes.push_back(std::move(after));
   return drawing::write_pictures(scenes, path, view);
 }

@@ -57,21 +57,23 @@ Script script_of(const Arguments& arguments) {
 void check_targets(const Arguments& arguments) {
   if (!arguments.out.empty() && !mesh_file_format(arguments.out))
     throw Usage_error("'" + arguments.out + "' does not end in .off, .ply, .obj or .stl");
-  if (const auto extension = std::filesystem::path(arguments.picture).extension(); !extension.empty() && extension != ".png" && extension != ".PNG")
-    throw Usage_error("a picture is written as PNG: give a name that ends in .png instead of '" + arguments.picture + "'");
+  for (const std::string& path : {arguments.picture, arguments.comparison})
+    if (const auto extension = std::filesystem::path(path).extension(); !extension.empty() && extension != ".png" && extension != ".PNG")
+      throw Usage_error("a picture is written as PNG: give a name that ends in .png instead of '" + path + "'");
   // The result may take the place of the mesh that was read: that is what one asks of an editor.
-  std::vector<std::string> taken = {arguments.script, arguments.out, arguments.report, arguments.picture, arguments.log};
+  std::vector<std::string> taken = {arguments.script, arguments.out, arguments.report, arguments.picture, arguments.comparison,
+                                    arguments.log};
   for (std::size_t i = 0; i < taken.size(); ++i)
     for (std::size_t j = i + 1; j < taken.size(); ++j)
       if (!taken[i].empty() && !taken[j].empty() && are_one_file(taken[i], taken[j]))
         throw Usage_error("'" + taken[i] + "' and '" + taken[j] + "' are one file; give each its own");
-  for (const std::string& path : {arguments.report, arguments.picture, arguments.log})
+  for (const std::string& path : {arguments.report, arguments.picture, arguments.comparison, arguments.log})
     if (!path.empty() && are_one_file(path, arguments.mesh))
       throw Usage_error("'" + path + "' is the mesh to be read; give another name");
   if (!arguments.log.empty() && !arguments.out.empty() && are_one_file(arguments.out, arguments.mesh))
     throw Usage_error("'" + arguments.out + "' is the mesh that the log '" + arguments.log +
                       "' begins with; sculpted, it could not be resumed from the log. Give the result another name");
-  for (const std::string& path : {arguments.out, arguments.report, arguments.picture})
+  for (const std::string& path : {arguments.out, arguments.report, arguments.picture, arguments.comparison})
     if (!path.empty())
       check_target(path);
 }
@@ -205,6 +207,9 @@ Exit sculpt(const Arguments& arguments) {
       log->begin_pass(script.hash, plan.rest.after);
     tell_failure();
   }
+  std::optional<Mesh> without_guard;
+  if (!arguments.comparison.empty())
+    without_guard = sculpted_without_guard(mesh, script.commands);
   std::size_t made = 0;
   const Run_result result = run(mesh, plan.commands, arguments, [&](const Command& command) {
     if (log && ++made > plan.replayed) {
@@ -213,7 +218,7 @@ Exit sculpt(const Arguments& arguments) {
     }
   });
   const std::vector<Near_vertex> nearest = nearest_to(arguments, mesh, result);
-  bool all_written = write_all(mesh, result, arguments, notes, nearest, before);
+  bool all_written = write_all(mesh, result, arguments, notes, nearest, before, without_guard);
   if (is_logging && all_written) {
     log->end_pass(script.hash);
     tell_failure();

@@ -5,6 +5,7 @@
 #include "Arguments.h"
 #include "Report.h"
 #include "Run_result.h"
+#include "comparison.h"
 #include "picture.h"
 
 #include <haptic_sculpt/surface/io/replace_file.h>
@@ -18,7 +19,7 @@ namespace haptic_sculpt::sculpt_program {
 /// done. The report comes last, with what there is to say of the others.
 inline bool write_all(const Mesh& mesh, const Run_result& result, const Arguments& arguments,
                       std::vector<std::string>& notes, const std::vector<Near_vertex>& nearest,
-                      const drawing::Scene& before) {
+                      const drawing::Scene& before, const std::optional<Mesh>& without_guard) {
   bool all_written = true;
   const auto note = [&](const std::string& text) {
     std::cerr << "sculpt: " << text << '\n';
@@ -45,6 +46,8 @@ inline bool write_all(const Mesh& mesh, const Run_result& result, const Argument
   });
   attempt(arguments.picture,
           [&](const std::string& path) { return write_picture_of(mesh, result, before, path, arguments.shown); });
+  attempt(arguments.comparison,
+          [&](const std::string& path) { return write_comparison(*without_guard, mesh, path); });
   attempt(arguments.report,
           [&](const std::string& path) { return replace_file(path, report_of(result, notes, nearest)); });
   return all_written;

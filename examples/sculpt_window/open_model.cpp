@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Model.h"
 
+#include "../sculpt/many_vertices_lines.h"
 #include "../sculpt/sha256_of_file.h"
 
 #include <haptic_sculpt/surface/read_surface.h>
@@ -69,6 +70,12 @@ public:
     case Kind::delta:
       sculptor_->set_delta(command.length);
       break;
+    case Kind::brush:
+      sculpt_program::carry_out_brush(*sculptor_, command);
+      break;
+    case Kind::remesh:
+      throw Error("the log has a line that remeshes, which the window does not make again: let sculpt make it and save "
+                  "the mesh, and open that");
     case Kind::probe:
     case Kind::mesh:
       break;

@@ -170,6 +170,50 @@ def finding_vertices(folder, mesh):
         fails(4, [f"column {column}", part], run(mesh, "--script", "-", script=script), script)
 
 
+def brushes_and_remeshing(folder, mesh):
+    """The lines that move many vertices: where they end by arithmetic of our own, one step of undo each, logged, refused by name."""
+    octahedron, out, report, log = write(f"{folder}/brush.off", OCTAHEDRON), f"{folder}/brushed.off", f"{folder}/brushed.json", f"{folder}/brush.log"
+
+    def sculpt(script, *more):
+        done = run(octahedron, "--script", "-", "-o", out, "--report", report, *more, script=script)
+        check(done.returncode == 0, f"{script!r}: {done.returncode} {done.stderr}")
+        return [(e["op"], e["status"], e["reason"], e["many"]) for e in json.load(open(report))["edits"]], surface(out)
+
+    whole, (at, _) = surface(octahedron), surface(octahedron)
+    top = max(range(6), key=lambda v: at[v][2])
+    told, (after, _) = sculpt("brush grab 0 0 1 1 0.25 0 0 7\n")
+    check(told == [("brush", "reached", None, {"asked": 1, "done": 1})], f"a dab: {told}")
+    check(after[top] == (0, 0, 1.25) and [p for v, p in enumerate(after) if v != top] == [p for v, p in enumerate(at) if v != top], f"grab: {after}")
+    told, (after, _) = sculpt("brush inflate 0 0 0 2 0.5\n")  # each at distance 1 of radius 2: weight (1 - 1/4)^2
+    check(all(abs(abs(sum(p)) - (1 + 0.5 * 0.5625)) < 1e-12 for p in after) and told[0][3] == {"asked": 6, "done": 6}, f"inflate: {after}")
+    told, (after, _) = sculpt("brush smooth 0 0 1 1 0.5\n")  # the mean of the neighbours is the origin
+    check(abs(after[top][2] - 0.5) < 1e-12, f"smooth: {after}")
+    told, (after, _) = sculpt("brush pinch 0.5 0 1 1 1 0 0 1\n")
+    check(abs(after[top][0] - 0.5 * 0.75 ** 2) < 1e-12 and after[top][2] == 1, f"pinch: {after}")
+    told, (after, _) = sculpt("brush flatten 0 0 1 1 1\nbrush grab 0 0 1 1 -3 0 0 1\n")
+    check(after[top][2] > 0 and told[1][1:3] == ("blocked", "in-part") and told[1][3] == {"asked": 1, "done": 0}, f"through the bottom: {told} {after}")
+    told, (after, faces) = sculpt("remesh 0.3\n")
+    check(told[0][:3] == ("remesh", "reached", None) and len(after) > 40 and all(abs(abs(x) + abs(y) + abs(z) - 1) < 1e-9 for x, y, z in after),
+          f"remeshed, but not on the octahedron: {told} {len(after)}")
+    check(sculpt("brush inflate 0 0 0 2 0.5\nremesh 0.3\nundo\nundo\n")[1] == whole, "a step of undo each")
+    script = "stroke\nbrush grab 1 0 0 0.9 0.1\nremesh 0.4\nbrush smooth 0 0 1 2 0.3\nend\ndrag 2 0 3 0\n"
+    told, sculpted = sculpt(script, "--log", log)
+    check(run(octahedron, "--log", log, "-o", out).returncode == 0 and surface(out) == sculpted and len(sculpted[0]) > 20, "replayed from the log")
+    check(sculpt(script)[1] == sculpted, "the same twice")
+    told, after = sculpt("brush grab 0 0 1 1 3 0 0 1\nbrush smooth 0 0 4 1 1e301\nundo\nbrush grab 9 9 9 1 1\nremesh 1e-5\nbrush inflate 0 0 0 1e-300 1\n")
+    check([t[1:3] for t in told[3:]] == [("refused", r) for r in ("nothing-in-reach", "too-many-triangles", "nothing-in-reach")], f"refused: {told}")
+    check(told[1][1:3] == ("refused", "out-of-range") and after == whole, f"a target out of range: {told}")
+    for line, column, part in (("brush push 0 0 0 1 1", 7, "flatten"), ("brush grab 0 0 0 0 1", 18, "radius"), ("brush grab 0 0 0 1 1 0 0", 25, "direction"),
+                               ("brush grab 0 0 0 1 1 0 0 0", 26, "mean normal"), ("brush", 6, "grab"), ("remesh 0", 8, "more than 0"), ("remesh", 7, "length"),
+                               ("brush grab 0 0 0 1 1 0 0 1 4", 28, "more than")):
+        fails(4, [f"column {column}", part], run(mesh, "--script", "-", script=line), line)
+    picture = f"{folder}/compared.png"
+    done = run(octahedron, "--script", "-", "--compare", picture, script="drag 4 0 0 -2\nbrush grab 1 0 0 1 0.1\n")
+    check(done.returncode == 0 and os.path.getsize(picture) > 5000, f"--compare: {done.stderr}")
+    fails(2, ["line 1", "remove"], run(octahedron, "--script", "-", "--compare", picture, script="remove 0\n"), "--compare of what changes connectivity")
+    check(run(octahedron, "--compare", picture).returncode == 2, "--compare without a script")
+
+
 def what_people_read(folder, mesh):
     """The table, the messages, and what is lost on the way from one file to the other."""
     out, report = f"{folder}/read.off", f"{folder}/read.json"
@@ -417,6 +461,7 @@ def main():
         extreme_numbers(folder, mesh)
         edges_and_strokes(folder, mesh)
         finding_vertices(folder, mesh)
+        brushes_and_remeshing(folder, mesh)
         what_people_read(folder, mesh)
         polygons(folder, mesh)
         demo(folder)

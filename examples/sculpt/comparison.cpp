@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "comparison.h"
+
+#include "nearest_vertices.h"
+
+#include "../brushes.h"
+#include "../drawing/occlusion.h"
+#include "../drawing/surface_mesh_arrays.h"
+#include "../drawing/write_picture.h"
+
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+
+#include <numeric>
+#include <unordered_map>
+
+namespace haptic_sculpt::sculpt_program {
+namespace {
+
+using Kind = Command::Kind;
+
+void drag(Mesh& mesh, const Command& command) {
+  std::size_t v = command.indices[0];
+  if (!command.places.empty()) {
+    std::vector<std::size_t> all(mesh.number_of_vertices());
+    std::iota(all.begin(), all.end(), std::size_t(0));
+    const auto& p = command.places[0].point;
+    const auto point_of = [&](std::size_t i) { return mesh.point(Vertex_index(static_cast<Mesh::size_type>(i))); };
+    v = nearest_vertices(std::move(all), point_of, Kernel::Point_3(p[0], p[1], p[2]), 1).at(0);
+  }
+  const auto& target = command.points[0];
+  if (v < mesh.number_of_vertices())
+    mesh.point(Vertex_index(static_cast<Mesh::size_type>(v))) = Kernel::Point_3(target[0], target[1], target[2]);
+}
+
+void dab(Mesh& mesh, const Command& command) {
+  std::unordered_map<Vertex_index, Kernel::Point_3> targets;
+  brushes::fill_targets(mesh, dab_of(command), boost::associative_property_map<decltype(targets)>(targets));
+  for (const auto& [v, target] : targets)
+    if (internal::is_in_range({target.x(), target.y(), target.z()}))
+      mesh.point(v) = target;
+}
+
+struct Pairs {
+  std::size_t number = 0;
+  std::vector<bool> is_red; ///< by face
+};
+
+Pairs self_intersecting_pairs(const Mesh& mesh) {
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
+  Pairs result{pairs.size(), std::vector<bool>(mesh.num_faces(), false)};
+  for (const auto& [f, g] : pairs)
+    result.is_red[f] = result.is_red[g] = true;
+  return result;
+}
+
+/// Adds a mesh, its box in the middle of the place given, with crevices darker, but for
+/// what is red. Each face has corners of its own, so that it
+/// may have a colour of its own.
+void add(drawing::Scene& scene, const Mesh& mesh, const Pairs& pairs, const Eigen::Vector3d& place) {
+  const auto open = drawing::openness(mesh);
+  for (const auto f : mesh.faces()) {
+    std::array<int, 3> corners;
+    int i = 0;
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
+      corners[i++] = static_cast<int>(scene.points.size());
+      scene.points.push_back(drawing::to_eigen(mesh.point(v)) + place);
+      scene.point_colors.push_back(pairs.is_red[f] ? drawing::colors::red : open[v] * drawing::colors::surface);
+    }
+    scene.triangles.push_back(corners);
+  }
+}
+
+std::string told(const char* how, std::size_t pairs) {
+  return std::string(how) + ": " + std::to_string(pairs) + (pairs == 1 ? " self-intersection" : " self-intersections");
+}
+
+} // namespace
+
+Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
+  for (const Command& command : script)
+    switch (command.kind) {
+    case Kind::drag: drag(mesh, command); break;
+    case Kind::brush: dab(mesh, command); break;
+    case Kind::release: case Kind::response: case Kind::clearance: case Kind::delta: case Kind::mesh: case Kind::probe:
+    case Kind::stroke: case Kind::end: break;
+    default:
+      throw Script_error("line " + std::to_string(command.line) + " ('" + name_of(command.kind) +
+                         "') does more than to move vertices: --compare takes scripts of drags and brushes only");
+    }
+  return mesh;
+}
+
+std::string write_comparison(const Mesh& without_guard, const Mesh& with_guard, const std::string& path) {
+  drawing::View view;
+  view.direction = {0, 0.45, -1};
+  view.up = {0, 1, 0};
+  view.width = 1500, view.height = 800;
+  CGAL::Bbox_3 box;
+  for (const Mesh* mesh : {&without_guard, &with_guard})
+    for (const auto v : mesh->vertices())
+      box += mesh->point(v).bbox();
+  const double width = box.xmax() - box.xmin();
+  drawing::Scene scene;
+  const Pairs left = self_intersecting_pairs(without_guard), right = self_intersecting_pairs(with_guard);
+  add(scene, without_guard, left, {0, 0, 0});
+  add(scene, with_guard, right, {1.08 * width, 0, 0});
+  using Mark = drawing::Legend_entry::Mark;
+  scene.legend.push_back({Mark::ball, drawing::colors::red, told("without the guard", left.number)});
+  scene.legend.push_back({Mark::ball, drawing::colors::blue, told("the same script, with it", right.number)});
+  return drawing::write_picture(scene, path, view);
+}
+
+} // namespace haptic_sculpt::sculpt_program
