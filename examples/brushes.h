@@ -71,8 +71,28 @@ auto normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
   return unit(-sum);
 }
 
-/// The vertices within the radius that are connected to the one nearest to the centre: not those on the other side of a
-/// thin wall.
+/// The vertices within the radius that are connected to `nearest`: not those on the other side of a thin wall. Cost: that of
+/// what is touched. \pre nearest has faces
+template <class Mesh, class Kernel>
+std::vector<typename Mesh::Vertex_index> touched(const Mesh& mesh, const Dab<Kernel>& dab,
+                                                 typename Mesh::Vertex_index nearest) {
+  using Vertex_index = typename Mesh::Vertex_index;
+  const auto is_within = [&](Vertex_index v) {
+    return CGAL::squared_distance(mesh.point(v), dab.centre) < dab.radius * dab.radius;
+  };
+  std::vector<Vertex_index> result;
+  if (!is_within(nearest))
+    return result;
+  std::unordered_set<Vertex_index> met = {nearest};
+  result.push_back(nearest);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    for (const auto h : mesh.halfedges_around_target(mesh.halfedge(result[i])))
+      if (const Vertex_index w = mesh.source(h); is_within(w) && met.insert(w).second)
+        result.push_back(w);
+  return result;
+}
+
+/// The same from the vertex nearest to the centre, which is looked for among all.
 template <class Mesh, class Kernel>
 std::vector<typename Mesh::Vertex_index> touched(const Mesh& mesh, const Dab<Kernel>& dab) {
   using Vertex_index = typename Mesh::Vertex_index;
@@ -81,26 +101,16 @@ std::vector<typename Mesh::Vertex_index> touched(const Mesh& mesh, const Dab<Ker
   for (const Vertex_index v : mesh.vertices())
     if (!mesh.is_isolated(v) && (!nearest.is_valid() || distance(v) < distance(nearest)))
       nearest = v;
-  std::vector<Vertex_index> result;
-  if (!nearest.is_valid() || distance(nearest) >= dab.radius * dab.radius)
-    return result;
-  std::unordered_set<Vertex_index> met = {nearest};
-  result.push_back(nearest);
-  for (std::size_t i = 0; i < result.size(); ++i)
-    for (const auto h : mesh.halfedges_around_target(mesh.halfedge(result[i])))
-      if (const Vertex_index w = mesh.source(h); distance(w) < dab.radius * dab.radius && met.insert(w).second)
-        result.push_back(w);
-  return result;
+  return nearest.is_valid() ? touched(mesh, dab, nearest) : std::vector<Vertex_index>();
 }
 
-/// Writes where a dab wants its vertices, and returns these.
+/// Writes where a dab wants the vertices that it touches.
 /// \param targets a writable map from vertices to points
 /// \param mask a readable map from vertices to how much they take part, from 0 to 1
 template <class Mesh, class Kernel, class Target_map, class Mask_map>
-std::vector<typename Mesh::Vertex_index> fill_targets(const Mesh& mesh, const Dab<Kernel>& dab, Target_map targets,
-                                                      const Mask_map& mask) {
+void fill_targets_of(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh, const Dab<Kernel>& dab,
+                     Target_map targets, const Mask_map& mask) {
   using Vector_3 = typename Kernel::Vector_3;
-  const auto vertices = touched(mesh, dab);
   const auto weight = [&](typename Mesh::Vertex_index v) {
     const double square = CGAL::squared_distance(mesh.point(v), dab.centre) / (dab.radius * dab.radius);
     return (1 - square) * (1 - square) * get(mask, v);
@@ -135,6 +145,14 @@ std::vector<typename Mesh::Vertex_index> fill_targets(const Mesh& mesh, const Da
   };
   for (const auto v : vertices)
     put(targets, v, mesh.point(v) + dab.strength * weight(v) * wanted(v));
+}
+
+/// The same, and returns what it touches.
+template <class Mesh, class Kernel, class Target_map, class Mask_map>
+std::vector<typename Mesh::Vertex_index> fill_targets(const Mesh& mesh, const Dab<Kernel>& dab, Target_map targets,
+                                                      const Mask_map& mask) {
+  const auto vertices = touched(mesh, dab);
+  fill_targets_of(vertices, mesh, dab, targets, mask);
   return vertices;
 }
 

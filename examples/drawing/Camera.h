@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace haptic_sculpt::drawing {
 
@@ -14,6 +15,8 @@ struct View {
   Eigen::Vector3d direction{-1, 2, -0.9}; ///< from the eye into the scene; its length does not count
   Eigen::Vector3d up{0, 0, 1};            ///< upwards in the picture; another axis is taken if parallel to `direction`
   int width = 1200, height = 900;         ///< in pixels, legend included
+  std::optional<Eigen::Vector3d> focus;   ///< in the middle of the picture; nothing: the whole mesh is
+  double magnification = 1;               ///< 1: the whole mesh is in the picture, if no focus is given
   Color background = colors::white;
 };
 
@@ -36,7 +39,12 @@ public:
     frame_box(scene);
     look_along(view.direction.stableNormalized(), view.up.stableNormalized());
     fit(scene);
+    if (view.focus)
+      aim_at(scaled(*view.focus));
+    zoom_ = std::clamp(view.magnification, least_magnification, most_magnification);
   }
+
+  static constexpr double least_magnification = 0.25, most_magnification = 1e5;
 
   /// The scaled coordinates of a point; components beyond `farthest` are cut off there.
   Eigen::Vector3d scaled(const Eigen::Vector3d& p) const {
@@ -66,6 +74,59 @@ public:
   /// As far from the eye as what is to be seen allows: the finer are the depths that the graphics card tells apart.
   double near_plane() const { return std::max(0.05 * distance_, 0.9 * (distance_ - nearest_)); }
 
+  /// The user's coordinates of a scaled point: the inverse of `scaled()`, rounded.
+  Eigen::Vector3d unscaled(const Eigen::Vector3d& q) const {
+    return (center_ + half_edge_ * q).unaryExpr([this](double x) { return std::ldexp(x, exponent_); });
+  }
+  /// A length in scaled coordinates, in the user's unit.
+  double unscaled(double length) const { return std::ldexp(half_edge_ * length, exponent_); }
+
+  /// \name A camera in someone's hand
+  /// The eye stays where the whole mesh is before it; to zoom is to narrow its angle. Depths keep their precision so, and no
+  /// part of the mesh gets behind the eye.
+  ///@{
+
+  /// From here on the view may be turned: the near plane then leaves room for the mesh from any side, and for its growing.
+  void make_turnable() { nearest_ = std::min(2.0, 0.6 * distance_); }
+
+  /// Turns the mesh under the eye by angles, in radians, about the picture's upward and rightward axes; `pivot` (scaled) stays
+  /// where it is seen.
+  void turn(double about_up, double about_right, const Eigen::Vector3d& pivot) {
+    const Eigen::Vector2d before = (rotation_ * pivot).head<2>();
+    rotation_ = Eigen::AngleAxisd(about_right, Eigen::Vector3d::UnitX()) *
+                Eigen::AngleAxisd(about_up, Eigen::Vector3d::UnitY()) * rotation_;
+    rotation_ = Eigen::Quaterniond(rotation_).normalized().toRotationMatrix(); // roundings would add up
+    aim_ += (rotation_ * pivot).head<2>() - before;
+  }
+  /// Looks along a direction, as View says, at the same zoom.
+  void look(const Eigen::Vector3d& direction, const Eigen::Vector3d& up) {
+    look_along(direction.stableNormalized(), up.stableNormalized());
+  }
+  /// Magnifies by a factor; what is seen at `pixel` stays there.
+  void magnify(double factor, const Eigen::Vector2d& pixel) {
+    const Eigen::Vector2d before = in_plane(pixel);
+    zoom_ = std::clamp(zoom_ * factor, least_magnification, most_magnification);
+    aim_ += before - in_plane(pixel);
+  }
+  /// Shifts the picture by pixels, downwards positive.
+  void shift(const Eigen::Vector2d& pixels) {
+    aim_ -= pixel_width() * Eigen::Vector2d(pixels.x(), -pixels.y());
+  }
+  /// Puts a scaled point into the middle of the picture.
+  void aim_at(const Eigen::Vector3d& q) { aim_ = (rotation_ * q).head<2>(); }
+  void resize(int width, int height) { width_ = std::max(1, width), height_ = std::max(1, height); }
+
+  /// Where the eye is, scaled.
+  Eigen::Vector3d eye() const { return rotation_.transpose() * Eigen::Vector3d(aim_.x(), aim_.y(), distance_); }
+  /// From the eye through a pixel, scaled, of length 1.
+  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const {
+    return rotation_.transpose() *
+           Eigen::Vector3d((2 * pixel.x() / width_ - 1) * tangent_x(), (1 - 2 * pixel.y() / height_) * tangent_y(), -1)
+               .normalized();
+  }
+  double magnification() const { return zoom_; }
+  ///@}
+
   /// Where a point is seen, in pixels from the picture's upper left corner.
   Eigen::Vector2d pixel(const Eigen::Vector3d& p) const {
     const Eigen::Vector4d clip = projection() * scaled(p).homogeneous();
@@ -80,6 +141,7 @@ public:
 
 private:
   int width_, height_, exponent_ = 0;
+  double zoom_ = 1;
   Eigen::Vector3d center_;
   double half_edge_ = 1, distance_ = 0;
   double nearest_ = 0; // how far towards the eye what is to be seen reaches from the box's centre
@@ -87,8 +149,13 @@ private:
   Eigen::Vector2d aim_; // where the camera's axis passes the box's centre: rightwards, upwards
 
   // Half the opening angle is 12 degrees along the shorter side: little distortion, yet near parts look near.
-  double tangent_x() const { return 0.2126 * std::max(1., double(width_) / height_); }
-  double tangent_y() const { return 0.2126 * std::max(1., double(height_) / width_); }
+  double tangent_x() const { return 0.2126 / zoom_ * std::max(1., double(width_) / height_); }
+  double tangent_y() const { return 0.2126 / zoom_ * std::max(1., double(height_) / width_); }
+
+  /// Rightwards and upwards, where a pixel is in the plane through the box's centre.
+  Eigen::Vector2d in_plane(const Eigen::Vector2d& pixel) const {
+    return aim_ + pixel_width() * Eigen::Vector2d(pixel.x() - width_ / 2., height_ / 2. - pixel.y());
+  }
 
   Eigen::Vector3d shifted(const Eigen::Vector3d& p) const {
     return p.unaryExpr([this](double x) { return std::ldexp(x, -exponent_); });

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Mesh_view.h"
-#include "mark_triangles.h"
 #include "shaders.h"
 #include <epoxy/gl.h>
-#include <limits>
 
 namespace haptic_sculpt::drawing {
 namespace {
@@ -29,54 +27,25 @@ std::vector<Corner> mesh_corners(const Scene& scene, const Camera& camera) {
   std::vector<Corner> result;
   result.reserve(3 * scene.triangles.size());
   for (const auto& triangle : scene.triangles) {
-    const Eigen::Vector3d a = camera.scaled(scene.points[triangle[0]]), b = camera.scaled(scene.points[triangle[1]]),
-                          c = camera.scaled(scene.points[triangle[2]]);
-    // Stable: the cross product's square must not underflow for tiny triangles.
-    const Eigen::Vector3d normal = (b - a).stableNormalized().cross((c - a).stableNormalized()).stableNormalized();
-    for (int v : triangle)
-      result.push_back({camera.scaled(scene.points[v]).cast<float>(), normal.cast<float>(),
-                        scene.point_colors.empty() ? scene.surface_color : scene.point_colors[v]});
+    const std::array<Corner, 3> corners =
+        corners_of(camera, {scene.points[triangle[0]], scene.points[triangle[1]], scene.points[triangle[2]]},
+                   scene.surface_color);
+    result.insert(result.end(), corners.begin(), corners.end());
+    for (int i = 0; i < 3 && !scene.point_colors.empty(); ++i)
+      result[result.size() - 3 + i].color = scene.point_colors[triangle[i]];
   }
   return result;
 }
 
 } // namespace
 
-void Mesh_view::Triangles::create() {
-  glGenVertexArrays(1, &vertex_array);
-  glGenBuffers(1, &buffer);
-  glBindVertexArray(vertex_array);
-  glBindBuffer(GL_ARRAY_BUFFER, buffer);
-  for (int i = 0; i < 3; ++i) { // position, normal, colour: three floats each
-    glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Corner),
-                          reinterpret_cast<const void*>(i * 3 * sizeof(float)));
-  }
-}
-
-void Mesh_view::Triangles::set(const std::vector<Corner>& corners) {
-  static_assert(sizeof(Corner) == 9 * sizeof(float), "a corner is nine floats without padding");
-  if (corners.size() > std::size_t(std::numeric_limits<int>::max()))
-    throw Picture_error("There are " + std::to_string(corners.size() / 3) +
-                        " triangles, more than OpenGL draws at once (715827882). Draw a part.");
-  while (glGetError() != GL_NO_ERROR) { // so that an error found below is this call's own
-  }
-  glBindBuffer(GL_ARRAY_BUFFER, buffer);
-  glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(Corner)), corners.data(), GL_STATIC_DRAW);
-  if (glGetError() != GL_NO_ERROR)
-    throw Picture_error("The OpenGL driver has no memory for " + std::to_string(corners.size() / 3) +
-                        " triangles. Draw a coarser mesh.");
-  size = int(corners.size());
-}
-
-void Mesh_view::Triangles::draw() const {
-  glBindVertexArray(vertex_array);
-  glDrawArrays(GL_TRIANGLES, 0, size);
-}
-
-void Mesh_view::Triangles::destroy() {
-  glDeleteBuffers(1, &buffer);
-  glDeleteVertexArrays(1, &vertex_array);
+std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::Vector3d, 3>& points, const Color& color) {
+  const Eigen::Vector3d a = camera.scaled(points[0]), b = camera.scaled(points[1]), c = camera.scaled(points[2]);
+  // Stable: the cross product's square must not underflow for tiny triangles.
+  const Eigen::Vector3f normal =
+      (b - a).stableNormalized().cross((c - a).stableNormalized()).stableNormalized().cast<float>();
+  return {Corner{a.cast<float>(), normal, color}, Corner{b.cast<float>(), normal, color},
+          Corner{c.cast<float>(), normal, color}};
 }
 
 Mesh_view::Mesh_view() {
@@ -100,6 +69,10 @@ Mesh_view::~Mesh_view() {
 
 void Mesh_view::set_scene(const Scene& scene, const Camera& camera) {
   mesh_.set(mesh_corners(scene, camera));
+  set_marks(scene, camera);
+}
+
+void Mesh_view::set_marks(const Scene& scene, const Camera& camera) {
   Mark_triangles marks(camera);
   for (const Segment& s : scene.segments)
     marks.add(s);

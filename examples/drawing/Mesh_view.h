@@ -2,11 +2,12 @@
 #ifndef HAPTIC_SCULPT_DRAWING_MESH_VIEW_H
 #define HAPTIC_SCULPT_DRAWING_MESH_VIEW_H
 
-#include "Camera.h"
+#include "Triangle_buffer.h"
 
 namespace haptic_sculpt::drawing {
 
-struct Corner;
+/// What the card gets of a triangle: its corners and its normal, scaled.
+std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::Vector3d, 3>& points, const Color& color);
 
 /// Draws a scene into the current framebuffer of the current OpenGL 3.3 core context, whoever made it: a file's
 /// off-screen context or a window's.
@@ -25,6 +26,10 @@ public:
   /// Hands mesh and marks to the graphics card. The marks get their size from `camera`; once the camera or the scene
   /// has changed this must be called anew. O(triangles + marks). \pre `scene.check()` has passed.
   void set_scene(const Scene& scene, const Camera& camera);
+  /// The marks alone.
+  void set_marks(const Scene& scene, const Camera& camera);
+  /// For who changes the mesh triangle by triangle (corners_of()).
+  Triangle_buffer& mesh() { return mesh_; }
 
   /// Clears the framebuffer to `background` and draws.
   void draw(const Camera& camera, const Color& background) const {
@@ -35,18 +40,8 @@ public:
   void draw_mesh(const Camera& camera, const Color& background) const;
 
 private:
-  // One buffer of triangles.
-  struct Triangles {
-    unsigned vertex_array = 0, buffer = 0;
-    int size = 0;
-    void create();
-    void set(const std::vector<Corner>& corners);
-    void draw() const;
-    void destroy();
-  };
-
   unsigned program_ = 0;
-  Triangles mesh_, marks_;
+  Triangle_buffer mesh_, marks_;
 
   /// \pre the mesh has just been drawn
   void draw_marks() const;

@@ -74,6 +74,7 @@ struct Scene {
   std::vector<Arrow> arrows;
   std::vector<Label> labels;
   std::vector<Legend_entry> legend; ///< empty: none
+  std::string title;                ///< ASCII, above; empty: none
 
   /// Marks a vertex that was moved.
   void add_moved_vertex(const Eigen::Vector3d& p) { balls.push_back({p}); }

@@ -84,39 +84,80 @@ private:
   std::fenv_t environment_;
 };
 
-Image draw(const Scene& scene, const View& view) {
-  scene.check();
-  const Camera camera(scene, view);
+/// All of them in one, to place the camera by.
+Scene joined(const std::vector<Scene>& scenes) {
+  Scene all;
+  for (const Scene& scene : scenes) {
+    const int first = int(all.points.size());
+    all.points.insert(all.points.end(), scene.points.begin(), scene.points.end());
+    for (const auto& t : scene.triangles)
+      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    all.segments.insert(all.segments.end(), scene.segments.begin(), scene.segments.end());
+    all.balls.insert(all.balls.end(), scene.balls.begin(), scene.balls.end());
+    all.arrows.insert(all.arrows.end(), scene.arrows.begin(), scene.arrows.end());
+  }
+  return all;
+}
+
+/// Of one scene, without its legend. \pre the framebuffer is bound, and has the camera's size
+Image drawn(const Scene& scene, const Camera& camera, const Color& background, Mesh_view& mesh_view,
+            const Offscreen_framebuffer& framebuffer) {
+  mesh_view.set_scene(scene, camera);
+  std::vector<float> depths; // of the mesh alone: marks do not hide the numbers of what they mark
+  if (!scene.labels.empty()) {
+    mesh_view.draw_mesh(camera, background);
+    depths = framebuffer.depths();
+  }
+  mesh_view.draw(camera, background);
+  Image image(camera.width(), camera.height(), background);
+  image.bytes = framebuffer.pixels();
+  write_labels(image, scene, camera, depths);
+  if (!scene.title.empty()) {
+    const Text text(std::max(12, camera.height() / 36));
+    text.write(image, text.height(), 2 * text.height(), scene.title, ink);
+  }
+  return image;
+}
+
+/// Side by side, with the legend of the last one.
+Image drawn(const std::vector<Scene>& scenes, const View& view) {
+  for (const Scene& scene : scenes)
+    scene.check();
+  const int strip = scenes.back().legend_height(view.width);
+  View part = view;
+  part.width = view.width / int(scenes.size());
+  part.height = view.height - strip;
+  const Camera camera(joined(scenes), part);
   const Floating_point_guard guard;
   const Offscreen_context context;
   const Offscreen_framebuffer framebuffer(camera.width(), camera.height());
   Mesh_view mesh_view;
-  mesh_view.set_scene(scene, camera);
-  std::vector<float> depths; // of the mesh alone: marks do not hide the numbers of what they mark
-  if (!scene.labels.empty()) {
-    mesh_view.draw_mesh(camera, view.background);
-    depths = framebuffer.depths();
-  }
-  mesh_view.draw(camera, view.background);
-  const std::vector<unsigned char> drawn = framebuffer.pixels();
   Image image(view.width, view.height, view.background);
-  const int strip = view.height - camera.height();
-  std::copy(drawn.begin(), drawn.end(), image.bytes.begin() + std::ptrdiff_t(3) * view.width * strip);
-  write_labels(image, scene, camera, depths);
-  write_legend(image, scene, strip);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Image one = drawn(scenes[i], camera, view.background, mesh_view, framebuffer);
+    const std::ptrdiff_t row = std::ptrdiff_t(3) * one.width, left = std::ptrdiff_t(i) * row;
+    for (int y = 0; y < one.height; ++y) // the lowest first: above the strip
+      std::copy_n(one.bytes.begin() + y * row, row,
+                  image.bytes.begin() + std::ptrdiff_t(3) * view.width * (y + strip) + left);
+  }
+  write_legend(image, scenes.back(), strip);
   return image;
 }
 
 } // namespace
 
 std::string write_picture(const Scene& scene, const std::filesystem::path& path, const View& view) {
-  const Image image = draw(scene, view);
+  return write_pictures({scene}, path, view);
+}
+
+std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view) {
+  const Image image = drawn(scenes, view);
   return write_png(path, image.width, image.height, image.bytes);
 }
 
 std::string write_figure(const Scene& scene, const std::vector<Plot>& plots, const std::filesystem::path& path,
                          const View& view) {
-  const Image left = draw(scene, view);
+  const Image left = drawn({scene}, view);
   Image image(view.width + 2 * view.width / 3, view.height, view.background);
   for (int row = 0; row < view.height; ++row)
     std::copy_n(left.bytes.begin() + std::ptrdiff_t(3) * row * left.width, std::ptrdiff_t(3) * left.width,

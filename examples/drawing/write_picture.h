@@ -15,6 +15,10 @@ namespace haptic_sculpt::drawing {
 /// cannot be written.
 std::string write_picture(const Scene& scene, const std::filesystem::path& path, const View& view = {});
 
+/// Several scenes side by side, seen by the same camera, so that lengths compare; the legend is that of the last.
+/// \pre there is one at least
+std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view = {});
+
 } // namespace haptic_sculpt::drawing
 
 #endif

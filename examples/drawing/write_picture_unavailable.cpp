@@ -19,6 +19,10 @@ std::string write_picture(const Scene&, const std::filesystem::path& path, const
   refuse(path);
 }
 
+std::string write_pictures(const std::vector<Scene>&, const std::filesystem::path& path, const View&) {
+  refuse(path);
+}
+
 std::string write_figure(const Scene&, const std::vector<Plot>&, const std::filesystem::path& path, const View&) {
   refuse(path);
 }

@@ -41,7 +41,25 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
                  "Distance kept from what blocks, > 0; by default 4 ulp of the largest coordinate of what touches");
   app.add_option("--delta", arguments.delta, "No triangle altitude may be less, >= 0; by default 0");
   app.add_option("--picture", arguments.picture, "Where a picture goes: .png")->check(named);
-  app.add_flag("--picture-numbers", arguments.numbers, "In the picture: the numbers of vertices, where there is room")
+  Picture_arguments& shown = arguments.shown;
+  app.add_flag("--picture-numbers", shown.numbers, "In the picture: the numbers of vertices, where there is room")
+      ->needs("--picture");
+  app.add_option("--picture-view", shown.view, "The direction in which one looks into it")
+      ->expected(3)
+      ->type_name("X Y Z")
+      ->needs("--picture");
+  app.add_option("--picture-at", shown.at,
+                 "What is in its middle: a vertex by its number, a place @X,Y,Z, or 'edit': where the last edit that was "
+                 "blocked ended, or else the last edit")
+      ->needs("--picture");
+  app.add_option("--picture-zoom", shown.zoom, "How large; 1 is all of the mesh; by default 8 with --picture-at")
+      ->check(CLI::Range(0.25, 1e5))
+      ->needs("--picture");
+  app.add_flag("--picture-before", shown.before, "Two side by side: before the edits, and after")->needs("--picture");
+  app.add_option("--picture-color", shown.color,
+                 "Colours by displacement (from where a vertex was before the edits) or by altitude (the least one of the "
+                 "triangles at a vertex)")
+      ->check(CLI::IsMember({"displacement", "altitude"}))
       ->needs("--picture");
   app.add_option("--compare", arguments.comparison,
                  "Where a picture goes (.png): left what the same script makes without the guard, right with it")

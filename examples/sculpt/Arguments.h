@@ -7,14 +7,25 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace haptic_sculpt::sculpt_program {
+
+/// How `--picture` shows the mesh.
+struct Picture_arguments {
+  std::vector<double> view; ///< the direction in which one looks; empty: the usual one
+  std::string at;           ///< a vertex's number, @X,Y,Z, or "edit"; empty: the whole mesh
+  double zoom = 0;          ///< 0: 1, or 8 where `at` is given
+  std::string color;        ///< displacement, altitude, or empty
+  bool before = false, numbers = false;
+};
 
 /// The command line. Names that were not given are empty.
 struct Arguments {
   std::string mesh, script, out, report, log, response, broad_phase = "tree", picture, comparison;
   std::optional<double> clearance, delta;
-  bool append = false, triangulate = false, numbers = false;
+  bool append = false, triangulate = false;
+  Picture_arguments shown;
   std::optional<std::array<double, 3>> nearest;
 };
 

@@ -184,6 +184,7 @@ Exit sculpt(const Arguments& arguments) {
   Mesh mesh = arguments.triangulate ? read_triangulated(arguments.mesh, arguments.delta.value_or(0), left_out)
                                     : read_surface<Mesh>(arguments.mesh, arguments.delta.value_or(0), &left_out);
   check_mesh_directives(script.commands, arguments);
+  const drawing::Scene before = needs_before(arguments.shown) ? drawing::scene_of(mesh) : drawing::Scene();
 
   std::vector<std::string> notes;
   const auto note = [&notes](const std::string& text) {
@@ -217,7 +218,7 @@ Exit sculpt(const Arguments& arguments) {
     }
   });
   const std::vector<Near_vertex> nearest = nearest_to(arguments, mesh, result);
-  bool all_written = write_all(mesh, result, arguments, notes, nearest, without_guard);
+  bool all_written = write_all(mesh, result, arguments, notes, nearest, before, without_guard);
   if (is_logging && all_written) {
     log->end_pass(script.hash);
     tell_failure();

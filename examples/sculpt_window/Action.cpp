@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Action.h"
+
+#include "keys.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+
+namespace haptic_sculpt::window_program {
+namespace {
+
+using Kind = Action::Kind;
+
+/// The words of a line.
+class Line {
+public:
+  Line(const std::string& text, const std::string& name, std::size_t number)
+      : words_(text.substr(0, text.find('#'))), name_(name), number_(number) {}
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Action_error(name_ + ": line " + std::to_string(number_) + ": " + what);
+  }
+  std::optional<std::string> next() {
+    std::string word;
+    return words_ >> word ? std::optional(word) : std::nullopt;
+  }
+  std::string word(const std::string& expected) {
+    const auto found = next();
+    if (!found)
+      fail("the line ends where " + expected + " is expected");
+    return *found;
+  }
+  /// All that is left, blanks included: the name of a file.
+  std::string rest(const std::string& expected) {
+    std::string text;
+    std::getline(words_ >> std::ws, text);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
+      text.pop_back();
+    if (text.empty())
+      fail("the line ends where " + expected + " is expected");
+    return text;
+  }
+  double number(const std::string& expected) { return number(expected, word(expected)); }
+  double number(const std::string& expected, const std::string& found) const {
+    char* end = nullptr;
+    const double value = std::strtod(found.c_str(), &end);
+    if (found.empty() || *end != '\0' || !std::isfinite(value))
+      fail("'" + found + "' is not " + expected);
+    return value;
+  }
+  double number_or(double otherwise, const std::string& expected) {
+    const auto found = next();
+    return found ? number(expected, *found) : otherwise;
+  }
+  /// X Y, or @X,Y,Z.
+  Spot spot() {
+    Spot spot;
+    const std::string first = word("a place, as pixels X Y or @X,Y,Z,");
+    spot.is_in_space = first[0] == '@';
+    if (!spot.is_in_space) {
+      spot.coordinates = {number("a pixel", first), number("a pixel"), 0};
+      return spot;
+    }
+    std::istringstream parts(first.substr(1));
+    std::string part;
+    for (double& x : spot.coordinates)
+      x = std::getline(parts, part, ',') ? number("a coordinate", part) : (fail("'" + first + "' is not @X,Y,Z"), 0);
+    if (std::getline(parts, part))
+      fail("'" + first + "' is not @X,Y,Z");
+    return spot;
+  }
+  void end() {
+    if (const auto more = next())
+      fail("'" + *more + "' is more than the line takes");
+  }
+  std::string one_of(const std::string& expected, const std::vector<std::string>& words) {
+    const std::string found = word(expected);
+    for (const std::string& w : words)
+      if (w == found)
+        return found;
+    fail("'" + found + "' is not " + expected);
+  }
+
+private:
+  std::istringstream words_;
+  const std::string& name_;
+  std::size_t number_;
+};
+
+const std::vector<std::string> tools = {"drag", "probe", "create", "remove", "brush"},
+                               brushes = {"grab", "inflate", "smooth", "flatten", "pinch"};
+
+class Reader {
+public:
+  Reader(std::vector<Action>& actions, Line& line, std::size_t number)
+      : actions_(actions), line_(line), number_(number) {}
+
+  void read(const std::string& first) {
+    if (first == "move")
+      add(Kind::move).spot = line_.spot();
+    else if (first == "press")
+      press();
+    else if (first == "release")
+      add(Kind::release);
+    else if (first == "click")
+      click();
+    else if (first == "drag")
+      drag();
+    else if (first == "scroll")
+      add(Kind::scroll).numbers[0] = line_.number("a number of notches");
+    else if (first == "key")
+      key();
+    else if (first == "view")
+      three(add(Kind::view), "a component of the direction");
+    else if (first == "orbit")
+      add(Kind::orbit).numbers = {line_.number("degrees"), line_.number("degrees"), 0};
+    else if (first == "zoom")
+      add(Kind::zoom).numbers[0] = line_.number("a factor");
+    else if (first == "fit")
+      add(Kind::fit);
+    else if (first == "tool")
+      add(Kind::tool).word = line_.one_of("a tool: drag, probe, create, remove or brush", tools);
+    else if (first == "brush")
+      brush();
+    else if (first == "depth")
+      add(Kind::depth).numbers[0] = line_.number("a length");
+    else if (first == "wait")
+      add(Kind::wait).numbers[0] = line_.number("seconds");
+    else if (first == "settle")
+      add(Kind::settle);
+    else if (first == "screenshot" || first == "save" || first == "open" || first == "record")
+      add(first == "screenshot" ? Kind::screenshot
+          : first == "save"     ? Kind::save
+          : first == "open"     ? Kind::open
+                                : Kind::record)
+          .word = line_.rest("the name of a file");
+    else if (first == "print")
+      add(Kind::print);
+    else if (first == "where")
+      add(Kind::where).spot = line_.spot();
+    else if (first == "close")
+      add(Kind::close);
+    else if (first == "quit")
+      add(Kind::quit);
+    else
+      line_.fail("'" + first + "' is not an action");
+    line_.end();
+  }
+
+private:
+  std::vector<Action>& actions_;
+  Line& line_;
+  std::size_t number_;
+
+  Action& add(Kind kind) {
+    actions_.emplace_back();
+    actions_.back().kind = kind;
+    actions_.back().line = number_;
+    return actions_.back();
+  }
+  void three(Action& action, const std::string& expected) {
+    for (double& x : action.numbers)
+      x = line_.number(expected);
+  }
+  void press() {
+    std::string word = line_.one_of("a button: left, right or middle", {"left", "right", "middle"});
+    while (const auto more = line_.next()) {
+      if (*more != "shift" && *more != "ctrl" && *more != "alt")
+        line_.fail("'" + *more + "' is not shift, ctrl or alt");
+      word += '+' + *more;
+    }
+    add(Kind::press).word = word;
+  }
+  void click() {
+    add(Kind::move).spot = line_.spot();
+    add(Kind::press).word = "left";
+    add(Kind::release);
+  }
+  /// drag PLACE PLACE [STEPS] [normal]
+  void drag() {
+    const Spot from = line_.spot(), to = line_.spot();
+    double steps = 20;
+    std::string button = "left";
+    while (const auto more = line_.next()) {
+      if (*more == "normal")
+        button = "left+shift";
+      else if (*more == "right" || *more == "middle")
+        button = *more;
+      else
+        steps = line_.number("a number of steps, 'normal', 'right' or 'middle'", *more);
+    }
+    if (!(steps >= 1 && steps <= 100000))
+      line_.fail("a drag has 1 to 100000 steps");
+    add(Kind::move).spot = from;
+    add(Kind::press).word = button;
+    for (int i = 1; i <= int(steps); ++i) {
+      Action& step = add(Kind::move);
+      step.spot = from, step.to = to, step.share = i / std::floor(steps);
+    }
+    add(Kind::settle);
+    add(Kind::release);
+  }
+  void key() {
+    Action& action = add(Kind::key);
+    action.word = line_.word("a key");
+    if (!key_named(action.word))
+      line_.fail("'" + action.word + "' is no key: --help lists them");
+  }
+  void brush() {
+    Action& action = add(Kind::brush);
+    action.word = line_.one_of("a brush: grab, inflate, smooth, flatten or pinch", brushes);
+    action.numbers = {line_.number("a radius"), line_.number_or(0.5, "a strength"), 0};
+    if (!(action.numbers[0] > 0))
+      line_.fail("the radius must be more than 0");
+  }
+};
+
+} // namespace
+
+std::vector<Action> read_actions(const std::string& text, const std::string& name) {
+  std::vector<Action> actions;
+  std::istringstream lines(text);
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    Line words(line, name, number);
+    if (const auto first = words.next())
+      Reader(actions, words, number).read(*first);
+  }
+  return actions;
+}
+
+} // namespace haptic_sculpt::window_program

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Application.h"
+
+#include <cstring>
+
+namespace haptic_sculpt::window_program {
+
+using Kind = Request::Kind;
+using Hold = Status::Hold;
+
+Application::Application(const Options& options, std::vector<Action> script)
+    : options_(options), script_(std::move(script)) {
+  choices_.name.fill(0);
+  if (!options_.record.empty())
+    record(options_.record);
+}
+
+Application::~Application() {
+  if (record_ != nullptr)
+    std::fclose(record_);
+}
+
+void Application::open_first(int width, int height) {
+  view_size_ = {width, height};
+  enter(window_program::open(options_.mesh, options_.log_of(options_.mesh)));
+}
+
+void Application::enter(Opened opened) {
+  keeps_log_ = keeps_log();
+  view_.show(opened.faces, view_size_[0], view_size_[1]);
+  const double extent = view_.camera().unscaled(2.0);
+  choices_.brush.radius = 0.15 * extent;
+  choices_.depth = 0.03 * extent;
+  path_ = opened.path, log_ = opened.log, resumed_ = opened.resumed;
+  is_saved_ = false, saved_edits_ = 0;
+  Request request;
+  request.kind = Kind::enter, request.model = opened.model;
+  ++scene_;
+  ask(request);
+  say("opened " + path_);
+  if (resumed_ > 4) // the head of a log has four lines
+    say("made " + std::to_string(resumed_) + " lines of " + log_ + " again");
+}
+
+bool Application::is_unsaved() const {
+  return is_saved_ ? status_.edits != saved_edits_ : status_.edits > 0 || resumed_ > 4;
+}
+
+bool Application::keeps_log() const {
+  return (!options_.log.empty() && log_ == options_.log) || (is_unsaved() && !discards_);
+}
+
+void Application::say(const std::string& text) {
+  messages_.emplace_back(Clock::now(), text);
+  while (messages_.size() > 6)
+    messages_.pop_front();
+  frames_due_ = 3;
+}
+
+void Application::fail_to_write(const std::string& what) {
+  say(what);
+  std::fprintf(stderr, "sculpt_window: %s\n", what.c_str());
+  has_failed_to_write_ = true;
+}
+
+void Application::ask(Request request) {
+  waiting_.push_back(request);
+  ++last_asked_;
+  while (!waiting_.empty() && thread_.ask(waiting_.front()) != 0)
+    waiting_.pop_front();
+  frames_due_ = 3;
+}
+
+Request Application::request_here(Kind kind) const {
+  Request request;
+  request.kind = kind;
+  request.pointer = view_.pointer_at(mouse_);
+  request.pointer.along_normal = is_along_normal_;
+  request.tool = choices_.tool, request.brush = choices_.brush, request.depth = choices_.depth;
+  request.response = choices_.response;
+  return request;
+}
+
+void Application::point() {
+  ask(request_here(Kind::point));
+}
+
+void Application::on_move(double x, double y) {
+  const Eigen::Vector2d before = mouse_;
+  mouse_ = {x, y};
+  note("move %.17g %.17g", x, y);
+  if (!view_.has_mesh())
+    return;
+  const Eigen::Vector2d way = mouse_ - before;
+  if (button_ == 2 || (button_ == 1 && shifts_)) {
+    view_.camera().shift(way);
+  } else if (button_ == 1) {
+    const double angle = 0.008; // a pixel, in radians
+    view_.camera().turn(angle * way.x(), angle * way.y(), pivot_);
+  }
+  frames_due_ = 3;
+  point();
+}
+
+void Application::on_press(int button, bool shift, bool ctrl, bool alt) {
+  note("press %s%s%s%s",
+       button == 0   ? "left"
+       : button == 1 ? "right"
+                     : "middle",
+       shift ? " shift" : "", ctrl ? " ctrl" : "", alt ? " alt" : "");
+  if (button_ >= 0 || !view_.has_mesh())
+    return;
+  button_ = button, shifts_ = ctrl;
+  is_along_normal_ = button == 0 && (shift || alt);
+  if (button == 0) {
+    last_refusal_.clear();
+    ask(request_here(Kind::press));
+  } else if (status_.pointed[0] != '\0') {
+    pivot_ = view_.camera().scaled(vector(status_.pointed_at));
+  }
+}
+
+void Application::on_release() {
+  note("release");
+  if (button_ == 0)
+    ask(request_here(Kind::let_go));
+  button_ = -1;
+  is_along_normal_ = false;
+}
+
+void Application::on_scroll(double notches, bool ctrl) {
+  note("scroll %.17g", notches);
+  if (!view_.has_mesh())
+    return;
+  if (ctrl)
+    scale_tool(std::pow(1.1, notches));
+  else
+    view_.camera().magnify(std::pow(1.15, notches), mouse_);
+  point();
+}
+
+void Application::on_key(const Key& key) {
+  note("key %s", key.name);
+  if (choices_.question == Choices::Question::none || key.order == Order::let_go)
+    obey(key.order);
+}
+
+void Application::on_drop(const std::string& path) {
+  open(path);
+}
+
+void Application::on_close() {
+  quit();
+}
+
+void Application::on_resize(int width, int height) {
+  view_size_ = {width, height};
+  if (view_.has_mesh() && width > 0 && height > 0)
+    view_.camera().resize(width, height);
+  frames_due_ = 3;
+}
+
+void Application::take_reports() {
+  for (Face_change change; thread_.take(change);)
+    if (change.scene == scene_)
+      view_.change(change), frames_due_ = 3;
+  for (Report report; thread_.take(report);) {
+    switch (report.kind) {
+    case Report::Kind::said:
+      say(report.text.data());
+      break;
+    case Report::Kind::refused:
+      last_refusal_ = report.text.data();
+      say("refused: " + last_refusal_);
+      break;
+    case Report::Kind::left:
+      left_.push_back(report.model);
+      break;
+    case Report::Kind::copied:
+      background_.save(report.copy, names_to_save_.front(), report.edits);
+      names_to_save_.pop_front();
+      break;
+    }
+  }
+  for (Model* const model : std::exchange(left_, {}))
+    destroy(model, keeps_log_); // another was opened
+  try {
+    if (auto opened = background_.take_opened())
+      enter(std::move(*opened));
+  } catch (const Error& error) {
+    say(error.what());
+    std::fprintf(stderr, "sculpt_window: %s\n", error.what());
+    has_failed_to_open_ = true;
+  }
+  while (const auto saved = background_.take_saved()) {
+    try {
+      if (saved->error)
+        std::rethrow_exception(saved->error);
+      is_saved_ = true, saved_edits_ = saved->edits;
+      say("saved " + saved->path + (saved->lost.empty() ? "" : ": " + saved->lost));
+      is_done_ = is_done_ || quits_after_save_;
+    } catch (const Error& error) {
+      fail_to_write(error.what());
+      quits_after_save_ = false;
+    }
+  }
+}
+
+void Application::step() {
+  while (!waiting_.empty() && thread_.ask(waiting_.front()) != 0)
+    waiting_.pop_front();
+  const Status::Hold before = status_.hold;
+  status_ = thread_.status();
+  if (status_.hold != Hold::nothing || before != Hold::nothing)
+    frames_due_ = std::max(frames_due_, 2);
+  take_reports();
+  play();
+}
+
+bool Application::needs_frame() {
+  const double slowly = 0.25; // s: figures in the panels
+  if (frames_due_ > 0)
+    --frames_due_;
+  else if (Clock::now() - last_frame_ < std::chrono::duration<double>(slowly))
+    return false;
+  last_frame_ = Clock::now();
+  return true;
+}
+
+void Application::draw() {
+  Sculpture_view::Hand_marks marks;
+  marks.shows_brush = choices_.tool == Tool::brush;
+  marks.brush_radius = choices_.brush.radius;
+  view_.draw(status_, marks);
+}
+
+void Application::frame_done(std::uint64_t nanoseconds) {
+  frames_.add(nanoseconds);
+}
+
+} // namespace haptic_sculpt::window_program

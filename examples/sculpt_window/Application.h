@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_APPLICATION_H
+#define HAPTIC_SCULPT_EXAMPLES_WINDOW_APPLICATION_H
+
+#include "Action.h"
+#include "Background.h"
+#include "Options.h"
+#include "Sculpture_view.h"
+#include "keys.h"
+
+#include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
+
+#include <chrono>
+#include <cstdio>
+#include <deque>
+#include <memory>
+
+namespace haptic_sculpt::window_program {
+
+/// What the hand has chosen, and what the window shows of it.
+struct Choices {
+  Tool tool = Tool::drag;
+  Brush brush;
+  double depth = 0; ///< of the probe
+  int response = 0; ///< 0: slide, 1: stop
+  bool shows_help = false, shows_panels = true;
+  /// What the window asks before it goes on.
+  enum class Question { none, leave_unsaved, name_to_save, name_to_open } question = Question::none;
+  std::array<char, 1024> name{};
+};
+
+/// The window's thread: input, requests to the loop, what comes back, and what is drawn. Knows no window library: the
+/// program hands it what happens.
+class Application {
+public:
+  using Clock = std::chrono::steady_clock;
+
+  Application(const Options& options, std::vector<Action> script);
+  ~Application();
+
+  /// Opens the first mesh and waits for it. \throw what opening meshes and logs throws
+  void open_first(int width, int height);
+
+  /// \name What happens. Pixels from the upper left corner.
+  ///@{
+  void on_move(double x, double y);
+  void on_press(int button, bool shift, bool ctrl, bool alt); ///< 0: left, 1: right, 2: middle
+  void on_release();
+  void on_scroll(double notches, bool ctrl);
+  void on_key(const Key& key);
+  void on_drop(const std::string& path);
+  void on_close();
+  void on_resize(int width, int height);
+  ///@}
+
+  /// Takes what has come from the loop and the files, goes on with the script. To be called before each frame.
+  void step();
+  /// Whether there may be something new to see.
+  bool needs_frame();
+  /// Draws the scene; panels.cpp draws the panels over it.
+  void draw();
+  void draw_panels();
+  void frame_done(std::uint64_t nanoseconds);
+  bool is_done() const { return is_done_; }
+  /// A picture is due: of what has just been drawn. \return where it goes; empty: none is due
+  std::string take_screenshot() { return std::exchange(screenshot_, {}); }
+  void say(const std::string& text);
+  /// Leaves the mesh, tells what has been measured, writes the report. \return the exit code
+  int finish();
+  /// A file could not be written: the exit code says so.
+  void fail_to_write(const std::string& what);
+
+private:
+  Options options_;
+  Choices choices_;
+  Sculpting_thread thread_;
+  Sculpture_view view_;
+  Background background_;
+  Status status_; ///< as of the last step()
+
+  std::string path_, log_;  ///< of the mesh that is shown
+  std::uint32_t scene_ = 0; ///< its number
+  std::size_t resumed_ = 0;
+  std::uint64_t saved_edits_ = 0;
+  bool is_saved_ = false;                 ///< at least once
+  std::deque<std::string> names_to_save_; ///< of copies that were asked for
+  std::deque<Request> waiting_;           ///< requests that found the queue full
+  std::uint64_t last_asked_ = 0;
+  std::vector<Model*> left_;
+  bool keeps_log_ = true; ///< that of the mesh shown before
+
+  std::array<int, 2> view_size_{};
+  std::string next_open_; ///< asked for once while there was unsaved work
+  bool has_failed_to_open_ = false;
+
+  Eigen::Vector2d mouse_ = Eigen::Vector2d::Zero();
+  int button_ = -1; ///< that is down
+  bool shifts_ = false, is_along_normal_ = false;
+  Eigen::Vector3d pivot_ = Eigen::Vector3d::Zero();
+
+  std::deque<std::pair<Clock::time_point, std::string>> messages_;
+  Tick_statistics frames_;
+  int frames_due_ = 3;
+  Clock::time_point last_frame_{};
+  bool is_done_ = false, has_failed_to_write_ = false, quits_after_save_ = false, discards_ = false;
+  std::string screenshot_, last_refusal_;
+  int screenshots_ = 0;
+
+  std::vector<Action> script_;
+  std::size_t next_action_ = 0;
+  std::optional<Clock::time_point> waits_until_;
+  int settled_frames_ = 0;
+
+  std::FILE* record_ = nullptr;
+  Clock::time_point last_recorded_{};
+
+  bool is_unsaved() const;
+  /// Of the mesh that is shown: one that was asked for, or that has what nothing else has.
+  bool keeps_log() const;
+  void ask(Request request);
+  Request request_here(Request::Kind kind) const;
+  void point();
+  void enter(Opened opened);
+  void take_reports();
+  void save(const std::string& path);
+  void open(const std::string& path);
+  void quit();
+  void obey(Order order);
+  void choose(Tool tool);
+  void scale_tool(double factor);
+  void look(const Eigen::Vector3d& direction);
+  void play();
+  bool is_settled() const;
+  bool is_on_the_way() const;
+  bool act(const Action& action);
+  Eigen::Vector2d pixel_of(const Spot& spot) const;
+  void print_status() const;
+  void record(const std::string& path);
+  void note(const char* format, ...);
+  void draw_state();
+  void draw_help();
+  void draw_question();
+};
+
+} // namespace haptic_sculpt::window_program
+
+#endif

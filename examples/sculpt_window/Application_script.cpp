@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Scripts and recordings of the window, and what it writes at the end.
+#include "Application.h"
+
+#include <haptic_sculpt/surface/Write_error.h>
+#include <haptic_sculpt/surface/io/replace_file.h>
+#include <haptic_sculpt/version.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdarg>
+#include <iostream>
+#include <thread>
+
+namespace haptic_sculpt::window_program {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json times_of(const Percentiles& p) {
+  return {{"p50", p.p50}, {"p99", p.p99}, {"p999", p.p999}, {"max", p.largest}};
+}
+
+} // namespace
+
+Eigen::Vector2d Application::pixel_of(const Spot& spot) const {
+  const auto& x = spot.coordinates;
+  return spot.is_in_space ? const_cast<Sculpture_view&>(view_).camera().pixel({x[0], x[1], x[2]})
+                          : Eigen::Vector2d(x[0], x[1]);
+}
+
+bool Application::is_settled() const {
+  return waiting_.empty() && status_.answered == last_asked_ && status_.dirty_faces == 0 && status_.brush_left == 0 &&
+         names_to_save_.empty() && !background_.is_opening() && !background_.is_saving();
+}
+
+/// A drag that has not come to its end in a tick goes on in the next.
+bool Application::is_on_the_way() const {
+  const std::string end = status_.end;
+  return end == "work-limit" || end == "leg-limit";
+}
+
+void Application::play() {
+  if (script_.empty() && options_.screenshot.empty())
+    return;
+  frames_due_ = 3;
+  if (next_action_ < script_.size()) {
+    if (act(script_[next_action_]))
+      ++next_action_;
+    return;
+  }
+  if (options_.screenshot.empty() || !is_settled())
+    return;
+  if (++settled_frames_ == 3)
+    screenshot_ = options_.screenshot;
+  else if (settled_frames_ > 3)
+    is_done_ = true;
+}
+
+/// \return whether it is done
+bool Application::act(const Action& action) {
+  using Kind = Action::Kind;
+  const auto& n = action.numbers;
+  switch (action.kind) {
+  case Kind::move: {
+    const Eigen::Vector2d from = pixel_of(action.spot);
+    const Eigen::Vector2d at =
+        action.share > 0 ? Eigen::Vector2d(from + action.share * (pixel_of(action.to) - from)) : from;
+    on_move(at.x(), at.y());
+    return true;
+  }
+  case Kind::press: {
+    const auto has = [&](const char* word) { return action.word.find(word) != std::string::npos; };
+    on_press(has("right") ? 1 : has("middle") ? 2 : 0, has("shift"), has("ctrl"), has("alt"));
+    return true;
+  }
+  case Kind::release:
+    on_release();
+    return true;
+  case Kind::scroll:
+    on_scroll(n[0], false);
+    return true;
+  case Kind::key:
+    on_key(*key_named(action.word));
+    return true;
+  case Kind::view:
+    look({n[0], n[1], n[2]});
+    return true;
+  case Kind::orbit:
+    view_.camera().turn(n[0] * EIGEN_PI / 180, n[1] * EIGEN_PI / 180, Eigen::Vector3d::Zero());
+    return true;
+  case Kind::zoom:
+    view_.camera().magnify(n[0], {view_.camera().width() / 2., view_.camera().height() / 2.});
+    return true;
+  case Kind::fit:
+    view_.fit();
+    return true;
+  case Kind::tool:
+    choose(action.word == "drag"     ? Tool::drag
+           : action.word == "probe"  ? Tool::probe
+           : action.word == "create" ? Tool::create
+           : action.word == "remove" ? Tool::remove
+                                     : Tool::brush);
+    return true;
+  case Kind::brush:
+    choices_.brush.kind = action.word == "grab"      ? Brush_kind::grab
+                          : action.word == "inflate" ? Brush_kind::inflate
+                          : action.word == "smooth"  ? Brush_kind::smooth
+                          : action.word == "flatten" ? Brush_kind::flatten
+                                                     : Brush_kind::pinch;
+    choices_.brush.radius = n[0], choices_.brush.strength = n[1];
+    choose(Tool::brush);
+    return true;
+  case Kind::depth:
+    choices_.depth = n[0];
+    point();
+    return true;
+  case Kind::wait:
+    if (!waits_until_)
+      waits_until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(n[0]));
+    if (Clock::now() < *waits_until_)
+      return false;
+    waits_until_.reset();
+    return true;
+  case Kind::settle: {
+    // For some frames on end: what is seen has been drawn since. A drag may creep for ever.
+    const auto patience = std::chrono::seconds(3);
+    if (!waits_until_)
+      waits_until_ = Clock::now() + patience;
+    settled_frames_ = is_settled() && (!is_on_the_way() || Clock::now() > *waits_until_) ? settled_frames_ + 1 : 0;
+    if (settled_frames_ < 3)
+      return false;
+    settled_frames_ = 0;
+    waits_until_.reset();
+    return true;
+  }
+  case Kind::screenshot:
+    if (!is_settled())
+      return false;
+    screenshot_ = action.word;
+    return true;
+  case Kind::save:
+    save(action.word);
+    return true;
+  case Kind::open:
+    open(action.word);
+    return true;
+  case Kind::record:
+    record(action.word);
+    return true;
+  case Kind::print:
+    print_status();
+    return true;
+  case Kind::where: {
+    const Eigen::Vector2d at = pixel_of(action.spot);
+    std::cout << Json{{"where", {at.x(), at.y()}}}.dump() << std::endl;
+    return true;
+  }
+  case Kind::close:
+    on_close();
+    return true;
+  case Kind::quit:
+    is_done_ = true;
+    return true;
+  }
+  return true;
+}
+
+void Application::print_status() const {
+  const Status& s = status_;
+  const char* const holds[] = {"nothing", "vertex", "probe", "brush"};
+  Json contacts = Json::array();
+  for (int i = 0; i < s.contacts; ++i) {
+    const Contact_view& c = s.contact[std::size_t(i)];
+    Json points = Json::array(), names = Json::array();
+    for (int j = 0; j < c.still; ++j)
+      points.push_back(c.points[std::size_t(j)]), names.push_back(c.names[std::size_t(j)]);
+    contacts.push_back({{"kind", c.kind}, {"names", names}, {"points", points}, {"normal", c.normal}});
+  }
+  Json json = {{"hold", holds[int(s.hold)]},
+               {"target", s.target},
+               {"proxy", s.proxy},
+               {"force", s.force},
+               {"reached", s.reached},
+               {"end", s.end},
+               {"contacts", contacts},
+               {"pointed", s.pointed},
+               {"pointed_at", s.pointed_at},
+               {"vertices", s.vertices},
+               {"faces", s.faces},
+               {"undo", s.undo_steps},
+               {"redo", s.redo_steps},
+               {"edits", s.edits},
+               {"refused", last_refusal_},
+               {"uploaded_bytes", view_.uploaded_bytes()},
+               {"uploaded_faces", view_.uploaded_faces()}};
+  if (s.hold == Status::Hold::vertex)
+    json["vertex"] = s.vertex;
+  std::cout << json.dump() << std::endl;
+}
+
+void Application::record(const std::string& path) {
+  if (record_ != nullptr) {
+    std::fclose(record_);
+    record_ = nullptr;
+    say("the recording has ended");
+  }
+  if (path.empty())
+    return;
+  record_ = std::fopen(path.c_str(), "w");
+  if (record_ == nullptr)
+    return fail_to_write("cannot write the recording '" + path + "': " + std::strerror(errno));
+  std::fprintf(record_, "# sculpt_window of haptic_sculpt %s, a window of %d x %d\n", HAPTIC_SCULPT_VERSION,
+               view_size_[0], view_size_[1]);
+  last_recorded_ = Clock::now();
+  say("recording to " + path);
+}
+
+void Application::note(const char* format, ...) {
+  if (record_ == nullptr)
+    return;
+  const auto now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - std::exchange(last_recorded_, now)).count();
+  if (seconds > 0.02) // less is a frame
+    std::fprintf(record_, "wait %.3f\n", seconds);
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vfprintf(record_, format, arguments);
+  va_end(arguments);
+  std::fputc('\n', record_);
+  std::fflush(record_);
+}
+
+int Application::finish() {
+  const Status last = status_;
+  const bool keeps = keeps_log();
+  Request leave;
+  leave.kind = Request::Kind::enter;
+  ask(leave);
+  for (bool has_left = false; !has_left;) { // a tick or two
+    while (!waiting_.empty() && thread_.ask(waiting_.front()) != 0)
+      waiting_.pop_front();
+    for (Report report; thread_.take(report);)
+      if (report.kind == Report::Kind::left)
+        destroy(report.model, keeps), has_left = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const Percentiles frames{frames_.percentile(0.5), frames_.percentile(0.99), frames_.percentile(0.999),
+                           frames_.largest()};
+  const auto ms = [](std::uint64_t ns) { return double(ns) / 1e6; };
+  std::printf("%llu frames: median %.2f ms, 99 %% within %.2f ms, longest %.2f ms; %zu bytes uploaded for %zu changed "
+              "faces\n",
+              static_cast<unsigned long long>(frames_.number()), ms(frames.p50), ms(frames.p99), ms(frames.largest),
+              view_.uploaded_bytes(), view_.uploaded_faces());
+  std::printf(
+      "%llu ticks: median %.3f ms, 99 %% within %.3f ms, longest %.3f ms; %llu missed by work, %llu woken late\n",
+      static_cast<unsigned long long>(last.ticks), ms(last.work.p50), ms(last.work.p99), ms(last.work.largest),
+      static_cast<unsigned long long>(last.missed_by_work), static_cast<unsigned long long>(last.woken_late));
+  if (!options_.report.empty()) {
+    const Json report = {{"version", HAPTIC_SCULPT_VERSION},
+                         {"frames", frames_.number()},
+                         {"frame_ns", times_of(frames)},
+                         {"uploaded", {{"bytes", view_.uploaded_bytes()}, {"faces", view_.uploaded_faces()}}},
+                         {"ticks", last.ticks},
+                         {"tick_ns", times_of(last.work)},
+                         {"lateness_ns", times_of(last.lateness)},
+                         {"missed", {{"by_work", last.missed_by_work}, {"woken_late", last.woken_late}}},
+                         {"vertices", last.vertices},
+                         {"faces", last.faces},
+                         {"edits", last.edits}};
+    try {
+      replace_file(options_.report, report.dump(2) + '\n');
+    } catch (const Write_error& error) {
+      fail_to_write(error.what());
+    }
+  }
+  return has_failed_to_open_ ? 3 : has_failed_to_write_ ? 5 : 0;
+}
+
+} // namespace haptic_sculpt::window_program

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_BACKGROUND_H
+#define HAPTIC_SCULPT_EXAMPLES_WINDOW_BACKGROUND_H
+
+#include "Sculpting_thread.h"
+
+#include <future>
+#include <optional>
+
+namespace haptic_sculpt::window_program {
+
+/// Files are read and written by threads of their own, while window and loop go on. One mesh is opened at a time.
+class Background {
+public:
+  /// \pre not is_opening()
+  void open(const std::string& path, const std::string& log);
+  bool is_opening() const { return opening_.valid(); }
+  /// What has been opened by now. \throw what open() throws
+  std::optional<Opened> take_opened();
+
+  struct Saved {
+    std::string path;
+    std::uint64_t edits = 0; ///< of the mesh that was written
+    std::string lost;        ///< what of an old file could not be kept
+    std::exception_ptr error;
+  };
+  void save(void* copy, const std::string& path, std::uint64_t edits);
+  bool is_saving() const { return !saving_.empty(); }
+  /// What has been written by now, in order.
+  std::optional<Saved> take_saved();
+
+private:
+  std::future<Opened> opening_;
+  std::vector<std::future<Saved>> saving_;
+};
+
+} // namespace haptic_sculpt::window_program
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Options.h"
+
+#include "keys.h"
+
+#include <haptic_sculpt/version.h>
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+
+namespace haptic_sculpt::window_program {
+namespace {
+
+std::string lists() {
+  std::string text = "Mouse:\n";
+  const auto line = [&text](const std::string& how, const std::string& what) {
+    text += "  " + how + std::string(how.size() < 24 ? 24 - how.size() : 1, ' ') + what + '\n';
+  };
+  for (const Mouse_use& use : mouse_uses())
+    line(use.how, use.what);
+  text += "Keys:\n";
+  for (const Key& key : keys())
+    line(key.name, key.what);
+  return text +
+         "Script, one action a line; # comments; PLACE is X Y in pixels from the upper left, or @X,Y,Z of the mesh:\n"
+         "  move PLACE | press left|right|middle [shift|ctrl|alt] | release | click PLACE\n"
+         "  drag PLACE PLACE [STEPS] [normal|right|middle] | scroll NOTCHES | key NAME\n"
+         "  view X Y Z | orbit DEGREES DEGREES | zoom FACTOR | fit\n"
+         "  tool drag|probe|create|remove|brush | brush KIND RADIUS [STRENGTH] | depth LENGTH\n"
+         "  wait SECONDS | settle | screenshot FILE | save FILE | open FILE | record FILE\n"
+         "  print | where PLACE | close | quit\n"
+         "Exit: 0 done, 1 out of memory, 2 usage, 3 mesh refused, 4 script error, 5 cannot write, 6 log of another "
+         "mesh, 7 no window can be made.";
+}
+
+} // namespace
+
+std::optional<bool> read_options(int argc, char** argv, Options& options) {
+  CLI::App app("A window to sculpt a closed triangle mesh in; no surface ever passes through a surface.");
+  const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
+  app.set_version_flag("--version", std::string("sculpt_window of haptic_sculpt ") + HAPTIC_SCULPT_VERSION);
+  app.footer(lists());
+  app.add_option("MESH", options.mesh, "Input: .off .ply .obj .stl")->required()->check(named);
+  app.add_option("-o,--output", options.out,
+                 "Where the key s saves to: .off .ply .obj .stl; by default MESH_sculpted with its extension")
+      ->check(named);
+  auto* const log =
+      app.add_option("--log", options.log,
+                     "Edit log, as of sculpt: replayed if it exists, then appended to, and kept. By default MESH.log, "
+                     "which is removed when the window is closed in order")
+          ->check(named);
+  app.add_flag("--no-log", options.without_log, "Keeps no log: what is not saved is lost if the program ends badly")
+      ->excludes(log);
+  app.add_option("--script", options.script, "Actions to be carried out, see below")->check(CLI::ExistingFile);
+  app.add_option("--record", options.record, "Writes what the hand does as such a script")->check(named);
+  app.add_option("--screenshot", options.screenshot,
+                 "Writes a picture of the window, after the script, and quits: .png")
+      ->check(named);
+  app.add_option("--report", options.report, "Where frame and loop times go, as JSON, at the end")->check(named);
+  app.add_option("--size", options.size, "Of the window, in pixels")
+      ->expected(2)
+      ->type_name("WIDTH HEIGHT")
+      ->check(CLI::Range(64, 8192));
+  app.add_option("--samples", options.samples, "A pixel is drawn by: 0 is fastest, 4 has smooth edges")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 16));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0;
+  }
+  if (options.out.empty()) {
+    const std::filesystem::path mesh(options.mesh);
+    options.out = (mesh.parent_path() / (mesh.stem().string() + "_sculpted" + mesh.extension().string())).string();
+  }
+  return std::nullopt;
+}
+
+} // namespace haptic_sculpt::window_program

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_OPTIONS_H
+#define HAPTIC_SCULPT_EXAMPLES_WINDOW_OPTIONS_H
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt::window_program {
+
+/// The command line. Names that were not given are empty.
+struct Options {
+  std::string mesh, out, log, script, screenshot, report, record;
+  bool without_log = false;
+  std::vector<int> size = {1200, 900};
+  int samples = 4;
+
+  /// The log of a mesh: the one that was asked for, of the first; else one beside it, which is gone when all is well.
+  std::string log_of(const std::string& path) const {
+    return without_log ? "" : !log.empty() && path == mesh ? log : path + ".log";
+  }
+};
+
+/// Where the program is to end now, people have been told: true for what they asked for, false for what is wrong.
+std::optional<bool> read_options(int argc, char** argv, Options& options);
+
+} // namespace haptic_sculpt::window_program
+
+#endif

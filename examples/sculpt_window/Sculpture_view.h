@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_SCULPTURE_VIEW_H
+#define HAPTIC_SCULPT_EXAMPLES_WINDOW_SCULPTURE_VIEW_H
+
+#include "exchange.h"
+
+#include "../drawing/Mesh_view.h"
+
+#include <optional>
+
+namespace haptic_sculpt::window_program {
+
+/// Colours that nothing else in the window has, so that a test finds what they mark.
+namespace mark_colors {
+inline const drawing::Color contact{0.93f, 0.00f, 0.60f}, force{0.00f, 0.62f, 0.12f}, brush{0.05f, 0.45f, 0.55f};
+}
+
+/// The mesh as the window draws it, with what the hand does. Uploads what has changed and no more.
+/// \pre the window's OpenGL context is current whenever it is called
+class Sculpture_view {
+public:
+  /// Another mesh, seen from where all of it is seen. O(faces). \throw drawing::Picture_error
+  void show(const std::vector<Face_change>& faces, int width, int height);
+  bool has_mesh() const { return camera_.has_value(); }
+  /// \pre has_mesh()
+  drawing::Camera& camera() { return *camera_; }
+  /// Sees all of the mesh as it was opened, along the same direction.
+  void fit();
+
+  /// To be drawn with the next frame.
+  void change(const Face_change& change) { changes_.push_back(change); }
+  /// What has been uploaded since show(), in bytes, and for how many changes.
+  std::size_t uploaded_bytes() const { return uploaded_; }
+  std::size_t uploaded_faces() const { return uploaded_faces_; }
+
+  struct Hand_marks {
+    bool shows_brush = false;
+    double brush_radius = 0;
+  };
+  /// Uploads, clears the framebuffer and draws.
+  void draw(const Status& status, const Hand_marks& marks);
+
+  /// From the eye through a pixel to beyond the mesh. \pre has_mesh()
+  Pointer pointer_at(const Eigen::Vector2d& pixel) const;
+
+private:
+  std::optional<drawing::Mesh_view> view_;
+  std::optional<drawing::Camera> camera_, first_camera_;
+  std::vector<Face_change> changes_;
+  std::size_t uploaded_ = 0, uploaded_faces_ = 0;
+
+  void upload();
+  drawing::Scene marks_of(const Status& status, const Hand_marks& marks) const;
+};
+
+} // namespace haptic_sculpt::window_program
+
+#endif

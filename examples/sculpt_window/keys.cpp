@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "keys.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace haptic_sculpt::window_program {
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> all = {
+      {"1", GLFW_KEY_1, false, false, Order::tool_drag, "tool: drag a vertex"},
+      {"2", GLFW_KEY_2, false, false, Order::tool_probe, "tool: touch with a probe"},
+      {"3", GLFW_KEY_3, false, false, Order::tool_create, "tool: create a vertex and drag it"},
+      {"4", GLFW_KEY_4, false, false, Order::tool_remove, "tool: remove a vertex"},
+      {"5", GLFW_KEY_5, false, false, Order::tool_brush, "tool: brush over many"},
+      {"b", GLFW_KEY_B, false, false, Order::next_brush, "next brush"},
+      {"]", GLFW_KEY_RIGHT_BRACKET, false, false, Order::larger, "larger brush; a probe is pressed in deeper"},
+      {"[", GLFW_KEY_LEFT_BRACKET, false, false, Order::smaller, "smaller brush; a probe is pressed in less"},
+      {".", GLFW_KEY_PERIOD, false, false, Order::stronger, "stronger brush"},
+      {",", GLFW_KEY_COMMA, false, false, Order::weaker, "weaker brush; below 0 it works the other way"},
+      {"u", GLFW_KEY_U, false, false, Order::undo, "undo"},
+      {"shift+u", GLFW_KEY_U, false, true, Order::redo, "redo"},
+      {"ctrl+z", GLFW_KEY_Z, true, false, Order::undo, "undo"},
+      {"ctrl+y", GLFW_KEY_Y, true, false, Order::redo, "redo"},
+      {"escape", GLFW_KEY_ESCAPE, false, false, Order::let_go, "let go"},
+      {"t", GLFW_KEY_T, false, false, Order::response, "what is blocked slides, or stops"},
+      {"s", GLFW_KEY_S, false, false, Order::save, "save"},
+      {"ctrl+s", GLFW_KEY_S, true, false, Order::save, "save"},
+      {"o", GLFW_KEY_O, false, false, Order::open, "open a mesh; files dropped on the window open, too"},
+      {"r", GLFW_KEY_R, false, false, Order::record, "record what the hand does as a script, or end that"},
+      {"p", GLFW_KEY_P, false, false, Order::screenshot, "screenshot"},
+      {"q", GLFW_KEY_Q, false, false, Order::quit, "quit"},
+      {"f", GLFW_KEY_F, false, false, Order::fit, "see all of the mesh"},
+      {"x", GLFW_KEY_X, false, false, Order::view_x, "look along x"},
+      {"y", GLFW_KEY_Y, false, false, Order::view_y, "look along y"},
+      {"z", GLFW_KEY_Z, false, false, Order::view_z, "look along z"},
+      {"v", GLFW_KEY_V, false, false, Order::view_back, "look from the other side"},
+      {"left", GLFW_KEY_LEFT, false, false, Order::turn_left, "turn"},
+      {"right", GLFW_KEY_RIGHT, false, false, Order::turn_right, "turn"},
+      {"up", GLFW_KEY_UP, false, false, Order::turn_up, "turn"},
+      {"down", GLFW_KEY_DOWN, false, false, Order::turn_down, "turn"},
+      {"=", GLFW_KEY_EQUAL, false, false, Order::zoom_in, "zoom in"},
+      {"-", GLFW_KEY_MINUS, false, false, Order::zoom_out, "zoom out"},
+      {"h", GLFW_KEY_H, false, false, Order::help, "this list"},
+      {"f1", GLFW_KEY_F1, false, false, Order::help, "this list"},
+      {"tab", GLFW_KEY_TAB, false, false, Order::panels, "panels on and off"}};
+  return all;
+}
+
+std::optional<Key> key_named(const std::string& name) {
+  for (const Key& key : keys())
+    if (name == key.name)
+      return key;
+  return std::nullopt;
+}
+
+std::optional<Key> key_pressed(int code, bool ctrl, bool shift) {
+  for (const Key& key : keys())
+    if (key.code == code && key.ctrl == ctrl && key.shift == shift)
+      return key;
+  return std::nullopt;
+}
+
+const std::vector<Mouse_use>& mouse_uses() {
+  static const std::vector<Mouse_use> all = {{"left", "the tool; a drag goes across the view"},
+                                             {"shift or alt + left", "a drag goes along the vertex's normal"},
+                                             {"right", "turn"},
+                                             {"middle, ctrl + right", "shift the picture"},
+                                             {"wheel", "zoom"},
+                                             {"ctrl + wheel", "size of the brush, depth of the probe"}};
+  return all;
+}
+
+} // namespace haptic_sculpt::window_program

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_KEYS_H
+#define HAPTIC_SCULPT_EXAMPLES_WINDOW_KEYS_H
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt::window_program {
+
+/// What a key does.
+enum class Order {
+  tool_drag,
+  tool_probe,
+  tool_create,
+  tool_remove,
+  tool_brush,
+  next_brush,
+  larger,
+  smaller,
+  stronger,
+  weaker,
+  undo,
+  redo,
+  let_go,
+  response,
+  save,
+  open,
+  record,
+  screenshot,
+  quit,
+  fit,
+  view_x,
+  view_y,
+  view_z,
+  view_back,
+  turn_left,
+  turn_right,
+  turn_up,
+  turn_down,
+  zoom_in,
+  zoom_out,
+  help,
+  panels
+};
+
+struct Key {
+  const char* name; ///< as in scripts and in the overlay, e.g. "ctrl+z"
+  int code;         ///< GLFW's
+  bool ctrl, shift;
+  Order order;
+  const char* what;
+};
+
+/// All, in the order in which the overlay lists them.
+const std::vector<Key>& keys();
+std::optional<Key> key_named(const std::string& name);
+/// \param code GLFW's
+std::optional<Key> key_pressed(int code, bool ctrl, bool shift);
+
+/// What the mouse does, line by line: buttons, then what they do.
+struct Mouse_use {
+  const char* how;
+  const char* what;
+};
+const std::vector<Mouse_use>& mouse_uses();
+
+} // namespace haptic_sculpt::window_program
+
+#endif

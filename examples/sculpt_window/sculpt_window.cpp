@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A window to sculpt in. See --help; what the mouse and the keys do, scripts, limits: doc/window.md.
+#include "Application.h"
+
+#include "../drawing/write_png.h"
+#include "../sculpt/Log_text.h"
+
+#include <haptic_sculpt/haptic_rendering/Force_limit.h>
+#include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/Write_error.h>
+#include <haptic_sculpt/surface/coordinate_range.h>
+
+#include <epoxy/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_opengl3.h>
+
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <new>
+#include <thread>
+
+namespace {
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::window_program;
+
+enum Exit {
+  done = 0,
+  no_memory = 1,
+  usage = 2,
+  mesh_refused = 3,
+  script_error = 4,
+  cannot_write = 5,
+  foreign_log = 6,
+  no_window = 7
+};
+
+struct No_window : Error {
+  using Error::Error;
+};
+
+std::string& glfw_says() {
+  static std::string text;
+  return text;
+}
+
+Application& application_of(GLFWwindow* window) {
+  return *static_cast<Application*>(glfwGetWindowUserPointer(window));
+}
+
+/// The window, with GLFW and Dear ImGui about it.
+class Window {
+public:
+  explicit Window(const Options& options) {
+    glfwSetErrorCallback([](int, const char* text) { glfw_says() = text; });
+    if (!glfwInit())
+      refuse("GLFW does not start");
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SAMPLES, options.samples);
+    window_ =
+        glfwCreateWindow(options.size[0], options.size[1], ("sculpt_window " + options.mesh).c_str(), nullptr, nullptr);
+    if (window_ == nullptr) {
+      glfwTerminate();
+      refuse("there is no window with OpenGL 3.3");
+    }
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    set_callbacks();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr; // no file is left behind
+    ImGui::StyleColorsDark();
+    ImGui_ImplGlfw_InitForOpenGL(window_, true); // keeps our callbacks
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+  }
+  ~Window() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+  }
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// From here on input goes there.
+  void serve(Application& application) { glfwSetWindowUserPointer(window_, &application); }
+
+  std::array<int, 2> size() const {
+    std::array<int, 2> size{};
+    glfwGetFramebufferSize(window_, &size[0], &size[1]);
+    return size;
+  }
+  bool was_closed() {
+    const bool closed = glfwWindowShouldClose(window_) != 0;
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+    return closed;
+  }
+
+  void draw(Application& application) {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    application.draw_panels();
+    ImGui::Render();
+    application.draw();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  }
+  /// Of what has just been drawn.
+  std::string write_screenshot(const std::string& path) const {
+    const auto [width, height] = size();
+    std::vector<unsigned char> pixels(std::size_t(3) * std::size_t(width) * std::size_t(height));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+    return drawing::write_png(path, width, height, pixels);
+  }
+  void show() const {
+    glfwSwapBuffers(window_);
+    glFinish();
+  }
+
+private:
+  GLFWwindow* window_ = nullptr;
+
+  [[noreturn]] static void refuse(const std::string& what) {
+    throw No_window("no window can be made: " + what + (glfw_says().empty() ? "" : " (" + glfw_says() + ')') +
+                    ". It needs a display (DISPLAY; Xvfb serves, too: xvfb-run sculpt_window ...) and OpenGL 3.3 "
+                    "(libgl1-mesa-dri)");
+  }
+
+  void set_callbacks() const {
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+      if (!ImGui::GetIO().WantCaptureMouse || glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
+        application_of(w).on_move(x * scale(w), y * scale(w));
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
+      if (action == GLFW_RELEASE)
+        application_of(w).on_release();
+      else if (!ImGui::GetIO().WantCaptureMouse && button <= GLFW_MOUSE_BUTTON_MIDDLE)
+        application_of(w).on_press(button, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0,
+                                   (mods & GLFW_MOD_ALT) != 0);
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double notches) {
+      if (!ImGui::GetIO().WantCaptureMouse)
+        application_of(w).on_scroll(notches, glfwGetKey(w, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+                                                 glfwGetKey(w, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS);
+    });
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int code, int, int action, int mods) {
+      if (action == GLFW_RELEASE || (ImGui::GetIO().WantTextInput && code != GLFW_KEY_ESCAPE))
+        return;
+      if (const auto key = key_pressed(code, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0))
+        application_of(w).on_key(*key);
+    });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int, const char** paths) { application_of(w).on_drop(paths[0]); });
+    glfwSetFramebufferSizeCallback(
+        window_, [](GLFWwindow* w, int width, int height) { application_of(w).on_resize(width, height); });
+  }
+
+  /// Pixels of the picture for one of the mouse's units.
+  static double scale(GLFWwindow* window) {
+    int width = 1, pixels = 1, height = 0;
+    glfwGetWindowSize(window, &width, &height);
+    glfwGetFramebufferSize(window, &pixels, &height);
+    return double(pixels) / std::max(1, width);
+  }
+};
+
+int run(const Options& options) {
+  std::vector<Action> script;
+  if (!options.script.empty()) {
+    std::ifstream file(options.script, std::ios::binary);
+    script = read_actions({std::istreambuf_iterator<char>(file), {}}, options.script);
+  }
+  Window window(options);
+  Application application(options, std::move(script)); // destroyed first: it has parts in the window's context
+  window.serve(application);
+  const auto [width, height] = window.size();
+  application.open_first(width, height);
+  using Clock = std::chrono::steady_clock;
+  const auto frame_time = std::chrono::microseconds(16667);
+  for (auto due = Clock::now(); !application.is_done(); due = std::max(due + frame_time, Clock::now())) {
+    glfwPollEvents();
+    if (window.was_closed())
+      application.on_close();
+    application.step();
+    if (application.needs_frame()) {
+      const auto begin = Clock::now();
+      window.draw(application);
+      if (const std::string path = application.take_screenshot(); !path.empty()) {
+        try {
+          window.write_screenshot(path);
+          application.say("written " + path);
+        } catch (const drawing::Picture_error& error) {
+          application.fail_to_write(error.what());
+        }
+        window.show();
+      } else { // a screenshot's frame is not one that a hand waits for
+        window.show();
+        application.frame_done(static_cast<std::uint64_t>(
+            std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count()));
+      }
+    }
+    std::this_thread::sleep_until(due + frame_time);
+  }
+  return application.finish();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is told like a full disk
+  Options options;
+  if (const auto is_good = read_options(argc, argv, options))
+    return *is_good ? done : usage;
+  const auto fail = [](const std::exception& error, Exit code) {
+    std::cerr << "sculpt_window: " << error.what() << '\n';
+    return code;
+  };
+  try {
+    return run(options);
+  } catch (const No_window& error) {
+    return fail(error, no_window);
+  } catch (const Action_error& error) {
+    return fail(error, script_error);
+  } catch (const sculpt_program::Foreign_log& error) {
+    return fail(error, foreign_log);
+  } catch (const sculpt_program::Script_error& error) {
+    return fail(error, script_error);
+  } catch (const Write_error& error) {
+    return fail(error, cannot_write);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "sculpt_window: the memory does not suffice for this mesh\n";
+    return no_memory;
+  } catch (const Error& error) { // the mesh: unreadable, not valid, out of range
+    return fail(error, mesh_refused);
+  }
+}
