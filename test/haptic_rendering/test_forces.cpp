@@ -183,27 +183,6 @@ BOOST_AUTO_TEST_CASE(a_fault_fades_to_exactly_nothing_in_its_time) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_burst_has_no_mean_and_leaves_the_handle_where_it_is) {
-  for (const double rate : {250.0, 500.0, 1000.0, 4000.0, 10000.0}) {
-    Refusal_burst burst(1 / rate);
-    burst.begin(Vector3d(0, 0, 2));
-    double sum = 0, largest = 0, velocity = 0, place = 0, farthest = 0;
-    for (int k = 0; !burst.is_over(); ++k) {
-      const Vector3d force = burst.next();
-      sum += force[2], largest = std::max(largest, std::abs(force[2]));
-      velocity += force[2] / 0.03 / rate, place += velocity / rate; // a free handle of 0.03 kg
-      farthest = std::max(farthest, std::abs(place));
-    }
-    BOOST_TEST(std::abs(sum) <= 1e-13);
-    BOOST_TEST(largest <= 1);
-    BOOST_TEST(largest >= 0.7);
-    BOOST_TEST(burst.next() == Vector3d::Zero());
-    if (rate >= 1000)
-      BOOST_TEST(farthest <= 1e-4);
-    BOOST_TEST_MESSAGE("burst at " << rate << " Hz moves a free handle of 0.03 kg by " << 1e3 * farthest << " mm");
-  }
-}
-
 BOOST_AUTO_TEST_CASE(the_worst_pose_is_at_least_as_bad_as_any_drawn) {
   Random random(5);
   std::uniform_real_distribution<double> angle(-0.5, 2.5);
