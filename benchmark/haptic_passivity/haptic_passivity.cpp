@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the haptic loop's promises of passivity, stability and weightlessness are worth, measured in simulation.
 #include "haptic_passivity/gravity_residual.h"
+#include "haptic_passivity/rate_error.h"
 #include "haptic_passivity/stability.h"
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
@@ -21,11 +24,13 @@ enum Exit_code { done = 0, usage = 2, cannot_write = 5, bound_not_kept = 9 };
 constexpr double energy_bound = -1e-9;
 
 struct Options {
-  int runs = 10, effect_runs = 6, alarm_runs = 2, poses = 2000, prescribed = 40;
+  int first = 0, runs = 10, effect_runs = 6, alarm_runs = 2, poses = 2000, prescribed = 40;
   double seconds = 3, effect_seconds = 3, alarm_seconds = 60;
   std::uint64_t seed = 1;
   bool chart = false;
+  std::vector<std::string> parts{"activity", "gravity", "rate", "effects", "alarms", "passive"};
   std::string json;
+  bool has(const char* part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
 };
 
 Device_form form_of(int run) {
@@ -38,11 +43,12 @@ struct Sum {
   std::size_t ticks = 0;
   double contact = 0, least = 0, least_port = 0, largest_port = 0, observer_error = 0, observer_error_whole = 0,
          least_observed = 0, inertia_energy = 0, largest_force = 0, limited = 0;
-  int active = 0;
+  int active = 0, alarms = 0;
 
   void add(const Contact_setup& setup, const Contact_outcome& o) {
     ++runs, left += o.has_left, faults += o.fault != Loop_fault::none;
     ticks += o.ticks, contact += o.contact, active += o.least < energy_bound;
+    alarms += o.least_observed < 0;
     least = std::fmin(least, o.least), least_port = std::fmin(least_port, o.least_port);
     largest_port = std::fmax(largest_port, o.largest_port);
     double& error = setup.delay == std::floor(setup.delay) ? observer_error_whole : observer_error;
@@ -73,7 +79,7 @@ struct Sum {
 Json passivity(const Options& options) {
   Sum sum;
   Json failures = Json::array();
-  for (int run = 0; run < options.runs; ++run) {
+  for (int run = options.first; run < options.first + options.runs; ++run) {
     const std::uint64_t seed = options.seed * 1000003 + run;
     Contact_wishes wishes;
     wishes.is_at_limit = run % 5 == 0;
@@ -89,7 +95,7 @@ Json passivity(const Options& options) {
                           {"stiffness", setup.coupling.stiffness},
                           {"damping", setup.coupling.damping}});
     if (run % 10 == 9)
-      std::fprintf(stderr, "passive runs: %d of %d\r", run + 1, options.runs);
+      std::fprintf(stderr, "passive runs: %d of %d\r", run + 1 - options.first, options.runs);
   }
   Json report = sum.json();
   report["failures"] = failures;
@@ -113,6 +119,29 @@ Json activity_report(const Options& options) {
   return rows;
 }
 
+/// How far the force in the hand is from the spring's, over rate and delay; 60 mm/s, 500 N/m.
+Json rates(const Options&) {
+  Json rows = Json::array();
+  for (const double encoder_step : {0.0, 1.53e-4})
+    for (const double delay : {0.0, 0.5, 1.0})
+      for (const double rate : {250.0, 500.0, 1000.0, 2000.0, 4000.0, 10000.0}) {
+        const double speed = 0.06, stiffness = 500;
+        const Rate_error e = rate_error(rate, delay, speed, stiffness, encoder_step);
+        rows.push_back({{"rate_Hz", rate},
+                        {"delay", delay},
+                        {"encoder_step", encoder_step},
+                        {"kvT_N", stiffness * speed / rate},
+                        {"mean_N", e.mean},
+                        {"largest_N", e.largest},
+                        {"felt_mean_N", e.felt_mean},
+                        {"felt_largest_N", e.felt_largest}});
+        std::printf("error of force, %s, d %.1f, %5.0f Hz: mean %.2f mN, largest %.2f; with J turning %.2f, %.2f\n",
+                    encoder_step > 0 ? "encoders" : "exact", delay, rate, 1e3 * e.mean, 1e3 * e.largest,
+                    1e3 * e.felt_mean, 1e3 * e.felt_largest);
+      }
+  return rows;
+}
+
 /// The same runs, each effect alone.
 Json effects(const Options& options) {
   Json rows = Json::array();
@@ -133,7 +162,7 @@ Json effects(const Options& options) {
   };
   Contact_wishes plain, bad_poses, weak;
   plain.is_at_limit = bad_poses.is_at_limit = weak.is_at_limit = true;
-  bad_poses.least_condition = 4, bad_poses.most_condition = 18;
+  bad_poses.least_condition = 9, bad_poses.most_condition = 18;
   weak.torque_limit = 0.12;
   measure("none", plain, [](Contact_setup&) {});
   measure("slew 300 N/s", plain, [](Contact_setup& s) { s.limits.slew = 300; });
@@ -148,6 +177,9 @@ Json effects(const Options& options) {
   measure("virtual mass 30 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.03; });
   measure("compensated inertia 0.5", plain, [](Contact_setup& s) { s.inertia.compensated = 0.5; });
   measure("k = 2 k_p", plain, [](Contact_setup& s) { s.coupling.stiffness *= 2; });
+  measure("k = 10 k_p", plain, [](Contact_setup& s) { s.coupling.stiffness *= 10; });
+  measure("k = 10 k_p, controller", plain,
+          [](Contact_setup& s) { s.coupling.stiffness *= 10, s.controller_damping = 10; });
   return rows;
 }
 
@@ -162,13 +194,12 @@ Json alarms(const Options& options) {
     setup.limits = Force_limits();
     sum.add(setup, run_contact(setup, options.alarm_seconds));
   }
-  const int observed = sum.least_observed < 0;
   std::printf("encoders of 1.53e-4 rad, %d runs of %.0f s: faults %d, observer alarms %d (least %.3g J), true least "
               "%.3g J, observer off by at most %.2g J\n",
-              sum.runs, options.alarm_seconds, sum.faults, observed, sum.least_observed, sum.least,
+              sum.runs, options.alarm_seconds, sum.faults, sum.alarms, sum.least_observed, sum.least,
               std::fmax(sum.observer_error, sum.observer_error_whole));
   Json report = sum.json();
-  report["observer_alarms"] = observed;
+  report["observer_alarms"] = sum.alarms;
   return report;
 }
 
@@ -230,22 +261,31 @@ Json chart() {
     for (const double delay : {0.0, 1.0}) {
       const double mass = largest_stable_mass(device, worst.pose, tick, delay, 0.4);
       masses.push_back({{"tick_s", tick}, {"delay", delay}, {"stable_to_kg", mass}});
+      std::fflush(stdout);
       std::printf("T %.2f ms, d %.0f: virtual mass stable to %.1f g\n", 1e3 * tick, delay, 1e3 * mass);
     }
-  return {{"friction_Ns_m", friction}, {"greatest_m_rad", worst.greatest}, {"rows", rows}, {"virtual_mass", masses}};
+  const auto terms = dynamics(device, Dynamics_model::spatial, worst.pose, Device_vector<double>(0, 0, 0));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> apparent(
+      apparent_mass(terms->mass, jacobian(device, worst.pose)->linear));
+  std::printf("least apparent mass there %.1f g\n", 1e3 * apparent.eigenvalues()[0]);
+  return {{"friction_Ns_m", friction},
+          {"greatest_m_rad", worst.greatest},
+          {"apparent_mass_kg", apparent.eigenvalues()[0]},
+          {"rows", rows},
+          {"virtual_mass", masses}};
 }
 
 /// What is wrong, one sentence each.
 std::vector<std::string> broken_bounds(const Json& report) {
   std::vector<std::string> broken;
-  if (report["passive"]["active_runs"] != 0)
+  if (report.contains("passive") && report["passive"]["active_runs"] != 0)
     broken.push_back("a run within the passive limit was given energy; its seed is in the report");
-  for (const Json& row : report["activity"])
+  for (const Json& row : report.value("activity", Json::array()))
     if (row["delay"] == 0.0 && (row["least_over_formula"] < 0.9 || row["largest"] > 1.1))
       broken.push_back("activity does not begin within 10 % of the formula");
-  if (report["alarms"]["faults"] != 0 || report["alarms"]["observer_alarms"] != 0)
+  if (report.contains("alarms") && (report["alarms"]["faults"] != 0 || report["alarms"]["observer_alarms"] != 0))
     broken.push_back("there were false alarms");
-  for (const Json& row : report["gravity"])
+  for (const Json& row : report.value("gravity", Json::array()))
     if (row["source"] == "encoders and holding" && row["largest_N"] > 0.06)
       broken.push_back("more than 60 mN of the mechanism's weight is left");
   return broken;
@@ -260,6 +300,9 @@ int main(int argc, char** argv) {
                "ends.");
   app.add_option("--runs", options.runs, "Of random pose, stiffness <= k_p, damping, delay, tick and hand")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--first", options.first, "Number of the first of them: shares of one large set add up to it")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--seconds", options.seconds, "Of contact in each")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--effect-runs", options.effect_runs, "For each effect")
@@ -280,6 +323,10 @@ int main(int argc, char** argv) {
   app.add_option("--poses", options.poses, "At which the weight left is looked at")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--parts", options.parts, "What to measure")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"activity", "gravity", "rate", "effects", "alarms", "passive"}))
+      ->capture_default_str();
   app.add_flag("--chart", options.chart, "Where activity and instability begin, over tick, delay and damping; minutes");
   app.add_option("--seed", options.seed, "Of everything random")->capture_default_str();
   app.add_option("--json", options.json, "Write the report here");
@@ -290,11 +337,14 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? done : usage;
   }
   Json report = {{"version", 1}, {"seed", options.seed}};
-  report["activity"] = activity_report(options);
-  report["gravity"] = gravity(options);
-  report["effects"] = effects(options);
-  report["alarms"] = alarms(options);
-  report["passive"] = passivity(options);
+  const auto part = [&](const char* name, Json (*measure)(const Options&)) {
+    if (options.has(name))
+      report[name] = measure(options);
+    std::fflush(stdout);
+  };
+  part("activity", activity_report), part("gravity", gravity), part("rate", rates), part("effects", effects),
+      part("alarms", alarms);
+  part("passive", passivity);
   if (options.chart)
     report["chart"] = chart();
   const std::vector<std::string> broken = broken_bounds(report);

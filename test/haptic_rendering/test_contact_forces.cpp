@@ -108,9 +108,9 @@ void check_static_force(Obstacle kind, bool with_wall, std::uint64_t seed) {
     Tool<Sculptor<Mesh>> tool(sculptor, probe, map_of_tests, 0.02, 1e-3);
     tool.move(map_of_tests.to_device(start), 0);
     BOOST_TEST((tool.move(map_of_tests.to_device(start), 1).event == Tool_event::grabbed));
-    const double across = with_wall ? 0.35 + 0.2 * unit(random) : 0.2 * unit(random) - 0.1;
-    const Vector3d way =
-        (1.0 + 0.3 * unit(random)) * scene.down + across * scene.out + (0.1 * unit(random) - 0.05) * scene.along;
+    const double across = with_wall ? 0.4 + 0.2 * unit(random) : 0.2 * unit(random) - 0.1;
+    const Vector3d way = ((with_wall ? 1.4 : 1.2) + 0.3 * unit(random)) * scene.down + across * scene.out +
+                         (0.1 * unit(random) - 0.05) * scene.along;
     Vector3d last_force = Vector3d::Zero(), last_hand = map_of_tests.to_device(start);
     Tool_step step;
     const int ticks = 150;
@@ -285,7 +285,8 @@ Force_error error_of(const Led_motion& led, std::uint64_t seed) {
   parameters.limits.slew = parameters.limits.largest = 1e9, parameters.limits.ramp_time = 1e-9;
   Passivity_limits limits;
   limits.passive_stiffness = 1e9;
-  const double before = 0.001 + 3 * led.speed / led.rate, after = 0.008; // metres before and behind the plane
+  const double before = 0.001 + 3 * led.speed / led.rate,
+               after = std::max(0.003, 8 * led.speed / led.rate); // metres before and behind the plane
   const auto start = reach_position(device, *home, Vector3d(home->position - before * direction));
   Haptic_loop<Sculptor<Mesh>> loop(sculptor, probe, device, *start, map, parameters, limits);
   Torque_delay<double> held_force(led.delay), held_torque(led.delay);
