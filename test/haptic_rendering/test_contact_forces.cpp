@@ -363,4 +363,46 @@ BOOST_AUTO_TEST_CASE(encoders_add_their_share_to_the_error_of_the_force) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(what_is_grabbed_is_heavy_and_nothing_else_is) {
+  const Device_parameters<double> device(named_design<double>(Named_design::D1, Device_form::ditetrahedral));
+  const auto home = home_pose(device);
+  const Workspace_map map(20, Vector3d(0.3, -0.2, 0.9), Vector3d(0, 0, -0.02), home->position);
+  Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  const auto probe = mesh.add_vertex(Mesh::Point(-1, -1, -1));
+  Sculptor<Mesh> sculptor(mesh);
+  Haptic_parameters parameters;
+  parameters.inertia.mass = 0.05, parameters.limits.ramp_time = 1e-9, parameters.reach = 0.002;
+  Passivity_limits limits;
+  limits.passive_stiffness = 1e9;
+  Haptic_loop<Sculptor<Mesh>> loop(sculptor, probe, device, *home, map, parameters, limits);
+  const Vector3d away = -map.direction_to_device(Vector3d(1, 1, 1)).normalized();
+  const double omega = 2 * M_PI * 3, amplitude = 0.002;
+  Device_pose<double> pose = *home;
+  double worst = 0, largest = 0, worst_energy = 0, largest_energy = 0;
+  for (int k = 0; k < 1200; ++k) { // shaken in free space, at rest and grabbed at 500, shaken again from 700
+    const double t = k * 1e-3, swing = k < 400 ? t : k < 700 ? 0 : t - 0.7;
+    pose = *reach_position(device, pose, Vector3d(home->position + amplitude * (1 - std::cos(omega * swing)) * away));
+    Joint_reading reading;
+    reading.theta = pose.theta, reading.elapsed = k == 0 ? 0 : 1e-3, reading.button = k < 500 ? 0 : 1;
+    const Haptic_tick& made = loop.tick(reading);
+    BOOST_REQUIRE((made.fault == Loop_fault::none));
+    BOOST_TEST(made.tool.reached);
+    if (k < 500)
+      BOOST_TEST(made.rendered.force == Vector3d::Zero());
+    if (k == 500)
+      BOOST_TEST((made.tool.event == Tool_event::grabbed));
+    if (k < 900)
+      continue; // the acceleration begins with a step, which low-passes follow
+    const Vector3d exact = -0.05 * amplitude * omega * omega * std::cos(omega * swing) * away;
+    worst = std::max(worst, (made.rendered.force - exact).norm()), largest = std::max(largest, exact.norm());
+    const double kinetic = 0.05 * std::pow(amplitude * omega * std::sin(omega * swing), 2) / 2;
+    worst_energy = std::max(worst_energy, std::abs(loop.inertia().mass_energy() - kinetic));
+    largest_energy = std::max(largest_energy, kinetic);
+  }
+  BOOST_TEST_MESSAGE("a vertex of 50 g in the loop: force off by " << 100 * worst / largest << " %, its energy by "
+                                                                   << 100 * worst_energy / largest_energy << " %");
+  BOOST_TEST(worst <= 0.01 * largest);
+  BOOST_TEST(worst_energy <= 0.1 * largest_energy);
+}
+
 } // namespace

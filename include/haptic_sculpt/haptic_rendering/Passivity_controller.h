@@ -25,7 +25,7 @@ public:
     const Eigen::Vector3d velocity = handle.step() / tick_; // a low-pass would come too late for what buzzes
     const double square = velocity.squaredNorm();
     damping_ = 0;
-    if (!(missing > 0) || !(square > least_speed * least_speed))
+    if (!(most_damping_ > 0 && missing > 0) || !(square > least_speed * least_speed))
       return Eigen::Vector3d::Zero();
     damping_ = std::fmin(most_damping_, missing / (tick_ * square));
     return -damping_ * velocity;
