@@ -77,7 +77,7 @@ Simulated_hand read_hand(const std::string& path) {
   if (hand.contains("name")) {
     const auto named = hand["name"].is_string() ? Simulated_hand::named(hand["name"].get<std::string>()) : std::nullopt;
     if (!named)
-      fail("`name` must be \"finger\" or \"arm\"");
+      fail("`name` must be \"finger\", \"arm\" or \"measured_arm\"");
     return *named;
   }
   Simulated_hand read;
