@@ -27,6 +27,8 @@ Command command_of(const Journal_entry& entry) {
     return of_kind(Command::Kind::insert_edge, 2, true);
   case Journal_entry::Kind::remove:
     return of_kind(Command::Kind::remove, 1, false);
+  case Journal_entry::Kind::collapse:
+    return of_kind(Command::Kind::collapse, 2, false);
   case Journal_entry::Kind::undo:
     return of_kind(Command::Kind::undo, 0, false);
   case Journal_entry::Kind::redo:

@@ -82,14 +82,15 @@ for kind in ("nan", "jump", "stall", "singular", "torque"):
     last = rows_of(at("f.csv"))[-1]
     check(vector(last, "fx", "fy", "fz", "tau1", "tau2", "tau3") == [0] * 6, f"{kind} ends at zero")
 
-# The log's thread does not come: the run ends in order within 100 ms, and the log holds what it had until then.
+# The log's thread does not come: the run ends in order, what is not in the log is not older than 100 ms. (Without waiting, the thread
+# may be some ticks behind before.)
 run(MESH, "--no-wait", "--log", at("g.log"), "--fault", "log@4.7", "--report", at("g.json"), "--trace", at("g.csv"), "-o", at("g.off"), code=8)
 report = json.load(open(at("g.json")))
 check([fault["what"] for fault in report["faults"]] == ["log"] and report["valid"] is True and report["log"]["lost"] > 0, f"log: {report['faults']}")
-check(4.79 <= report["faults"][0]["t"] <= 4.81, f"100 ms after the log's thread: {report['faults']}")
+check(4.73 <= report["faults"][0]["t"] <= 4.81, f"within 100 ms of the log's thread: {report['faults']}")
 check(vector(rows_of(at("g.csv"))[-1], "fx", "fy", "fz", "tau1", "tau2", "tau3") == [0] * 6, "log ends at zero")
 lines = open(at("g.log")).read().split("\n")
-check(lines[-1] == "" and lines[-2].startswith("# tick ") and 4690 <= int(lines[-2].split()[2]) <= 4701, f"the log ends at a tick: {lines[-2:]}")
+check(lines[-1] == "" and lines[-2].startswith("# tick ") and 4630 <= int(lines[-2].split()[2]) <= 4701, f"the log ends at a tick: {lines[-2:]}")
 done = run(MESH, "--real-time", "--seconds", 0.3)
 check("haptic_loop: " in done.stderr or os.geteuid() == 0, f"real time, or why not: {done.stderr}")
 run(MESH, "--real-time", "--no-wait", code=2)

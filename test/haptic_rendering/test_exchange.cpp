@@ -115,8 +115,14 @@ Surface made_again(int level, const Entries& entries) {
     case Kind::insert_on_edge:
       failed += !sculptor.insert_on_edge(sculptor.edge_of(v[0], v[1]), p);
       break;
-    case Kind::remove:
-      failed += !sculptor.remove(sculptor.vertex(v[0]));
+    case Kind::collapse: {
+      auto h = mesh.halfedge(sculptor.edge_of(v[0], v[1]));
+      h = mesh.target(h) == sculptor.vertex(v[1]) ? h : mesh.opposite(h);
+      failed += !sculptor.collapse(h);
+      break;
+    }
+    case Kind::remove: // is said as a collapse
+      ++failed;
       break;
     case Kind::undo:
       failed += !sculptor.undo();

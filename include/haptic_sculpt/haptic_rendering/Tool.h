@@ -78,8 +78,7 @@ public:
     let_go();
     park_probe(last_push_);
     auto made = make(wanted);
-    if (made)
-      journal_.add(wanted);
+    note(wanted, made);
     is_probe_placed_ = was_placed && internal::put_probe(*sculptor_, probe_, probe);
     return made;
   }
@@ -133,6 +132,17 @@ private:
     if (stroke_)
       journal_.end_stroke();
     stroke_.reset();
+  }
+
+  /// Where a probe is near, a removal may have taken another neighbour than it would without: that is said.
+  void note(Journal_entry wanted, const typename Sculptor::Edited& made) {
+    if (!made)
+      return;
+    if (wanted.kind == Journal_entry::Kind::remove) {
+      wanted.kind = Journal_entry::Kind::collapse;
+      wanted.vertices[1] = sculptor_->name(*made.vertex);
+    }
+    journal_.add(wanted);
   }
 
   typename Sculptor::Edited make(const Journal_entry& wanted) {
@@ -278,7 +288,7 @@ private:
     auto made = make(wanted);
     if (made) {
       journal_.begin_stroke();
-      journal_.add(wanted);
+      note(wanted, made);
     }
     return made;
   }
@@ -316,13 +326,12 @@ private:
     Journal_entry wanted;
     wanted.kind = Journal_entry::Kind::remove;
     wanted.vertices = {sculptor_->name(v), 0, 0};
-    const bool is_removed = static_cast<bool>(make(wanted));
-    if (is_removed)
-      journal_.add(wanted);
+    const auto made = make(wanted);
+    note(wanted, made);
     end_stroke();
     if (was_held)
       put_probe_near(place, away, hand);
-    return is_removed ? Tool_event::removed : Tool_event::refused;
+    return made ? Tool_event::removed : Tool_event::refused;
   }
 };
 

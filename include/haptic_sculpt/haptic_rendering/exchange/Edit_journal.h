@@ -12,9 +12,10 @@
 namespace haptic_sculpt {
 
 /// What was done to a sculpture, by value. Made again one after the other, each entry is certain to succeed: a move is
-/// one straight leg that was proven free, so no contact, bound on work or probe plays a role in it.
+/// one straight leg that was proven free, and a removal is the collapse that it was; so no contact, bound on work or
+/// probe plays a role in it.
 struct Journal_entry {
-  enum class Kind : std::uint8_t { move, insert_on_face, insert_on_edge, remove, undo, redo, stroke, end, tick };
+  enum class Kind : std::uint8_t { move, insert_on_face, insert_on_edge, remove, collapse, undo, redo, stroke, end, tick };
   Kind kind = Kind::tick;
   std::array<std::uint64_t, 3> vertices{}; ///< `Sculptor::name()`s; of a tick: its number
   std::array<double, 3> point{};
