@@ -221,8 +221,9 @@ private:
       });
       const std::size_t followed_before = followed.size();
       for (const auto& contact : met) {
-        if (std::abs(dot(contact.normal, direction)) < parallel && followed.size() < followed.capacity())
-          followed.push_back(contact.normal);
+        const Vector normal = coordinates(contact.normal);
+        if (std::abs(dot(normal, direction)) < parallel && followed.size() < followed.capacity())
+          followed.push_back(normal);
         if (time * along > near * lengths_.clearance)
           continue;
         see(contact);
@@ -269,11 +270,12 @@ private:
 
   /// Takes in the plane of the contact, and those through x that graze the borders of its facet.
   void see(const Contact_3<Mesh>& contact) {
-    see_plane(contact.normal);
+    const Vector normal = coordinates(contact.normal);
+    see_plane(normal);
     if (contact.kind == Contact_kind::delta) {
       if (curved_.size() < curved_.capacity() &&
-          std::none_of(curved_.begin(), curved_.end(), [&](const Vector& n) { return n == contact.normal; }))
-        curved_.push_back(contact.normal);
+          std::none_of(curved_.begin(), curved_.end(), [&](const Vector& n) { return n == normal; }))
+        curved_.push_back(normal);
       return;
     }
     Facet<Mesh> facet(contact, x_);
