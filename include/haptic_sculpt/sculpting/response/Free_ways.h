@@ -53,9 +53,7 @@ public:
       trial_.step_to(best_);
       trial_.forget_progress();
       walk = trial_;
-      trial_.go(guard, target, std::min(trial_.legs() + trial_legs, most_legs));
-      if (nearer_by(target, walk.x, trial_.x) > 0)
-        walk = trial_;
+      trial_.go_instead_of(walk, guard, target, std::min(trial_.legs() + trial_legs, most_legs), 0);
     }
     return any;
   }
