@@ -79,7 +79,7 @@ public:
       }
       if (!star_->limits_.empty())
         time = star_->limits_.for_each_contact(star_->star(), source_, target_, [&](const Contact_3<Mesh>& contact) {
-          found(contact, -dot(contact.normal, normalized(minus(target_, source_))));
+          found(contact, -dot(coordinates(contact.normal), normalized(minus(target_, source_))));
         });
       return time;
     }
@@ -183,7 +183,7 @@ private:
     double normal = limits_.least_altitude(star(), end) - delta;
     for (const Contact_3<Mesh>& contact : result.contacts)
       if (!contact.is_flat)
-        normal = std::fmin(normal, std::abs(height_over_plane(contact.plane[0], contact.plane[1], contact.plane[2], end)));
+        normal = std::fmin(normal, std::abs(height_over_plane(contact, end)));
     result.stop_error = std::isfinite(normal) ? normal : result.stop_error_along_path;
   }
 };
