@@ -94,10 +94,11 @@ Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
   return mesh;
 }
 
-std::string write_comparison(const Mesh& without_guard, const Mesh& with_guard, const std::string& path) {
+std::string write_comparison(const Mesh& without_guard, const Mesh& with_guard, const std::string& path,
+                             const std::vector<double>& direction) {
   drawing::View view;
-  view.direction = {0, 0.45, -1};
-  view.up = {0, 1, 0};
+  if (!direction.empty())
+    view.direction = {direction[0], direction[1], direction[2]};
   view.width = 1500, view.height = 800;
   const Pairs left = self_intersecting_pairs(without_guard), right = self_intersecting_pairs(with_guard);
   std::vector<drawing::Scene> scenes = {scene_with_pairs(without_guard, left), scene_with_pairs(with_guard, right)};
