@@ -234,7 +234,7 @@ Json chart() {
   const Worst_pose worst = worst_pose(
       device, Force_limits(), [&](const Eigen::Vector3d& p) { return (p - home->position).norm() <= 0.9 * radius; });
   const double friction = worst.friction(device);
-  Json rows = Json::array(), masses = Json::array();
+  Json rows = Json::array(), masses = Json::array(), dampings = Json::array();
   const auto point = [&](double tick, double delay, double damping) {
     const double k_p = passive_stiffness(friction, damping, tick, delay);
     const double k_s = stable_stiffness(friction, damping, tick, delay);
@@ -259,6 +259,10 @@ Json chart() {
       point(tick, 0, share * friction);
   for (const double tick : {0.00025, 0.001, 0.004})
     for (const double delay : {0.0, 1.0}) {
+      const double k = stable_stiffness(friction, 0, tick, delay);
+      const double damping = largest_stable_damping(device, worst.pose, k, tick, delay, 100 * friction);
+      dampings.push_back({{"tick_s", tick}, {"delay", delay}, {"stiffness", k}, {"stable_to", damping}});
+      std::printf("T %.2f ms, d %.0f, k %.0f N/m: damping stable to %.2f N s/m\n", 1e3 * tick, delay, k, damping);
       const double mass = largest_stable_mass(device, worst.pose, tick, delay, 0.4);
       masses.push_back({{"tick_s", tick}, {"delay", delay}, {"stable_to_kg", mass}});
       std::fflush(stdout);
@@ -272,6 +276,7 @@ Json chart() {
           {"greatest_m_rad", worst.greatest},
           {"apparent_mass_kg", apparent.eigenvalues()[0]},
           {"rows", rows},
+          {"damping", dampings},
           {"virtual_mass", masses}};
 }
 

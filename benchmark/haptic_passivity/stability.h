@@ -59,6 +59,20 @@ inline double largest_stable_stiffness(const Device_parameters<double>& device, 
   return low;
 }
 
+/// The largest damping, N s/m, at which it buzzes in no hand, with a stiffness.
+inline double largest_stable_damping(const Device_parameters<double>& device, const Device_pose<double>& pose,
+                                     double stiffness, double tick, double delay, double most) {
+  double low = 0, high = most;
+  for (int halving = 0; halving < 8; ++halving) {
+    const double middle = 0.5 * (low + high);
+    bool is_stable = true;
+    for (const Simulated_hand& hand : hands_of_chart())
+      is_stable = is_stable && is_calm(pressed(device, pose, hand, {stiffness, middle}, tick, delay));
+    (is_stable ? low : high) = middle;
+  }
+  return low;
+}
+
 /// The largest virtual mass, kg, with which it buzzes in no hand while nothing is touched.
 inline double largest_stable_mass(const Device_parameters<double>& device, const Device_pose<double>& pose, double tick,
                                   double delay, double most) {
