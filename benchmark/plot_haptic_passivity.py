@@ -18,11 +18,10 @@ figure, (by_damping, by_tick, by_rate) = plt.subplots(1, 3, figsize=(15, 4.6))
 
 def draw(axes, rows, x, colour, label):
     rows = sorted(rows, key=x)
-    axes.plot([x(r) for r in rows], [max(r["passive_formula"], 0) for r in rows], "-", color=colour, label=label)
+    axes.plot([x(r) for r in rows], [r["passive_formula"] if r["passive_formula"] > 0 else None for r in rows], "-", color=colour, label=label)
     axes.plot([x(r) for r in rows], [r["stable_formula"] for r in rows], "--", color=colour)
-    axes.plot([x(r) for r in rows if r["active_from"] > 0.02 * r["stable_formula"]],
-              [r["active_from"] for r in rows if r["active_from"] > 0.02 * r["stable_formula"]], "o", color=colour,
-              markersize=5, fillstyle="none")
+    active = [r for r in rows if "active_from" in r]
+    axes.plot([x(r) for r in active], [r["active_from"] for r in active], "o", color=colour, markersize=7, fillstyle="none")
     axes.plot([x(r) for r in rows], [r["stable_to"] for r in rows], "^", color=colour, markersize=5)
 
 

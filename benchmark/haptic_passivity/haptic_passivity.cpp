@@ -234,21 +234,21 @@ Json chart() {
   const Worst_pose worst = worst_pose(
       device, Force_limits(), [&](const Eigen::Vector3d& p) { return (p - home->position).norm() <= 0.9 * radius; });
   const double friction = worst.friction(device);
-  Json rows = Json::array(), masses = Json::array();
+  Json rows = Json::array(), masses = Json::array(), dampings = Json::array();
   const auto point = [&](double tick, double delay, double damping) {
     const double k_p = passive_stiffness(friction, damping, tick, delay);
     const double k_s = stable_stiffness(friction, damping, tick, delay);
-    const double active = activity_stiffness(device, worst.pose, damping, tick, delay);
     const double stable = largest_stable_stiffness(device, worst.pose, damping, tick, delay, 4 * k_s / 0.6);
     rows.push_back({{"tick_s", tick},
                     {"delay", delay},
                     {"damping", damping},
                     {"passive_formula", k_p},
                     {"stable_formula", k_s},
-                    {"active_from", active},
                     {"stable_to", stable}});
+    if (damping == 0) // a slow motion is damped by b, and would not find what b costs
+      rows.back()["active_from"] = activity_stiffness(device, worst.pose, 0, tick, delay);
     std::printf("T %.2f ms, d %.1f, b %.2f: k_p %.0f, activity from %.0f; k_s %.0f, stable to %.0f N/m\n", 1e3 * tick,
-                delay, damping, k_p, active, k_s, stable);
+                delay, damping, k_p, rows.back().value("active_from", 0.0), k_s, stable);
     std::fflush(stdout);
   };
   for (const double delay : {0.0, 0.5, 1.0})
@@ -259,6 +259,10 @@ Json chart() {
       point(tick, 0, share * friction);
   for (const double tick : {0.00025, 0.001, 0.004})
     for (const double delay : {0.0, 1.0}) {
+      const double k = stable_stiffness(friction, 0, tick, delay);
+      const double damping = largest_stable_damping(device, worst.pose, k, tick, delay, 100 * friction);
+      dampings.push_back({{"tick_s", tick}, {"delay", delay}, {"stiffness", k}, {"stable_to", damping}});
+      std::printf("T %.2f ms, d %.0f, k %.0f N/m: damping stable to %.2f N s/m\n", 1e3 * tick, delay, k, damping);
       const double mass = largest_stable_mass(device, worst.pose, tick, delay, 0.4);
       masses.push_back({{"tick_s", tick}, {"delay", delay}, {"stable_to_kg", mass}});
       std::fflush(stdout);
@@ -272,6 +276,7 @@ Json chart() {
           {"greatest_m_rad", worst.greatest},
           {"apparent_mass_kg", apparent.eigenvalues()[0]},
           {"rows", rows},
+          {"damping", dampings},
           {"virtual_mass", masses}};
 }
 
