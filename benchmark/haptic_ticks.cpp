@@ -49,7 +49,9 @@ struct Hand {
     const double angle = options.speed / options.rate / options.radius * static_cast<double>(tick),
                  turn = 0.0137 * angle;
     const Vector3d direction(std::cos(angle), std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn));
-    return home + 1e-3 * (options.radius - options.depth) * direction;
+    const double above =
+        std::fmax(0, 5 - 0.02 * static_cast<double>(tick)); // mm: it comes from outside, as a probe must
+    return home + 1e-3 * (options.radius - options.depth + above) * direction;
   }
   static int button(std::size_t tick) {
     const std::size_t phase = tick % 1000;
@@ -113,6 +115,9 @@ Json run(const Options& options) {
       throw Error(std::string("a fault: ") + name_of(made.fault));
   }
   const Tool_edits& done = loop.tool().edits();
+  if (4 * blocked < all.number())
+    throw Error("the hand was held back in " + std::to_string(blocked) +
+                " ticks only: that is not what is measured here");
   return {{"triangles", scene.number_of_faces()},
           {"cpu_us", of(all)},
           {"cpu_us_probe", of(probe)},

@@ -30,13 +30,17 @@ std::unique_ptr<Scene> scene_of(int level) {
                                  [](const Vector3d&, const Vector3d&) { return map_of_tests; });
 }
 
-/// A hand that goes about the ball, in and out, and presses a button now and then.
+/// A hand that goes about the ball: comes down on it, presses the button, pulls outwards, lets go; and so on.
 Pose_reading reading_at(std::uint64_t tick) {
-  const double a = 0.002 * static_cast<double>(tick), r = 1.1 + 0.25 * std::sin(3.1 * a);
+  const std::uint64_t phase = tick % 700;
+  const double a = 0.002 * static_cast<double>(tick), p = static_cast<double>(phase);
+  const double r = phase < 150   ? 1.25
+                   : phase < 300 ? 1.25 - 0.35 * (p - 150) / 150
+                   : phase < 600 ? 0.9 + 0.4 * (p - 300) / 300
+                                 : 1.3 - 0.05 * (p - 600) / 100;
   Pose_reading reading;
   reading.position = map_of_tests.to_device(
       r * Vector3d(std::cos(a), std::sin(a) * std::cos(0.3 * a), std::sin(a) * std::sin(0.3 * a)));
-  const std::uint64_t phase = tick % 700;
   reading.button = phase < 300 ? 0 : phase < 600 ? 1 : phase < 620 ? 2 : 0;
   reading.elapsed = 0.001;
   return reading;
@@ -296,9 +300,9 @@ BOOST_AUTO_TEST_CASE(a_window_asks_and_sees_and_a_journal_is_kept_while_the_loop
   Window window(threads.desk, threads.feed, 7);
   threads.run(true, [&] {
     window.ask_for_copy();
-    for (int k = 0; k < 300 || window.last_tick < 6000; ++k) {
+    for (int k = 0; k < 300 || window.last_tick < 9000; ++k) {
       window.look();
-      if (!window.waits_for_copy() && window.last_tick > 1000)
+      if (!window.waits_for_copy() && window.last_tick > 1000 && k % 5 == 0)
         window.ask_for_something();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
