@@ -267,7 +267,9 @@ for name, mesh in MESHES:
         continue
     lines, err = window(mesh, "--log", log, "--size", 600, 450, "--samples", 0, "--report", at("report.json"),
                         script=WORK.format(out=out), what=name)
-    if lines:
+    if lines and name.startswith("gen_extreme"):  # thinner than 1e-300 of its length: there is nothing to point at
+        check(lines[0]["edits"] == 0 and "nothing to take hold of" in lines[0]["refused"], f"{name}: {lines[0]}")
+    elif lines:
         check(lines[0]["edits"] > 0, f"{name}: nothing was edited: {lines[0]}")
         replayed(mesh, log, out, name)
         report = json.load(open(at("report.json")))
