@@ -93,7 +93,7 @@ int Mesh_view::uniform(const char* name) const {
   return glGetUniformLocation(program_, name);
 }
 
-void Mesh_view::draw_mesh(const Camera& camera, const Color& background) const {
+void Mesh_view::draw_mesh(const Camera& camera, const Color& background, Passes passes) const {
   glViewport(0, 0, camera.width(), camera.height());
   glClearColor(background.x(), background.y(), background.z(), 1);
   glDepthMask(GL_TRUE);
@@ -109,6 +109,11 @@ void Mesh_view::draw_mesh(const Camera& camera, const Color& background) const {
   glUniform1f(uniform("edge_opacity"), edge_opacity_);
   glDisable(GL_BLEND);
   glDepthFunc(GL_LESS);
+  if (passes == Passes::one) {
+    glDisable(GL_CULL_FACE);
+    mesh_.draw();
+    return;
+  }
   // Faces in contact are nearer to each other than depths can be told apart, and what is seen would change from pixel to pixel.
   // One of the two is seen from inside, wherever the surface is closed and faces outwards: it is put behind the other.
   glEnable(GL_CULL_FACE);

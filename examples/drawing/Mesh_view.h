@@ -31,13 +31,17 @@ public:
   /// For who changes the mesh triangle by triangle (corners_of()).
   Triangle_buffer& mesh() { return mesh_; }
 
+  /// Whether faces seen from inside are put behind those seen from outside, by drawing all twice. \see draw_mesh
+  enum class Passes { two, one };
+
   /// Clears the framebuffer to `background` and draws.
-  void draw(const Camera& camera, const Color& background) const {
-    draw_mesh(camera, background);
+  void draw(const Camera& camera, const Color& background, Passes passes = Passes::two) const {
+    draw_mesh(camera, background, passes);
     draw_marks();
   }
-  /// Clears and draws the mesh alone.
-  void draw_mesh(const Camera& camera, const Color& background) const;
+  /// Clears and draws the mesh alone. In one pass it takes half the time, and what is seen of faces in contact may change
+  /// from pixel to pixel.
+  void draw_mesh(const Camera& camera, const Color& background, Passes passes = Passes::two) const;
 
 private:
   unsigned program_ = 0;

@@ -62,6 +62,8 @@ public:
   void draw_panels();
   void frame_done(std::uint64_t nanoseconds);
   bool is_done() const { return is_done_; }
+  /// Whether a script has actions left.
+  bool is_playing() const { return next_action_ < script_.size(); }
   /// A picture is due: of what has just been drawn. \return where it goes; empty: none is due
   std::string take_screenshot() { return std::exchange(screenshot_, {}); }
   void say(const std::string& text);

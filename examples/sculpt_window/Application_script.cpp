@@ -31,7 +31,8 @@ Eigen::Vector2d Application::pixel_of(const Spot& spot) const {
 }
 
 bool Application::is_settled() const {
-  return waiting_.empty() && status_.answered == last_asked_ && status_.dirty_faces == 0 && status_.brush_left == 0 &&
+  return waiting_.empty() && status_.answered == last_asked_ && status_.dirty_faces == 0 &&
+         (status_.brush_left == 0 || status_.hold == Status::Hold::brush) && // in the hand it makes dab after dab
          names_to_save_.empty() && !background_.is_opening() && !background_.is_saving();
 }
 

@@ -9,9 +9,16 @@ namespace haptic_sculpt::window_program {
 
 void Log_thread::begin() {
   sculpt_program::Settings settings;
+  settings.response = "stop";
+  const bool stops = !contents() || contents()->last_settings().response == settings.response;
   file_.begin(settings);
   // A log says which script its lines come from. That of the window is its hand, and its lines are counted.
   file_.begin_pass(sculpt_program::Sha256().add("the hand in sculpt_window").digest(), 0);
+  if (!stops) { // begun by sculpt, under another response
+    Logged_edit line{sculpt_program::Command::Kind::response};
+    line.word = "stop";
+    add(line);
+  }
   has_failed_ = !file_.failure().empty();
   thread_ = std::thread([this] { write(); });
 }

@@ -92,7 +92,9 @@ void Sculpture_view::upload() {
 void Sculpture_view::draw(const Status& status, const Hand_marks& marks) {
   upload();
   view_->set_marks(marks_of(status, marks), *camera_);
-  view_->draw(*camera_, drawing::colors::white);
+  const std::size_t many = 50000; // triangles: a frame should not take longer than an eye notices
+  view_->draw(*camera_, drawing::colors::white,
+              view_->mesh().size() < many ? drawing::Mesh_view::Passes::two : drawing::Mesh_view::Passes::one);
 }
 
 drawing::Scene Sculpture_view::marks_of(const Status& status, const Hand_marks& marks) const {

@@ -136,6 +136,8 @@ private:
 
   void set_callbacks() const {
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+      if (application_of(w).is_playing())
+        return; // the script's hand is the one that counts
       if (!ImGui::GetIO().WantCaptureMouse || glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
         application_of(w).on_move(x * scale(w), y * scale(w));
     });
