@@ -16,11 +16,10 @@ if shutil.which("doxygen") is None:
     sys.exit(SKIPPED)
 
 with tempfile.TemporaryDirectory() as folder:
-    def warnings_of(options):
-        """Of headers and concepts; the pages have readers of their own."""
+    def warnings_of(options, files="include|doc/concepts"):
         settings = (root / "doc" / "Doxyfile").read_text() + f"\nOUTPUT_DIRECTORY = {folder}\n{options}\n"
         run = subprocess.run(["doxygen", "-"], input=settings, cwd=root, capture_output=True, text=True, check=True)
-        return [line for line in run.stderr.splitlines() if re.search(r"/(include|doc/concepts)/.*: (warning|error):", line)]
+        return [line for line in run.stderr.splitlines() if re.search(rf"/({files})/?.*: (warning|error):", line)]
 
     faults = warnings_of("INPUT = include doc/concepts\nUSE_MDFILE_AS_MAINPAGE =\nGENERATE_XML = YES")
     listed = pathlib.Path(folder, "xml", "index.xml").read_text()
@@ -31,6 +30,8 @@ with tempfile.TemporaryDirectory() as folder:
             faults.append(f"not in the reference: {name}")
     faults += [line for line in warnings_of("INPUT = include doc/concepts\nUSE_MDFILE_AS_MAINPAGE =\nWARN_IF_UNDOCUMENTED = YES")
                if ": warning: Compound " in line]
+
+    faults += warnings_of("", r"doc/\w+\.md|README\.md")  # links of pages that lead nowhere
 
 for fault in faults:
     print(fault)
