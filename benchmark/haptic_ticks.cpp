@@ -101,11 +101,11 @@ Json run(const Options& options) {
       throw Error("the hand's path leaves the workspace");
     reading.theta = measured_angles(device, pose->theta);
     reading.button = Hand::button(tick), reading.elapsed = tick == 0 ? 0 : parameters.tick;
-    const std::size_t before = allocated;
+    const std::size_t before = allocations_so_far;
     const std::uint64_t begin = cpu_nanoseconds();
     const Haptic_tick& made = loop.tick(reading);
     const std::uint64_t taken = cpu_nanoseconds() - begin;
-    allocations += allocated - before;
+    allocations += allocations_so_far - before;
     missed += static_cast<double>(taken) > 1e9 * parameters.tick;
     cut_short += made.tool.end == Drag_end::work_limit;
     blocked += !made.tool.reached;

@@ -3,16 +3,16 @@
 #define HAPTIC_SCULPT_EXAMPLES_COUNT_ALLOCATIONS_H
 
 /// \file
-/// Counts how often each thread asks for memory, in `allocated`. To be included by one source file of a program.
+/// Counts how often each thread asks for memory, in `allocations_so_far`. To be included by one source file of a program.
 
 #include <cstdlib>
 #include <new>
 
 namespace {
-thread_local std::size_t allocated = 0;
+thread_local std::size_t allocations_so_far = 0;
 
 void* counted(std::size_t size) noexcept {
-  ++allocated;
+  ++allocations_so_far;
   return std::malloc(size != 0 ? size : 1);
 }
 } // namespace
@@ -24,7 +24,7 @@ __attribute__((noinline)) void* operator new(std::size_t size) {
   throw std::bad_alloc();
 }
 __attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocated;
+  ++allocations_so_far;
   const auto a = static_cast<std::size_t>(alignment);
   if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a))
     return p;

@@ -22,7 +22,7 @@
 #include <memory>
 
 std::size_t haptic_sculpt::loop_program::allocations() {
-  return allocated;
+  return allocations_so_far;
 }
 
 namespace {

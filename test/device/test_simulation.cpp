@@ -3,28 +3,9 @@
 // that moves along. A program of its own, because it counts allocations: Eigen's by its own switch, all others by
 // operator new.
 #define EIGEN_RUNTIME_NO_MALLOC
+#include "../examples/count_allocations.h"
 #include "maximal_coordinates.h"
 #include <boost/test/unit_test.hpp>
-#include <cstdlib>
-#include <new>
-
-namespace {
-long allocations = 0;
-}
-
-// Not inlined, or g++ sees free() meet operator new and warns.
-__attribute__((noinline)) void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size != 0 ? size : 1))
-    return memory;
-  throw std::bad_alloc();
-}
-__attribute__((noinline)) void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace {
 
@@ -467,7 +448,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_allocated) {
     Device_pose<double> seen = state.device.pose;
     double sum = 0;
     bool good = true;
-    const long before = allocations;
+    const std::size_t before = allocations_so_far;
     Eigen::internal::set_is_malloc_allowed(false);
     for (int tick = 0; tick < 100 && good; ++tick) {
       const auto pose = forward_kinematics(parameters, measured_angles(parameters, state.device.pose.theta), seen);
@@ -482,7 +463,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_allocated) {
     }
     Eigen::internal::set_is_malloc_allowed(true);
     BOOST_TEST(good);
-    BOOST_TEST(allocations - before == 0);
+    BOOST_TEST(allocations_so_far == before);
     BOOST_TEST(sum > 100);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drags allocate nothing once they are warm: every operator new of this program is counted, and every request of GMP, to which exact
 // decisions turn where coordinates are more than 2^199 apart.
+#include "../examples/count_allocations.h"
 #include "sculpting/Random_scene.h"
 
 #include <boost/test/unit_test.hpp>
@@ -8,16 +9,11 @@
 #include <gmp.h>
 
 #include <cstdlib>
-#include <new>
 #include <optional>
 
 namespace {
-std::size_t allocations = 0, gmp_allocations = 0; // of this program, so far
+std::size_t gmp_allocations = 0; // of this program, so far
 
-void* counted(std::size_t size) {
-  ++allocations;
-  return std::malloc(size != 0 ? size : 1);
-}
 void* counted_by_gmp(std::size_t size) {
   ++gmp_allocations;
   return std::malloc(size);
@@ -28,24 +24,6 @@ void* resized_by_gmp(void* p, std::size_t, std::size_t size) {
 }
 void freed_by_gmp(void* p, std::size_t) { std::free(p); }
 } // namespace
-
-// Not inlined, or g++ sees free() meet operator new and warns. The array and nothrow forms call these.
-__attribute__((noinline)) void* operator new(std::size_t size) {
-  if (void* p = counted(size))
-    return p;
-  throw std::bad_alloc();
-}
-__attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto a = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a))
-    return p;
-  throw std::bad_alloc();
-}
-__attribute__((noinline)) void operator delete(void* p) noexcept { std::free(p); }
-__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-__attribute__((noinline)) void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-__attribute__((noinline)) void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -72,10 +50,10 @@ Round drag_about(Grab& grab, const Point_3& home, double edge, std::uint64_t see
   };
   Round round;
   const auto drag = [&](const Point_3& target) {
-    const std::size_t before = allocations, before_gmp = gmp_allocations;
+    const std::size_t before = allocations_so_far, before_gmp = gmp_allocations;
     const auto result = grab.drag_to(target);
     if (result.contacts.size() <= Drag_result<Mesh>::usual_contacts)
-      round.allocations += allocations - before;
+      round.allocations += allocations_so_far - before;
     else
       ++round.with_many_contacts;
     round.gmp_allocations += gmp_allocations - before_gmp;
@@ -133,7 +111,7 @@ void check(const char* name, const meshes::Triangle_list& list, double edge, con
 BOOST_AUTO_TEST_CASE(warm_drags_allocate_nothing) {
   mp_set_memory_functions(counted_by_gmp, resized_by_gmp, freed_by_gmp);
   const std::uint64_t seed = seed_from_environment(6);
-  BOOST_TEST(allocations > 0u); // it counts
+  BOOST_TEST(allocations_so_far > 0u); // it counts
   for (const Response response : {Response::slide, Response::stop, Response::paper}) {
     const Sculptor_parameters options = parameters::response(response);
     check("torus", meshes::torus(40, 20), 0.15, options, seed);
@@ -175,9 +153,9 @@ BOOST_AUTO_TEST_CASE(room_for_undo_is_made_at_the_grab) {
       grab.drag_to(home + meshes::Kernel::Vector_3(0.001 * static_cast<double>(i % 7), 0, 0));
   };
   there_and_back(100);
-  const std::size_t before = allocations;
+  const std::size_t before = allocations_so_far;
   there_and_back(internal::Edit_history::room - 100);
-  BOOST_TEST(allocations == before);
+  BOOST_TEST(allocations_so_far == before);
   BOOST_TEST(sculptor.history().number_of_undo_steps() > internal::Edit_history::room / 2);
 }
 
@@ -211,7 +189,7 @@ BOOST_AUTO_TEST_CASE(edits_allocate_nothing_after_reserve) {
         const Point_3 p = mesh.point(mesh.source(h)), q = mesh.point(mesh.target(h)), r = mesh.point(mesh.target(mesh.next(h)));
         const Point_3 middle = CGAL::centroid(p, q, r), half = CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)));
         const std::size_t before_gmp = gmp_allocations;
-        before = allocations;
+        before = allocations_so_far;
         if (random() % 16 == 0)
           stroke.reset(); // before another begins, or it would join
         if (random() % 32 == 0)
@@ -226,15 +204,15 @@ BOOST_AUTO_TEST_CASE(edits_allocate_nothing_after_reserve) {
         case 5: is_done = static_cast<bool>(sculptor.undo()); break;
         case 6: is_done = static_cast<bool>(sculptor.redo()); break;
         default: {
-          const std::size_t before_drag = allocations;
+          const std::size_t before_drag = allocations_so_far;
           sculptor.grab(v).drag_to(mesh.point(v) + 0.1 * (middle - p));
           if (i < edits / 4) // until the lists of slides are warm
-            before += allocations - before_drag;
+            before += allocations_so_far - before_drag;
         }
         }
         done[kind] += is_done;
-        allocated[kind] += allocations - before;
-        warm += allocations - before;
+        allocated[kind] += allocations_so_far - before;
+        warm += allocations_so_far - before;
         by_gmp += gmp_allocations - before_gmp;
       }
       BOOST_TEST_MESSAGE("done " << done[0] << " " << done[1] << " " << done[2] << " " << done[3] << " " << done[4] << " " << done[5] << " " << done[6]
