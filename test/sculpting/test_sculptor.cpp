@@ -7,6 +7,34 @@
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
 
+namespace {
+
+/// Traits that see nothing, and count how often they are asked.
+class Blind_traits : public Exact_sweep_traits<Mesh> {
+public:
+  struct Sweep {
+    std::size_t* asked;
+
+    template <class... Points>
+    std::optional<Impact_3> operator()(const Points&...) const { return ++*asked, std::nullopt; }
+    template <class... Points>
+    bool do_collide(const Points&...) const { return ++*asked, false; }
+  };
+  using Vertex_face_sweep_3 = Sweep;
+  using Edge_edge_sweep_3 = Sweep;
+  using Face_vertex_sweep_3 = Sweep;
+
+  explicit Blind_traits(std::size_t& asked) : asked_(&asked) {}
+  Sweep vertex_face_sweep_3_object() const { return {asked_}; }
+  Sweep edge_edge_sweep_3_object() const { return {asked_}; }
+  Sweep face_vertex_sweep_3_object() const { return {asked_}; }
+
+private:
+  std::size_t* asked_;
+};
+
+} // namespace
+
 BOOST_AUTO_TEST_CASE(an_invalid_mesh_is_refused_and_named) {
   Mesh mesh = ball();
   mesh.point(Vertex_index(3)) = mesh.point(Vertex_index(7));
@@ -158,6 +186,25 @@ BOOST_AUTO_TEST_CASE(several_objects_do_not_tunnel) {
   }
   BOOST_TEST(validate(mesh).is_valid());
   sculptor.check_unchanged();
+}
+
+BOOST_AUTO_TEST_CASE(what_stops_a_drag_are_its_traits) {
+  Mesh mesh = ball();
+  const Vertex_index v(0);
+  const Point_3 p = mesh.point(v), target(-1.5 * p.x(), -1.5 * p.y(), -1.5 * p.z());
+  std::size_t asked = 0;
+  const Blind_traits traits(asked);
+  BOOST_TEST(first_impact(mesh, v, target).has_value());
+  BOOST_TEST(!first_impact(mesh, v, target, traits).has_value());
+  BOOST_TEST(asked > 0u);
+  Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Default_edit_visitor, Blind_traits> blind(mesh, {}, {}, traits);
+  asked = 0;
+  BOOST_TEST(!blind.first_impact(v, target).has_value());
+  BOOST_TEST(blind.grab(v).drag_to(target).reached);
+  BOOST_TEST(asked > 0u);
+  BOOST_TEST(!validate(mesh).is_valid()); // it has gone through: nothing else has stopped it
+  BOOST_TEST(bool(blind.undo()));
+  BOOST_TEST(validate(mesh).is_valid());
 }
 
 BOOST_AUTO_TEST_CASE(far_targets_and_huge_meshes_are_ordinary) {

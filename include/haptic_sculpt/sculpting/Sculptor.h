@@ -276,9 +276,9 @@ private:
 
   double delta() const { return options().delta_length; }
 
-  /// Those that do not count are made by default.
+  /// The exact ones count; others are made by default.
   static Traits traits_that_count(Filter_counters& counters) {
-    if constexpr (std::is_constructible<Traits, Filter_counters*>::value)
+    if constexpr (std::is_same<Traits, Exact_sweep_traits<Mesh_type>>::value)
       return Traits(&counters);
     else
       return Traits();
