@@ -138,7 +138,7 @@ private:
     Box_tree_broad_phase<Mesh> broad_phase(mesh_);
     const internal::Face_corners<Mesh> corners(mesh_);
     Filter_counters counters;
-    test::Recording_guard<Mesh> guard(mesh_, broad_phase, corners, counters);
+    test::Recording_guard<Mesh> guard(mesh_, broad_phase, corners, Exact_sweep_traits<Mesh>(&counters));
     guard.collect(v);
     internal::Responses<Mesh> responses;
     Drag_result<Mesh> result;
