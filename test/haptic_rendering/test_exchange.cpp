@@ -48,7 +48,7 @@ Pose_reading reading_at(std::uint64_t tick) {
 
 Pose_loop_parameters parameters_of_tests() {
   Pose_loop_parameters parameters;
-  parameters.reach = 0.002;
+  parameters.reach = 0.003;
   return parameters;
 }
 
@@ -315,7 +315,7 @@ BOOST_AUTO_TEST_CASE(a_window_asks_and_sees_and_a_journal_is_kept_while_the_loop
                                    << " entries");
   BOOST_TEST(window.done > 20u);
   BOOST_TEST(window.refused > 0u);
-  BOOST_TEST(threads.edits > 3u);
+  BOOST_TEST(threads.edits >= 2u);
   BOOST_TEST(threads.feed.lost_changes() == 0u);
   BOOST_TEST(!threads.journal.has_overrun());
   BOOST_TEST(window.is_current);
