@@ -159,18 +159,19 @@ Json effects(const Options& options) {
     std::printf("%-24s least port + dissipation %10.3g J, active runs %d of %d, port from %.3g to %.3g J, limits at "
                 "work in %.0f %% of the ticks\n",
                 name, sum.least, sum.active, sum.runs, sum.least_port, sum.largest_port, 100 * sum.limited / sum.runs);
+    std::fflush(stdout);
   };
   Contact_wishes plain, bad_poses, weak;
   plain.is_at_limit = bad_poses.is_at_limit = weak.is_at_limit = true;
-  bad_poses.least_condition = 9, bad_poses.most_condition = 18;
+  bad_poses.least_condition = 4, bad_poses.most_condition = 18;
   weak.torque_limit = 0.12;
   measure("none", plain, [](Contact_setup&) {});
   measure("slew 300 N/s", plain, [](Contact_setup& s) { s.limits.slew = 300; });
   measure("slew 30 N/s", plain, [](Contact_setup& s) { s.limits.slew = 30; });
   measure("clamp 0.5 N", plain, [](Contact_setup& s) { s.limits.largest = 0.5; });
   measure("saturation 0.12 N m", weak, [](Contact_setup&) {});
-  measure("fading 10 to 20", bad_poses,
-          [](Contact_setup& s) { s.limits.full_condition = 10, s.limits.no_condition = 20; });
+  measure("fading 5 to 20", bad_poses,
+          [](Contact_setup& s) { s.limits.full_condition = 5, s.limits.no_condition = 20; });
   measure("ramp 0.3 s", plain, [](Contact_setup& s) { s.limits.ramp_time = 0.3; });
   measure("burst every 0.5 s", plain, [](Contact_setup& s) { s.burst_every = 0.5; });
   measure("virtual mass 10 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.01; });
