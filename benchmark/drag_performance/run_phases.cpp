@@ -112,7 +112,7 @@ Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_count
   Timed broad_phase(mesh);
   const internal::Face_corners<Mesh> corners(mesh);
   Filter_counters counters;
-  internal::Guarded_star<Mesh, Timed> guard(mesh, broad_phase, corners, counters);
+  internal::Guarded_star<Mesh, Timed> guard(mesh, broad_phase, corners, Exact_sweep_traits<Mesh>(&counters));
   Drag_result<Mesh> result;
   Latencies counted;
   std::size_t looks = guard.looks();
@@ -171,7 +171,7 @@ void add_slide_phases(Json& phases, const Workload_mesh& scene, std::uint64_t se
   Timed broad_phase(mesh);
   const internal::Face_corners<Mesh> corners(mesh);
   Filter_counters counters;
-  internal::Guarded_star<Mesh, Timed> star(mesh, broad_phase, corners, counters);
+  internal::Guarded_star<Mesh, Timed> star(mesh, broad_phase, corners, Exact_sweep_traits<Mesh>(&counters));
   Timed_guard<internal::Guarded_star<Mesh, Timed>> guard(star);
   internal::Responses<Mesh> responses;
   Random_motions random(seed);

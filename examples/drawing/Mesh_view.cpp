@@ -31,8 +31,13 @@ std::vector<Corner> mesh_corners(const Scene& scene, const Camera& camera) {
         corners_of(camera, {scene.points[triangle[0]], scene.points[triangle[1]], scene.points[triangle[2]]},
                    scene.surface_color);
     result.insert(result.end(), corners.begin(), corners.end());
-    for (int i = 0; i < 3 && !scene.point_colors.empty(); ++i)
-      result[result.size() - 3 + i].color = scene.point_colors[triangle[i]];
+    for (int i = 0; i < 3; ++i) {
+      Corner& corner = result[result.size() - 3 + i];
+      if (!scene.point_colors.empty())
+        corner.color = scene.point_colors[triangle[i]];
+      if (!scene.point_normals.empty())
+        corner.normal = scene.point_normals[triangle[i]].cast<float>();
+    }
   }
   return result;
 }
@@ -69,6 +74,7 @@ Mesh_view::~Mesh_view() {
 
 void Mesh_view::set_scene(const Scene& scene, const Camera& camera) {
   mesh_.set(mesh_corners(scene, camera));
+  edge_opacity_ = scene.edge_opacity;
   set_marks(scene, camera);
 }
 
@@ -100,6 +106,7 @@ void Mesh_view::draw_mesh(const Camera& camera, const Color& background, Passes 
   glUniform1f(uniform("opacity"), 1);
 
   glUniform1i(uniform("with_edges"), 1);
+  glUniform1f(uniform("edge_opacity"), edge_opacity_);
   glDisable(GL_BLEND);
   glDepthFunc(GL_LESS);
   if (passes == Passes::one) {

@@ -45,6 +45,7 @@ public:
 
 private:
   unsigned program_ = 0;
+  float edge_opacity_ = Scene().edge_opacity;
   Triangle_buffer mesh_, marks_;
 
   /// \pre the mesh has just been drawn

@@ -68,7 +68,9 @@ struct Scene {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<int, 3>> triangles; ///< indices into `points`, counterclockwise from outside
   std::vector<Color> point_colors;           ///< one a point, or empty: all of `surface_color`
+  std::vector<Eigen::Vector3d> point_normals; ///< of length 1, one a point, for smooth shading; or empty: faces are flat
   Color surface_color = colors::surface;
+  float edge_opacity = 0.62f; ///< of the lines along the mesh's edges; 0: none
   std::vector<Segment> segments;
   std::vector<Ball> balls;
   std::vector<Arrow> arrows;
@@ -126,6 +128,9 @@ struct Scene {
     if (!point_colors.empty() && point_colors.size() != points.size())
       throw Picture_error("There are " + std::to_string(point_colors.size()) + " colours for " +
                           std::to_string(points.size()) + " points. Give one colour a point, or none.");
+    if (!point_normals.empty() && point_normals.size() != points.size())
+      throw Picture_error("There are " + std::to_string(point_normals.size()) + " normals for " +
+                          std::to_string(points.size()) + " points. Give one normal a point, or none.");
     auto require_finite = [](bool finite, const std::string& kind, std::size_t i) {
       if (!finite)
         throw Picture_error(kind + ' ' + std::to_string(i) + " is not finite. Give finite numbers.");

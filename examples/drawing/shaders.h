@@ -27,7 +27,7 @@ void main() {
 inline const char* const fragment_shader = R"(#version 330 core
 in vec3 eye_normal, corner_color, barycentric;
 uniform bool with_edges;
-uniform float opacity;
+uniform float opacity, edge_opacity;
 out vec4 result;
 void main() {
   vec3 n = normalize(gl_FrontFacing ? eye_normal : -eye_normal);
@@ -41,7 +41,7 @@ void main() {
   if (with_edges) {
     vec3 gradient = max(sqrt(dFdx(barycentric) * dFdx(barycentric) + dFdy(barycentric) * dFdy(barycentric)), 1e-12);
     vec3 line = (1 - smoothstep(0.25, 1.15, barycentric / gradient)) * smoothstep(3, 14, 1 / gradient);
-    shaded = mix(shaded, vec3(0.13, 0.17, 0.24), 0.62 * max(line.x, max(line.y, line.z)));
+    shaded = mix(shaded, vec3(0.13, 0.17, 0.24), edge_opacity * max(line.x, max(line.y, line.z)));
   }
   result = vec4(shaded, opacity);
 })";

@@ -2,6 +2,7 @@
 #include "write_picture.h"
 #include "Mesh_view.h"
 #include "Offscreen_context.h"
+#include "draw_plot.h"
 #include "write_png.h"
 #include "write_words.h"
 #include <cfenv>
@@ -118,13 +119,8 @@ Image drawn(const Scene& scene, const Camera& camera, const Color& background, M
   return image;
 }
 
-} // namespace
-
-std::string write_picture(const Scene& scene, const std::filesystem::path& path, const View& view) {
-  return write_pictures({scene}, path, view);
-}
-
-std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view) {
+/// Side by side, with the legend of the last one.
+Image drawn(const std::vector<Scene>& scenes, const View& view) {
   for (const Scene& scene : scenes)
     scene.check();
   const int strip = scenes.back().legend_height(view.width);
@@ -145,7 +141,31 @@ std::string write_pictures(const std::vector<Scene>& scenes, const std::filesyst
                   image.bytes.begin() + std::ptrdiff_t(3) * view.width * (y + strip) + left);
   }
   write_legend(image, scenes.back(), strip);
-  return write_png(path, view.width, view.height, image.bytes);
+  return image;
+}
+
+} // namespace
+
+std::string write_picture(const Scene& scene, const std::filesystem::path& path, const View& view) {
+  return write_pictures({scene}, path, view);
+}
+
+std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view) {
+  const Image image = drawn(scenes, view);
+  return write_png(path, image.width, image.height, image.bytes);
+}
+
+std::string write_figure(const Scene& scene, const std::vector<Plot>& plots, const std::filesystem::path& path,
+                         const View& view) {
+  const Image left = drawn({scene}, view);
+  Image image(view.width + 2 * view.width / 3, view.height, view.background);
+  for (int row = 0; row < view.height; ++row)
+    std::copy_n(left.bytes.begin() + std::ptrdiff_t(3) * row * left.width, std::ptrdiff_t(3) * left.width,
+                image.bytes.begin() + std::ptrdiff_t(3) * row * image.width);
+  const int number = std::max(1, int(plots.size()));
+  for (int i = 0; i < int(plots.size()); ++i)
+    Plot_painter(image, {view.width, view.height * i / number}, {image.width, view.height * (i + 1) / number}, plots[i]);
+  return write_png(path, image.width, image.height, image.bytes);
 }
 
 } // namespace haptic_sculpt::drawing

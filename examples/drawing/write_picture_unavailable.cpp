@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compiled instead of the drawing code where the libraries it needs were not found.
+#include "write_figure.h"
 #include "write_picture.h"
 
 namespace haptic_sculpt::drawing {
+namespace {
 
-std::string write_picture(const Scene&, const std::filesystem::path& path, const View&) {
+[[noreturn]] void refuse(const std::filesystem::path& path) {
   throw Picture_error(
       "Cannot write the picture " + path.string() +
       ": this program was built without pictures. Install "
       "libepoxy-dev, libegl-dev, libgl1-mesa-dri, libpng-dev, libfreetype-dev and fonts-dejavu-core and build it anew, or ask for no picture.");
 }
 
-std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view) {
-  return write_picture(scenes.at(0), path, view);
+} // namespace
+
+std::string write_picture(const Scene&, const std::filesystem::path& path, const View&) {
+  refuse(path);
+}
+
+std::string write_pictures(const std::vector<Scene>&, const std::filesystem::path& path, const View&) {
+  refuse(path);
+}
+
+std::string write_figure(const Scene&, const std::vector<Plot>&, const std::filesystem::path& path, const View&) {
+  refuse(path);
 }
 
 } // namespace haptic_sculpt::drawing

@@ -19,6 +19,7 @@ public:
       : fault_(fault), parameters_(parameters), tick_(tick) {}
 
   bool is_due(double time) const { return fault_ && time >= fault_->time; }
+  bool is_log() const { return fault_ && fault_->kind == Loop_fault::log; }
   bool is_stall() const { return fault_ && fault_->kind == Loop_fault::stall; }
   bool has_begun() const { return has_begun_; }
   void begin() { has_begun_ = true; }

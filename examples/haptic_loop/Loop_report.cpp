@@ -24,6 +24,10 @@ std::string report_of(const Run_result& r, const Settings& settings, const std::
   json faults = json::array();
   for (const auto& [time, what] : r.faults)
     faults.push_back({{"t", time}, {"what", what}});
+  json happened = json::object(); // null: not
+  for (int what = 0; what < Happenings::number; ++what)
+    happened[Happenings::name_of(static_cast<Happenings::What>(what))] =
+        std::isfinite(r.happened[what]) ? json(r.happened[what]) : json();
   const json report = {
       {"version", HAPTIC_SCULPT_VERSION},
       {"ticks", r.ticks},
@@ -47,7 +51,9 @@ std::string report_of(const Run_result& r, const Settings& settings, const std::
         {"removed", r.removed},
         {"released", r.released},
         {"refused", r.refused}}},
+      {"happened", happened},
       {"faults", faults},
+      {"log", {{"ticks", r.ticks_written}, {"lost", r.log_lost}, {"failure", r.log_failure}}},
       {"valid", r.is_valid},
       {"interrupted", r.is_cut_short},
       {"map", r.map},

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_H
 #define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_H
 
+#include "Happenings.h"
 #include "Recording.h"
 
 #include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
@@ -16,13 +17,14 @@ std::size_t allocations();
 
 /// What is to be done.
 struct Plan {
-  std::string mesh, out;
+  std::string mesh, out, log, picture;
   Settings settings;
   std::optional<Recording> replay;
   std::optional<Hand_path> path; ///< none in a replay
   std::optional<Injected_fault> fault;
-  double seconds = 0; ///< 0: as long as path or recording
-  bool waits = false; ///< for the time of each tick
+  double seconds = 0;        ///< 0: as long as path or recording
+  bool waits = false;        ///< for the time of each tick
+  bool is_real_time = false; ///< the system is asked for it
   std::FILE* trace = nullptr;
   std::FILE* record = nullptr;
 };
@@ -38,13 +40,16 @@ struct Run_result {
   double friction = 0, passive_stiffness = 0, stable_stiffness = 0;
   std::size_t grabbed = 0, created = 0, removed = 0, released = 0, refused = 0;
   std::vector<std::pair<double, std::string>> faults; ///< s
+  std::array<double, Happenings::number> happened{};  ///< when first, s; NaN: not
+  std::uint64_t ticks_written = 0, log_lost = 0;      ///< ticks with edits; entries that found no room
+  std::string log_failure;                            ///< why the log does not hold all; empty if it does
   std::vector<double> map;                            ///< scale, origin, rotation vector, home
   bool is_valid = false, is_cut_short = false;
 };
 
 /// Reads the mesh, runs, and writes the sculpted mesh. \param notes gets what people should know
 /// \param is_interrupted ends the run in order \throw what reading and writing meshes throws; Unstable_coupling;
-/// Foreign_recording; Usage_error
+/// Foreign_recording; Usage_error; Foreign_log, Script_error
 Run_result run_loop(const Plan& plan, std::vector<std::string>& notes, const std::atomic<bool>& is_interrupted);
 
 } // namespace haptic_sculpt::loop_program

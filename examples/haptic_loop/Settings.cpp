@@ -77,7 +77,7 @@ Simulated_hand read_hand(const std::string& path) {
   if (hand.contains("name")) {
     const auto named = hand["name"].is_string() ? Simulated_hand::named(hand["name"].get<std::string>()) : std::nullopt;
     if (!named)
-      fail("`name` must be \"finger\" or \"arm\"");
+      fail("`name` must be \"finger\", \"arm\" or \"measured_arm\"");
     return *named;
   }
   Simulated_hand read;
@@ -113,8 +113,8 @@ Hand_path read_path(const std::string& path) {
 Injected_fault fault_of(const std::string& text) {
   const std::size_t at = text.find('@');
   Injected_fault fault;
-  for (const Loop_fault kind :
-       {Loop_fault::not_finite, Loop_fault::jump, Loop_fault::stall, Loop_fault::singular, Loop_fault::torque})
+  for (const Loop_fault kind : {Loop_fault::not_finite, Loop_fault::jump, Loop_fault::stall, Loop_fault::singular,
+                                Loop_fault::torque, Loop_fault::log})
     if (text.substr(0, at) == name_of(kind))
       fault.kind = kind;
   const char* const begin = at == std::string::npos ? text.data() : text.data() + at + 1;
@@ -123,8 +123,8 @@ Injected_fault fault_of(const std::string& text) {
   if (at == std::string::npos || fault.kind == Loop_fault::none || error != std::errc() || stop != end ||
       !(fault.time >= 0))
     throw Usage_error(
-        "--fault must be nan, jump, stall, singular or torque, `@` and seconds >= 0, such as nan@0.5; not '" + text +
-        "'");
+        "--fault must be nan, jump, stall, singular, torque or log, `@` and seconds >= 0, such as nan@0.5; not '" +
+        text + "'");
   return fault;
 }
 

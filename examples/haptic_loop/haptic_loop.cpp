@@ -2,6 +2,9 @@
 // Sculpts in a closed loop with a simulated device in a simulated hand. See --help; formats: doc/haptic_rendering.md.
 #include "Loop_report.h"
 
+#include "../count_allocations.h"
+#include "../drawing/Scene.h"
+#include "../sculpt/Log_text.h"
 #include "../sculpt/output_targets.h"
 
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
@@ -14,44 +17,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <memory>
-#include <new>
-
-namespace {
-thread_local std::size_t allocated = 0;
-
-void* counted(std::size_t size) noexcept {
-  ++allocated;
-  return std::malloc(size != 0 ? size : 1);
-}
-} // namespace
-
-// Not inlined, or g++ sees free() meet operator new and warns. The array and nothrow forms call these.
-__attribute__((noinline)) void* operator new(std::size_t size) {
-  if (void* p = counted(size))
-    return p;
-  throw std::bad_alloc();
-}
-__attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocated;
-  const auto a = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a))
-    return p;
-  throw std::bad_alloc();
-}
-__attribute__((noinline)) void operator delete(void* p) noexcept {
-  std::free(p);
-}
-__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
-__attribute__((noinline)) void operator delete(void* p, std::align_val_t) noexcept {
-  std::free(p);
-}
-__attribute__((noinline)) void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
 
 std::size_t haptic_sculpt::loop_program::allocations() {
   return allocated;
@@ -77,9 +45,9 @@ enum Exit {
 struct Arguments {
   std::string mesh = HAPTIC_SCULPT_EXAMPLE_DATA "/ball_and_moon.off",
               path = HAPTIC_SCULPT_EXAMPLE_DATA "/hand_path.csv";
-  std::string out, device, hand, record, replay, trace, report, fault;
+  std::string out, log, device, hand, record, replay, trace, report, picture, fault;
   double seconds = 0;
-  bool does_not_wait = false;
+  bool does_not_wait = false, is_real_time = false;
 };
 
 std::atomic<bool> is_interrupted{false};
@@ -127,14 +95,24 @@ void check_numbers(const Settings& s, double seconds) {
 void check_targets(const Arguments& a) {
   if (!a.out.empty() && !mesh_file_format(a.out))
     throw Usage_error("'" + a.out + "' does not end in .off, .ply, .obj or .stl");
-  const std::string files[] = {a.out, a.trace, a.report, a.record, a.replay, a.device, a.hand, a.path, a.mesh};
-  for (std::size_t i = 0; i < 4; ++i)
+  const std::string files[] = {a.out,    a.trace,  a.report, a.record, a.picture, a.log,
+                               a.replay, a.device, a.hand,   a.path,   a.mesh};
+  const auto may_be_one = [&](std::size_t i, std::size_t j) { // a log begins with the mesh
+    return i == 0 && j + 1 == std::size(files) && a.log.empty();
+  };
+  constexpr std::size_t outputs = 6;
+  for (std::size_t i = 0; i < outputs; ++i)
     for (std::size_t j = i + 1; j < std::size(files); ++j)
-      if (!files[i].empty() && !files[j].empty() && !(i == 0 && j + 1 == std::size(files)) &&
+      if (!files[i].empty() && !files[j].empty() && !may_be_one(i, j) &&
           sculpt_program::are_one_file(files[i], files[j]))
         throw Usage_error("'" + files[i] + "' and '" + files[j] + "' are one file; give each its own");
-  for (std::size_t i = 0; i < 4; ++i)
-    if (!files[i].empty())
+  const auto is_stream = [&](const std::string& file) { // rows may go into a pipe as they come
+    std::error_code error;
+    return (file == a.trace || file == a.record) && std::filesystem::exists(file, error) &&
+           !std::filesystem::is_regular_file(file, error) && !std::filesystem::is_directory(file, error);
+  };
+  for (std::size_t i = 0; i + 1 < outputs; ++i) // a log looks for itself
+    if (!files[i].empty() && !is_stream(files[i]))
       sculpt_program::check_target(files[i]);
 }
 
@@ -152,7 +130,11 @@ Exit loop(const Arguments& arguments, Plan& plan) {
     settings = plan.replay->settings;
   } else
     plan.path = read_path(arguments.path);
-  plan.mesh = arguments.mesh, plan.out = arguments.out;
+  plan.mesh = arguments.mesh, plan.out = arguments.out, plan.log = arguments.log;
+  if (arguments.is_real_time && (arguments.does_not_wait || !arguments.replay.empty()))
+    throw Usage_error(
+        "--real-time is for a run that waits for the time of each tick; leave out --no-wait and --replay");
+  plan.picture = arguments.picture, plan.is_real_time = arguments.is_real_time;
   plan.seconds = arguments.seconds;
   plan.waits = !arguments.does_not_wait && !plan.replay;
   File trace = opened(arguments.trace), record = opened(arguments.record);
@@ -167,6 +149,8 @@ Exit loop(const Arguments& arguments, Plan& plan) {
   print_summary(std::cout, result, settings);
   if (!std::cout.flush())
     throw Write_error("cannot write the summary to standard output");
+  if (!result.log_failure.empty())
+    throw Write_error(result.log_failure);
   return result.faults.empty() ? done : fault;
 }
 
@@ -197,11 +181,18 @@ int main(int argc, char** argv) {
   app.add_option("--device", arguments.device, "Device, JSON");
   app.add_option("--hand", arguments.hand, "Hand, JSON");
   app.add_option("--path", arguments.path, "Where the hand wants to be: t,x,y,z,button")->capture_default_str();
-  app.add_option("--fault", arguments.fault, "KIND@SECONDS: nan, jump, stall, singular or torque");
+  app.add_option("--fault", arguments.fault, "KIND@SECONDS: nan, jump, stall, singular, torque or log");
+  app.add_option(
+      "--log", arguments.log,
+      "Where what is done goes while it is done, for `sculpt` too; one that is there is made again, then gone on with");
   app.add_option("--record", arguments.record, "Where the readings of the device go");
   app.add_option("--replay", arguments.replay, "A recording instead of device, hand and path; its settings hold");
   app.add_option("--trace", arguments.trace, "Where a row a tick goes: .csv");
   app.add_option("--report", arguments.report, "Where the JSON report goes");
+  app.add_option("--picture", arguments.picture, "Where a picture of the run goes: .png");
+  app.add_flag(
+      "--real-time", arguments.is_real_time,
+      "Asks the system for a thread that goes first (SCHED_FIFO) and memory that stays; says what it does not give");
   app.add_flag("--no-wait", arguments.does_not_wait, "As fast as it goes");
   try {
     app.parse(argc, argv);
@@ -220,7 +211,13 @@ int main(int argc, char** argv) {
     return fail(error, path_error);
   } catch (const Foreign_recording& error) {
     return fail(error, foreign_recording);
+  } catch (const sculpt_program::Foreign_log& error) {
+    return fail(error, foreign_recording);
+  } catch (const sculpt_program::Script_error& error) {
+    return fail(error, path_error);
   } catch (const Write_error& error) {
+    return fail(error, cannot_write);
+  } catch (const drawing::Picture_error& error) {
     return fail(error, cannot_write);
   } catch (const Read_error& error) {
     return fail(error, mesh_refused);

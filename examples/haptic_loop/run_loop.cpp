@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Fault_injection.h"
 #include "Run.h"
+#include "Run_log.h"
+#include "Real_time.h"
+#include "write_run_picture.h"
+
+#include "../drawing/surface_mesh_arrays.h"
 
 #include "../sculpt/sha256_of_file.h"
 
@@ -23,24 +28,14 @@ std::uint64_t nanoseconds(clockid_t clock) {
   return static_cast<std::uint64_t>(now.tv_sec) * 1000000000u + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-struct Box {
-  Eigen::Vector3d lower, upper;
-};
+using Scene = Loop_scene<Mesh>;
+using Loop = Haptic_loop<Scene::Sculptor_type>;
+using Session = Loop_session<Loop, Scene>;
 
-Box box_of(const Mesh& mesh) {
-  Box box{Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()),
-          Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity())};
-  for (const auto v : mesh.vertices()) {
-    const Eigen::Vector3d p = internal::vector_of(mesh.point(v));
-    box.lower = box.lower.cwiseMin(p), box.upper = box.upper.cwiseMax(p);
-  }
-  return box;
-}
-
-Workspace_map map_of(const Settings& settings, const Box& box, const Device_parameters<double>& device,
-                     const Device_pose<double>& home) {
+Workspace_map map_of(const Settings& settings, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+                     const Device_parameters<double>& device, const Device_pose<double>& home) {
   if (settings.map.empty())
-    return Workspace_map::fitted(box.lower, box.upper, home.position, workspace_radius(device, home));
+    return Workspace_map::fitted(lower, upper, home.position, workspace_radius(device, home));
   const std::vector<double>& m = settings.map;
   const Eigen::Vector3d rotation = m.size() == 7 ? Eigen::Vector3d(m[4], m[5], m[6]) : Eigen::Vector3d(0, 0, 0);
   return Workspace_map(m[0], rotation, {m[1], m[2], m[3]}, home.position);
@@ -66,22 +61,29 @@ public:
     if (plan_.replay && plan_.replay->mesh != hash)
       throw Foreign_recording("the recording is of a mesh with the SHA-256 " + plan_.replay->mesh + ", but that of '" +
                               plan_.mesh + "' is " + hash);
-    mesh_ = read_surface<Mesh>(plan_.mesh);
-    const Box box = box_of(mesh_);
-    const Workspace_map map = map_of(settings_, box, device_, *home_);
+    log_.emplace(plan_.log, hash);
+    if (log_->has_edits() && (plan_.replay || plan_.record != nullptr))
+      throw Usage_error("a recording is of a run that begins with the mesh itself; give a log that is not there yet");
+    Scene scene(read_surface<Mesh>(plan_.mesh), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
+      return map_of(settings_, lower, upper, device_, *home_);
+    });
+    if (const std::string told = log_->resume(scene); !told.empty())
+      notes_.push_back(told);
     Haptic_parameters parameters;
     parameters.tick = tick_, parameters.delay = settings_.delay;
     parameters.coupling = {settings_.stiffness, settings_.damping};
     parameters.reach = settings_.reach, parameters.work = settings_.work;
-    const Passivity_limits limits = limits_of(parameters, box, map);
-    // From far outside, so that it comes to the surface from outside wherever the hand begins.
-    const Eigen::Vector3d outside = box.upper + (box.upper - box.lower);
-    const auto probe = mesh_.add_vertex(internal::point_of<Mesh::Point>(outside));
-    // A hand moves the probe a thousand times a second: undo is for what it sculpts.
-    Sculptor<Mesh> sculptor(mesh_, parameters::record_probes(false));
-    sculptor.reserve(200, 100000);
+    const Passivity_limits limits = limits_of(parameters, scene);
     const Device_pose<double> start = start_pose();
-    Haptic_loop<Sculptor<Mesh>> loop(sculptor, probe, device_, start, map, parameters, limits);
+    Loop loop(scene.sculptor, scene.probe, device_, start, scene.map, parameters, limits);
+    log_->begin(recording_head(hash, settings_), tick_);
+    Session session(loop, scene, nullptr, nullptr, log_->journal());
+    session_ = &session;
+    Happenings happenings(scene.sculptor, scene.map.scale());
+    happenings_ = &happenings;
+    if (plan_.is_real_time)
+      for (const std::string& refused : ask_for_real_time())
+        notes_.push_back(refused);
     if (plan_.record != nullptr)
       std::fputs(recording_head(hash, settings_).c_str(), plan_.record);
     if (plan_.trace != nullptr)
@@ -92,7 +94,10 @@ public:
       replay(loop);
     else
       simulate(loop, start);
-    finish(loop, sculptor, probe, map);
+    session.end();
+    if (plan_.is_real_time)
+      leave_real_time();
+    finish(loop, scene);
     return std::move(result_);
   }
 
@@ -105,14 +110,18 @@ private:
   Device_parameters<double> device_;
   Outcome<Device_pose<double>> home_;
   Fault_injection faults_;
-  Mesh mesh_;
+  std::optional<Run_log> log_;
+  Session* session_ = nullptr;
+  Happenings* happenings_ = nullptr;
+  Run_samples samples_;
+  double port_ = 0, dissipated_ = 0;
   Run_result result_;
   double free_since_ = 0;
 
-  Passivity_limits limits_of(const Haptic_parameters& parameters, const Box& box, const Workspace_map& map) {
-    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (box.upper - box.lower).norm());
-    const Passivity_limits limits = passivity_limits(device_, parameters.limits, map, box.lower - margin,
-                                                     box.upper + margin, settings_.damping, tick_, settings_.delay);
+  Passivity_limits limits_of(const Haptic_parameters& parameters, const Scene& scene) {
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (scene.upper - scene.lower).norm());
+    const Passivity_limits limits = passivity_limits(device_, parameters.limits, scene.map, scene.lower - margin,
+                                                     scene.upper + margin, settings_.damping, tick_, settings_.delay);
     if (!limits.worst.is_found)
       throw Usage_error("the map leads to no place that the device can reach; see --map");
     result_.friction = limits.friction;
@@ -139,14 +148,15 @@ private:
     return *start;
   }
 
-  template <class Loop>
   void replay(Loop& loop) {
-    for (const Joint_reading& reading : plan_.replay->readings)
+    for (const Joint_reading& reading : plan_.replay->readings) {
+      log_->let_catch_up(session_->ticks());
+      port_ = loop.observer().port(), dissipated_ = loop.observer().dissipated();
       if (!tick(loop, reading, result_.ticks * tick_))
         return;
+    }
   }
 
-  template <class Loop>
   void simulate(Loop& loop, const Device_pose<double>& start) {
     const double seconds = plan_.seconds > 0 ? plan_.seconds : plan_.path->end();
     Simulated_device device(device_, start, settings_.hand, *plan_.path, tick_, settings_.delay);
@@ -155,12 +165,17 @@ private:
     while (device.time() < seconds && !is_interrupted_) {
       if (plan_.waits)
         wait(due += static_cast<std::uint64_t>(1e9 * tick_));
+      else
+        log_->let_catch_up(session_->ticks());
+      if (faults_.is_log() && faults_.is_due(device.time()))
+        log_->stall();
       if (faults_.is_stall() && faults_.is_due(device.time()) && !faults_.has_begun())
         stall(device, last);
       Joint_reading reading = device.read();
       reading.elapsed += std::exchange(stalled_, 0.0);
       if (!faults_.is_stall() && faults_.is_due(device.time()))
         faults_.spoil(reading, device.state().pose);
+      port_ = device.port(), dissipated_ = device.dissipated();
       if (!tick(loop, reading, device.time()))
         break;
       last = *tick_made_;
@@ -189,22 +204,27 @@ private:
   const Haptic_tick* tick_made_ = nullptr;
 
   /// \return whether the run goes on
-  template <class Loop>
   bool tick(Loop& loop, const Joint_reading& reading, double time) {
     if (plan_.record != nullptr)
       write_reading(plan_.record, reading);
     const std::size_t allocated = allocations();
     const std::uint64_t cpu = nanoseconds(CLOCK_THREAD_CPUTIME_ID), wall = nanoseconds(CLOCK_MONOTONIC);
-    const Haptic_tick& made = loop.tick(reading);
+    const Haptic_tick& made = session_->tick(reading);
     const std::uint64_t cpu_taken = nanoseconds(CLOCK_THREAD_CPUTIME_ID) - cpu,
                         wall_taken = nanoseconds(CLOCK_MONOTONIC) - wall;
     result_.allocations += allocations() - allocated;
     tick_made_ = &made;
+    if (log_->has_overrun())
+      loop.end_by(Loop_fault::log);
     ++result_.ticks;
     result_.cpu.add(cpu_taken), result_.wall.add(wall_taken);
     result_.missed += static_cast<double>(wall_taken) > 1e9 * tick_;
     result_.missed_by_cpu += static_cast<double>(cpu_taken) > 1e9 * tick_;
+    const auto held = loop.tool().holds_vertex() ? loop.tool().vertex() : Mesh::Vertex_index();
+    happenings_->add(time, made.tool, session_->scene().sculptor, held);
     const double force = made.rendered.force.norm();
+    if (!plan_.picture.empty())
+      sample(made, time, cpu_taken);
     result_.largest_force = std::fmax(result_.largest_force, force);
     if (!made.tool.reached || made.tool.event == Tool_event::refused || made.fault != Loop_fault::none)
       free_since_ = time;
@@ -215,6 +235,16 @@ private:
     if (plan_.trace != nullptr)
       write_row(reading, made, time, cpu_taken);
     return !loop.has_stopped();
+  }
+
+  void sample(const Haptic_tick& made, double time, std::uint64_t cpu) {
+    const Tool_step& tool = made.tool;
+    samples_.add({time, made.coupling.norm(), made.rendered.force.norm(), port_, dissipated_, tool.target, tool.proxy,
+                  !tool.reached},
+                 cpu);
+    constexpr const char* words[] = {"", "grabbed", "created", "created", "released", "removed", "refused"};
+    if (tool.event != Tool_event::none)
+      samples_.events.push_back({tool.proxy, words[static_cast<int>(tool.event)]});
   }
 
   void write_row(const Joint_reading& reading, const Haptic_tick& made, double time, std::uint64_t cpu) const {
@@ -236,8 +266,10 @@ private:
     result_.wakeup.add(now > due ? now - due : 0);
   }
 
-  template <class Loop>
-  void finish(const Loop& loop, const Sculptor<Mesh>& sculptor, Mesh::Vertex_index probe, const Workspace_map& map) {
+  void finish(const Loop& loop, const Scene& scene) {
+    const auto& sculptor = scene.sculptor;
+    const auto probe = scene.probe;
+    const Workspace_map& map = scene.map;
     result_.observed = loop.observer().energy();
     result_.least_observed = loop.observer().least();
     if (!result_.has_true_energy)
@@ -260,13 +292,23 @@ private:
     for (std::size_t name = 0; name < sculptor.number_of_names(); ++name)
       if (const auto v = sculptor.vertex(name); v.is_valid() && v != probe)
         options.vertex_order.emplace_back(static_cast<Mesh::size_type>(v));
-    Mesh sculpted = mesh_; // without the probe
+    Mesh sculpted = scene.mesh; // without the probe
     sculpted.remove_vertex(probe);
     result_.is_valid = validate(sculpted).is_valid();
-    if (plan_.out.empty())
-      return;
-    if (const std::string lost = write_surface(plan_.out, sculpted, options); !lost.empty())
-      notes_.push_back(lost);
+    log_->finish();
+    if (!plan_.out.empty())
+      if (const std::string lost = write_surface(plan_.out, sculpted, options); !lost.empty())
+        notes_.push_back(lost);
+    if (!plan_.picture.empty())
+      if (const std::string lost =
+              write_run_picture(drawing::scene_of(sculpted), samples_, result_.has_true_energy, plan_.picture);
+          !lost.empty())
+        notes_.push_back(lost);
+    log_->end();
+    for (int what = 0; what < Happenings::number; ++what)
+      result_.happened[what] = happenings_->first(static_cast<Happenings::What>(what));
+    result_.ticks_written = log_->ticks(), result_.log_lost = log_->lost();
+    result_.log_failure = log_->failure();
   }
 };
 

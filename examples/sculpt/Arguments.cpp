@@ -57,10 +57,9 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       "V|@X,Y,Z|edit");
   app.add_flag("--picture-numbers", shown.numbers, "In the picture: the numbers of vertices, where there is room")
       ->needs("--picture");
-  app.add_option("--picture-view", shown.view, "The direction in which one looks into it")
+  app.add_option("--picture-view", shown.view, "The direction in which one looks into it, or into that of --compare")
       ->expected(3)
-      ->type_name("X Y Z")
-      ->needs("--picture");
+      ->type_name("X Y Z");
   app.add_option("--picture-at", shown.at,
                  "What is in its middle: a vertex by its number, a place @X,Y,Z, or 'edit': where the last edit that was "
                  "blocked ended, or else the last edit")
@@ -86,6 +85,8 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
   app.add_flag("--triangulate", arguments.triangulate, "Divides faces with more than three corners into triangles");
   try {
     app.parse(argc, argv);
+    if (!shown.view.empty() && arguments.picture.empty() && arguments.comparison.empty())
+      throw CLI::RequiresError("--picture-view", "--picture or --compare");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0;
   }

@@ -109,6 +109,25 @@ void Log_file::begin(const Settings& settings) {
     ::unlink(target_.c_str());
 }
 
+void Log_file::drop_unfinished_tick() {
+  if (!contents_ || !contents_->last_tick)
+    return;
+  const Log_contents::Tick& tick = *contents_->last_tick;
+  if (tick.size == contents_->whole_size)
+    return;
+  contents_->commands.resize(tick.commands);
+  contents_->unfinished = "a tick"; // begin() cuts it off
+  size_ = static_cast<off_t>(contents_->whole_size = tick.size);
+  writer_ = contents_->writer = Log_writer(tick.checksum);
+}
+
+void Log_file::append_tick(const std::vector<Command>& commands, std::size_t tick) {
+  std::string lines;
+  for (const Command& command : commands)
+    lines += writer_.command(command, tick != 0 ? tick : 1);
+  append(lines + writer_.tick(tick));
+}
+
 void Log_file::begin_pass(const std::string& script, std::size_t after) {
   std::string lines;
   if (contents_ && !contents_->has_checksums) {

@@ -29,6 +29,9 @@ public:
   /// \throw Write_error if a new one cannot be made, but not if the disk is full
   void begin(const Settings& settings);
 
+  /// Of a log that a killed loop has left, drops what was done in a tick that is not whole. To be called before `begin()`.
+  void drop_unfinished_tick();
+
   /// \name Appending
   /// After a failure, at once and for good, nothing is appended: a log ends where the first line is missing.
   ///@{
@@ -36,6 +39,8 @@ public:
   /// log of the first format gets checksums from here on.
   void begin_pass(const std::string& script, std::size_t after);
   void append(const Command& command) { append(writer_.command(command, command.line)); }
+  /// What a loop did in a tick, in one write; nothing but the end of the tick where `commands` are none.
+  void append_tick(const std::vector<Command>& commands, std::size_t tick);
   /// The script has been carried out to its end, and the results are written.
   void end_pass(const std::string& script) { append(writer_.done(script)); }
   ///@}

@@ -14,7 +14,7 @@ namespace {
 using Kind = Command::Kind;
 
 constexpr std::string_view version_word = "# haptic_sculpt log ", current_version = "1", pass_word = "# script ",
-                           after_word = " after line ", done_word = " done", line_word = " # line ",
+                           tick_word = "# tick ", after_word = " after line ", done_word = " done", line_word = " # line ",
                            checksum_word = " # ";
 constexpr std::size_t checksum_size = 16; // digits: 64 bits
 
@@ -160,6 +160,10 @@ private:
       read_pass(payload.substr(pass_word.size()));
       return;
     }
+    if (begins_with(payload, tick_word)) {
+      read_tick(payload.substr(tick_word.size()), static_cast<std::size_t>(line.data() - text_.data()) + line.size() + 1);
+      return;
+    }
     const std::size_t from = payload.rfind(line_word);
     if (from == std::string_view::npos) {
       read_command(payload, 0);
@@ -172,7 +176,15 @@ private:
     contents_.passes.back().last_line = *script_line;
   }
 
+  void read_tick(std::string_view text, std::size_t size) {
+    const auto tick = number(text);
+    if (!tick)
+      fail("the number of the tick is not understood");
+    contents_.last_tick = {*tick, size, contents_.commands.size(), checksum_};
+  }
+
   void read_pass(std::string_view text) {
+    contents_.last_tick.reset();
     Log_contents::Pass pass;
     pass.script = text.substr(0, 64);
     const std::string_view rest = text.substr(pass.script.size());
@@ -273,6 +285,10 @@ std::string Log_writer::pass(const std::string& script, std::size_t after) {
 
 std::string Log_writer::done(const std::string& script) {
   return line(std::string(pass_word) + script + std::string(done_word));
+}
+
+std::string Log_writer::tick(std::size_t number) {
+  return line(std::string(tick_word) + std::to_string(number));
 }
 
 Settings Log_contents::first_settings() const {

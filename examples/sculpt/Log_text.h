@@ -48,6 +48,8 @@ public:
   std::string pass(const std::string& script, std::size_t after);
   /// The script has been carried out to its end, and the results are written.
   std::string done(const std::string& script);
+  /// A comment: what stands before it is the state after this tick of a loop.
+  std::string tick(std::size_t number);
 
 private:
   std::string checksum_; ///< of the line before
@@ -69,6 +71,12 @@ struct Log_contents {
   bool has_checksums = false; ///< false: the first format, which had none, nor passes
   std::size_t whole_size = 0; ///< bytes up to the end of the last whole line
   std::string unfinished;     ///< what follows: a killed process may leave part of a line
+  /// Where the state of a tick ends.
+  struct Tick {
+    std::size_t number, size, commands; ///< size: in bytes, commands: so many stand before it
+    std::string checksum;               ///< of its line
+  };
+  std::optional<Tick> last_tick; ///< of the last pass, if that was a loop's
   Log_writer writer;          ///< goes on after the last whole line
 
   /// What held at the first edit.

@@ -265,7 +265,8 @@ private:
     };
     include(end);
     for (const auto& contact : done.contacts)
-      std::for_each(contact.plane.begin(), contact.plane.end(), include);
+      for (const auto& p : contact.plane)
+        include(coordinates(p));
     return std::hypot(target[0] - end[0], target[1] - end[1], target[2] - end[2]) <=
            2 * sculptor_.clearance({reach, reach, reach});
   }
@@ -306,7 +307,8 @@ private:
       for (const Kernel::Point_3& p : way_)
         edit.way.push_back(coordinates(p));
     for (const auto& contact : done.contacts)
-      edit.contacts.push_back({name_of(contact.kind), ids<std::array<std::size_t, 3>>(contact), contact.normal});
+      edit.contacts.push_back({name_of(contact.kind), ids<std::array<std::size_t, 3>>(contact),
+                               {contact.normal.x(), contact.normal.y(), contact.normal.z()}});
   }
 };
 

@@ -54,21 +54,24 @@ Pairs self_intersecting_pairs(const Mesh& mesh) {
   return result;
 }
 
-/// Adds a mesh, its box in the middle of the place given, with crevices darker, but for
-/// what is red. Each face has corners of its own, so that it
-/// may have a colour of its own.
-void add(drawing::Scene& scene, const Mesh& mesh, const Pairs& pairs, const Eigen::Vector3d& place) {
+/// Smooth, with crevices darker, but for what is red. Each face has corners of its own, so that it may have a colour of its
+/// own.
+drawing::Scene scene_with_pairs(const Mesh& mesh, const Pairs& pairs) {
+  drawing::Scene scene;
+  scene.edge_opacity = 0;
   const auto open = drawing::openness(mesh);
   for (const auto f : mesh.faces()) {
     std::array<int, 3> corners;
     int i = 0;
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
       corners[i++] = static_cast<int>(scene.points.size());
-      scene.points.push_back(drawing::to_eigen(mesh.point(v)) + place);
+      scene.points.push_back(drawing::to_eigen(mesh.point(v)));
+      scene.point_normals.push_back(drawing::to_eigen(brushes::normal(mesh, v)));
       scene.point_colors.push_back(pairs.is_red[f] ? drawing::colors::red : open[v] * drawing::colors::surface);
     }
     scene.triangles.push_back(corners);
   }
+  return scene;
 }
 
 std::string told(const char* how, std::size_t pairs) {
@@ -91,24 +94,18 @@ Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
   return mesh;
 }
 
-std::string write_comparison(const Mesh& without_guard, const Mesh& with_guard, const std::string& path) {
+std::string write_comparison(const Mesh& without_guard, const Mesh& with_guard, const std::string& path,
+                             const std::vector<double>& direction) {
   drawing::View view;
-  view.direction = {0, 0.45, -1};
-  view.up = {0, 1, 0};
+  if (!direction.empty())
+    view.direction = {direction[0], direction[1], direction[2]};
   view.width = 1500, view.height = 800;
-  CGAL::Bbox_3 box;
-  for (const Mesh* mesh : {&without_guard, &with_guard})
-    for (const auto v : mesh->vertices())
-      box += mesh->point(v).bbox();
-  const double width = box.xmax() - box.xmin();
-  drawing::Scene scene;
   const Pairs left = self_intersecting_pairs(without_guard), right = self_intersecting_pairs(with_guard);
-  add(scene, without_guard, left, {0, 0, 0});
-  add(scene, with_guard, right, {1.08 * width, 0, 0});
+  std::vector<drawing::Scene> scenes = {scene_with_pairs(without_guard, left), scene_with_pairs(with_guard, right)};
   using Mark = drawing::Legend_entry::Mark;
-  scene.legend.push_back({Mark::ball, drawing::colors::red, told("without the guard", left.number)});
-  scene.legend.push_back({Mark::ball, drawing::colors::blue, told("the same script, with it", right.number)});
-  return drawing::write_picture(scene, path, view);
+  scenes.back().legend = {{Mark::ball, drawing::colors::red, told("without the guard", left.number)},
+                          {Mark::ball, drawing::colors::blue, told("the same script, with it", right.number)}};
+  return drawing::write_pictures(scenes, path, view);
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -14,9 +14,11 @@ namespace haptic_sculpt::sculpt_program {
 Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script);
 
 /// A picture of two meshes side by side, with the faces of self-intersecting pairs in red and their number below.
+/// \param direction in which one looks; empty: the usual one
 /// \return what of an old file could not be kept; empty if all was
 /// \throw drawing::Picture_error
-std::string write_comparison(const Mesh& without_guard, const Mesh& with_guard, const std::string& path);
+std::string write_comparison(const Mesh& without_guard, const Mesh& with_guard, const std::string& path,
+                             const std::vector<double>& direction);
 
 } // namespace haptic_sculpt::sculpt_program
 

@@ -47,7 +47,7 @@ inline bool write_all(const Mesh& mesh, const Run_result& result, const Argument
   attempt(arguments.picture,
           [&](const std::string& path) { return write_picture_of(mesh, result, before, path, arguments.shown); });
   attempt(arguments.comparison,
-          [&](const std::string& path) { return write_comparison(*without_guard, mesh, path); });
+          [&](const std::string& path) { return write_comparison(*without_guard, mesh, path, arguments.shown.view); });
   attempt(arguments.report,
           [&](const std::string& path) { return replace_file(path, report_of(result, notes, nearest)); });
   return all_written;

@@ -42,7 +42,8 @@ def vector(row, *names):
 folder = tempfile.mkdtemp()
 at = lambda name: os.path.join(folder, name)
 
-run(MESH, "--no-wait", "-o", at("a.off"), "--report", at("a.json"), "--trace", at("a.csv"), "--record", at("a.rec"))
+run(MESH, "--no-wait", "-o", at("a.off"), "--report", at("a.json"), "--trace", at("a.csv"), "--record", at("a.rec"), "--picture", at("a.png"))
+check(open(at("a.png"), "rb").read(8) == b"\x89PNG\r\n\x1a\n", "a picture")
 report = json.load(open(at("a.json")))
 check(KEYS <= set(report), f"keys of the report: {sorted(report)}")
 check(report["valid"] is True and report["faults"] == [], "the run is valid and has no faults")
@@ -50,6 +51,8 @@ check(set(report["cpu_ns"]) == {"p50", "p99", "p999", "p9999", "max"}, "percenti
 check({"port", "dissipated", "observer"} <= set(report["energy"]), "energies")
 check(report["energy"]["port"] + report["energy"]["dissipated"] > 0, "the device gives no energy")
 check(report["limits"]["passive_k"] > 500, "the default is passive")
+check(report["allocations"] == 0, f"{report['allocations']} allocations after the start")
+check(all(time is not None for time in report["happened"].values()) and len(report["happened"]) == 10, f"happened: {report['happened']}")
 edits = report["edits"]
 check(edits["grabbed"] >= 1 and edits["created"] >= 1 and edits["removed"] >= 1 and edits["refused"] >= 1, f"edits: {edits}")
 rows = rows_of(at("a.csv"))
@@ -79,6 +82,19 @@ for kind in ("nan", "jump", "stall", "singular", "torque"):
     last = rows_of(at("f.csv"))[-1]
     check(vector(last, "fx", "fy", "fz", "tau1", "tau2", "tau3") == [0] * 6, f"{kind} ends at zero")
 
+# The log's thread does not come: the run ends in order, what is not in the log is not older than 100 ms. (Without waiting, the thread
+# may be some ticks behind before.)
+run(MESH, "--no-wait", "--log", at("g.log"), "--fault", "log@4.7", "--report", at("g.json"), "--trace", at("g.csv"), "-o", at("g.off"), code=8)
+report = json.load(open(at("g.json")))
+check([fault["what"] for fault in report["faults"]] == ["log"] and report["valid"] is True and report["log"]["lost"] > 0, f"log: {report['faults']}")
+check(4.73 <= report["faults"][0]["t"] <= 4.81, f"within 100 ms of the log's thread: {report['faults']}")
+check(vector(rows_of(at("g.csv"))[-1], "fx", "fy", "fz", "tau1", "tau2", "tau3") == [0] * 6, "log ends at zero")
+lines = open(at("g.log")).read().split("\n")
+check(lines[-1] == "" and lines[-2].startswith("# tick ") and 4630 <= int(lines[-2].split()[2]) <= 4701, f"the log ends at a tick: {lines[-2:]}")
+done = run(MESH, "--real-time", "--seconds", 0.3)
+check("haptic_loop: " in done.stderr or os.geteuid() == 0, f"real time, or why not: {done.stderr}")
+run(MESH, "--real-time", "--no-wait", code=2)
+
 run(MESH, "--no-wait", "--stiffness", 100000, code=7)
 run(MESH, "--nonsense", code=2)
 run(MESH, "--no-wait", "--rate", 5, code=2)
@@ -91,5 +107,7 @@ open(at("path.csv"), "w").write("t,x,y,z,button\n0,0,0,x,0\n")
 check("line 2, column 7" in run(MESH, "--no-wait", "--path", at("path.csv"), code=4).stderr, "a bad path is told by line and column")
 run(MESH, "--no-wait", "-o", at("missing/a.off"), code=5)
 run(at("a.off"), "--replay", at("a.rec"), code=6)
+run(at("a.off"), "--log", at("g.log"), "--no-wait", code=6)
+run(MESH, "--log", at("g.log"), "--record", at("g.rec"), "--no-wait", code=2)
 print(len(FAULTS), "faults")
 sys.exit(1 if FAULTS else 0)

@@ -183,27 +183,6 @@ BOOST_AUTO_TEST_CASE(a_fault_fades_to_exactly_nothing_in_its_time) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_burst_has_no_mean_and_leaves_the_handle_where_it_is) {
-  for (const double rate : {250.0, 500.0, 1000.0, 4000.0, 10000.0}) {
-    Refusal_burst burst(1 / rate);
-    burst.begin(Vector3d(0, 0, 2));
-    double sum = 0, largest = 0, velocity = 0, place = 0, farthest = 0;
-    for (int k = 0; !burst.is_over(); ++k) {
-      const Vector3d force = burst.next();
-      sum += force[2], largest = std::max(largest, std::abs(force[2]));
-      velocity += force[2] / 0.03 / rate, place += velocity / rate; // a free handle of 0.03 kg
-      farthest = std::max(farthest, std::abs(place));
-    }
-    BOOST_TEST(std::abs(sum) <= 1e-13);
-    BOOST_TEST(largest <= 1);
-    BOOST_TEST(largest >= 0.7);
-    BOOST_TEST(burst.next() == Vector3d::Zero());
-    if (rate >= 1000)
-      BOOST_TEST(farthest <= 1e-4);
-    BOOST_TEST_MESSAGE("burst at " << rate << " Hz moves a free handle of 0.03 kg by " << 1e3 * farthest << " mm");
-  }
-}
-
 BOOST_AUTO_TEST_CASE(the_worst_pose_is_at_least_as_bad_as_any_drawn) {
   Random random(5);
   std::uniform_real_distribution<double> angle(-0.5, 2.5);
@@ -345,7 +324,7 @@ BOOST_AUTO_TEST_CASE(a_device_within_the_passive_limit_gives_no_energy) {
     const double radius = 0.9 * workspace_radius(parameters, *home);
     const Worst_pose worst = worst_pose(parameters, Force_limits(),
                                         [&](const Vector3d& p) { return (p - home->position).norm() <= 1.2 * radius; });
-    for (int run = 0; run < 40; ++run) {
+    for (int run = 0; run < 16; ++run) {
       const double tick = 2.5e-4 * std::pow(8.0, unit(random)), delay = run % 3 == 0 ? 0 : 2 * unit(random);
       const double friction = worst.friction(parameters), damping = run % 2 == 0 ? 0 : 0.5 * friction * unit(random);
       const Virtual_coupling coupling{passive_stiffness(friction, damping, tick, delay) * (0.2 + 0.8 * unit(random)),
@@ -382,7 +361,7 @@ BOOST_AUTO_TEST_CASE(a_device_within_the_passive_limit_gives_no_energy) {
       }
     }
   }
-  BOOST_TEST_MESSAGE("80 runs within the passive limit, "
+  BOOST_TEST_MESSAGE("32 runs within the passive limit, "
                      << ticks_in_contact << " ticks in contact: least energy of port and friction " << least
                      << " J, port at most " << largest_port << " J");
   BOOST_TEST(ticks_in_contact > 10000u);

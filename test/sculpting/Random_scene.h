@@ -12,11 +12,13 @@
 
 namespace haptic_sculpt::test {
 
-
 using Mesh = meshes::Mesh;
 using Point_3 = meshes::Point_3;
 using Vertex_index = Mesh::Vertex_index;
 using Random = std::mt19937_64;
+
+/// Of 42 vertices.
+inline Mesh ball() { return meshes::to_mesh(meshes::icosphere(1)); }
 
 inline std::uint64_t seed_from_environment(std::uint64_t otherwise) {
   const char* text = std::getenv("HAPTIC_SCULPT_SEED");

@@ -13,8 +13,6 @@ namespace {
 
 using Grab_type = Grab<Sculptor<Mesh>>;
 
-Mesh ball() { return meshes::to_mesh(meshes::icosphere(1)); }
-
 Point_3 beside(const Mesh& mesh, Vertex_index v) { return mesh.point(v) + meshes::Kernel::Vector_3(0.01, 0.02, 0.005); }
 
 } // namespace

@@ -7,12 +7,6 @@
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
 
-namespace {
-
-Mesh ball() { return meshes::to_mesh(meshes::icosphere(1)); }
-
-} // namespace
-
 BOOST_AUTO_TEST_CASE(an_invalid_mesh_is_refused_and_named) {
   Mesh mesh = ball();
   mesh.point(Vertex_index(3)) = mesh.point(Vertex_index(7));

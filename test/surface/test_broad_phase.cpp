@@ -579,7 +579,7 @@ std::vector<double> trace_of(Mesh mesh, std::uint64_t seed_of_script) {
                                  result.stop_error_along_path, result.kkt_residual, double(result.legs),
                                  double(static_cast<int>(result.end)), double(result.contacts.size())});
       for (const auto& contact : result.contacts) {
-        trace.insert(trace.end(), contact.normal.begin(), contact.normal.end());
+        trace.insert(trace.end(), contact.normal.cartesian_begin(), contact.normal.cartesian_end());
         trace.push_back(static_cast<int>(contact.kind));
         for (const Vertex_index w : contact.vertices)
           trace.push_back(static_cast<double>(static_cast<std::uint32_t>(w)));

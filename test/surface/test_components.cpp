@@ -2,6 +2,8 @@
 #include <haptic_sculpt/surface/read_surface.h>
 #include <haptic_sculpt/surface/validate.h>
 
+#include "surface/soup_of.h"
+
 #include <meshes/generated_meshes.h>
 #include <oracle/winding_oracle.h>
 
@@ -16,19 +18,12 @@ using haptic_sculpt::Face_soup;
 using haptic_sculpt::validate_soup;
 using haptic_sculpt::Validity_report;
 using meshes::Point_3;
+using haptic_sculpt::test::soup_of;
 using meshes::Triangle_list;
 
 namespace {
 
 using Numbers = std::vector<std::size_t>;
-
-Face_soup soup_of(const Triangle_list& list) {
-  Face_soup soup;
-  soup.points = list.points;
-  for (const auto& f : list.faces)
-    soup.add_face(f);
-  return soup;
-}
 
 Numbers inside_out(const Validity_report& report) {
   return {report.inside_out_components.begin(), report.inside_out_components.end()};

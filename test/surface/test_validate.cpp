@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <haptic_sculpt/surface/validate.h>
 
+#include "surface/soup_of.h"
+
 #include <meshes/generated_meshes.h>
 #include <oracle/exact_triangles.h>
 
@@ -20,20 +22,13 @@ using haptic_sculpt::validate_soup;
 using haptic_sculpt::Validity_report;
 using meshes::Mesh;
 using meshes::to_mesh;
+using haptic_sculpt::test::soup_of;
 using meshes::Triangle_list;
 
 namespace {
 
 using V = Mesh::Vertex_index;
 using F = Mesh::Face_index;
-
-Face_soup soup_of(const Triangle_list& list) {
-  Face_soup soup;
-  soup.points = list.points;
-  for (const auto& f : list.faces)
-    soup.add_face(f);
-  return soup;
-}
 
 template <class Index>
 std::vector<std::size_t> numbers(const std::vector<Index>& list) {

@@ -2,60 +2,17 @@
 #ifndef HAPTIC_SCULPT_COLLISION_EDGE_EDGE_SWEEP_3_H
 #define HAPTIC_SCULPT_COLLISION_EDGE_EDGE_SWEEP_3_H
 
-#include <haptic_sculpt/collision/Impact_3.h>
-#include <haptic_sculpt/collision/arithmetic/sweep_decision.h>
-#include <haptic_sculpt/collision/arithmetic/sweep_points.h>
-
-#include <CGAL/assertions.h>
-
-#include <optional>
+#include <haptic_sculpt/collision/Sweep_3.h>
 
 namespace haptic_sculpt {
 
-/// Does an edge from the moving vertex to `v` touch the closed segment `a`, `b` while the vertex goes from `s` to `t`?
+/// Does an edge from the moving vertex to `a` touch the closed segment `b`, `c` while the vertex goes from `s` to `t`?
 ///
-/// Exact for all finite doubles (the 1997 paper, 3.2.1, test II: triangle stv meets segment ab). s, t, v may coincide or be collinear. The
-/// time is 0 where `v` itself lies on ab.
-/// \pre All coordinates are finite, and a != b.
-/// Where the checks are compiled out, degenerate static features are still answered exactly, as the hulls they are.
-/// Cost: constant; 5 orientation signs at most outside of flat cases. Counts filter failures in `*counters`, if given.
+/// Exact for all finite doubles (the 1997 paper, 3.2.1, test II: triangle sta meets segment bc). s, t, a may coincide or be
+/// collinear. The time is 0 where `a` itself lies on bc.
+/// \pre b != c. Where the checks are compiled out, degenerate static features are still answered exactly, as the hulls they are.
 template <class K, class Counters = No_filter_counters>
-class Edge_edge_sweep_3 {
-public:
-  using Point_3 = typename K::Point_3;
-  using result_type = std::optional<Impact_3<K>>;
-
-  explicit Edge_edge_sweep_3(Counters* counters = nullptr) : counters_(counters) {}
-
-  /// The first impact, or nothing when the closed sets do not meet.
-  result_type operator()(const Point_3& s, const Point_3& t, const Point_3& v, const Point_3& a, const Point_3& b) const {
-    const internal::Sweep_points points = checked_points(s, t, v, a, b);
-    const internal::Sweep_verdict verdict = decide(points);
-    if (!verdict.hits)
-      return std::nullopt;
-    return Impact_3<K>(Impact_feature::edge_edge, points, verdict);
-  }
-
-  /// Whether the closed sets meet: the same answer as operator(), without building the impact.
-  bool do_collide(const Point_3& s, const Point_3& t, const Point_3& v, const Point_3& a, const Point_3& b) const {
-    return decide(checked_points(s, t, v, a, b)).hits;
-  }
-
-private:
-  Counters* counters_;
-
-  internal::Sweep_verdict decide(const internal::Sweep_points& points) const {
-    Counters ignored;
-    return internal::edge_edge_verdict(points, counters_ != nullptr ? *counters_ : ignored);
-  }
-
-  static internal::Sweep_points checked_points(const Point_3& s, const Point_3& t, const Point_3& v, const Point_3& a, const Point_3& b) {
-    const internal::Sweep_points points = internal::sweep_points(s, t, v, a, b);
-    CGAL_precondition(internal::are_finite(points));
-    CGAL_precondition(a != b);
-    return points;
-  }
-};
+using Edge_edge_sweep_3 = Sweep_3<Impact_feature::edge_edge, K, Counters>;
 
 } // namespace haptic_sculpt
 

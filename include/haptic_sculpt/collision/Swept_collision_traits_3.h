@@ -9,7 +9,8 @@
 
 namespace haptic_sculpt {
 
-/// The exact questions about one vertex moving along a straight segment while all else stands still.
+/// The exact questions about one vertex moving along a straight segment while all else stands still: the model of the
+/// concept SweptCollisionTraits_3 that is the default everywhere.
 ///
 /// Every answer is a sign of a polynomial in the input doubles: no tolerance, no root finding, no time step. All sets
 /// are closed: touching is a hit. Guarantees and their derivation: doc/exact_sweeps.md.

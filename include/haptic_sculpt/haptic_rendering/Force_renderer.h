@@ -50,8 +50,10 @@ public:
   }
   bool has_faded() const { return fade_ == 0; }
 
-  /// A refused edit is felt. \param direction in axes of the device
-  void refuse(const Eigen::Vector3d& direction) { burst_.begin(direction); }
+  /// A refused edit is felt, the less the lighter the mechanism is there. \param direction in axes of the device
+  void refuse(const Handle_motion& handle, const Eigen::Vector3d& direction) {
+    burst_.begin(direction, mobility(handle, direction.normalized()));
+  }
   /// Forces begin at 0 and come back slowly.
   void restart() { ramp_ = 0, fade_ = 1, slew_.reset(), last_ = Rendered_force(); }
 
@@ -68,6 +70,17 @@ private:
   Slew_limit slew_;
   Refusal_burst burst_;
   Rendered_force last_;
+
+  /// How fast the free handle is accelerated by a newton along a direction, 1/kg; infinite where that is not known.
+  static double mobility(const Handle_motion& handle, const Eigen::Vector3d& direction) {
+    const auto motion =
+        device_motion(handle.parameters(), handle.pose(), Device_vector<double>(Device_vector<double>::Zero()));
+    if (!motion)
+      return std::numeric_limits<double>::infinity();
+    const Eigen::Matrix3d& linear = handle.jacobian().linear;
+    const Device_vector<double> torque = linear.transpose() * direction;
+    return (linear * spatial_dynamics(handle.parameters(), *motion).solve_mass(torque)).norm();
+  }
 
   Rendered_force in_room(const Handle_motion& handle, const Eigen::Vector3d& force) {
     const Eigen::Vector3d weight = weight_torque(handle), torque = handle.jacobian().linear.transpose() * force;

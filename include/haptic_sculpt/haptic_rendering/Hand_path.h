@@ -24,11 +24,13 @@ public:
 /// Where a hand wants to be, and what it does with the button. SI units, axes of the device; linear between rows.
 class Hand_path {
 public:
+  /// A place, and when.
   struct Row {
     double time;              ///< s
     Eigen::Vector3d position; ///< m
     int button;               ///< 0 none, 1 grab or create, 2 remove; from this row on
   };
+  /// What the hand wants at one moment.
   struct Wish {
     Eigen::Vector3d position, velocity; ///< m, m/s
     int button;

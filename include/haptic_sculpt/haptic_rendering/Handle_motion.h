@@ -25,7 +25,7 @@ public:
       return std::numeric_limits<double>::infinity();
     joint_step_ = is_first_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(theta - pose_.theta);
     step_ = is_first_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(pose->position - pose_.position);
-    is_first_ = false;
+    has_step_ = !is_first_, is_first_ = false;
     pose_ = *pose, jacobian_ = *map;
     velocity_.add(step_);
     condition_ = translation_conditioning(jacobian_).condition;
@@ -40,6 +40,8 @@ public:
   const Eigen::Vector3d& joint_step() const { return joint_step_; } ///< since the last tick, rad
   const Eigen::Vector3d& velocity() const { return velocity_.value(); }
   double condition() const { return condition_; }
+  /// Whether the last angles were not the first: then the steps above are steps.
+  bool has_step() const { return has_step_; }
 
   /// The next angles are taken as they are: no step leads there.
   void restart() { is_first_ = true, velocity_.reset(); }
@@ -51,7 +53,7 @@ private:
   Velocity_estimate velocity_;
   Eigen::Vector3d step_ = Eigen::Vector3d::Zero(), joint_step_ = Eigen::Vector3d::Zero();
   double condition_ = std::numeric_limits<double>::infinity();
-  bool is_first_ = true;
+  bool is_first_ = true, has_step_ = false;
 };
 
 } // namespace haptic_sculpt

@@ -4,6 +4,8 @@
 
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
 #include <haptic_sculpt/haptic_rendering/check_coupling.h>
+#include <haptic_sculpt/haptic_rendering/Inertia_rendering.h>
+#include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
 #include <haptic_sculpt/haptic_rendering/Tool.h>
 #include <haptic_sculpt/haptic_rendering/Watchdog.h>
@@ -18,8 +20,10 @@ struct Haptic_parameters {
   Force_limits limits;
   Watchdog_limits watchdog;
   Gravity_compensation gravity = Gravity_compensation::spatial;
-  double reach = 0.001;   ///< of a grab, m in the device
-  std::size_t work = 400; ///< pairs a drag may decide (doc/work.md)
+  Inertia_parameters inertia;
+  double controller_damping = 0; ///< the most the passivity controller may damp, N s/m; 0: there is none
+  double reach = 0.001;          ///< of a grab, m in the device
+  std::size_t work = 400;        ///< pairs a drag may decide (doc/work.md)
 };
 
 /// What a tick did; places in the scene, forces on the hand in axes of the device.
@@ -53,7 +57,9 @@ public:
       , tool_(sculptor, probe, map, parameters.reach, parameters.tick)
       , renderer_(parameters.limits, parameters.gravity, parameters.tick)
       , watchdog_(parameters.watchdog, parameters.tick, device.torque_limit())
-      , observer_(parameters.delay, parameters.tick, device.viscous_friction(), device.encoder_step()) {
+      , observer_(parameters.delay, parameters.tick, device.viscous_friction(), device.encoder_step())
+      , controller_(parameters.controller_damping, parameters.tick)
+      , inertia_(parameters.inertia, device, parameters.tick, parameters.delay) {
     check_coupling(parameters.coupling, limits);
     sculptor.set_work_limit(parameters.work);
   }
@@ -79,17 +85,30 @@ public:
     return tick_;
   }
 
+  /// Ends the run at the next tick, in order, for a reason that the loop itself does not see.
+  void end_by(Loop_fault fault) { watchdog_.report(fault); }
+
   /// After a fault: forces come back slowly, from 0, from where everything is.
   void restart() {
-    watchdog_.reset(), handle_.restart(), renderer_.restart(), tool_.let_go();
+    watchdog_.reset(), handle_.restart(), renderer_.restart(), inertia_.restart(), tool_.let_go();
     tick_ = Haptic_tick();
+  }
+
+  /// From here on in another sculpture; forces begin at 0. The old one is let go of, and may be destroyed.
+  void enter(Sculptor& sculptor, Vertex_index probe, const Workspace_map& map) {
+    tool_.enter(sculptor, probe, map);
+    sculptor_ = &sculptor, map_ = map;
+    sculptor.set_work_limit(parameters_.work);
+    restart();
   }
 
   /// Whether a fault has let go of the hand altogether.
   bool has_stopped() const { return tick_.fault != Loop_fault::none && renderer_.has_faded(); }
   const Tool<Sculptor>& tool() const { return tool_; }
+  Tool<Sculptor>& tool() { return tool_; }
   const Handle_motion& handle() const { return handle_; }
   const Passivity_observer& observer() const { return observer_; }
+  const Inertia_rendering& inertia() const { return inertia_; }
   const Haptic_parameters& parameters() const { return parameters_; }
   const Workspace_map& map() const { return map_; }
 
@@ -102,6 +121,8 @@ private:
   Force_renderer renderer_;
   Watchdog watchdog_;
   Passivity_observer observer_;
+  Passivity_controller controller_;
+  Inertia_rendering inertia_;
   Haptic_tick tick_;
 
   /// Stops where the watchdog finds a fault.
@@ -113,10 +134,11 @@ private:
     tick_.tool = tool_.move(handle_.position(), reading.button);
     const Tool_step& tool = tick_.tool;
     if (tool.event == Tool_event::refused)
-      renderer_.refuse(map_.direction_to_device(tool_.last_push()));
+      renderer_.refuse(handle_, map_.direction_to_device(tool_.last_push()));
     tick_.coupling = coupling.force(map_, tool.proxy, tool.target, tool.reached);
-    tick_.rendered =
-        renderer_.render(handle_, tick_.coupling + coupling.damping_force(tool.span, handle_.velocity(), tool.reached));
+    tick_.rendered = renderer_.render(
+        handle_, tick_.coupling + coupling.damping_force(tool.span, handle_.velocity(), tool.reached) +
+                     inertia_.force(handle_, tool_.holds_vertex()) + controller_.force(observer_, handle_));
     if (tick_.rendered.is_overloaded)
       watchdog_.report(Loop_fault::torque);
   }

@@ -9,26 +9,32 @@
 
 namespace haptic_sculpt {
 
-/// What an edit that is refused feels like: a short buzz, 125 Hz under a Hann window.
+/// What an edit that is refused feels like: a short buzz, whole cycles of about 120 Hz under a Hann window.
 ///
-/// Its samples are odd about its middle, so that they sum to 0, and the window leaves nothing at low frequencies: the
-/// handle ends where it was, and is never farther from there than some hundredths of a millimetre.
+/// Its samples are even about its middle and sum to 0, because the window spreads a whole number of cycles, 2 or more,
+/// over neighbouring numbers of cycles only. So neither their sum nor their first moment is left: a free mass comes to
+/// rest where it began. On the way it moves by the amplitude over mass and frequency squared, and motors at low rates
+/// cannot render a high frequency; the amplitude is as small as it takes to keep that way short.
 class Refusal_burst {
 public:
-  static constexpr double frequency = 125; ///< Hz, where fingers feel least amplitudes
-  static constexpr double duration = 0.05; ///< s
-  static constexpr double amplitude = 1;   ///< N
+  static constexpr double frequency = 120;   ///< Hz, about where fingers feel least amplitudes
+  static constexpr double duration = 0.05;   ///< s
+  static constexpr double amplitude = 1;     ///< N, at most
+  static constexpr double farthest = 0.9e-4; ///< m: how far a free handle may move meanwhile
 
-  /// \param tick s; at rates below 500 Hz the frequency is a quarter of the rate, which the motors can still render
+  /// \param tick s, at most a quarter of the duration; a cycle has at least three ticks. Costs a walk over the samples.
   explicit Refusal_burst(double tick)
-      : samples_(std::max(2, static_cast<int>(std::lround(duration / tick))))
-      , tick_(tick)
-      , frequency_(std::min(double(frequency), 0.25 / tick)) {}
+      : samples_(std::max(6, static_cast<int>(std::lround(duration / tick))))
+      , cycles_(std::clamp(static_cast<int>(std::lround(frequency * samples_ * tick)), 2, samples_ / 3))
+      , way_(way_of_unit_mass(tick)) {}
 
   /// Begins along a direction; one under way goes on in its own.
-  void begin(const Eigen::Vector3d& direction) {
-    if (is_over())
-      direction_ = direction.normalized(), next_ = 0;
+  /// \param mobility how fast the free handle is accelerated there by a newton, 1/kg
+  void begin(const Eigen::Vector3d& direction, double mobility) {
+    if (!is_over())
+      return;
+    const double share = std::isfinite(mobility) ? std::fmin(1.0, farthest / (way_ * mobility)) : 0.0;
+    peak_ = share * direction.normalized(), next_ = 0;
   }
   bool is_over() const { return next_ >= samples_; }
 
@@ -36,22 +42,34 @@ public:
   Eigen::Vector3d next() {
     if (is_over())
       return Eigen::Vector3d::Zero();
-    return sample(next_++) * direction_;
+    return sample(next_++) * peak_;
   }
 
   int samples() const { return samples_; }
-  /// \pre 0 <= k < samples()
+  /// N, for the largest amplitude. \pre 0 <= k < samples()
   double sample(int k) const {
     const double pi = 3.14159265358979323846;
-    const int from_middle = 2 * k + 1 - samples_; // in half ticks: odd about the middle in every bit
+    const int from_middle = std::abs(2 * k + 1 - samples_); // in half ticks: even about the middle in every bit
     const double window = 0.5 * (1 + std::cos(pi * from_middle / samples_));
-    return amplitude * window * std::sin(pi * frequency_ * tick_ * from_middle);
+    return amplitude * window * std::cos(pi * cycles_ * from_middle / samples_);
   }
 
 private:
-  int samples_, next_ = 1 << 30;
-  double tick_, frequency_;
-  Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();
+  int samples_, cycles_, next_ = 1 << 30;
+  double way_; ///< how far the largest amplitude, held tick by tick, moves a mass of 1 kg, m
+  Eigen::Vector3d peak_ = Eigen::Vector3d::Zero();
+
+  double way_of_unit_mass(double tick) const {
+    double place = 0, velocity = 0, farthest_place = 0;
+    for (int k = 0; k < samples_; ++k) {
+      const double force = sample(k), later = velocity + force * tick;
+      if (velocity * later < 0) // it turns within the tick
+        farthest_place = std::fmax(farthest_place, std::abs(place - velocity * velocity / (2 * force)));
+      place += (velocity + later) / 2 * tick, velocity = later;
+      farthest_place = std::fmax(farthest_place, std::abs(place));
+    }
+    return farthest_place;
+  }
 };
 
 } // namespace haptic_sculpt

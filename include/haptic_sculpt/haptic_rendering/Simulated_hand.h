@@ -17,6 +17,7 @@ namespace haptic_sculpt {
 /// carries its own weight.
 struct Simulated_hand {
   static constexpr int most_stages = 3;
+  /// A mass, and what ties it to the next.
   struct Stage {
     double mass = 0;      ///< kg; 0 for the first stage only
     double stiffness = 0; ///< N/m
@@ -47,11 +48,15 @@ struct Simulated_hand {
   static Simulated_hand finger() { return {1, {{{0, 300, 3}}}}; }
   /// A hand and arm: 375 N/m and 7.9 N s/m of grip, 1.46 kg, and 48.8 N/m and 4.5 N s/m that hold it.
   static Simulated_hand arm() { return {2, {{{0, 375, 7.9}, {1.46, 48.8, 4.5}}}}; }
+  /// An arm that grips a handle, as measured: 0.554 kg, 135 N/m, 6.45 N s/m (doc/haptic_stability.md has the source).
+  static Simulated_hand measured_arm() { return {1, {{{0.554, 135, 6.45}}}}; }
   static std::optional<Simulated_hand> named(std::string_view name) {
     if (name == "finger")
       return finger();
     if (name == "arm")
       return arm();
+    if (name == "measured_arm")
+      return measured_arm();
     return std::nullopt;
   }
 
@@ -63,6 +68,7 @@ struct Simulated_hand {
     return states;
   }
 
+  /// What the hand does to the handle, and to itself.
   struct Effect {
     Eigen::Vector3d force; ///< on the handle, N
     States rates;

@@ -2,38 +2,19 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_H
 
-#include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
+#include <haptic_sculpt/haptic_rendering/Tool_step.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Tool_journal.h>
 #include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
 
-#include <optional>
-
 namespace haptic_sculpt {
-
-/// What the button has done in a tick.
-enum class Tool_event { none, grabbed, created_on_face, created_on_edge, released, removed, refused };
-
-/// Where the hand wants what it holds, and where that is.
-struct Tool_step {
-  Eigen::Vector3d target = Eigen::Vector3d::Zero(), proxy = Eigen::Vector3d::Zero(); ///< in the scene
-  bool reached = true;
-  std::optional<Drag_end> end; ///< none: nothing is held, and there is no probe
-  std::size_t pairs = 0;       ///< of the drag's work
-  int contacts = 0;
-  Contact_span span; ///< of the contacts' pushes, in axes of the device
-  Tool_event event = Tool_event::none;
-};
-
-/// What a button did, counted.
-struct Tool_edits {
-  std::size_t grabbed = 0, created = 0, removed = 0, released = 0, refused = 0;
-};
 
 /// What a hand does in a scene: a probe that touches, a vertex that is grabbed, created, dragged, let go or removed.
 ///
 /// Button 1 takes the nearest vertex in reach; else creates one where the probe touches a face or, near it, an edge.
 /// Button 2 removes the vertex held, or the nearest in reach. What cannot be done is refused, and all is as it was.
 /// Targets are anchored: at each change of what is held the target is where that is, so no force begins; the offset
-/// fades where nothing is touched.
+/// fades where nothing is touched. A vertex held, from the press of the button to its release, creation and removal
+/// included, is one stroke: one step of undo.
 template <class Sculptor>
 class Tool {
 public:
@@ -54,7 +35,10 @@ public:
       , probe_(probe)
       , map_(map)
       , reach_(reach * map.scale())
-      , offset_share_(std::exp(-tick / offset_time)) {}
+      , offset_share_(std::exp(-tick / offset_time))
+      , journal_(sculptor.name(probe)) {
+    legs_.reserve(most_legs);
+  }
 
   /// One tick: the button first, then the drag. Allocates nothing but what edits do; its work is that of the drag,
   /// bounded by the Sculptor. \throw what drags throw
@@ -72,18 +56,45 @@ public:
       if (!grab_)
         return step;
     }
-    const auto result = grab_->drag_to(internal::point_of<Point>(step.target));
-    take(result, step);
+    take(drag_to(internal::point_of<Point>(step.target)), step);
     if (step.reached && !held_)
       offset_ *= offset_share_;
     return step;
   }
 
-  /// Lets go of everything, as at a fault. The next move begins anew, anchored.
+  /// Lets go of everything, as at a fault. The next move begins anew, anchored, with the probe; a button that is held
+  /// does nothing until it is pressed again.
   void let_go() {
     grab_.reset();
-    held_ = false, button_ = 0, is_anchored_ = false;
+    end_stroke();
+    held_ = false, is_anchored_ = false;
   }
+
+  /// Lets go and does an edit that somebody else asks for: an undo or redo, a creation or removal. The probe is out of
+  /// its way meanwhile. \param wanted with `Sculptor::name()`s \pre its kind is one of these
+  typename Sculptor::Edited edit(const Journal_entry& wanted) {
+    const Eigen::Vector3d probe = place_of(probe_);
+    const bool was_placed = is_probe_placed_;
+    let_go();
+    park_probe(last_push_);
+    auto made = make(wanted);
+    note(wanted, made);
+    is_probe_placed_ = was_placed && internal::put_probe(*sculptor_, probe_, probe);
+    return made;
+  }
+
+  /// Lets go, and begins anew in another scene.
+  void enter(Sculptor& sculptor, Vertex_index probe, const Workspace_map& map) {
+    let_go();
+    reach_ *= map.scale() / map_.scale();
+    sculptor_ = &sculptor, probe_ = probe, map_ = map;
+    journal_ = Tool_journal(sculptor.name(probe));
+    offset_.setZero(), last_push_ = Eigen::Vector3d::UnitZ(), touched_.reset();
+    is_started_ = is_probe_placed_ = false;
+  }
+
+  /// What is done from here on is told to it. nullptr: to none
+  void keep_journal(Edit_journal* journal) { journal_.keep(journal); }
 
   bool holds_vertex() const { return held_; }
   /// What is dragged: the vertex held, or the probe; null where there is none.
@@ -104,6 +115,53 @@ private:
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(), last_push_ = Eigen::Vector3d::UnitZ();
   std::optional<std::array<Vertex_index, 3>> touched_; ///< the face that the probe touches
   Tool_edits edits_;
+  static constexpr std::size_t most_legs = 64; ///< of a drag, and more: room that is made for them
+  std::optional<typename Sculptor::Stroke_type> stroke_;
+  Tool_journal journal_;
+  std::vector<Point> legs_;
+
+  typename Sculptor::Result drag_to(const Point& target) {
+    if (!held_)
+      return grab_->drag_to(target);
+    const auto result = grab_->drag_to(target, legs_);
+    journal_.add_legs(sculptor_->name(grab_->vertex()), legs_);
+    return result;
+  }
+
+  void end_stroke() {
+    if (stroke_)
+      journal_.end_stroke();
+    stroke_.reset();
+  }
+
+  /// Where a probe is near, a removal may have taken another neighbour than it would without: that is said.
+  void note(Journal_entry wanted, const typename Sculptor::Edited& made) {
+    if (!made)
+      return;
+    if (wanted.kind == Journal_entry::Kind::remove) {
+      wanted.kind = Journal_entry::Kind::collapse;
+      wanted.vertices[1] = sculptor_->name(*made.vertex);
+    }
+    journal_.add(wanted);
+  }
+
+  typename Sculptor::Edited make(const Journal_entry& wanted) {
+    using Kind = Journal_entry::Kind;
+    const auto& v = wanted.vertices;
+    const Point p(wanted.point[0], wanted.point[1], wanted.point[2]);
+    switch (wanted.kind) {
+    case Kind::undo:
+      return sculptor_->undo();
+    case Kind::redo:
+      return sculptor_->redo();
+    case Kind::insert_on_face:
+      return sculptor_->insert_on_face(sculptor_->face_of(v[0], v[1], v[2]), p);
+    case Kind::insert_on_edge:
+      return sculptor_->insert_on_edge(sculptor_->edge_of(v[0], v[1]), p);
+    default:
+      return sculptor_->remove(sculptor_->vertex(v[0]));
+    }
+  }
 
   Eigen::Vector3d place_of(Vertex_index v) const { return internal::vector_of(sculptor_->mesh().point(v)); }
   void anchor(Vertex_index v, const Eigen::Vector3d& hand) { offset_ = place_of(v) - hand, is_anchored_ = true; }
@@ -139,6 +197,8 @@ private:
       const Eigen::Vector3d normal(contact.normal[0], contact.normal[1], contact.normal[2]);
       step.span.add(map_.direction_to_device(normal));
       last_push_ = normal;
+      if (held_)
+        step.obstacle = sculptor_->name(contact.vertices[2]);
       if (!held_ && contact.kind == Contact_kind::vertex_face)
         touched_ = contact.vertices;
     }
@@ -168,6 +228,8 @@ private:
     const Eigen::Vector3d probe = place_of(probe_);
     const Vertex_index nearest = internal::nearest_vertex(*sculptor_, is_probe_placed_ ? probe : hand, reach_);
     if (nearest.is_valid()) {
+      stroke_.emplace(sculptor_->stroke());
+      journal_.begin_stroke();
       hold(nearest, hand, internal::vertex_normal(sculptor_->mesh(), nearest));
       return Tool_event::grabbed;
     }
@@ -177,11 +239,13 @@ private:
     const Eigen::Vector3d away = last_push_;
     park_probe(away); // or it would stand where the new vertex is to be
     Tool_event event = Tool_event::refused;
+    stroke_.emplace(sculptor_->stroke());
     const auto made = create(face, probe, event);
     if (made) {
       hold(*made.vertex, hand, away);
       return event;
     }
+    stroke_.reset(); // nothing is in it
     is_probe_placed_ = internal::put_probe(*sculptor_, probe_, probe);
     touched_ = face;
     return Tool_event::refused;
@@ -206,19 +270,27 @@ private:
   /// On the face, or on the edge that is nearer than edge_share of the altitude over it.
   typename Sculptor::Edited create(const std::array<Vertex_index, 3>& face, const Eigen::Vector3d& p,
                                    Tool_event& event) {
-    const std::size_t names[3] = {sculptor_->name(face[0]), sculptor_->name(face[1]), sculptor_->name(face[2])};
+    Journal_entry wanted;
+    wanted.kind = Journal_entry::Kind::insert_on_face;
+    wanted.vertices = {sculptor_->name(face[0]), sculptor_->name(face[1]), sculptor_->name(face[2])};
+    wanted.point = {p[0], p[1], p[2]};
+    event = Tool_event::created_on_face;
     const Eigen::Vector3d corners[3] = {place_of(face[0]), place_of(face[1]), place_of(face[2])};
     const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3 && event == Tool_event::created_on_face; ++i) {
       const Eigen::Vector3d &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
       if ((b - a).cross(p - a).dot(normal) < edge_share * normal.squaredNorm()) {
         event = Tool_event::created_on_edge;
-        return sculptor_->insert_on_edge(sculptor_->edge_of(names[(i + 1) % 3], names[(i + 2) % 3]),
-                                         internal::point_of<Point>(p));
+        wanted.kind = Journal_entry::Kind::insert_on_edge;
+        wanted.vertices = {wanted.vertices[(i + 1) % 3], wanted.vertices[(i + 2) % 3], 0};
       }
     }
-    event = Tool_event::created_on_face;
-    return sculptor_->insert_on_face(sculptor_->face_of(names[0], names[1], names[2]), internal::point_of<Point>(p));
+    auto made = make(wanted);
+    if (made) {
+      journal_.begin_stroke();
+      note(wanted, made);
+    }
+    return made;
   }
 
   Tool_event release(const Eigen::Vector3d& hand) {
@@ -226,6 +298,7 @@ private:
     const Eigen::Vector3d place = place_of(v), away = internal::vertex_normal(sculptor_->mesh(), v);
     grab_.reset();
     held_ = false;
+    end_stroke();
     put_probe_near(place, away, hand);
     return Tool_event::released;
   }
@@ -250,10 +323,15 @@ private:
     const bool was_held = held_;
     grab_.reset();
     held_ = false;
-    const bool is_removed = static_cast<bool>(sculptor_->remove(v));
+    Journal_entry wanted;
+    wanted.kind = Journal_entry::Kind::remove;
+    wanted.vertices = {sculptor_->name(v), 0, 0};
+    const auto made = make(wanted);
+    note(wanted, made);
+    end_stroke();
     if (was_held)
       put_probe_near(place, away, hand);
-    return is_removed ? Tool_event::removed : Tool_event::refused;
+    return made ? Tool_event::removed : Tool_event::refused;
   }
 };
 

@@ -13,12 +13,13 @@ enum class Loop_fault {
   jump,       ///< an angle has changed faster than any hand turns a joint: a lost count, a loose cable
   stall,      ///< the last tick is too long ago: what the device did meanwhile is not known
   singular,   ///< the pose has no usable Jacobian: forces cannot be rendered, and the branch may be lost
-  torque      ///< a motor gives more than its limit, or the mechanism's weight alone takes more
+  torque,     ///< a motor gives more than its limit, or the mechanism's weight alone takes more
+  log         ///< what is done cannot be written down in time: the journal has overrun
 };
 
 /// The word used in reports and by `--fault`.
 inline const char* name_of(Loop_fault fault) {
-  constexpr const char* names[] = {"none", "nan", "jump", "stall", "singular", "torque"};
+  constexpr const char* names[] = {"none", "nan", "jump", "stall", "singular", "torque", "log"};
   return names[static_cast<int>(fault)];
 }
 

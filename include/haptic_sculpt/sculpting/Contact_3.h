@@ -20,7 +20,8 @@ inline const char* name_of(Contact_kind kind) {
 template <class Mesh>
 struct Contact_3 {
   using Vertex_index = typename Mesh::Vertex_index;
-  using Coordinates = internal::Coordinates;
+  using Point_3 = typename Mesh::Point;
+  using Vector_3 = typename CGAL::Kernel_traits<Point_3>::Kernel::Vector_3;
 
   Contact_kind kind = Contact_kind::vertex_face;
 
@@ -29,10 +30,10 @@ struct Contact_3 {
   std::array<Vertex_index, 3> vertices;
 
   /// Of length 1, towards the side J came from: the direction in which the contact pushes. Floating point.
-  Coordinates normal{};
+  Vector_3 normal = {0, 0, 0};
 
   /// The three points of the contact plane, exact. Do not span it where `is_flat`; G, I, I for `delta`.
-  std::array<Coordinates, 3> plane{};
+  std::array<Point_3, 3> plane = {Point_3(0, 0, 0), Point_3(0, 0, 0), Point_3(0, 0, 0)};
 
   /// Whether the plane is not determined by the features: the motion was coplanar with them.
   bool is_flat = false;
@@ -45,15 +46,14 @@ struct Contact_3 {
 };
 
 /// The contact of an impact. `at` describes its path, see path_at_plane().
-template <class Mesh>
-Contact_3<Mesh> contact_of(const Star_impact<Mesh>& impact, const internal::Path_at_plane& at) {
+template <class Mesh, class Impact>
+Contact_3<Mesh> contact_of(const Star_impact<Mesh, Impact>& impact, const internal::Path_at_plane& at) {
   Contact_3<Mesh> contact;
   contact.kind = static_cast<Contact_kind>(impact.feature());
   contact.vertices = impact.vertices();
-  contact.normal = at.normal;
-  const internal::Sweep_points& p = impact.impact().coordinates();
-  contact.plane = {p[2], p[3], p[4]};
-  contact.is_flat = impact.impact().is_flat();
+  contact.normal = {at.normal[0], at.normal[1], at.normal[2]};
+  contact.plane = {impact.impact().static_point(0), impact.impact().static_point(1), impact.impact().static_point(2)};
+  contact.is_flat = at.side == 0;
   contact.location = impact.impact().location();
   contact.side = at.side;
   return contact;
@@ -65,9 +65,16 @@ namespace internal {
 template <class Mesh>
 double largest_coordinate_of(const Contact_3<Mesh>& contact) {
   double largest = 0;
-  for (const Coordinates& p : contact.plane)
-    largest = std::fmax(largest, largest_magnitude(p));
+  for (const auto& p : contact.plane)
+    largest = std::fmax(largest, largest_magnitude(coordinates(p)));
   return largest;
+}
+
+/// The distance of q from the plane of a contact that is not flat, signed: positive on the side of positive orientation.
+template <class Mesh>
+double height_over_plane(const Contact_3<Mesh>& contact, const Coordinates& q) {
+  const auto& [a, b, c] = contact.plane;
+  return height_over_plane(coordinates(a), coordinates(b), coordinates(c), q);
 }
 
 } // namespace internal

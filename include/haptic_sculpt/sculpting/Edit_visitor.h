@@ -30,14 +30,14 @@ namespace haptic_sculpt {
 struct Default_edit_visitor {
   template <class Vertex_index>
   void vertex_moved(Vertex_index) {}
-  /// \param number the one that lasts, `Sculptor::name()`
+  /// With the number that lasts, `Sculptor::name()`.
   template <class Vertex_index>
   void vertex_dies(Vertex_index, std::size_t /*number*/) {}
   template <class Edge_index>
   void edge_dies(Edge_index) {}
   template <class Face_index>
   void face_dies(Face_index) {}
-  /// \param number a new one, or the old one of a vertex that undo or redo has revived, maybe with another descriptor
+  /// With a new number, or the old one of a vertex that undo or redo has revived, maybe with another descriptor.
   template <class Vertex_index>
   void vertex_created(Vertex_index, std::size_t /*number*/) {}
   template <class Edge_index>

@@ -11,6 +11,7 @@ namespace haptic_sculpt {
 /// What a guarded remeshing did. `refused` counts what was worth doing but would have broken the promise, or the delta
 /// rule.
 struct Remeshing_report {
+  /// Of one kind of operation.
   struct Count {
     std::size_t done = 0, refused = 0;
   };

@@ -16,6 +16,9 @@ namespace haptic_sculpt {
 /// \tparam Mesh_ `CGAL::Surface_mesh<K::Point_3>` with K::FT = double
 /// \tparam Broad_phase_ a model of BroadPhase (doc/broad_phase.md); no result depends on the choice
 /// \tparam Visitor_ a model of EditVisitor (Default_edit_visitor), told of moved, created and dead elements
+/// \tparam Traits_ a model of SweptCollisionTraits_3: decides what a dragged vertex meets, and what of it first. With the
+/// default no decision is ever wrong; with another nothing is promised of drags but what that one keeps. Edits, finding, the
+/// delta rule, and which pairs are not looked at, are exact whatever the traits (doc/exact_sweeps.md).
 ///
 /// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay. Changes
 /// made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()` looks at all.
@@ -24,12 +27,14 @@ namespace haptic_sculpt {
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
-template <class Mesh_, class Broad_phase_ = Box_tree_broad_phase<Mesh_>, class Visitor_ = Default_edit_visitor>
+template <class Mesh_, class Broad_phase_ = Box_tree_broad_phase<Mesh_>, class Visitor_ = Default_edit_visitor,
+          class Traits_ = Exact_sweep_traits<Mesh_>>
 class Sculptor {
 public:
   using Mesh_type = Mesh_;
   using Broad_phase = Broad_phase_;
   using Visitor = Visitor_;
+  using Traits = Traits_;
   using Point = typename Mesh_type::Point;
   using Vertex_index = typename Mesh_type::Vertex_index;
   using Face_index = typename Mesh_type::Face_index;
@@ -48,7 +53,11 @@ public:
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
   /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
-    : guarded_(mesh, options, std::move(visitor)) {}
+    : guarded_(mesh, options, std::move(visitor), [](Filter_counters& counters) { return traits_that_count(counters); }) {}
+
+  /// The same with traits of its own, which are copied. \throw as above
+  Sculptor(Mesh_type& mesh, const Sculptor_parameters& options, Visitor visitor, const Traits& traits)
+    : guarded_(mesh, options, std::move(visitor), [&traits](Filter_counters&) { return traits; }) {}
   ~Sculptor() { set_hand(nullptr); }
 
   Sculptor(const Sculptor&) = delete;
@@ -60,7 +69,7 @@ public:
   /// The Sculptor's own copy.
   Visitor& visitor() { return guarded_.editor().visitor(); }
 
-  /// How many signs the floating-point filter could not decide so far.
+  /// How many signs the floating-point filter could not decide so far. Traits that were given do not count here.
   const Filter_counters& filter_counters() const { return guarded_.counters(); }
 
   /// Takes a vertex in hand. \throw Unknown_vertex, Mesh_changed
@@ -83,7 +92,9 @@ public:
   /// What v would touch first on its straight way to `target`, as the free function first_impact() tells, at the cost of a drag.
   /// Moves nothing; takes v in hand, and contacts that were carried along are forgotten if that is another vertex.
   /// \throw Unknown_vertex, Out_of_range, Mesh_changed
-  std::optional<Star_impact<Mesh_type>> first_impact(Vertex_index v, const Point& target) { return guarded_.first_impact(v, target); }
+  std::optional<Star_impact<Mesh_type, typename Traits::Impact_3>> first_impact(Vertex_index v, const Point& target) {
+    return guarded_.first_impact(v, target);
+  }
 
   /// Lets go of the vertex in hand, if any.
   void release() { guarded_.release(); }
@@ -260,10 +271,18 @@ private:
 
   void end_stroke(std::size_t number) noexcept { guarded_.editor().history().end_stroke(number); }
 
-  internal::Guarded_mesh<Mesh_type, Broad_phase, Visitor> guarded_;
+  internal::Guarded_mesh<Mesh_type, Broad_phase, Visitor, Traits> guarded_;
   Grab_type* holder_ = nullptr; ///< the Grab that has the hand
 
   double delta() const { return options().delta_length; }
+
+  /// Those that do not count are made by default.
+  static Traits traits_that_count(Filter_counters& counters) {
+    if constexpr (std::is_constructible<Traits, Filter_counters*>::value)
+      return Traits(&counters);
+    else
+      return Traits();
+  }
 
   /// Whoever had the hand is stale from now on.
   void set_hand(Grab_type* grab) noexcept {

@@ -11,16 +11,18 @@
 
 namespace haptic_sculpt {
 
-/// An impact of a moving star, with the mesh elements that meet.
+/// The traits by which motions of a mesh's vertices are decided where no others are given: exact. Counts what the filter leaves.
 template <class Mesh>
+using Exact_sweep_traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel, Filter_counters>;
+
+/// An impact of a moving star, with the mesh elements that meet.
+/// \tparam Impact that of the traits which decided: SweptCollisionTraits_3::Impact_3
+template <class Mesh, class Impact = typename Exact_sweep_traits<Mesh>::Impact_3>
 class Star_impact {
 public:
-  using Kernel = typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel;
   using Vertex_index = typename Mesh::Vertex_index;
 
-  Star_impact(Impact_feature feature, const std::array<Vertex_index, 3>& vertices, const internal::Sweep_points& points,
-              const internal::Sweep_verdict& verdict)
-    : vertices_(vertices), impact_(feature, points, verdict) {}
+  Star_impact(const std::array<Vertex_index, 3>& vertices, const Impact& impact) : vertices_(vertices), impact_(impact) {}
 
   Impact_feature feature() const { return impact_.feature(); }
 
@@ -29,7 +31,7 @@ public:
   /// face_vertex: G, I, A: face JGI meets vertex A.
   const std::array<Vertex_index, 3>& vertices() const { return vertices_; }
 
-  const Impact_3<Kernel>& impact() const { return impact_; }
+  const Impact& impact() const { return impact_; }
 
   /// An order that depends on nothing but the elements.
   friend bool operator<(const Star_impact& a, const Star_impact& b) {
@@ -38,12 +40,12 @@ public:
 
 private:
   std::array<Vertex_index, 3> vertices_;
-  Impact_3<Kernel> impact_;
+  Impact impact_;
 };
 
 /// The impacts that come first along one motion: all at exactly the same time, in the order of operator<.
-template <class Mesh>
-using Star_impacts = std::vector<Star_impact<Mesh>>;
+template <class Mesh, class Impact = typename Exact_sweep_traits<Mesh>::Impact_3>
+using Star_impacts = std::vector<Star_impact<Mesh, Impact>>;
 
 } // namespace haptic_sculpt
 

@@ -53,8 +53,10 @@ void check_point(const char* what, const Point_3& p) {
 /// the surface, and touches faces itself; probes do not touch each other.
 /// \throw Unknown_vertex, Out_of_range
 /// Cost: reads every face once; the sweeps cost valence times the candidates whose boxes meet the swept star's.
-template <class Mesh>
-Star_impacts<Mesh> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v, const typename Mesh::Point& target) {
+/// \param traits decide the sweeps, a model of SweptCollisionTraits_3: with another than the default the answer is as right as its
+template <class Mesh, class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
+Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v,
+                                                            const typename Mesh::Point& target, const Traits& traits = Traits()) {
   internal::check_vertex(mesh, v);
   internal::check_point("the target", target);
   const auto source = vertex_coordinates(mesh, v);
@@ -73,17 +75,17 @@ Star_impacts<Mesh> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v
         isolated.push_back(w);
     list.add_isolated(mesh, isolated);
   }
-  No_filter_counters uncounted;
-  Star_impacts<Mesh> firsts;
-  internal::Narrow_phase<Mesh, No_filter_counters>(uncounted).first_impacts(star, list, source, end, firsts);
+  Star_impacts<Mesh, typename Traits::Impact_3> firsts;
+  internal::Narrow_phase<Mesh, Traits>(traits).first_impacts(star, list, source, end, firsts);
   return firsts;
 }
 
 /// The first of `first_impacts()`, if any: would this motion hit, what, and when. Changes nothing. Same cost and errors.
-template <class Mesh>
-std::optional<Star_impact<Mesh>> first_impact(const Mesh& mesh, typename Mesh::Vertex_index v,
-                                              const typename Mesh::Point& target) {
-  const Star_impacts<Mesh> firsts = first_impacts(mesh, v, target);
+template <class Mesh, class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
+std::optional<Star_impact<Mesh, typename Traits::Impact_3>> first_impact(const Mesh& mesh, typename Mesh::Vertex_index v,
+                                                                         const typename Mesh::Point& target,
+                                                                         const Traits& traits = Traits()) {
+  const auto firsts = first_impacts(mesh, v, target, traits);
   if (firsts.empty())
     return std::nullopt;
   return firsts.front();

@@ -94,7 +94,7 @@ struct All_pairs {
                    if (order < 0)
                      firsts.clear();
                    if (order <= 0)
-                     firsts.emplace_back(feature, v, points, verdict);
+                     firsts.emplace_back(v, typename Exact_sweep_traits<Mesh>::Impact_3(feature, points, verdict));
                  });
     std::sort(firsts.begin(), firsts.end());
     return firsts;

@@ -14,14 +14,14 @@ namespace {
 
 using Coordinates = std::array<double, 3>;
 
-struct Scene {
+struct Crowded_star {
   Mesh mesh;
   internal::Star<Mesh> star;
   internal::Checklist<Mesh> list;
   Coordinates centre{};
 
   /// A star of three faces around a vertex near the origin, and triangles around it whose corners are 2^0 to 2^longest away.
-  Scene(Random& random, int longest, int triangles, double scale, double offset) {
+  Crowded_star(Random& random, int longest, int triangles, double scale, double offset) {
     std::uniform_real_distribution<double> number(-1, 1);
     const auto point = [&](double size) {
       Coordinates p;
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(near_pairs_give_what_all_pairs_give) {
     const int longest = static_cast<int>(random() % 50);
     const double scale = std::ldexp(1.0, static_cast<int>(random() % 60) - 30);
     const double offset = random() % 4 == 0 ? 1e3 * scale : 0;
-    Scene scene(random, longest, 1 + static_cast<int>(random() % 4), scale, offset);
+    Crowded_star scene(random, longest, 1 + static_cast<int>(random() % 4), scale, offset);
     std::normal_distribution<double> normal;
     const auto direction = [&] {
       const double x = normal(random), y = normal(random), z = normal(random);
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(near_pairs_give_what_all_pairs_give) {
       continue;
     ++balls;
     Filter_counters counters;
-    internal::Narrow_phase<Mesh> narrow(counters);
+    internal::Narrow_phase<Mesh> narrow{Exact_sweep_traits<Mesh>(&counters)};
     Star_impacts<Mesh> all, near;
     for (int i = 0; i < 20; ++i) {
       // As far as the ball goes in a random direction, found by halving; or a part of it.

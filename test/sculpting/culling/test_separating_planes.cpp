@@ -120,7 +120,7 @@ std::size_t draw_valence(Random& random) {
 struct Session {
   Filter_counters counters;
   internal::Checklist<Mesh> list;
-  internal::Narrow_phase<Mesh> narrow{counters};
+  internal::Narrow_phase<Mesh> narrow{Exact_sweep_traits<Mesh>(&counters)};
   internal::Edit_proof<Mesh, Filter_counters> proof{counters};
   Star_impacts<Mesh> found;
   std::size_t motions = 0, blocked = 0, several = 0, late = 0, collapses = 0, refused = 0, balls = 0, covered = 0, met = 0, meeting = 0,

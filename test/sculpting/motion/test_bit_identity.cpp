@@ -19,8 +19,8 @@ using Edited = Edit_result<Mesh>;
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool same_bits(const Point_3& a, const Point_3& b) { return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z()); }
-bool same_bits(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return same_bits(a[0], b[0]) && same_bits(a[1], b[1]) && same_bits(a[2], b[2]);
+bool same_bits(const Point_3::R::Vector_3& a, const Point_3::R::Vector_3& b) {
+  return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z());
 }
 
 bool same(const Contact_3<Mesh>& a, const Contact_3<Mesh>& b) {

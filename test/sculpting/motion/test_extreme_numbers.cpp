@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(targets_of_any_size_keep_the_mesh_embedded_and_lead_no_fart
             farther += is_farther(target, result.position, start);
             BOOST_REQUIRE(result.position == mesh.point(v));
             for (const auto& contact : result.contacts)
-              for (const double n : contact.normal)
+              for (const double n : internal::coordinates(contact.normal))
                 BOOST_REQUIRE(std::isfinite(n));
             BOOST_REQUIRE(std::isfinite(result.kkt_residual));
           } catch (const Out_of_range&) {

@@ -159,8 +159,7 @@ void check_queries(std::uint64_t seed) {
     const auto is_free_of = [&](const std::vector<Mesh::Face_index>& faces) {
       internal::Checklist<Mesh> list;
       list.assign(mesh, internal::Face_corners<Mesh>(mesh), swept, faces, Box_3());
-      No_filter_counters uncounted;
-      return internal::Narrow_phase<Mesh, No_filter_counters>(uncounted).is_free(swept, list, source, target);
+      return internal::Narrow_phase<Mesh>(Exact_sweep_traits<Mesh>()).is_free(swept, list, source, target);
     };
     if (i % 30 == 0 && is_free_of({})) // the star does not meet its own link's vertices, which are in every list
       for (const auto f : mesh.faces())

@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
     Broad_phase broad_phase(mesh);
     const internal::Face_corners<Mesh> corners(mesh);
     Filter_counters counters;
-    Recording_guard<Mesh> guard(mesh, broad_phase, corners, counters);
+    Recording_guard<Mesh> guard(mesh, broad_phase, corners, Exact_sweep_traits<Mesh>(&counters));
     guard.collect(v);
     internal::Responses<Mesh> responses;
     for (int i = 0; i < 5; ++i, ++done) {

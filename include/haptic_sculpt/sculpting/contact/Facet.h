@@ -28,8 +28,8 @@ public:
     if (contact.kind == Contact_kind::delta || contact.is_flat)
       return;
     // The plane's own normal, about which its three points run counterclockwise.
-    const Vector normal = scaled(contact.normal, contact.side);
-    const auto& [a, b, c] = contact.plane;
+    const Vector normal = scaled(this->normal(), contact.side);
+    const auto [a, b, c] = corners();
     switch (contact.kind) {
     case Contact_kind::vertex_face:
       add_border(a, b, normal, 1), add_border(b, c, normal, 1), add_border(c, a, normal, 1);
@@ -45,7 +45,7 @@ public:
   const Contact_3<Mesh>& contact() const { return contact_; }
 
   /// Of length 1, towards the side J came from.
-  const Vector& normal() const { return contact_.normal; }
+  Vector normal() const { return coordinates(contact_.normal); }
 
   /// A wall holds for one drag only: another path meets another wall.
   bool is_wall() const { return contact_.kind != Contact_kind::delta && contact_.is_flat; }
@@ -69,14 +69,16 @@ public:
     clearance_ = rules.clearance.at(std::fmax(reach_, largest_magnitude(x)));
     if (contact_.kind == Contact_kind::delta) {
       const Altitude_over over = side_of_altitude();
-      const Vector slope = altitude_slope(x, contact_.plane[0], contact_.plane[1], over);
+      const auto points = corners();
+      const Vector slope = altitude_slope(x, points[0], points[1], over);
       const double steepness = length(slope);
-      contact_.normal = normalized(slope);
-      height_ = (altitude(x, contact_.plane[0], contact_.plane[1], over) - rules.delta) / (steepness > 0 ? steepness : 1);
+      const Vector up = normalized(slope);
+      contact_.normal = {up[0], up[1], up[2]};
+      height_ = (altitude(x, points[0], points[1], over) - rules.delta) / (steepness > 0 ? steepness : 1);
     } else if (contact_.is_flat)
-      height_ = dot(contact_.normal, minus(x, foot_));
+      height_ = dot(normal(), minus(x, foot_));
     else
-      height_ = contact_.side * height_over_plane(contact_.plane[0], contact_.plane[1], contact_.plane[2], x);
+      height_ = contact_.side * height_over_plane(contact_, x);
   }
 
   /// How far x, seen along the normal, is out of the facet; negative inside. At corners the larger of two distances.
@@ -106,7 +108,7 @@ public:
   /// How far x is beyond the line of border i.
   double beyond_border(int i, const Vector& x) const { return dot(outward_[i], minus(x, border_[i])); }
   /// The direction, of length 1, of border i.
-  Vector along_border(int i) const { return cross(outward_[i], contact_.normal); }
+  Vector along_border(int i) const { return cross(outward_[i], normal()); }
 
   /// Whether border i of a face is also one of another: then J that goes past it goes over to the other.
   bool shares_border(int i, const Facet& other) const {
@@ -120,7 +122,7 @@ public:
 
   /// The normal of the plane in which a flat impact happened, of length 1; 0 where all is on one line.
   Vector normal_of_wall() const {
-    const auto& [a, b, c] = contact_.plane;
+    const auto [a, b, c] = corners();
     return normalized(cross(normalized(minus(b, a)), normalized(minus(c, a))));
   }
 
@@ -137,6 +139,12 @@ private:
   int borders_ = 0;
   double reach_, clearance_ = 0, height_ = 0;
   bool holds_on_ = false;
+
+  /// The three points of the contact plane.
+  std::array<Vector, 3> corners() const {
+    const auto& [a, b, c] = contact_.plane;
+    return {coordinates(a), coordinates(b), coordinates(c)};
+  }
 
   /// The line from p to q; the facet lies on its left about the normal where sign is 1, on its right where it is -1.
   void add_border(const Vector& p, const Vector& q, const Vector& normal, double sign) {

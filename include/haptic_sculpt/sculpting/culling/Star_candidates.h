@@ -63,6 +63,7 @@ public:
     list_.reserve(valence, faces);
     candidates_.reserve(faces);
     whole_candidates_.reserve(faces);
+    isolated_near_.reserve(usual_isolated);
     runs_->reserve(valence + 3 * faces, 3 * faces);
   }
 
@@ -162,6 +163,7 @@ private:
   bool is_for_one_motion_ = false, has_looked_ = false; ///< has_looked_: the candidates are those of the motion at hand
   Convex_star<Mesh> convex_star_;
   std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
+  static constexpr std::size_t usual_isolated = 16; ///< near a star: mostly there is one probe in all
   std::vector<Vertex_index> isolated_near_;
 
   /// How much larger than the motion, in extents of the link, the region of a list is: of the first, which has to be filled from

@@ -62,6 +62,7 @@ public:
   void reserve(std::size_t usual_valence, std::size_t usual_candidates) {
     star_.reserve(usual_valence);
     candidates_.reserve(usual_candidates);
+    isolated_.reserve(usual_candidates);
     list_.reserve(usual_valence, usual_candidates);
     proof_.reserve(usual_valence + 3 * usual_candidates, 3 * usual_candidates);
   }

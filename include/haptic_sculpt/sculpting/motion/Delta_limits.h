@@ -83,8 +83,10 @@ private:
     Contact_3<Mesh> contact;
     contact.kind = Contact_kind::delta;
     contact.vertices = {g, i, limit.side == Altitude_over::gi ? star.centre : limit.side == Altitude_over::ji ? g : i};
-    contact.normal = altitude_gradient(at, from, to, limit.side);
-    contact.plane = {from, to, to};
+    const Vector normal = altitude_gradient(at, from, to, limit.side);
+    contact.normal = {normal[0], normal[1], normal[2]};
+    const auto point = [](const Coordinates& p) { return typename Mesh::Point(p[0], p[1], p[2]); };
+    contact.plane = {point(from), point(to), point(to)};
     contact.is_flat = true;
     return contact;
   }

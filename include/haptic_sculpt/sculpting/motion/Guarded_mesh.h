@@ -16,7 +16,7 @@ namespace internal {
 
 /// A mesh with all that guards it, and the ways of a drag, a probe, a search and an edit through that. What its users see of it
 /// is the Sculptor, which says what each operation promises.
-template <class Mesh, class Broad_phase, class Visitor>
+template <class Mesh, class Broad_phase, class Visitor, class Traits>
 class Guarded_mesh {
 public:
   using Point = typename Mesh::Point;
@@ -25,10 +25,13 @@ public:
   using Result = Drag_result<Mesh>;
   using Edited = Edit_result<Mesh>;
 
-  Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor)
+  /// \param make_traits is called with the counters, which the traits may refer to
+  template <class Make_traits>
+  Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Make_traits& make_traits)
     : parameters(parameters), mesh_(&mesh), watch_(mesh), broad_phase_(checked_scene(mesh, parameters)), corners_(mesh), isolated_(mesh)
     , editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, parameters.probes_are_recorded, std::move(visitor))
-    , hand_(mesh, broad_phase_, corners_, isolated_, counters_, watch_), probe_(mesh, broad_phase_, corners_, isolated_, counters_, watch_)
+    , hand_(mesh, broad_phase_, corners_, isolated_, make_traits(counters_), watch_)
+    , probe_(mesh, broad_phase_, corners_, isolated_, make_traits(counters_), watch_)
     , finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh) {}
   Guarded_mesh(const Guarded_mesh&) = delete; // its parts refer to each other
   Guarded_mesh& operator=(const Guarded_mesh&) = delete;
@@ -85,7 +88,7 @@ public:
     return is_free;
   }
 
-  std::optional<Star_impact<Mesh>> first_impact(Vertex_index v, const Point& target) {
+  auto first_impact(Vertex_index v, const Point& target) {
     const Rounding_to_nearest rounding;
     check_point("the target", target);
     hold(v);
@@ -203,7 +206,7 @@ private:
   Face_corners<Mesh> corners_;
   Isolated_vertices<Mesh> isolated_;
   Editor<Mesh, Broad_phase, Visitor> editor_;
-  Hand<Mesh, Broad_phase> hand_, probe_;
+  Hand<Mesh, Broad_phase, Traits> hand_, probe_;
   Surface_finder<Mesh, Broad_phase> finder_;
   Scene_bound<Mesh> scene_;
   std::vector<Face_index> faces_near_start_; ///< of a probe; kept to allocate no more

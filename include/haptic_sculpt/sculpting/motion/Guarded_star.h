@@ -22,16 +22,18 @@ struct Fetch_nothing {
 ///
 /// Knows nothing of who holds it or watches the mesh, which is read for candidates only. All motions of a drag are decided
 /// here, and here alone is said that one is free: never of a target that is not in range, and never once the work is spent.
-template <class Mesh, class Broad_phase, class Fetch = Fetch_nothing>
+/// \tparam Traits decide the sweeps: a model of SweptCollisionTraits_3
+template <class Mesh, class Broad_phase, class Traits = Exact_sweep_traits<Mesh>, class Fetch = Fetch_nothing>
 class Guarded_star {
 public:
+  using Impact = Star_impact<Mesh, typename Traits::Impact_3>;
   using Vertex_index = typename Mesh::Vertex_index;
   using Coordinates = internal::Coordinates;
 
   /// \param isolated stand in the way of stars, where they are given
-  Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Filter_counters& counters,
+  Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, const Traits& traits,
                Isolated_vertices<Mesh>* isolated = nullptr, Fetch fetch = Fetch())
-    : narrow_phase_(counters)
+    : narrow_phase_(traits)
     , candidates_(mesh, broad_phase, corners, isolated, narrow_phase_.runs(), narrow_phase_.work(), std::move(fetch)) {}
   Guarded_star(const Guarded_star&) = delete; // the candidates refer to the narrow phase
   Guarded_star& operator=(const Guarded_star&) = delete;
@@ -60,8 +62,8 @@ public:
     bool is_free() const { return is_free_; }
 
     /// The first of those that come exactly first.
-    std::optional<Star_impact<Mesh>> first_impact() const {
-      return star_->firsts_.empty() ? std::nullopt : std::optional<Star_impact<Mesh>>(star_->firsts_[0]);
+    std::optional<Impact> first_impact() const {
+      return star_->firsts_.empty() ? std::nullopt : std::optional<Impact>(star_->firsts_[0]);
     }
 
     /// Calls `found(contact, sine)` for all that come exactly first; `sine` is that of the angle between the path and the
@@ -70,14 +72,14 @@ public:
     template <class Found>
     double for_each_first_contact(const Found& found) const {
       double time = 1;
-      for (const Star_impact<Mesh>& first : star_->firsts_) {
+      for (const Impact& first : star_->firsts_) {
         const Path_at_plane at = path_at_plane(first.impact());
         time = at.time;
         found(haptic_sculpt::contact_of(first, at), at.sine);
       }
       if (!star_->limits_.empty())
         time = star_->limits_.for_each_contact(star_->star(), source_, target_, [&](const Contact_3<Mesh>& contact) {
-          found(contact, -dot(contact.normal, normalized(minus(target_, source_))));
+          found(contact, -dot(coordinates(contact.normal), normalized(minus(target_, source_))));
         });
       return time;
     }
@@ -148,9 +150,9 @@ public:
   }
 
 private:
-  Narrow_phase<Mesh, Filter_counters> narrow_phase_;
+  Narrow_phase<Mesh, Traits> narrow_phase_;
   Star_candidates<Mesh, Broad_phase, Fetch> candidates_;
-  Star_impacts<Mesh> firsts_;  ///< of the motion last decided
+  typename Narrow_phase<Mesh, Traits>::Impacts firsts_;  ///< of the motion last decided
   Delta_limits<Mesh> limits_;  ///< the same
 
   void find_first_impacts(const Coordinates& source, const Coordinates& target) {
@@ -181,7 +183,7 @@ private:
     double normal = limits_.least_altitude(star(), end) - delta;
     for (const Contact_3<Mesh>& contact : result.contacts)
       if (!contact.is_flat)
-        normal = std::fmin(normal, std::abs(height_over_plane(contact.plane[0], contact.plane[1], contact.plane[2], end)));
+        normal = std::fmin(normal, std::abs(height_over_plane(contact, end)));
     result.stop_error = std::isfinite(normal) ? normal : result.stop_error_along_path;
   }
 };

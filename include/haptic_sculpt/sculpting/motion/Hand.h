@@ -12,15 +12,15 @@ namespace internal {
 
 /// The vertex that is being dragged: its guarded star, the contacts it carries along, and when the mesh about it is
 /// compared with how it was left.
-template <class Mesh, class Broad_phase>
+template <class Mesh, class Broad_phase, class Traits>
 class Hand {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
 
   Hand(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Isolated_vertices<Mesh>& isolated,
-       Filter_counters& counters, Mesh_watch<Mesh>& watch)
+       const Traits& traits, Mesh_watch<Mesh>& watch)
     : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), isolated_(&isolated), watch_(&watch)
-    , guard_(mesh, broad_phase, corners, counters, &isolated, Fetch_watched{&watch}) {}
+    , guard_(mesh, broad_phase, corners, traits, &isolated, Fetch_watched{&watch}) {}
 
   /// Whether vertices are dragged once each: see Sculptor.
   void expect_single_drags(bool on) {
@@ -107,7 +107,7 @@ public:
     return guard_.is_free(source, target, parameters.delta_length);
   }
 
-  std::optional<Star_impact<Mesh>> first_impact(const Coordinates& source, const Coordinates& target) {
+  auto first_impact(const Coordinates& source, const Coordinates& target) {
     guard_.work().begin(Work::unbounded);
     return guard_.decide(source, target, 0).first_impact();
   }
@@ -138,7 +138,7 @@ private:
   const Face_corners<Mesh>* corners_;
   Isolated_vertices<Mesh>* isolated_;
   Mesh_watch<Mesh>* watch_;
-  Guarded_star<Mesh, Broad_phase, Fetch_watched> guard_;
+  Guarded_star<Mesh, Broad_phase, Traits, Fetch_watched> guard_;
   Responses<Mesh> responses_;
   Vertex_index held_;      ///< whose star guard_ has; invalid when none
   bool expects_single_drags_ = false;

@@ -13,13 +13,18 @@ namespace internal {
 ///
 /// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between its
 /// two, when it cannot come first any more, or when it shares a vertex that makes its meeting no collision: faces
-/// incident to the moving vertex, edges at the far end of the moving edge.
-template <class Mesh, class Counters = Filter_counters>
+/// incident to the moving vertex, edges at the far end of the moving edge. All of this is exact whatever the traits; they
+/// decide the pairs that are left, and which of two impacts is first.
+/// \tparam Traits a model of SweptCollisionTraits_3
+template <class Mesh, class Traits = Exact_sweep_traits<Mesh>>
 class Narrow_phase {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
+  using Impacts = Star_impacts<Mesh, typename Traits::Impact_3>;
 
-  explicit Narrow_phase(Counters& counters) : counters_(&counters) {}
+  explicit Narrow_phase(const Traits& traits)
+    : vertex_face_(traits.vertex_face_sweep_3_object()), edge_edge_(traits.edge_edge_sweep_3_object())
+    , face_vertex_(traits.face_vertex_sweep_3_object()), compare_time_(traits.compare_time_3_object()) {}
 
   /// Whether nothing is touched on the closed way from source to target.
   bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
@@ -35,24 +40,24 @@ public:
 
   /// Fills `firsts` with the impacts that come exactly first; leaves it empty when the way is free.
   void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
-                     const Coordinates& target, Star_impacts<Mesh>& firsts) {
+                     const Coordinates& target, Impacts& firsts) {
     first_impacts_near(star, list, source, target, Box_3(source).include(target), firsts);
   }
 
   /// The same among the pairs that may meet while J is in the box `path`: what comes first while it is there comes
   /// first of all.
   void first_impacts_near(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
-                          const Coordinates& target, const Box_3& path, Star_impacts<Mesh>& firsts) {
+                          const Coordinates& target, const Box_3& path, Impacts& firsts) {
     firsts.clear();
-    for_each_hit({star, list, {source, target, path}}, Keep_first{firsts, *counters_});
+    for_each_hit({star, list, {source, target, path}}, Keep_first{firsts, compare_time_});
     std::sort(firsts.begin(), firsts.end());
   }
 
   /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
   void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs,
-                     const Coordinates& source, const Coordinates& target, Star_impacts<Mesh>& firsts) {
+                     const Coordinates& source, const Coordinates& target, Impacts& firsts) {
     firsts.clear();
-    for_each_hit({star, list, {source, target}}, pairs, Keep_first{firsts, *counters_});
+    for_each_hit({star, list, {source, target}}, pairs, Keep_first{firsts, compare_time_});
     std::sort(firsts.begin(), firsts.end());
   }
 
@@ -66,8 +71,13 @@ public:
 
 private:
   using Vertices = std::array<Vertex_index, 3>;
+  using Point_3 = typename Mesh::Point;
+  using Compare_time = typename Traits::Compare_time_3;
 
-  Counters* counters_;
+  typename Traits::Vertex_face_sweep_3 vertex_face_;
+  typename Traits::Edge_edge_sweep_3 edge_edge_;
+  typename Traits::Face_vertex_sweep_3 face_vertex_;
+  Compare_time compare_time_;
   Star_runs<Mesh> runs_;
   Work work_;
 
@@ -78,30 +88,33 @@ private:
     Star_motion motion;
   };
 
-  /// What is done with a hit, `hit(feature, vertices, points, verdict)`: it tells up to what fraction of the way hits
-  /// are of interest from then on (later ones may be told or not), or that it has enough.
-  static constexpr double enough = -1;
+  /// What is done with a pair, `hit(sweep, vertices, s, t, a, b, c)`: it asks the sweep, and tells up to what fraction of the way
+  /// hits are of interest from then on (later ones may be told or not), or that it has enough.
+  static constexpr double enough = -1, whole_way = 1;
 
   struct Any {
-    double operator()(Impact_feature, const Vertices&, const Sweep_points&,
-                      const Sweep_verdict&) const {
-      return enough;
+    template <class Sweep>
+    double operator()(const Sweep& sweep, const Vertices&, const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b,
+                      const Point_3& c) const {
+      return sweep.do_collide(s, t, a, b, c) ? enough : whole_way;
     }
   };
   struct Keep_first {
-    Star_impacts<Mesh>& firsts;
-    Counters& counters;
+    Impacts& firsts;
+    const Compare_time& compare;
 
-    double operator()(Impact_feature feature, const Vertices& vertices, const Sweep_points& points,
-                      const Sweep_verdict& verdict) const {
-      const int order = firsts.empty() ? -1
-                                       : compare_times(points, verdict, firsts[0].impact().coordinates(),
-                                                                 firsts[0].impact().verdict(), counters);
+    template <class Sweep>
+    double operator()(const Sweep& sweep, const Vertices& vertices, const Point_3& s, const Point_3& t, const Point_3& a,
+                      const Point_3& b, const Point_3& c) const {
+      const auto impact = sweep(s, t, a, b, c);
+      if (!impact)
+        return whole_way;
+      const int order = firsts.empty() ? -1 : static_cast<int>(compare(*impact, firsts[0].impact()));
       if (order < 0)
         firsts.clear();
       if (order <= 0)
-        firsts.emplace_back(feature, vertices, points, verdict);
-      return order < 0 ? filtered_time(points, verdict).second : 1;
+        firsts.emplace_back(vertices, *impact);
+      return order < 0 ? impact->time_bounds().second : whole_way;
     }
   };
 
@@ -146,12 +159,20 @@ private:
     return scene.motion.source() == scene.motion.target() && scene.star.valence() != 0;
   }
 
-  static bool goes_on(Scene& scene, double until) {
+  /// Asks of one pair; returns whether there is to be another.
+  template <class Sweep, class Hit>
+  bool goes_on(Scene& scene, const Hit& hit, const Sweep& sweep, const Vertices& vertices, const Coordinates& a,
+               const Coordinates& b, const Coordinates& c) {
+    work_.spend();
+    if (work_.is_spent())
+      return false;
+    const double until = hit(sweep, vertices, point(scene.motion.source()), point(scene.motion.target()), point(a), point(b), point(c));
     if (until == enough)
       return false;
     scene.motion.shorten(until);
     return true;
   }
+  static Point_3 point(const Coordinates& p) { return Point_3(p[0], p[1], p[2]); }
 
   template <class Hit>
   bool vertex_on_face(Scene& scene, std::uint32_t f, const Hit& hit) {
@@ -160,13 +181,7 @@ private:
       return true;
     const auto& vertices = scene.list.vertices();
     const auto &a = vertices[face.vertices[0]], &b = vertices[face.vertices[1]], &c = vertices[face.vertices[2]];
-    const Sweep_points points = {scene.motion.source(), scene.motion.target(), a.point, b.point, c.point};
-    work_.spend();
-    if (work_.is_spent())
-      return false;
-    const Sweep_verdict verdict = vertex_face_verdict(points, *counters_);
-    return !verdict.hits ||
-           goes_on(scene, hit(Impact_feature::vertex_face, Vertices{a.index, b.index, c.index}, points, verdict));
+    return goes_on(scene, hit, vertex_face_, Vertices{a.index, b.index, c.index}, a.point, b.point, c.point);
   }
 
   /// The edge to link vertex i against a candidate.
@@ -181,14 +196,7 @@ private:
       return true;
     // The smaller name first, whatever the list's order: what is told does not depend on the broad phase.
     const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
-    const Sweep_points points = {scene.motion.source(), scene.motion.target(), far_point, low.point,
-                                           high.point};
-    work_.spend();
-    if (work_.is_spent())
-      return false;
-    const Sweep_verdict verdict = edge_edge_verdict(points, *counters_);
-    return !verdict.hits ||
-           goes_on(scene, hit(Impact_feature::edge_edge, Vertices{far_end, low.index, high.index}, points, verdict));
+    return goes_on(scene, hit, edge_edge_, Vertices{far_end, low.index, high.index}, far_point, low.point, high.point);
   }
 
   /// Face i against a candidate.
@@ -199,14 +207,8 @@ private:
     const auto& vertex = scene.list.vertices()[v];
     if (!contains(Box_3(scene.motion.path()).include(star.link_points[i]).include(star.link_points[j]), vertex.point))
       return true;
-    const Sweep_points points = {scene.motion.source(), scene.motion.target(), star.link_points[i],
-                                           star.link_points[j], vertex.point};
-    work_.spend();
-    if (work_.is_spent())
-      return false;
-    const Sweep_verdict verdict = face_vertex_verdict(points, *counters_);
-    return !verdict.hits || goes_on(scene, hit(Impact_feature::face_vertex,
-                                               Vertices{star.link[i], star.link[j], vertex.index}, points, verdict));
+    return goes_on(scene, hit, face_vertex_, Vertices{star.link[i], star.link[j], vertex.index}, star.link_points[i],
+                   star.link_points[j], vertex.point);
   }
 };
 

@@ -53,9 +53,7 @@ public:
       trial_.step_to(best_);
       trial_.forget_progress();
       walk = trial_;
-      trial_.go(guard, target, std::min(trial_.legs() + trial_legs, most_legs));
-      if (nearer_by(target, walk.x, trial_.x) > 0)
-        walk = trial_;
+      trial_.go_instead_of(walk, guard, target, std::min(trial_.legs() + trial_legs, most_legs), 0);
     }
     return any;
   }
@@ -221,8 +219,9 @@ private:
       });
       const std::size_t followed_before = followed.size();
       for (const auto& contact : met) {
-        if (std::abs(dot(contact.normal, direction)) < parallel && followed.size() < followed.capacity())
-          followed.push_back(contact.normal);
+        const Vector normal = coordinates(contact.normal);
+        if (std::abs(dot(normal, direction)) < parallel && followed.size() < followed.capacity())
+          followed.push_back(normal);
         if (time * along > near * lengths_.clearance)
           continue;
         see(contact);
@@ -269,11 +268,12 @@ private:
 
   /// Takes in the plane of the contact, and those through x that graze the borders of its facet.
   void see(const Contact_3<Mesh>& contact) {
-    see_plane(contact.normal);
+    const Vector normal = coordinates(contact.normal);
+    see_plane(normal);
     if (contact.kind == Contact_kind::delta) {
       if (curved_.size() < curved_.capacity() &&
-          std::none_of(curved_.begin(), curved_.end(), [&](const Vector& n) { return n == contact.normal; }))
-        curved_.push_back(contact.normal);
+          std::none_of(curved_.begin(), curved_.end(), [&](const Vector& n) { return n == normal; }))
+        curved_.push_back(normal);
       return;
     }
     Facet<Mesh> facet(contact, x_);

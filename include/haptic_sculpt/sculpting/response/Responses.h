@@ -14,7 +14,7 @@ namespace internal {
 template <class Mesh>
 class Responses {
 public:
-  Responses() { normals_.reserve(Drag_result<Mesh>::usual_contacts); }
+  Responses() { permitted_.reserve(Drag_result<Mesh>::usual_contacts); }
 
   /// The vertex was let go: the next drag begins without contacts.
   void forget() {
@@ -66,7 +66,7 @@ public:
 private:
   Slide_response<Mesh> slide_;
   Paper_response<Mesh> paper_;
-  std::vector<Vector> normals_;
+  std::vector<Half_space> permitted_; ///< by the contacts; kept to allocate no more
 
   static double shortest_pull(const Drag_rules& rules, const Coordinates& end, const Drag_result<Mesh>& result) {
     double reach = largest_magnitude(end);
@@ -76,10 +76,10 @@ private:
   }
 
   void measure_residual(const Vector& pull, Drag_result<Mesh>& result) {
-    normals_.clear();
+    permitted_.clear();
     for (const Contact_3<Mesh>& contact : result.contacts)
-      normals_.push_back(contact.normal);
-    result.kkt_residual = kkt_residual(pull, normals_);
+      permitted_.push_back({coordinates(contact.normal), 0});
+    result.kkt_residual = kkt_residual(pull, permitted_);
   }
 };
 

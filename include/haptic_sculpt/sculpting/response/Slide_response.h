@@ -173,11 +173,9 @@ private:
         trial_.forget_progress();
         trial_.facets.clear();
         trial_.step_to(end);
-        trial_.go(guard, target, std::min(trial_.legs() + legs_between_leaps - 1, most_legs));
-        if (nearer_by(target, walk_.x, trial_.x) > std::fmax(gained, walk_.lengths().lifted())) {
-          walk_ = trial_;
+        if (trial_.go_instead_of(walk_, guard, target, std::min(trial_.legs() + legs_between_leaps - 1, most_legs),
+                                 std::fmax(gained, walk_.lengths().lifted())))
           return;
-        }
       }
   }
 

@@ -140,6 +140,17 @@ public:
     place(other.x);
   }
 
+  /// A trial from where `kept` is: walks on to the target, and takes its place where that has brought it nearer by more than
+  /// `least`. Returns whether it has.
+  template <class Guard>
+  bool go_instead_of(Slide_walk& kept, Guard& guard, const Vector& target, int most_legs, double least) {
+    go(guard, target, most_legs);
+    if (!(nearer_by(target, kept.x, x) > least))
+      return false;
+    kept = *this;
+    return true;
+  }
+
   /// A new drag begins: what was left in the last one may be met and left again.
   void begin(const Vector& source, const Drag_rules& rules) {
     rules_ = rules;

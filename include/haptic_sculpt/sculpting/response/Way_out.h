@@ -53,13 +53,11 @@ public:
         trial_.go(guard, first_aim, std::min(trial_.legs() + 1, most_legs_)); // one leg: on from there it must not climb
         trial_.forget_progress();
       }
-      trial_.go(guard, target, std::min(walk_->legs() + trial_legs, most_legs_));
+      const bool is_nearer =
+          trial_.go_instead_of(*walk_, guard, target, std::min(walk_->legs() + trial_legs, most_legs_), gain);
       for (const auto& facet : trial_.facets)
         remember(facet);
-      if (nearer_by(target, walk_->x, trial_.x) <= gain)
-        return false;
-      *walk_ = trial_;
-      return true;
+      return is_nearer;
     };
     const bool all_legs_were_left = walk_->legs() + trial_legs <= most_legs;
     if (leave_contacts(guard, held, target, brings_nearer) || leave_walls(guard, target, brings_nearer) ||

@@ -2,61 +2,26 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_KKT_RESIDUAL_H
 #define HAPTIC_SCULPT_SCULPTING_KKT_RESIDUAL_H
 
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
-
-#include <vector>
+#include <haptic_sculpt/sculpting/response/nearest_permitted.h>
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// The sine between two unit normals below which their cross product is mostly rounding (2^-52 over it is the relative error), and
-/// the same for the volume of three.
-constexpr double least_sine = 0x1p-23, least_volume = 0x1p-33;
-
 /// The distance from `pull` to the cone of all combinations of `-normals` with weights >= 0, over |pull|: 0 where the
 /// contacts hold the vertex at a constrained nearest point to its target, 1 where none of them resists.
 ///
-/// Normals more alike than `least_sine`, or three as good as coplanar, count as fewer: what they span beyond is rounding.
-/// In space the nearest point of a cone is a combination of at most three generators, so subsets of up to three are
-/// tried. Cost: cubic in the number of normals. Floating point.
-inline double kkt_residual(const Vector& pull, const std::vector<Vector>& normals) {
+/// By Moreau's decomposition it is the length of the part of the pull that the contacts permit: the projection of the pull on the
+/// polar cone, which is that of the displacements d with normal . d >= 0. \param half_spaces those, `least` being 0
+/// Cost: that of nearest_permitted(). Floating point.
+template <class Half_spaces>
+double kkt_residual(const Vector& pull, const Half_spaces& half_spaces) {
+  // What rounding leaves of a product of a normal and a direction of length 1, and of the meeting of nearly parallel planes.
+  constexpr double slack = 0x1p-46;
   const double pull_length = length(pull);
   if (pull_length == 0)
     return 0;
-  const Vector d = scaled(pull, 1 / pull_length);
-  double best = 1;
-  const auto keep = [&](const Vector& rest) { best = std::fmin(best, length(rest)); };
-  const std::size_t n = normals.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vector& a = normals[i];
-    if (dot(a, d) >= 0)
-      continue;
-    keep(advanced(d, -dot(a, d), a));
-    for (std::size_t j = 0; j < n; ++j) {
-      if (j == i)
-        continue;
-      const Vector& b = normals[j];
-      const Vector axis = cross(a, b);
-      const double square = dot(axis, axis);
-      if (square < least_sine * least_sine)
-        continue;
-      // d = x a + y b + z axis; both weights of -a and -b have to be >= 0.
-      const double ab = dot(a, b), da = dot(d, a), db = dot(d, b);
-      const double x = std::fma(-ab, db, da) / square, y = std::fma(-ab, da, db) / square;
-      if (x <= 0 && y <= 0)
-        keep(scaled(axis, dot(d, axis) / square));
-      for (std::size_t k = j + 1; k < n; ++k) {
-        const Vector& c = normals[k];
-        const double volume = dot(axis, c);
-        if (k == i || std::abs(volume) < least_volume)
-          continue;
-        const double u = dot(cross(b, c), d) / volume, v = dot(cross(c, a), d) / volume, w = dot(axis, d) / volume;
-        if (u <= 0 && v <= 0 && w <= 0)
-          return 0;
-      }
-    }
-  }
-  return best;
+  const Nearest_permitted permitted = nearest_permitted(scaled(pull, 1 / pull_length), half_spaces, slack, slack);
+  return permitted.exists ? std::fmin(1.0, length(permitted.displacement)) : 0;
 }
 
 } // namespace internal

@@ -25,6 +25,8 @@ public:
     places_.resize(vertices_.size());
     for (std::uint32_t i = 0; i < vertices_.size(); ++i)
       tree_.insert(i, box(i), [this](std::uint32_t item, std::uint32_t place) { places_[item] = place; });
+    if (!is_empty())
+      tree_.reserve(0); // queries allocate nothing
   }
 
   bool is_empty() const { return vertices_.empty(); }

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_COUNT_ALLOCATIONS_H
+#define HAPTIC_SCULPT_EXAMPLES_COUNT_ALLOCATIONS_H
+
+/// \file
+/// Counts how often each thread asks for memory, in `allocated`. To be included by one source file of a program.
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+thread_local std::size_t allocated = 0;
+
+void* counted(std::size_t size) noexcept {
+  ++allocated;
+  return std::malloc(size != 0 ? size : 1);
+}
+} // namespace
+
+// Not inlined, or g++ sees free() meet operator new and warns. The array and nothrow forms call these.
+__attribute__((noinline)) void* operator new(std::size_t size) {
+  if (void* p = counted(size))
+    return p;
+  throw std::bad_alloc();
+}
+__attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocated;
+  const auto a = static_cast<std::size_t>(alignment);
+  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a))
+    return p;
+  throw std::bad_alloc();
+}
+__attribute__((noinline)) void operator delete(void* p) noexcept {
+  std::free(p);
+}
+__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+__attribute__((noinline)) void operator delete(void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+__attribute__((noinline)) void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+
+#endif

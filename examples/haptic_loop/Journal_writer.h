@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_JOURNAL_WRITER_H
+#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_JOURNAL_WRITER_H
+
+#include "../sculpt/Log_file.h"
+
+#include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
+
+#include <chrono>
+#include <thread>
+
+namespace haptic_sculpt::loop_program {
+
+/// Writes a journal into a log, in a thread of its own: one write a tick, so that a log always ends at the end of a
+/// tick or in the middle of one write.
+class Journal_writer {
+public:
+  /// How long it sleeps where nothing is there, s. What is lost by a kill is at least as old as that.
+  static constexpr double pause = 0.001;
+
+  /// Both must outlive this. \pre the log has been begun
+  Journal_writer(sculpt_program::Log_file& log, Edit_journal& journal);
+  ~Journal_writer() { finish(); }
+
+  /// Writes what is left, and ends. After it the log is the caller's again.
+  void finish();
+  /// From here on nothing is written, as if the disk did not answer: to try out what happens then.
+  void stall() { is_stalled_ = true; }
+  bool is_stalled() const { return is_stalled_; }
+  /// Ticks written. \pre finish() has been called
+  std::uint64_t ticks() const { return ticks_; }
+
+private:
+  sculpt_program::Log_file* log_;
+  Edit_journal* journal_;
+  std::atomic<bool> is_ending_{false}, is_stalled_{false};
+  std::uint64_t ticks_ = 0;
+  std::vector<sculpt_program::Command> commands_;
+  std::thread thread_; ///< last: it uses the others
+
+  void run();
+  bool write_what_is_there();
+};
+
+} // namespace haptic_sculpt::loop_program
+
+#endif

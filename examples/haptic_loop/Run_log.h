@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_LOG_H
+#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_LOG_H
+
+#include "Journal_writer.h"
+#include "replay_log.h"
+
+#include "../sculpt/Sha256.h"
+
+namespace haptic_sculpt::loop_program {
+
+/// The log of a run, if it is to have one: made again where it was left, then gone on with by a thread of its own.
+class Run_log {
+public:
+  /// What a kill may cost at most, s.
+  static constexpr double most_age = 0.1;
+
+  /// Changes nothing yet. \param path empty: none \throw Foreign_log, Script_error, Write_error
+  Run_log(const std::string& path, const std::string& mesh) {
+    if (path.empty())
+      return;
+    file_.emplace(path, mesh);
+    file_->drop_unfinished_tick();
+  }
+
+  bool has_edits() const { return file_ && file_->contents() && !file_->contents()->passes.empty(); }
+
+  /// Makes again what is in it. \return what people should know, or nothing
+  template <class Scene>
+  std::string resume(Scene& scene) {
+    if (!file_ || !file_->contents())
+      return "";
+    Log_replay<Scene>(scene).run(file_->contents()->commands);
+    return file_->contents()->unfinished.empty() ? "" : "the end of the log, of a tick that is not whole, was dropped";
+  }
+
+  /// \param run what tells this run from others \param tick s
+  void begin(const std::string& run, double tick) {
+    if (!file_)
+      return;
+    run_ = sculpt_program::Sha256().add(run).digest();
+    // Legs are free motions: made again they stop nowhere, whatever slides did.
+    sculpt_program::Settings settings;
+    settings.response = "stop";
+    file_->begin(settings);
+    file_->begin_pass(run_, 0);
+    file_->append_tick(file_->contents() ? settings.directives() : std::vector<sculpt_program::Command>(), 0);
+    journal_.emplace(static_cast<std::uint64_t>(std::fmax(2, most_age / tick)));
+    writer_.emplace(*file_, *journal_);
+  }
+
+  /// nullptr: there is no log
+  Edit_journal* journal() { return journal_ ? &*journal_ : nullptr; }
+  bool has_overrun() const { return journal_ && journal_->has_overrun(); }
+
+  /// Of a run that is faster than time: the loop waits for the disk, as time would have.
+  void let_catch_up(std::uint64_t tick) const {
+    while (journal_ && !writer_->is_stalled() && !journal_->has_overrun() &&
+           journal_->age(tick) > journal_->most_age() / 2)
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+
+  /// As if the disk did not answer any more.
+  void stall() {
+    if (writer_)
+      writer_->stall();
+  }
+
+  /// Writes what is left. \pre the session has ended
+  void finish() {
+    if (!writer_)
+      return;
+    writer_->finish();
+    ticks_ = writer_->ticks();
+    writer_.reset();
+  }
+  /// All results are written. What is in the log is all that was done.
+  void end() {
+    if (file_ && !has_overrun())
+      file_->end_pass(run_);
+  }
+
+  std::uint64_t ticks() const { return ticks_; }
+  std::uint64_t lost() const { return journal_ ? journal_->lost() : 0; }
+  std::string failure() const { return file_ ? file_->failure() : ""; }
+
+private:
+  std::optional<sculpt_program::Log_file> file_;
+  std::optional<Edit_journal> journal_;
+  std::optional<Journal_writer> writer_; ///< last: it uses the others
+  std::string run_;
+  std::uint64_t ticks_ = 0;
+};
+
+} // namespace haptic_sculpt::loop_program
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a driver plugs in: one that tells a place and takes a force (joints: Haptic_loop, with read() and write(torque)).
+#include <haptic_sculpt/haptic_rendering.h>
+#include <haptic_sculpt/surface.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <iostream>
+#include <thread>
+
+using namespace haptic_sculpt;
+using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
+using Scene = Loop_scene<Mesh>;
+
+/// Stands for what a vendor ships: here a handle of 0.1 kg with some friction, which a hand lets down with half a
+/// newton.
+namespace vendor {
+double z = 0.05, speed = 0, force[3];
+void get_position(double p[3]) {
+  speed += 0.001 * (force[2] - 0.5 - 3 * speed) / 0.1, z += 0.001 * speed;
+  p[0] = 0.003, p[1] = 0.002, p[2] = z;
+}
+void set_force(const double f[3]) {
+  std::copy(f, f + 3, force);
+}
+bool is_button_down() {
+  return false;
+}
+} // namespace vendor
+
+struct Driver { // models PoseDevice
+  Pose_reading read_pose() {
+    Pose_reading reading;
+    vendor::get_position(reading.position.data()); // metres
+    reading.button = vendor::is_button_down() ? 1 : 0;
+    reading.elapsed = 0.001; // s; of a device that has a clock, what that says
+    return reading;
+  }
+  void write_force(const Eigen::Vector3d& force) { vendor::set_force(force.data()); } // N, on the hand
+};
+
+int main(int argc, char** argv) {
+  if (argc != 2)
+    return std::cerr << "usage: own_haptic_device MESH\n", 2;
+  Scene scene(read_surface<Mesh>(argv[1]), [](const auto& lower, const auto& upper) {
+    return Workspace_map::fitted(lower, upper, Eigen::Vector3d::Zero(), 0.04); // a ball of 40 mm holds the mesh
+  });
+  Pose_loop_parameters parameters;
+  parameters.friction = 3; // N s/m that the device itself has: it bounds the stiffness
+  Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.probe, scene.map, parameters);
+  Driver driver;
+  auto next = std::chrono::steady_clock::now();
+  for (int tick = 0; tick < 1500 && !loop.has_stopped(); ++tick) {
+    driver.write_force(loop.tick(driver.read_pose()).force);
+    std::this_thread::sleep_until(next += std::chrono::milliseconds(1));
+  }
+  std::cout << "the handle rests at " << vendor::z << " m; pushed up by " << vendor::force[2] << " N\n";
+  const bool is_held = std::abs(vendor::force[2] - 0.5) < 0.05 && std::abs(vendor::speed) < 0.01 && vendor::z > 0;
+  return is_held ? 0 : 1;
+}

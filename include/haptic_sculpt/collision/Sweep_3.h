@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_COLLISION_SWEEP_3_H
+#define HAPTIC_SCULPT_COLLISION_SWEEP_3_H
+
+#include <haptic_sculpt/collision/Impact_3.h>
+#include <haptic_sculpt/collision/arithmetic/sweep_decision.h>
+#include <haptic_sculpt/collision/arithmetic/sweep_points.h>
+
+#include <CGAL/assertions.h>
+
+#include <optional>
+
+namespace haptic_sculpt {
+
+/// Do a moving and a still feature meet while a vertex goes from `s` to `t`, and when first? One of the three sweeps:
+/// Vertex_face_sweep_3, Edge_edge_sweep_3 and Face_vertex_sweep_3 say what `a`, `b` and `c` are.
+///
+/// Exact for all finite doubles. `s == t` is allowed: then the question is whether the closed sets meet, and the time
+/// is 0. \tparam feature which pair of features meets \tparam K a CGAL kernel with `FT` = double \tparam Counters where
+/// filter failures are counted Cost: constant; 5 orientation signs at most outside of flat cases.
+template <Impact_feature feature, class K, class Counters = No_filter_counters>
+class Sweep_3 {
+public:
+  using Point_3 = typename K::Point_3;
+  using result_type = std::optional<Impact_3<K>>;
+
+  /// \param counters where to count, if anywhere; has to outlive this
+  explicit Sweep_3(Counters* counters = nullptr) : counters_(counters) {}
+
+  /// The first impact, or nothing when the closed sets do not meet.
+  /// \pre all coordinates are finite; the ends of a still edge, of an edge that a moving face has, differ
+  result_type operator()(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b,
+                         const Point_3& c) const {
+    const internal::Sweep_points points = checked_points(s, t, a, b, c);
+    const internal::Sweep_verdict verdict = decide(points);
+    if (!verdict.hits)
+      return std::nullopt;
+    return Impact_3<K>(feature, points, verdict);
+  }
+
+  /// Whether the closed sets meet: the same answer as operator(), without building the impact.
+  bool do_collide(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b, const Point_3& c) const {
+    return decide(checked_points(s, t, a, b, c)).hits;
+  }
+
+private:
+  Counters* counters_;
+
+  internal::Sweep_verdict decide(const internal::Sweep_points& points) const {
+    Counters ignored;
+    Counters& counters = counters_ != nullptr ? *counters_ : ignored;
+    if constexpr (feature == Impact_feature::vertex_face)
+      return internal::vertex_face_verdict(points, counters);
+    else if constexpr (feature == Impact_feature::edge_edge)
+      return internal::edge_edge_verdict(points, counters);
+    else
+      return internal::face_vertex_verdict(points, counters);
+  }
+
+  static internal::Sweep_points checked_points(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b,
+                                               const Point_3& c) {
+    const internal::Sweep_points points = internal::sweep_points(s, t, a, b, c);
+    CGAL_precondition(internal::are_finite(points));
+    CGAL_precondition(feature != Impact_feature::edge_edge || b != c);
+    CGAL_precondition(feature != Impact_feature::face_vertex || a != b);
+    return points;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_CONTROLLER_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_CONTROLLER_H
+
+#include <haptic_sculpt/haptic_rendering/Handle_motion.h>
+#include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
+
+namespace haptic_sculpt {
+
+/// Takes back from the hand what the observer says it was given: a damper that is there only while energy is missing,
+/// and only so strong that it takes the rest in one tick.
+///
+/// Time-domain passivity control (Hannaford, Ryu, IEEE Transactions on Robotics and Automation 18 (2002) 1-10), of the
+/// kind that reads velocity and gives force. It differs in what counts as missing: the work of the joints' own friction
+/// is set off first, and encoder steps are credited, or it would buzz in loops that are passive with their friction.
+/// A net, not a licence: what it can take in a tick is bounded, because too strong a damper is unstable itself.
+class Passivity_controller {
+public:
+  /// \param most_damping of the damper, N s/m; 0: never there
+  Passivity_controller(double most_damping, double tick) : most_damping_(most_damping), tick_(tick) {}
+
+  /// The force on the hand, N; exactly 0 where nothing is missing.
+  Eigen::Vector3d force(const Passivity_observer& observer, const Handle_motion& handle) {
+    const double missing = -(observer.energy() + observer.dissipated());
+    const Eigen::Vector3d velocity = handle.step() / tick_; // a low-pass would come too late for what buzzes
+    const double square = velocity.squaredNorm();
+    damping_ = 0;
+    if (!(most_damping_ > 0 && missing > 0) || !(square > least_speed * least_speed))
+      return Eigen::Vector3d::Zero();
+    damping_ = std::fmin(most_damping_, missing / (tick_ * square));
+    return -damping_ * velocity;
+  }
+  /// The damper of the last tick, N s/m.
+  double damping() const { return damping_; }
+
+private:
+  /// m/s; a slower handle takes no energy worth a damper, and its direction is that of rounding.
+  static constexpr double least_speed = 1e-6;
+
+  double most_damping_, tick_, damping_ = 0;
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_STEP_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_STEP_H
+
+#include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
+#include <haptic_sculpt/sculpting/Drag_result.h>
+
+#include <optional>
+
+namespace haptic_sculpt {
+
+/// What the button has done in a tick.
+enum class Tool_event { none, grabbed, created_on_face, created_on_edge, released, removed, refused };
+
+/// Where the hand wants what it holds, and where that is.
+struct Tool_step {
+  Eigen::Vector3d target = Eigen::Vector3d::Zero(), proxy = Eigen::Vector3d::Zero(); ///< in the scene
+  bool reached = true;
+  std::optional<Drag_end> end; ///< none: nothing is held, and there is no probe
+  std::size_t pairs = 0;       ///< of the drag's work
+  int contacts = 0;
+  std::optional<std::uint64_t> obstacle; ///< of a vertex held: a vertex of what it touches, by its number that lasts
+  Contact_span span;                     ///< of the contacts' pushes, in axes of the device
+  Tool_event event = Tool_event::none;
+};
+
+/// What a button did, counted.
+struct Tool_edits {
+  std::size_t grabbed = 0, created = 0, removed = 0, released = 0, refused = 0;
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_EDIT_JOURNAL_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_EDIT_JOURNAL_H
+
+#include <boost/lockfree/spsc_queue.hpp>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+namespace haptic_sculpt {
+
+/// What was done to a sculpture, by value. Made again one after the other, each entry is certain to succeed: a move is
+/// one straight leg that was proven free, and a removal is the collapse that it was; so no contact, bound on work or
+/// probe plays a role in it.
+struct Journal_entry {
+  enum class Kind : std::uint8_t { move, insert_on_face, insert_on_edge, remove, collapse, undo, redo, stroke, end, tick };
+  Kind kind = Kind::tick;
+  std::array<std::uint64_t, 3> vertices{}; ///< `Sculptor::name()`s; of a tick: its number
+  std::array<double, 3> point{};
+};
+
+/// What the loop's thread has done, on its way to the thread that writes it down. Bounded, without a lock; the entries
+/// of a tick come through whole or not at all.
+///
+/// Once an entry finds no room, or the oldest that waits is older than `most_age` ticks, the journal has overrun: it
+/// takes nothing more, so that what is written ends at the end of a tick, and the run should end.
+class Edit_journal {
+public:
+  /// \param most_age in ticks \param entries_a_tick room, in the mean; a slide makes a move a leg, mostly one
+  explicit Edit_journal(std::uint64_t most_age, std::size_t entries_a_tick = 36)
+      : most_age_(most_age), queue_((most_age + 2) * entries_a_tick), waiting_(most_age + 2) {}
+
+  /// \name The loop's thread
+  ///@{
+  void add(const Journal_entry& entry) {
+    if (!has_overrun_ && !queue_.push(entry))
+      has_overrun_ = true;
+    lost_ += has_overrun_;
+    has_entries_ = true;
+  }
+  /// To be called at the end of each tick, with growing numbers.
+  void end_tick(std::uint64_t tick) {
+    const std::uint64_t taken = taken_.load(std::memory_order_acquire);
+    if (age(tick) > most_age_)
+      has_overrun_ = true;
+    if (!std::exchange(has_entries_, false) || has_overrun_)
+      return;
+    Journal_entry end;
+    end.vertices[0] = tick;
+    if (ended_ - taken == waiting_.size() || !queue_.push(end)) {
+      has_overrun_ = true;
+      return;
+    }
+    waiting_[ended_++ % waiting_.size()] = tick;
+  }
+  bool has_overrun() const { return has_overrun_; }
+  /// Entries that found no room.
+  std::uint64_t lost() const { return lost_; }
+  /// Ticks with entries that are not written yet.
+  std::uint64_t waiting() const { return ended_ - taken_.load(std::memory_order_acquire); }
+  std::uint64_t most_age() const { return most_age_; }
+  /// Of the oldest tick that waits, at the end of this one; 0: none does.
+  std::uint64_t age(std::uint64_t tick) const {
+    const std::uint64_t taken = taken_.load(std::memory_order_acquire);
+    return taken != ended_ ? tick + 1 - waiting_[taken % waiting_.size()] : 0;
+  }
+  ///@}
+
+  /// \name The thread that writes
+  ///@{
+  /// \return false where there is none yet. The entries of the last tick may be followed by none: they wait for its
+  /// end.
+  bool take(Journal_entry& entry) { return queue_.pop(entry); }
+  /// So many more ticks are written, or cannot be.
+  void wrote(std::uint64_t ticks) { taken_.fetch_add(ticks, std::memory_order_release); }
+  ///@}
+
+private:
+  std::uint64_t most_age_;
+  boost::lockfree::spsc_queue<Journal_entry> queue_;
+  std::vector<std::uint64_t> waiting_; ///< numbers of the ticks that are not written, by how many were before
+  std::uint64_t ended_ = 0, lost_ = 0;
+  bool has_entries_ = false, has_overrun_ = false;
+  std::atomic<std::uint64_t> taken_{0};
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_SCENE_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_SCENE_H
+
+#include <haptic_sculpt/haptic_rendering/Workspace_map.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_teller.h>
+#include <haptic_sculpt/sculpting.h>
+
+#include <limits>
+
+namespace haptic_sculpt {
+
+/// A mesh with a probe, its Sculptor, and where it is for the hand: what a loop sculpts. Made by any thread, then given
+/// to the loop's.
+template <class Mesh_>
+struct Loop_scene {
+  using Mesh = Mesh_;
+  using Sculptor_type = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Scene_teller<Mesh>>;
+
+  Mesh mesh;
+  Eigen::Vector3d lower, upper; ///< the mesh's box as it came, without the probe
+  typename Mesh::Vertex_index probe;
+  Sculptor_type sculptor;
+  Workspace_map map;
+
+  /// \param map_of_box what gives a Workspace_map for the mesh's box: `(lower, upper)`
+  /// \param edits, moves room that is made for so many (Sculptor::reserve)
+  /// \throw Invalid_surface and what else the Sculptor throws. Cost: that of validate()
+  template <class Map_of_box>
+  Loop_scene(Mesh given, const Map_of_box& map_of_box, std::size_t edits = 1000, std::size_t moves = 100000)
+      : mesh(std::move(given))
+      , lower(corner_of_box(-1))
+      , upper(corner_of_box(1))
+      , probe(add_probe())
+      // A hand moves the probe a thousand times a second: undo is for what it sculpts.
+      , sculptor(mesh, parameters::record_probes(false), Scene_teller<Mesh>(mesh, probe))
+      , map(map_of_box(lower, upper)) {
+    sculptor.reserve(edits, moves);
+  }
+
+  /// Without the probe.
+  std::size_t number_of_faces() const { return mesh.number_of_faces(); }
+
+private:
+  Eigen::Vector3d corner_of_box(int sign) const {
+    Eigen::Vector3d corner = Eigen::Vector3d::Constant(-sign * std::numeric_limits<double>::infinity());
+    for (const auto v : mesh.vertices()) {
+      const auto& p = mesh.point(v);
+      const Eigen::Vector3d at(p.x(), p.y(), p.z());
+      corner = sign < 0 ? Eigen::Vector3d(corner.cwiseMin(at)) : Eigen::Vector3d(corner.cwiseMax(at));
+    }
+    return corner;
+  }
+  /// Far outside, so that it comes to the surface from outside wherever the hand begins.
+  typename Mesh::Vertex_index add_probe() {
+    const Eigen::Vector3d far = upper + 8 * (upper - lower);
+    return mesh.add_vertex({far[0], far[1], far[2]});
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

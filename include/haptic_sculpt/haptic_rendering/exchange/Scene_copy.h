@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_COPY_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_COPY_H
+
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_feed.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace haptic_sculpt {
+
+/// A mesh by value, copied by the loop's thread a slice a tick while the hand goes on: changes made meanwhile go into
+/// it, too, so that in the end it is the mesh of one tick. Made, and given room, by the thread that asks for it.
+class Scene_copy {
+public:
+  static constexpr std::uint64_t absent = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint32_t no_corner = std::numeric_limits<std::uint32_t>::max();
+
+  /// Room for a mesh with so many descriptors (`number_of_vertices() + number_of_removed_vertices()`, and faces).
+  Scene_copy(std::size_t vertices, std::size_t faces)
+      : points(vertices), names(vertices, std::uint64_t(absent)), faces(faces, {no_corner, 0, 0}) {}
+
+  std::vector<std::array<double, 3>> points;       ///< by index of vertex
+  std::vector<std::uint64_t> names;                ///< by index of vertex, its number that lasts; or `absent`
+  std::vector<std::array<std::uint32_t, 3>> faces; ///< by index of face, the corners; or `no_corner` first
+  std::uint64_t number = 0; ///< the last Scene_change in it: a viewer makes those with larger numbers on it
+  std::size_t vertices_needed = 0, faces_needed = 0; ///< where larger than the room, the copy is of no use: ask anew
+
+  bool is_whole() const { return vertices_needed <= points.size() && faces_needed <= faces.size(); }
+
+  /// Makes a change of the mesh.
+  void follow(const Scene_change& change) {
+    using Kind = Scene_change::Kind;
+    const bool is_face = change.kind == Kind::face_created || change.kind == Kind::face_dies;
+    std::size_t& needed = is_face ? faces_needed : vertices_needed;
+    needed = std::max(needed, std::size_t{change.index} + 1);
+    if (change.index >= (is_face ? faces.size() : points.size()))
+      return;
+    switch (change.kind) {
+    case Kind::vertex_created:
+      names[change.index] = change.name;
+      [[fallthrough]];
+    case Kind::vertex_moved:
+      points[change.index] = change.point;
+      break;
+    case Kind::vertex_dies:
+      names[change.index] = absent;
+      break;
+    case Kind::face_created:
+      faces[change.index] = change.corners;
+      break;
+    case Kind::face_dies:
+      faces[change.index][0] = no_corner;
+      break;
+    case Kind::replaced:
+      break;
+    }
+  }
+
+  /// \name The loop's thread
+  ///@{
+  void begin() { next_vertex_ = next_face_ = 0; }
+  /// Copies up to so many elements more. \return whether all are copied. Allocates nothing.
+  template <class Sculptor>
+  bool copy_some(const Sculptor& sculptor, typename Sculptor::Vertex_index probe, std::size_t elements) {
+    const auto& mesh = sculptor.mesh();
+    const std::size_t all_vertices = mesh.num_vertices(), all_faces = mesh.num_faces(); // removed ones included
+    vertices_needed = std::max(vertices_needed, all_vertices), faces_needed = std::max(faces_needed, all_faces);
+    const std::size_t vertices = std::min(all_vertices, points.size()), known_faces = std::min(all_faces, faces.size());
+    for (; elements > 0 && next_vertex_ < vertices; --elements, ++next_vertex_) {
+      const typename Sculptor::Vertex_index v(static_cast<std::uint32_t>(next_vertex_));
+      const bool is_there = !mesh.is_removed(v) && v != probe;
+      names[next_vertex_] = is_there ? sculptor.name(v) : std::uint64_t(absent);
+      const auto& p = mesh.point(v);
+      points[next_vertex_] = {p.x(), p.y(), p.z()};
+    }
+    for (; elements > 0 && next_face_ < known_faces; --elements, ++next_face_) {
+      const typename Sculptor::Face_index f(static_cast<std::uint32_t>(next_face_));
+      faces[next_face_] = mesh.is_removed(f) ? std::array<std::uint32_t, 3>{no_corner, 0, 0} : corners_of(mesh, f);
+    }
+    return next_vertex_ >= vertices && next_face_ >= known_faces;
+  }
+  ///@}
+
+  /// The mesh, vertices in the order of their numbers. \pre is_whole()
+  template <class Mesh>
+  Mesh mesh() const {
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t v = 0; v < names.size(); ++v)
+      if (names[v] != absent)
+        order.push_back(v);
+    std::sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) { return names[a] < names[b]; });
+    std::vector<typename Mesh::Vertex_index> vertex(names.size());
+    Mesh mesh;
+    for (const std::uint32_t v : order)
+      vertex[v] = mesh.add_vertex({points[v][0], points[v][1], points[v][2]});
+    for (const auto& face : faces)
+      if (face[0] != no_corner)
+        mesh.add_face(vertex[face[0]], vertex[face[1]], vertex[face[2]]);
+    return mesh;
+  }
+
+  /// \pre f lives
+  template <class Mesh>
+  static std::array<std::uint32_t, 3> corners_of(const Mesh& mesh, typename Mesh::Face_index f) {
+    const auto h = mesh.halfedge(f);
+    return {static_cast<std::uint32_t>(mesh.source(h)), static_cast<std::uint32_t>(mesh.target(h)),
+            static_cast<std::uint32_t>(mesh.target(mesh.next(h)))};
+  }
+
+private:
+  std::size_t next_vertex_ = 0, next_face_ = 0;
+};
+
+} // namespace haptic_sculpt
+
+#endif

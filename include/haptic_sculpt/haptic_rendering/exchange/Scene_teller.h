@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_TELLER_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_TELLER_H
+
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_copy.h>
+#include <haptic_sculpt/sculpting/Edit_visitor.h>
+
+namespace haptic_sculpt {
+
+/// An EditVisitor that passes changes of a mesh on by value: to a viewer, and into a copy under way. Of the probe
+/// nothing is told; where it is, a Tick_view says.
+template <class Mesh>
+class Scene_teller : public Default_edit_visitor {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
+  using Kind = Scene_change::Kind;
+
+  Scene_teller(const Mesh& mesh, Vertex_index probe) : mesh_(&mesh), probe_(probe) {}
+
+  /// To nobody: nullptr.
+  void tell_to(Scene_feed* feed) { feed_ = feed; }
+  void tell_to(Scene_copy* copy) { copy_ = copy; }
+
+  void vertex_moved(Vertex_index v) { tell(Kind::vertex_moved, v); }
+  void vertex_created(Vertex_index v, std::size_t name) { tell(Kind::vertex_created, v, name); }
+  void vertex_dies(Vertex_index v, std::size_t) { tell(Kind::vertex_dies, v); }
+  void face_created(Face_index f) { tell(Kind::face_created, f, Scene_copy::corners_of(*mesh_, f)); }
+  void face_dies(Face_index f) { tell(Kind::face_dies, f, {}); }
+
+private:
+  const Mesh* mesh_;
+  Vertex_index probe_;
+  Scene_feed* feed_ = nullptr;
+  Scene_copy* copy_ = nullptr;
+
+  void tell(Kind kind, Vertex_index v, std::size_t name = 0) {
+    if (v == probe_ || (feed_ == nullptr && copy_ == nullptr))
+      return;
+    Scene_change change;
+    change.kind = kind, change.index = static_cast<std::uint32_t>(v), change.name = name;
+    const auto& p = mesh_->point(v);
+    change.point = {p.x(), p.y(), p.z()};
+    pass(change);
+  }
+  void tell(Kind kind, Face_index f, const std::array<std::uint32_t, 3>& corners) {
+    Scene_change change;
+    change.kind = kind, change.index = static_cast<std::uint32_t>(f), change.corners = corners;
+    pass(change);
+  }
+  void pass(Scene_change change) {
+    if (feed_ != nullptr)
+      change = feed_->tell(change);
+    if (copy_ != nullptr)
+      copy_->follow(change);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif
