@@ -286,7 +286,7 @@ inline void Hand::tell(Status& status) {
       view.points[static_cast<std::size_t>(i)] = place(internal::vector_of(model_->mesh.point(v)));
       view.names[static_cast<std::size_t>(i)] = sculptor.name(v);
     }
-    view.normal = contact.normal;
+    view.normal = {contact.normal[0], contact.normal[1], contact.normal[2]};
   }
   if (!is_pointed_at_known_ && hold_ == Status::Hold::nothing)
     pointed_at_ = pointed(), is_pointed_at_known_ = true;
