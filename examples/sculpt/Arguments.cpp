@@ -5,6 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
+#include <iostream>
+
 namespace haptic_sculpt::sculpt_program {
 
 std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) {
@@ -42,6 +45,16 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
   app.add_option("--delta", arguments.delta, "No triangle altitude may be less, >= 0; by default 0");
   app.add_option("--picture", arguments.picture, "Where a picture goes: .png")->check(named);
   Picture_arguments& shown = arguments.shown;
+  const CLI::Validator place(
+      [](const std::string& text) -> std::string {
+        double x, y, z;
+        int read = 0;
+        const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        const bool is_place = std::sscanf(text.c_str(), "@%lf,%lf,%lf%n", &x, &y, &z, &read) == 3 &&
+                              static_cast<std::size_t>(read) == text.size();
+        return is_number || is_place || text == "edit" ? "" : "'" + text + "' is not a vertex's number, @X,Y,Z or edit";
+      },
+      "V|@X,Y,Z|edit");
   app.add_flag("--picture-numbers", shown.numbers, "In the picture: the numbers of vertices, where there is room")
       ->needs("--picture");
   app.add_option("--picture-view", shown.view, "The direction in which one looks into it, or into that of --compare")
@@ -50,6 +63,7 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
   app.add_option("--picture-at", shown.at,
                  "What is in its middle: a vertex by its number, a place @X,Y,Z, or 'edit': where the last edit that was "
                  "blocked ended, or else the last edit")
+      ->check(place)
       ->needs("--picture");
   app.add_option("--picture-zoom", shown.zoom, "How large; 1 is all of the mesh; by default 8 with --picture-at")
       ->check(CLI::Range(0.25, 1e5))
@@ -75,6 +89,10 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       throw CLI::RequiresError("--picture-view", "--picture or --compare");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0;
+  }
+  if (shown.view.size() == 3 && shown.view == std::vector<double>(3, 0.0)) {
+    std::cerr << "--picture-view 0 0 0 is no direction\n";
+    return false;
   }
   if (arguments.script == "-")
     arguments.script = "/dev/stdin";

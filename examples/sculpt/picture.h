@@ -8,8 +8,8 @@
 #include "../drawing/surface_mesh_arrays.h"
 #include "../drawing/write_picture.h"
 
-#include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 
@@ -120,7 +120,7 @@ inline void color_by_altitude(drawing::Scene& scene) {
   add_scale(scene, 1, "altitude " + short_number(least));
 }
 
-/// \throw Usage_error
+/// \pre `at` is empty, a number, "edit" or @X,Y,Z \throw drawing::Picture_error
 inline std::optional<Eigen::Vector3d> focus_of(const std::string& at, const Mesh& mesh, const Run_result& result) {
   if (at.empty())
     return std::nullopt;
@@ -137,15 +137,11 @@ inline std::optional<Eigen::Vector3d> focus_of(const std::string& at, const Mesh
   if (at[0] == '@') {
     Eigen::Vector3d p;
     std::istringstream parts(at.substr(1));
-    char comma = ',', comma2 = ',', more = 0;
-    if (!(parts >> p[0] >> comma >> p[1] >> comma2 >> p[2]) || comma != ',' || comma2 != ',' || parts >> more)
-      throw drawing::Picture_error("--picture-at '" + at + "' is not @X,Y,Z: three numbers, commas and no blanks");
+    char mark = 0;
+    parts >> p[0] >> mark >> p[1] >> mark >> p[2]; // the command line has looked at it
     return p;
   }
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(at.data(), at.data() + at.size(), number);
-  if (error != std::errc() || end != at.data() + at.size())
-    throw drawing::Picture_error("--picture-at '" + at + "' is not a vertex's number, nor @X,Y,Z, nor 'edit'");
+  const std::size_t number = std::strtoull(at.c_str(), nullptr, 10);
   for (std::size_t i = 0; i < result.numbers.size(); ++i)
     if (result.numbers[i] == number)
       return drawing::to_eigen(mesh.point(Vertex_index(static_cast<Mesh::size_type>(result.vertex_order[i]))));

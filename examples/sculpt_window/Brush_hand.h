@@ -47,7 +47,7 @@ public:
   /// The others: what is about `place`.
   void dab(const Eigen::Vector3d& place) {
     centre_ = place;
-    const double share = brush_.kind == Brush_kind::inflate ? 0.1 * brush_.radius
+    const double share = brush_.kind == Brush_kind::inflate ? 0.03 * brush_.radius
                          : brush_.kind == Brush_kind::pinch ? 0.25
                                                             : 1.0;
     start({static_cast<brushes::Kind>(brush_.kind), internal::point_of<Kernel::Point_3>(place), brush_.radius,

@@ -67,7 +67,9 @@ public:
   }
   Edited insert_on_edge(Mesh::Edge_index e, const Kernel::Point_3& p) {
     Logged_edit line = with_point({Kind::insert_edge, 2, true}, p);
-    line.index = {model_->sculptor->name(model_->mesh.vertex(e, 0)), model_->sculptor->name(model_->mesh.vertex(e, 1))};
+    // From source to target: a Surface_mesh edge knows its direction, and new faces get their indices by it.
+    const auto h = model_->mesh.halfedge(e);
+    line.index = {model_->sculptor->name(model_->mesh.source(h)), model_->sculptor->name(model_->mesh.target(h))};
     return noted(model_->sculptor->insert_on_edge(e, p), line);
   }
   Edited remove(Vertex_index v) {

@@ -26,8 +26,6 @@ public:
       , map_(std::fmax(model.extent(), 1e-300) / diagonal, Eigen::Vector3d::Zero(), 0.5 * (model.lower + model.upper),
              Eigen::Vector3d::Zero()) {
     model.sculptor->set_work_limit(work);
-    // No Sculptor::reserve(): what it makes room for in the mesh gives new faces other indices than they get in sculpt,
-    // and a replayed log would write its faces in another order.
   }
 
   /// Does what the window asks. \return for people: why it was refused; empty: it was not

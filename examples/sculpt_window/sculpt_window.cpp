@@ -235,7 +235,8 @@ int main(int argc, char** argv) {
   } catch (const sculpt_program::Script_error& error) {
     return fail(error, script_error);
   } catch (const Write_error& error) {
-    return fail(error, cannot_write);
+    return fail(Error(error.what() + std::string("; --log FILE puts the log elsewhere, --no-log keeps none")),
+                cannot_write);
   } catch (const std::bad_alloc&) {
     std::cerr << "sculpt_window: the memory does not suffice for this mesh\n";
     return no_memory;

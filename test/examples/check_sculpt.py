@@ -6,7 +6,7 @@ import json
 import os
 import tempfile
 
-from program_runs import OCTAHEDRON, QUERIES, SOURCE, TETRAHEDRON, check, end, fails, points, run, surface, write
+from program_runs import bytes_of, OCTAHEDRON, QUERIES, SOURCE, TETRAHEDRON, check, end, fails, points, run, surface, write
 
 
 def happy_path(folder, mesh):
@@ -234,6 +234,18 @@ def what_people_read(folder, mesh):
     done = run(mesh, "--script", "-", "--picture", f"{folder}/picture.png", "--picture-numbers", script="drag 3 0.2 0.2 -1\n")
     check(done.returncode == 0 and os.path.getsize(f"{folder}/picture.png") > 5000, f"--picture-numbers: {done.stderr}")
     check(run(mesh, "--picture-numbers").returncode == 2, "--picture-numbers without a picture")
+    looks = set()
+    for options in ([], ["--picture-view", "1", "0", "0"], ["--picture-at", "3", "--picture-zoom", "2"], ["--picture-at", "@0,0,-1", "--picture-zoom", "3"],
+                    ["--picture-at", "edit"], ["--picture-before"], ["--picture-color", "displacement"], ["--picture-color", "altitude"]):
+        done = run(mesh, "--script", "-", "--picture", f"{folder}/picture.png", *options, script="drag 3 0.2 0.2 -1\n")
+        check(done.returncode == 0, f"{options}: {done.stderr}")
+        picture = bytes_of(f"{folder}/picture.png")
+        looks.add(picture)
+        check(int.from_bytes(picture[16:20], "big") == (2400 if "--picture-before" in options else 1200), f"the width with {options}")
+    check(len(looks) == 8, "each of the picture's options shows something else")
+    for options in (["--picture-at", "here"], ["--picture-at", "@1,2"], ["--picture-zoom", "0"], ["--picture-color", "green"], ["--picture-view", "0", "0", "0"]):
+        check(run(mesh, "--picture", f"{folder}/never.png", *options).returncode == 2, f"{options}")
+    fails(5, ["no vertex 99"], run(mesh, "--picture", f"{folder}/never.png", "--picture-at", "99"), "a picture at a vertex that is not there")
     # A byte order mark.
     bom = "\ufeff"
     for name, text in (("b.off", TETRAHEDRON), ("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.1 0.1 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")):
