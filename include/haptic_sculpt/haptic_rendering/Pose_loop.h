@@ -21,6 +21,7 @@ struct Pose_loop_parameters {
   /// What the device dissipates at the handle, N s/m, and its delay, ticks: they bound the stiffness. A device without
   /// force, such as a mouse, has no bound: infinite.
   double friction = std::numeric_limits<double>::infinity(), delay = 0;
+  double mass = 0.05;       ///< of the free handle, kg: a refused edit is felt the less the lighter it is
   double speed = 10;        ///< of a handle that is in order at most, m/s
   double stall_time = 0.02; ///< s between two ticks
   double reach = 0.001;     ///< of a grab, m in the device
@@ -136,7 +137,7 @@ private:
     tick_.tool = tool_.move(reading.position, reading.button);
     const Tool_step& step = tick_.tool;
     if (step.event == Tool_event::refused)
-      burst_.begin(map_.direction_to_device(tool_.last_push()));
+      burst_.begin(map_.direction_to_device(tool_.last_push()), 1 / parameters_.mass);
     tick_.coupling = parameters_.coupling.force(map_, step.proxy, step.target, step.reached);
     const Force_limits& limits = parameters_.limits;
     const Eigen::Vector3d wanted =
