@@ -39,7 +39,7 @@ public:
     draw_mesh(camera, background, passes);
     draw_marks();
   }
-  /// Clears and draws the mesh alone. In one pass it takes half the time, and what is seen of faces in contact may change
+  /// Clears and draws the mesh alone. In one pass it is a little faster, and what is seen of faces in contact may change
   /// from pixel to pixel.
   void draw_mesh(const Camera& camera, const Color& background, Passes passes = Passes::two) const;
 
