@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_SETTINGS_H
 
 #include <haptic_sculpt/device/Device_parameters.h>
-#include <haptic_sculpt/haptic_rendering/Hand_path.h>
-#include <haptic_sculpt/haptic_rendering/Simulated_hand.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Hand_path.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Simulated_hand.h>
 #include <haptic_sculpt/haptic_rendering/Watchdog.h>
 
 #include <nlohmann/json.hpp>

@@ -7,11 +7,11 @@
 /// Eigen.
 
 #include <haptic_sculpt/device.h>
-#include <haptic_sculpt/haptic_rendering/Hand_path.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Hand_path.h>
 #include <haptic_sculpt/haptic_rendering/Haptic_loop.h>
 #include <haptic_sculpt/haptic_rendering/Pose_loop.h>
-#include <haptic_sculpt/haptic_rendering/Simulated_device.h>
-#include <haptic_sculpt/haptic_rendering/Simulated_hand.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Simulated_hand.h>
 #include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_session.h>
 #include <haptic_sculpt/haptic_rendering/reach_position.h>

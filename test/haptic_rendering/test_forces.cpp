@@ -3,7 +3,7 @@
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
-#include <haptic_sculpt/haptic_rendering/Simulated_device.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
 #include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
 #include <haptic_sculpt/haptic_rendering/Watchdog.h>
 

@@ -4,7 +4,7 @@
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
 #include <haptic_sculpt/haptic_rendering/Inertia_rendering.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
-#include <haptic_sculpt/haptic_rendering/Simulated_device.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
 #include <haptic_sculpt/haptic_rendering/reach_position.h>
 
 #include <boost/test/unit_test.hpp>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATED_DEVICE_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATED_DEVICE_H
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATION_SIMULATED_DEVICE_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATION_SIMULATED_DEVICE_H
 
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
 #include <haptic_sculpt/device/simulation/encoder.h>
 #include <haptic_sculpt/device/simulation/runge_kutta.h>
-#include <haptic_sculpt/haptic_rendering/Hand_path.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Hand_path.h>
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
-#include <haptic_sculpt/haptic_rendering/Simulated_hand.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Simulated_hand.h>
 
 namespace haptic_sculpt {
 
