@@ -146,7 +146,7 @@ Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& 
   constexpr double held = 1e-6;
   if (!check.wrong_contact && !planes.empty() && check.kkt_residual <= held)
     check.slack = distance(Offset_half_spaces(planes, 0).nearest({target.x(), target.y(), target.z()}).point,
-                           rational({x.x(), x.y(), x.z()}));
+                           rational(std::array<double, 3>{x.x(), x.y(), x.z()}));
   check.allowed = std::fmax(8 * c, 4 * check.slack);
 
   double random_gain = 0, directed_gain = 0;

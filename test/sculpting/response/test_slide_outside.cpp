@@ -18,7 +18,7 @@ struct Ends {
   bool has_needle_grooves = false;
 };
 
-struct Findings {
+struct Outside_findings {
   Slide_faults residual{"residual"}, better{"better"}, along_facets{"along facets"}, contact{"contact"}, end{"end"},
       farther{"farther"}, tunnelled{"tunnelled"}, disagree{"reported residual"}, oracle{"oracle"}, limit{"leg limit"};
   std::map<std::string, Ends> by_scene;
@@ -32,7 +32,7 @@ double ulp_at(const Point_3& x, const Point_3& target) {
 }
 
 /// Drags of one grab and the next, each end checked.
-void drag_and_check(const Outside_scene& scene, double clearance, std::size_t drags, Random& random, Findings& found,
+void drag_and_check(const Outside_scene& scene, double clearance, std::size_t drags, Random& random, Outside_findings& found,
                     Response response) {
   Mesh mesh = scene.mesh;
   Sculptor<Mesh> sculptor(mesh, parameters::response(response));
@@ -115,7 +115,7 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
 /// Prints what was found, and fails where a promise was broken.
 /// \param no_minimum the share of drags that may end at no minimum (ten times as many in grooves of needles), beside one of each;
 /// doc/slide.md, "Measured"
-void judge(const Findings& found, double no_minimum) {
+void judge(const Outside_findings& found, double no_minimum) {
   std::size_t drags = 0, failed = 0, grooves = 0, failed_in_grooves = 0, most_legs = 0;
   for (const auto& [name, e] : found.by_scene) {
     BOOST_TEST_MESSAGE(name << ": " << e.drags << " drags, " << e.held << " held, " << e.at_limit << " unfinished, " << e.no_minimum << " at no minimum, " << e.along_facets
@@ -147,7 +147,7 @@ constexpr std::size_t drags_per_scene = 20;
 BOOST_AUTO_TEST_CASE(every_end_is_a_local_minimum) {
   const std::size_t drags = count_from_environment("HAPTIC_SCULPT_SLIDES", 3000);
   Random random(seed_from_environment(502));
-  Findings found;
+  Outside_findings found;
   for (std::size_t done = 0; done < drags;)
     for (const Outside_scene& scene : outside_scenes(random)) {
       const double clearance = random() % 2 == 0 ? 0 : 1e-9 * scene.size;
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
   const std::size_t drags = count_from_environment("HAPTIC_SCULPT_SLIDES", 3000) / 6;
   const std::size_t largest = count_from_environment("HAPTIC_SCULPT_SLIDE_FACES", 2000);
   Random random(seed_from_environment(509));
-  Findings found;
+  Outside_findings found;
   const auto scenes = shared_scenes(folder, largest);
   for (std::size_t done = 0; done < drags && !scenes.empty();)
     for (Outside_scene scene : scenes) {
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
 BOOST_AUTO_TEST_CASE(the_check_knows_an_end_that_is_none) {
   // A stop is where the vertex was blocked, hardly ever a minimum: a check that accepts it accepts anything.
   Random random(seed_from_environment(503));
-  Findings found;
+  Outside_findings found;
   std::size_t held = 0, refused = 0;
   for (const Outside_scene& scene : outside_scenes(random))
     drag_and_check(scene, 1e-9 * scene.size, 5, random, found, Response::stop);
