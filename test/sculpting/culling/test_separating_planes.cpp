@@ -81,7 +81,7 @@ struct Soup {
         const internal::Vector along = internal::scaled(minus(to, from), far);
         a = add(internal::plus(from, along)), b = add(minus(from, along));
       }
-      if (a != b && b != c && c != a && (number_of_triangles > 100 || is_wanted(random, {a, b, c})))
+      if (are_apart(a, b) && are_apart(b, c) && are_apart(c, a) && (number_of_triangles > 100 || is_wanted(random, {a, b, c})))
         triangles.push_back({a, b, c});
       else
         --number_of_triangles;
@@ -95,7 +95,17 @@ struct Soup {
     list.assign(mesh, [this](auto f) { return triangles[f]; }, star, faces, everywhere());
   }
 
+  /// False where the link has an edge without length, which no surface has and the sweeps may not be asked about.
+  bool has_edges() const {
+    for (std::size_t i = 0; i < star.link.size(); ++i)
+      if (!are_apart(star.link[i], star.link[(i + 1) % star.link.size()]))
+        return false;
+    return true;
+  }
+
 private:
+  bool are_apart(Vertex_index a, Vertex_index b) const { return a != b && mesh.point(a) != mesh.point(b); }
+
   /// Few of those that are in the way from the start, not all that come later: impacts are to be at all times, and none often.
   bool is_wanted(Random& random, const std::array<Vertex_index, 3>& triangle) const {
     const std::size_t chance = random() % 16;
@@ -248,6 +258,8 @@ BOOST_AUTO_TEST_CASE(impacts_in_soups_are_those_of_all_pairs) {
     Soup soup(random, drawn, triangles, std::ldexp(1.0, 1 - static_cast<int>(random() % 12)));
     if (random() % 16 == 0)
       soup.star.clear(); // a probe
+    if (!soup.has_edges())
+      continue;
     soup.fill(session.list);
     const All_pairs all(soup.mesh, soup.star, soup.triangles);
     BOOST_TEST(all.are_in(session.list));
