@@ -303,15 +303,16 @@ private:
     return Tool_event::released;
   }
 
-  /// Outside, a little off the surface; where that is not possible it comes back where the hand leaves the solid.
+  /// Outside, a little off the surface; from a pit too thin for that, out through what is around it.
   void put_probe_near(const Eigen::Vector3d& place, const Eigen::Vector3d& away, const Eigen::Vector3d& hand) {
     is_probe_placed_ = false;
     for (const double share : {0.02, 0.2, 1.0})
-      if (internal::put_probe(*sculptor_, probe_, place + share * reach_ * away)) {
-        is_probe_placed_ = true;
-        anchor(probe_, hand);
-        return;
-      }
+      is_probe_placed_ = is_probe_placed_ || internal::put_probe(*sculptor_, probe_, place + share * reach_ * away);
+    for (const Eigen::Vector3d& direction : {away, last_push_})
+      is_probe_placed_ = is_probe_placed_ || internal::put_probe_beyond(*sculptor_, probe_, place, direction,
+                                                                        4 * map_.scale(), 0.2 * reach_);
+    if (is_probe_placed_)
+      anchor(probe_, hand);
   }
 
   Tool_event remove(const Eigen::Vector3d& hand) {

@@ -33,6 +33,26 @@ bool put_probe(Sculptor& sculptor, typename Sculptor::Vertex_index probe, const 
   return static_cast<bool>(sculptor.place(probe, point_of<typename Sculptor::Point>(p)));
 }
 
+/// Puts an isolated vertex a little off the first surface that is met from p along a direction and has free space
+/// behind it.
+/// \param far how far is looked \param off how far behind the surface it is put
+template <class Sculptor>
+bool put_probe_beyond(Sculptor& sculptor, typename Sculptor::Vertex_index probe, const Eigen::Vector3d& p,
+                      const Eigen::Vector3d& direction, double far, double off) {
+  using Point = typename Sculptor::Point;
+  constexpr int most_surfaces = 16; // a tick has to end; a hand that is deeper inside comes out by itself
+  Eigen::Vector3d from = p;
+  for (int i = 0; i < most_surfaces; ++i) {
+    const auto hit = sculptor.first_hit(point_of<Point>(from), point_of<Point>(p + far * direction));
+    if (!hit)
+      return false;
+    from = vector_of(hit->point) + off * direction;
+    if (put_probe(sculptor, probe, from))
+      return true;
+  }
+  return false;
+}
+
 /// The sum of the normals of a vertex's faces, with their areas; of length 1, or 0.
 template <class Mesh>
 Eigen::Vector3d vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
