@@ -5,6 +5,8 @@
 #include <haptic_sculpt/haptic_rendering.h>
 #include <haptic_sculpt/surface.h>
 
+#include <CGAL/Side_of_triangle_mesh.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <random>
@@ -79,6 +81,33 @@ BOOST_AUTO_TEST_CASE(the_static_force_is_that_of_planes_concave_edges_and_corner
   BOOST_TEST(worst <= 1e-9);
   for (const std::size_t n : blocked)
     BOOST_TEST(n >= 10u);
+}
+
+BOOST_AUTO_TEST_CASE(a_vertex_let_go_of_in_a_thin_pit_leaves_the_probe_outside) {
+  Random random(4);
+  std::uniform_real_distribution<double> number(-0.5, 0.5);
+  for (int round = 0; round < 6; ++round) {
+    Mesh mesh = meshes::to_mesh(meshes::icosphere(5));
+    const Vector3d above(0.3 * number(random), 0.3 * number(random), 1.1), touching = above - Vector3d(0, 0, 0.15);
+    const auto probe = mesh.add_vertex(Mesh::Point(above[0], above[1], above[2]));
+    Sculptor<Mesh> sculptor(mesh);
+    Tool<Sculptor<Mesh>> tool(sculptor, probe, map_of_tests, 1e-4, 1e-3); // reach 0.002 in the scene
+    const auto move = [&](const Vector3d& place, int button) {
+      return tool.move(map_of_tests.to_device(place), button);
+    };
+    for (int k = 0; k <= 50; ++k)
+      move(above + k / 50. * (touching - above), 0);
+    move(touching, 1);
+    BOOST_TEST(tool.holds_vertex());
+    const Vector3d way(number(random), number(random), -1.2); // through the inside, to all but the other side
+    for (int k = 1; k <= 200; ++k)
+      move(touching + k / 200. * way, 1);
+    move(touching + way, 0);
+    BOOST_TEST(!tool.holds_vertex());
+    BOOST_TEST((tool.vertex() == probe));
+    const CGAL::Side_of_triangle_mesh<Mesh, meshes::Kernel> side(mesh);
+    BOOST_TEST((side(mesh.point(probe)) == CGAL::ON_UNBOUNDED_SIDE));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_grabbed_vertex_is_felt_where_it_meets_a_plane) {
