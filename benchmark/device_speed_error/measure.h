@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_DEVICE_SPEED_ERROR_MEASURE_H
+#define HAPTIC_SCULPT_BENCHMARK_DEVICE_SPEED_ERROR_MEASURE_H
+
+#include <haptic_sculpt/device/leg_frame.h>
+
+#include <nlohmann/json.hpp>
+
+#include <vector>
+
+namespace haptic_sculpt::benchmark {
+
+struct Population {
+  const char* name;
+  std::vector<Device_vector<double>> theta, rate, acceleration;
+};
+
+/// Times and errors of one number type on one population; errors are divided by the condition number.
+///
+/// \param checked so many configurations are compared with the reference \param repetitions passes, of which the
+/// fastest counts \param rows where the results go, beside standard output
+template <class S>
+void measure(const char* scalar, const Population& population, int checked, int repetitions, nlohmann::json& rows);
+
+} // namespace haptic_sculpt::benchmark
+
+#endif
