@@ -3,6 +3,6 @@
 
 namespace haptic_sculpt::benchmark {
 
-template void measure<Mpfr<34>>(const char*, const Population&, int, int, nlohmann::json&);
+template void measure<device_populations::Mpfr<34>>(const char*, const Population&, int, int, nlohmann::json&);
 
 } // namespace haptic_sculpt::benchmark

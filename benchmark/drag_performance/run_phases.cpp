@@ -85,7 +85,7 @@ void fill_lists(const Mesh& mesh, const std::vector<Wanted_list>& wanted, Latenc
   Box_tree_broad_phase<Mesh> tree(mesh);
   const internal::Face_corners<Mesh> corners(mesh);
   internal::Star<Mesh> star;
-  internal::Checklist<Mesh> list;
+  internal::Candidate_list<Mesh> list;
   std::vector<Mesh::Face_index> faces;
   for (const Wanted_list& one : wanted) {
     if (!one.is_wanted) {
@@ -132,7 +132,7 @@ Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_count
       if (is_counted(i, blocked))
         counted.add_nanoseconds(moved.last());
       if (lists != nullptr && is_counted(i, blocked))
-        wanted.push_back({&drag, at, drag.targets[i], guard.checklist().region(), has_looked});
+        wanted.push_back({&drag, at, drag.targets[i], guard.candidate_list().region(), has_looked});
       looks = guard.looks();
       if (blocked)
         break;

@@ -66,7 +66,7 @@ Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, ty
   std::vector<typename Mesh::Face_index> candidates;
   const Swept_star_3 swept = star.swept(source, end);
   Brute_force_broad_phase<Mesh>(mesh).query(swept, candidates);
-  internal::Checklist<Mesh> list;
+  internal::Candidate_list<Mesh> list;
   list.assign(mesh, [&mesh](auto f) { return internal::corners_of_face(mesh, f); }, star, candidates, swept.box());
   if (star.valence() != 0) {
     std::vector<typename Mesh::Vertex_index> isolated;

@@ -122,7 +122,7 @@ struct All_pairs {
   }
 
   /// Whether the list has each face, edge and vertex once, and the link's vertices first, in their order.
-  bool are_in(const internal::Checklist<Mesh>& list) const {
+  bool are_in(const internal::Candidate_list<Mesh>& list) const {
     bool are_same = list.vertices().size() == vertices.size() && list.edges().size() == edges.size() &&
                     list.faces().size() == faces.size();
     const auto index = [&](std::uint32_t position) { return list.vertices()[position].index; };

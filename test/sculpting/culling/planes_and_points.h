@@ -5,7 +5,7 @@
 #include "sculpting/Random_scene.h"
 #include "sculpting/culling/drawn_stars.h"
 
-#include <haptic_sculpt/sculpting/culling/Places.h>
+#include <haptic_sculpt/sculpting/culling/Outcodes.h>
 #include <haptic_sculpt/sculpting/motion/Star_motion.h>
 
 #include <cfenv>
@@ -46,7 +46,7 @@ inline double draw_offset(Random& random) {
 struct Faces_and_points {
   using Coordinates = internal::Coordinates;
   using Sweep_points = internal::Sweep_points;
-  using Sides = internal::Places::Sides;
+  using Outcode = internal::Outcodes::Outcode;
 
   Drawn_star drawn;
   std::size_t first, last;
@@ -57,7 +57,7 @@ struct Faces_and_points {
   std::vector<internal::Vector> spokes;
   double reach;
   Box_3 box;
-  internal::Places places; ///< of the points
+  internal::Outcodes outcodes; ///< of the points
 
   /// \param most of so many faces \param may_be_whole whether those may be the whole star
   Faces_and_points(Random& random, std::size_t valence, int exponent, std::size_t most, bool may_be_whole)
@@ -84,9 +84,9 @@ struct Faces_and_points {
     };
     for (const Coordinates& p : drawn.link)
       spokes.push_back(local(p));
-    places.resize(points.size());
+    outcodes.resize(points.size());
     for (std::size_t k = 0; k < points.size(); ++k)
-      places.set(k, local(points[k]));
+      outcodes.set(k, local(points[k]));
     box = motion.path();
     for (std::size_t i = first; i <= last; ++i)
       box.include(drawn.link[i % valence]);
@@ -158,7 +158,7 @@ void check(Random& random, const Faces_and_points& scene, const Planes& planes, 
   const auto of_faces = [](const auto& p, auto& c) { return internal::face_vertex_verdict(p, c); };
   const auto& [source, target] = std::tie(scene.drawn.source, scene.drawn.target);
   const auto& points = scene.points;
-  const auto sides = [&](std::size_t k) { return scene.places.sides(k); };
+  const auto sides = [&](std::size_t k) { return scene.outcodes.outcode(k); };
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::size_t a = k, b = random() % points.size(), c = random() % points.size();
     if (scene.last - scene.first == scene.drawn.link.size())

@@ -17,7 +17,7 @@ using Coordinates = std::array<double, 3>;
 struct Crowded_star {
   Mesh mesh;
   internal::Star<Mesh> star;
-  internal::Checklist<Mesh> list;
+  internal::Candidate_list<Mesh> list;
   Coordinates centre{};
 
   /// A star of three faces around a vertex near the origin, and triangles around it whose corners are 2^0 to 2^longest away.

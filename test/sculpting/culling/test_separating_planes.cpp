@@ -19,7 +19,7 @@ using internal::Coordinates;
 using internal::minus;
 using internal::Sweep_points;
 using internal::Sweep_verdict;
-using Sides = internal::Separating_planes::Sides;
+using Outcode = internal::Separating_planes::Outcode;
 
 struct Planes_about_faces {
   internal::Separating_planes planes;
@@ -27,11 +27,11 @@ struct Planes_about_faces {
   explicit Planes_about_faces(Faces_and_points& scene) {
     const Rounding in_this_mode(scene.rounding);
     planes.assign(scene.way, scene.spokes, scene.first, scene.last, scene.reach, scene.margin, scene.box);
-    planes.compare(scene.places);
+    planes.compare(scene.outcodes);
   }
-  bool beyond_vertex(Sides sides) const { return (sides & planes.beyond_vertex()) != 0; }
-  bool beyond_edge(std::size_t i, Sides sides) const { return (sides & planes.beyond_edge(i)) != 0; }
-  bool beyond_face(std::size_t i, Sides sides) const { return (sides & planes.beyond_face(i)) != 0; }
+  bool beyond_vertex(Outcode sides) const { return (sides & planes.beyond_vertex()) != 0; }
+  bool beyond_edge(std::size_t i, Outcode sides) const { return (sides & planes.beyond_edge(i)) != 0; }
+  bool beyond_face(std::size_t i, Outcode sides) const { return (sides & planes.beyond_face(i)) != 0; }
 };
 
 Box_3 everywhere() {
@@ -88,7 +88,7 @@ struct Soup {
     }
   }
 
-  void fill(internal::Checklist<Mesh>& list) const {
+  void fill(internal::Candidate_list<Mesh>& list) const {
     std::vector<Mesh::Face_index> faces;
     for (std::size_t k = 0; k < triangles.size(); ++k)
       faces.emplace_back(static_cast<Mesh::size_type>(k));
@@ -129,7 +129,7 @@ std::size_t draw_valence(Random& random) {
 /// Working memory is shared by all scenes, as in a long session.
 struct Session {
   Filter_counters counters;
-  internal::Checklist<Mesh> list;
+  internal::Candidate_list<Mesh> list;
   internal::Narrow_phase<Mesh> narrow{Exact_sweep_traits<Mesh>(&counters)};
   internal::Edit_proof<Mesh, Filter_counters> proof{counters};
   Star_impacts<Mesh> found;
@@ -299,7 +299,7 @@ BOOST_AUTO_TEST_CASE(impacts_in_meshes_are_those_of_all_pairs) {
     internal::Star<Mesh> star;
     // the last vertices of a bipyramid are its apices
     star.collect(mesh, Vertex_index(static_cast<Mesh::size_type>(random() % 2 == 0 ? n - 1 : random() % n)));
-    internal::Checklist<Mesh>& list = session.list;
+    internal::Candidate_list<Mesh>& list = session.list;
     list.assign(mesh, [&](auto f) { return triangles[f]; }, star, faces, everywhere());
     const All_pairs all(mesh, star, triangles);
     BOOST_TEST(all.are_in(list));

@@ -102,15 +102,15 @@ BOOST_AUTO_TEST_CASE(what_a_fan_says_is_apart_is_apart) {
         hits = hits || is_hit(edge_sweep, drawn.link[f], p, q);
       for (int f = 0; f < faces; ++f)
         p_hits = p_hits || is_hit(face_sweep, drawn.link[f], drawn.link[f + 1], p);
-      internal::Places places;
-      places.resize(2);
-      places.set(0, minus(p, drawn.source));
-      places.set(1, minus(q, drawn.source));
-      places.clear_sides();
+      internal::Outcodes outcodes;
+      outcodes.resize(2);
+      outcodes.set(0, minus(p, drawn.source));
+      outcodes.set(1, minus(q, drawn.source));
+      outcodes.clear();
       const std::size_t number = random() % internal::Swept_fan::most_fans;
-      fan.compare(places, number);
-      const unsigned from_edge = internal::Swept_fan::apart_from_fans(places.sides(0) & places.sides(1)),
-                     from_point = internal::Swept_fan::apart_from_fans(places.sides(0));
+      fan.compare(outcodes, number);
+      const unsigned from_edge = internal::Swept_fan::apart_from_fans(outcodes.outcode(0) & outcodes.outcode(1)),
+                     from_point = internal::Swept_fan::apart_from_fans(outcodes.outcode(0));
       const bool is_edge_apart = from_edge != 0, is_point_apart = from_point != 0;
       BOOST_TEST(((from_edge | from_point) & ~(1u << number)) == 0u);
       asked += 2, apart += is_edge_apart + is_point_apart, really += !hits + !p_hits;
@@ -126,35 +126,35 @@ BOOST_AUTO_TEST_CASE(what_a_fan_says_is_apart_is_apart) {
 namespace {
 
 struct Planes_at_spokes {
-  using Sides = internal::Places::Sides;
+  using Outcode = internal::Outcodes::Outcode;
   std::size_t first;
   internal::Spoke_planes planes;
 
   explicit Planes_at_spokes(Faces_and_points& scene) : first(scene.first) {
     const Rounding in_this_mode(scene.rounding);
     planes.assign(scene.way, scene.spokes, first, scene.last, scene.reach, scene.margin);
-    planes.compare(scene.places);
+    planes.compare(scene.outcodes);
   }
-  bool beyond_vertex(Sides) const { return false; } // these are no planes of a whole star
-  bool beyond_edge(std::size_t i, Sides sides) const {
+  bool beyond_vertex(Outcode) const { return false; } // these are no planes of a whole star
+  bool beyond_edge(std::size_t i, Outcode sides) const {
     return (planes.apart_from_spokes(sides) >> (i - first) & 1) != 0;
   }
-  bool beyond_face(std::size_t i, Sides sides) const {
+  bool beyond_face(std::size_t i, Outcode sides) const {
     return (planes.apart_from_faces(sides) >> (i - first) & 1) != 0;
   }
 };
 
 struct Planes_at_ends {
-  using Sides = internal::Places::Sides;
+  using Outcode = internal::Outcodes::Outcode;
 
   explicit Planes_at_ends(Faces_and_points& scene) {
     const Rounding in_this_mode(scene.rounding);
-    scene.places.clear_sides();
-    internal::Swept_fan(scene.way, scene.spokes, scene.first, scene.last, scene.reach, scene.margin).compare(scene.places);
+    scene.outcodes.clear();
+    internal::Swept_fan(scene.way, scene.spokes, scene.first, scene.last, scene.reach, scene.margin).compare(scene.outcodes);
   }
-  bool beyond_vertex(Sides sides) const { return internal::Swept_fan::apart_from_fans(sides) != 0; }
-  bool beyond_edge(std::size_t, Sides sides) const { return beyond_vertex(sides); }
-  bool beyond_face(std::size_t, Sides sides) const { return beyond_vertex(sides); }
+  bool beyond_vertex(Outcode sides) const { return internal::Swept_fan::apart_from_fans(sides) != 0; }
+  bool beyond_edge(std::size_t, Outcode sides) const { return beyond_vertex(sides); }
+  bool beyond_face(std::size_t, Outcode sides) const { return beyond_vertex(sides); }
 };
 
 template <class Planes>
@@ -197,22 +197,22 @@ BOOST_AUTO_TEST_CASE(planes_at_spokes_part_a_fan_from_what_lies_under_it) {
       const double angle = turn * 6.283185307179586 * static_cast<double>(i) / static_cast<double>(valence);
       spokes.push_back({std::cos(angle), std::sin(angle), -side});
     }
-    internal::Places places; // the ends of the spokes, and the other apex
-    places.resize(valence + 1);
+    internal::Outcodes outcodes; // the ends of the spokes, and the other apex
+    outcodes.resize(valence + 1);
     for (std::size_t i = 0; i < valence; ++i)
-      places.set(i, spokes[i]);
-    places.set(valence, {0, 0, -2 * side});
+      outcodes.set(i, spokes[i]);
+    outcodes.set(valence, {0, 0, -2 * side});
     const double x = number(random), y = number(random), z = number(random);
     internal::Spoke_planes planes;
     planes.assign({0.02 * x, 0.02 * y, 0.02 * z}, spokes, 0, faces, 2, 0);
-    planes.compare(places);
+    planes.compare(outcodes);
     std::size_t left = 0;
     for (std::size_t i = 0; i < faces; ++i)
       for (std::size_t j = 0; j < valence; ++j) {
         const std::size_t next = j + 1 < valence ? j + 1 : 0;
         const auto apart = [&](auto sides) { return (planes.apart_from_spokes(sides) >> i & 1) != 0; };
-        left += j != i && !apart(places.sides(j) & places.sides(valence)) && (j < 2 * faces || 2 * valence - 2 * faces < 2 * j);
-        left += j != i && next != i && !apart(places.sides(j) & places.sides(next)) && j < 2 * faces;
+        left += j != i && !apart(outcodes.outcode(j) & outcodes.outcode(valence)) && (j < 2 * faces || 2 * valence - 2 * faces < 2 * j);
+        left += j != i && next != i && !apart(outcodes.outcode(j) & outcodes.outcode(next)) && j < 2 * faces;
       }
     BOOST_TEST(left == 0u);
   }

@@ -157,7 +157,7 @@ void check_queries(std::uint64_t seed) {
     broad_phase.query(swept.swept(source, target), found);
     unique = {found.begin(), found.end()};
     const auto is_free_of = [&](const std::vector<Mesh::Face_index>& faces) {
-      internal::Checklist<Mesh> list;
+      internal::Candidate_list<Mesh> list;
       list.assign(mesh, internal::Face_corners<Mesh>(mesh), swept, faces, Box_3());
       return internal::Narrow_phase<Mesh>(Exact_sweep_traits<Mesh>()).is_free(swept, list, source, target);
     };

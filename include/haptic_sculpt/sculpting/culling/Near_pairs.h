@@ -9,7 +9,7 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// The free ball: how far apart the features of a star and those of its checklist are with the moving vertex J in one
+/// The free ball: how far apart the features of a star and its candidates are with the moving vertex J in one
 /// place, the centre. A motion of J between two points nowhere farther than r from there can make only pairs touch that
 /// are at most r apart.
 ///
@@ -27,7 +27,7 @@ public:
     double square; ///< J has to go that far from the centre, squared, before they can touch; 0 where nothing is known
     Impact_feature feature;
     std::uint32_t spoke;     ///< which face or edge of the star; unless J itself moves against a face
-    std::uint32_t candidate; ///< which face, edge or vertex of the checklist
+    std::uint32_t candidate; ///< which face, edge or vertex of the candidates
   };
 
   Near_pairs() { pairs_.reserve(2 * most_pairs); }
@@ -56,7 +56,7 @@ public:
   /// Takes pairs around a place a little ahead on the way from source to target. Covers that motion afterwards, or
   /// nothing: where it is long, or there are many pairs, or sizes are extreme. \pre the list is complete in its region,
   /// which the motion does not leave. Cost: n log n, as a motion is decided.
-  void assign(const Star<Mesh>& star, const Checklist<Mesh>& list, Star_runs<Mesh>& runs,
+  void assign(const Star<Mesh>& star, const Candidate_list<Mesh>& list, Star_runs<Mesh>& runs,
               const Coordinates& source, const Coordinates& target) {
     clear();
     double extent = 0, around = 0;
@@ -146,7 +146,7 @@ private:
 
   Vector local(const Coordinates& p) const { return minus(p, centre_); }
 
-  void faces(const Checklist<Mesh>& list) {
+  void faces(const Candidate_list<Mesh>& list) {
     const Box_3 here(centre_);
     const auto& v = list.vertices();
     for (std::size_t f = 0; f < list.faces().size(); ++f) {
@@ -161,7 +161,7 @@ private:
     }
   }
 
-  void edge(const Star<Mesh>& star, const Checklist<Mesh>& list, std::size_t i, std::uint32_t e) {
+  void edge(const Star<Mesh>& star, const Candidate_list<Mesh>& list, std::size_t i, std::uint32_t e) {
     const auto& edge = list.edges()[e];
     const auto &a = list.vertices()[edge[0]], &b = list.vertices()[edge[1]];
     if (are_far(list.box(edge), Box_3(centre_).include(star.link_points[i])))
@@ -171,7 +171,7 @@ private:
          Impact_feature::edge_edge, i, e);
   }
 
-  void vertex(const Star<Mesh>& star, const Checklist<Mesh>& list, std::size_t i, std::uint32_t v) {
+  void vertex(const Star<Mesh>& star, const Candidate_list<Mesh>& list, std::size_t i, std::uint32_t v) {
     const std::size_t j = star.next(i);
     const auto& vertex = list.vertices()[v];
     if (are_far(Box_3(vertex.point), Box_3(centre_).include(star.link_points[i]).include(star.link_points[j])))

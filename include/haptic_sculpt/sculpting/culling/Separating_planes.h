@@ -2,7 +2,8 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_SEPARATING_PLANES_H
 #define HAPTIC_SCULPT_SCULPTING_SEPARATING_PLANES_H
 
-#include <haptic_sculpt/sculpting/culling/Swept_fan.h>
+#include <haptic_sculpt/sculpting/culling/Outcodes.h>
+#include <haptic_sculpt/sculpting/culling/separation.h>
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 
 #include <cstdint>
@@ -22,7 +23,7 @@ namespace internal {
 class Separating_planes {
 public:
   /// Which sides of planes: two bits a plane.
-  using Sides = Places::Sides;
+  using Outcode = Outcodes::Outcode;
 
   /// So many faces, with as many spokes or one more, and the box have sides that fit in a number.
   static constexpr std::size_t most_faces = 14;
@@ -43,7 +44,7 @@ public:
     vertex_ = box_sides;
     faces_are_closed_ = is_whole;
     ends_ = ends;
-    if (!(reach > Swept_fan::least_reach && reach < Swept_fan::largest_reach))
+    if (!Outcodes::serve(reach))
       return;
     const auto spoke = [&](std::size_t k) -> const Vector& {
       return spokes[first + k < spokes.size() ? first + k : first + k - spokes.size()];
@@ -59,7 +60,7 @@ public:
     const bool is_long = quick_magnitude(way) > length;
     const bool is_spike = 2 * quick_magnitude(middle) > static_cast<double>(faces) * length;
     const Vector axis = is_long ? way : up, tip = is_long ? way : Vector{};
-    const double beyond = rounding * reach + longest_normal * margin;
+    const double beyond = Outcodes::slack(reach, longest_normal, margin);
     std::array<double, most_faces + 1> heights;
     for (std::size_t k = 0; k < ends + faces; ++k) {
       const bool is_spoke = k < ends;
@@ -72,7 +73,7 @@ public:
       const double height_of_way = quick_dot(n, way);
       const double low = smaller(smaller(0, height_of_way), smaller(heights[at], heights[other])),
                    high = larger(larger(0, height_of_way), larger(heights[at], heights[other]));
-      const Sides below = side_below(k), above = below << 1;
+      const Outcode below = side_below(k), above = below << 1;
       for (std::size_t j = 0; j < ends; ++j)
         edges_[j] |= (heights[j] >= low ? below : 0) | (heights[j] <= high ? above : 0);
       normals_[k] = n;
@@ -85,34 +86,33 @@ public:
   }
 
   /// Finds the sides of all points.
-  void compare(Places& points) const {
+  void compare(Outcodes& points) const {
     points.compare(box_);
     for (std::size_t k = 0; k < size_; ++k)
       points.compare(normals_[k], lows_[k], side_below(k), highs_[k], side_below(k) << 1);
   }
 
   /// The sides that lie beyond what the moving vertex, the edge to link vertex i, and face i sweep over.
-  Sides beyond_vertex() const { return vertex_; }
-  Sides beyond_edge(std::size_t i) const { return edges_[i - first_]; }
-  Sides beyond_face(std::size_t i) const {
+  Outcode beyond_vertex() const { return vertex_; }
+  Outcode beyond_edge(std::size_t i) const { return edges_[i - first_]; }
+  Outcode beyond_face(std::size_t i) const {
     const std::size_t k = i - first_;
     return edges_[k] & edges_[faces_are_closed_ && k + 1 == ends_ ? 0 : k + 1];
   }
 
 private:
   static constexpr int box_bits = 6;
-  static constexpr Sides box_sides = (Sides{1} << box_bits) - 1;
-  static constexpr Sides side_below(std::size_t k) { return Sides{1} << (box_bits + 2 * k); }
-  /// As in Swept_fan; directions have coordinates of at most 1.
-  static constexpr double rounding = 0x1p-45, longest_normal = 2;
+  static constexpr Outcode box_sides = (Outcode{1} << box_bits) - 1;
+  static constexpr Outcode side_below(std::size_t k) { return Outcode{1} << (box_bits + 2 * k); }
+  static constexpr double longest_normal = 2; ///< coordinates are at most 1
 
   Box_3 box_;
   std::size_t first_ = 0, size_ = 0, ends_ = 0;
   bool faces_are_closed_ = false;
   std::array<Vector, 2 * most_faces + 1> normals_;
   std::array<double, 2 * most_faces + 1> lows_, highs_;
-  std::array<Sides, most_faces + 1> edges_;
-  Sides vertex_ = box_sides;
+  std::array<Outcode, most_faces + 1> edges_;
+  Outcode vertex_ = box_sides;
 };
 
 } // namespace internal

@@ -20,7 +20,7 @@ namespace internal {
 /// Points are given relative to the start of the motion, rounded once.
 class Spoke_planes {
 public:
-  using Sides = Places::Sides;
+  using Outcode = Outcodes::Outcode;
 
   /// So many faces have one spoke more, each with a bit in each quarter of a number.
   static constexpr std::size_t most_faces = 15;
@@ -29,7 +29,7 @@ public:
   void assign(const Vector& way, const std::vector<Vector>& spokes, std::size_t first, std::size_t last, double reach,
               double margin) {
     size_ = 0;
-    if (!(reach > Swept_fan::least_reach && reach < Swept_fan::largest_reach))
+    if (!Outcodes::serve(reach))
       return;
     const std::size_t n = spokes.size(), faces = last - first;
     const auto spoke = [&](std::size_t i) -> const Vector& { return spokes[i < n ? i : i - n]; };
@@ -40,7 +40,7 @@ public:
     for (std::size_t side = 0; side < 2; ++side)
       leans_[side] =
           scaled(of_size_one(Swept_fan::leaning(spoke(first + faces / 2), way, up, side == 0 ? -1 : 1)), lean);
-    const double beyond = rounding * reach + longest_normal * margin;
+    const double beyond = Outcodes::slack(reach, longest_normal, margin);
     size_ = faces + 1;
     for (std::size_t k = 0; k < size_; ++k) {
       const Vector& end = spoke(first + k);
@@ -57,8 +57,8 @@ public:
   }
 
   /// Finds the sides of all points.
-  void compare(Places& points) {
-    points.clear_sides();
+  void compare(Outcodes& points) {
+    points.clear();
     if (size_ == 0)
       return;
     for (std::size_t side = 0; side < 2; ++side)
@@ -66,26 +66,26 @@ public:
     for (std::size_t k = 0; k < size_; ++k)
       for (std::size_t turn = 0; turn < 2; ++turn) {
         const Plane& plane = planes_[2 * k + turn];
-        const Sides under = Sides{1} << (32 * turn + k);
+        const Outcode under = Outcode{1} << (32 * turn + k);
         points.compare(plane.normal, heights_[0], plane.levels[0], under, heights_[1], plane.levels[1], under << 16);
       }
   }
 
   /// Of which spokes or faces, counted from the first, something is apart all of whose corners lie on these sides.
-  static unsigned apart_from_spokes(Sides sides) {
+  static unsigned apart_from_spokes(Outcode sides) {
     const unsigned after = beyond_after(sides), before = beyond_before(sides);
     return after | after >> 1 | before | before << 1;
   }
-  static unsigned apart_from_faces(Sides sides) { return beyond_after(sides) >> 1 | beyond_before(sides); }
+  static unsigned apart_from_faces(Outcode sides) { return beyond_after(sides) >> 1 | beyond_before(sides); }
 
 private:
   // Bit k of the first and second quarter of a number: after spoke k, and so beyond spokes k - 1 and k; of the third
   // and fourth: before spoke k, and so beyond k and k + 1.
-  static unsigned beyond_after(Sides sides) { return static_cast<unsigned>(sides | sides >> 16) & 0xffff; }
-  static unsigned beyond_before(Sides sides) { return static_cast<unsigned>(sides >> 32 | sides >> 48); }
+  static unsigned beyond_after(Outcode sides) { return static_cast<unsigned>(sides | sides >> 16) & 0xffff; }
+  static unsigned beyond_before(Outcode sides) { return static_cast<unsigned>(sides >> 32 | sides >> 48); }
 
-  /// As in Swept_fan, for sums of two heights with directions of at most 1 and `lean`.
-  static constexpr double rounding = 0x1p-45, longest_normal = 2.25;
+  /// Of the sum of two directions with coordinates of at most 1 and `lean`.
+  static constexpr double longest_normal = 2.25;
 
   /// How far planes lean: little, for what is under or over the middle of the fan leans with the angle between the
   /// spokes.

@@ -30,7 +30,7 @@ public:
 
   Star<Mesh>& star() { return star_; }
   const Star<Mesh>& star() const { return star_; }
-  const Checklist<Mesh>& list() const { return list_; }
+  const Candidate_list<Mesh>& list() const { return list_; }
   const Near_pairs<Mesh>& pairs() const { return pairs_; }
   /// How often a list has been filled: it has changed when this has.
   std::size_t looks() const { return looks_; }
@@ -155,7 +155,7 @@ private:
   Work* work_;
   Fetch fetch_;
   Star<Mesh> star_;
-  Checklist<Mesh> list_;
+  Candidate_list<Mesh> list_;
   Near_pairs<Mesh> pairs_;
   std::size_t looks_ = 0;
   int patience_ = 1, waited_ = 0;

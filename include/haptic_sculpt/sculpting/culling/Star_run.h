@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_STAR_RUN_H
 #define HAPTIC_SCULPT_SCULPTING_STAR_RUN_H
 
-#include <haptic_sculpt/sculpting/culling/Checklist.h>
+#include <haptic_sculpt/sculpting/culling/Candidate_list.h>
 #include <haptic_sculpt/sculpting/culling/Separating_planes.h>
 #include <haptic_sculpt/sculpting/culling/Spoke_planes.h>
 #include <haptic_sculpt/surface/broad_phase/bits.h>
@@ -13,12 +13,12 @@ namespace internal {
 /// Candidates that are near some faces of a star.
 struct Near_candidates {
   struct Edge {
-    std::array<std::uint32_t, 2> ends; ///< which of the places
-    std::uint32_t position;            ///< in the checklist
+    std::array<std::uint32_t, 2> ends; ///< which of the points
+    std::uint32_t position;            ///< in the list of candidates
   };
   std::vector<Edge> edges;
-  Places places;
-  std::vector<std::uint32_t> positions; ///< of the places' vertices, in the checklist
+  Outcodes outcodes;
+  std::vector<std::uint32_t> positions; ///< of the points' vertices, in the list of candidates
 };
 
 /// Faces [first, last) of a star and the candidates near them: pairs of a moving and a still feature that may touch,
@@ -26,22 +26,22 @@ struct Near_candidates {
 template <class Mesh>
 class Star_run {
 public:
-  using Sides = Places::Sides;
+  using Outcode = Outcodes::Outcode;
   using Edge = Near_candidates::Edge;
 
   std::size_t first, last;
   bool is_whole; ///< these are all faces of the star
 
   /// Faces of a star that is not large. \pre planes are about them, and have found the sides of the candidates
-  Star_run(const Checklist<Mesh>& list, std::size_t valence, const Near_candidates& near, std::size_t first,
+  Star_run(const Candidate_list<Mesh>& list, std::size_t valence, const Near_candidates& near, std::size_t first,
            std::size_t last, const Separating_planes& planes)
       : Star_run(list, valence, near, first, last, &planes) {
-    beyond_all_ = ~Sides{0};
+    beyond_all_ = ~Outcode{0};
     for (std::size_t i = first; i < last; ++i)
       beyond_all_ &= planes.beyond_edge(i) & planes.beyond_face(i);
   }
   /// A narrow part of a large star. \pre planes at its spokes have found the sides of the candidates
-  Star_run(const Checklist<Mesh>& list, std::size_t valence, const Near_candidates& near, std::size_t first,
+  Star_run(const Candidate_list<Mesh>& list, std::size_t valence, const Near_candidates& near, std::size_t first,
            std::size_t last)
       : Star_run(list, valence, near, first, last, nullptr) {}
 
@@ -63,7 +63,7 @@ public:
   bool for_each_vertex_pair(const Visit& visit) const {
     for (std::size_t k = 0; k < near_->positions.size(); ++k) {
       const std::uint32_t v = near_->positions[k];
-      for (unsigned faces = faces_near(near_->places.sides(k)) & ~faces_at(v); faces != 0; faces &= faces - 1)
+      for (unsigned faces = faces_near(near_->outcodes.outcode(k)) & ~faces_at(v); faces != 0; faces &= faces - 1)
         if (!visit(first + lowest_bit(faces), v))
           return false;
     }
@@ -75,8 +75,8 @@ public:
     const auto& faces = list_->faces();
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
       const auto& [a, b, c] = faces[f].vertices;
-      const Places& places = near_->places; // of all vertices of the list, in its order
-      if ((places.sides(a) & places.sides(b) & places.sides(c) & planes_->beyond_vertex()) == 0 && !visit(f))
+      const Outcodes& outcodes = near_->outcodes; // of all vertices of the list, in its order
+      if ((outcodes.outcode(a) & outcodes.outcode(b) & outcodes.outcode(c) & planes_->beyond_vertex()) == 0 && !visit(f))
         return false;
     }
     return true;
@@ -94,18 +94,18 @@ public:
   template <class Visit>
   void for_each_vertex_near(std::size_t i, const Visit& visit) const {
     for (std::size_t k = 0; k < near_->positions.size(); ++k)
-      if (((faces_near(near_->places.sides(k)) & ~faces_at(near_->positions[k])) >> (i - first) & 1) != 0)
+      if (((faces_near(near_->outcodes.outcode(k)) & ~faces_at(near_->positions[k])) >> (i - first) & 1) != 0)
         visit(near_->positions[k]);
   }
 
 private:
-  const Checklist<Mesh>* list_;
+  const Candidate_list<Mesh>* list_;
   std::size_t valence_;
   const Near_candidates* near_;
   const Separating_planes* planes_; ///< none in a large star
-  Sides beyond_all_ = 0;            ///< beyond all that these faces sweep over
+  Outcode beyond_all_ = 0;            ///< beyond all that these faces sweep over
 
-  Star_run(const Checklist<Mesh>& list, std::size_t valence, const Near_candidates& near, std::size_t first,
+  Star_run(const Candidate_list<Mesh>& list, std::size_t valence, const Near_candidates& near, std::size_t first,
            std::size_t last, const Separating_planes* planes)
       : first(first)
       , last(last)
@@ -115,22 +115,22 @@ private:
       , near_(&near)
       , planes_(planes) {}
 
-  Sides sides_of(const Edge& edge) const {
-    return near_->places.sides(edge.ends[0]) & near_->places.sides(edge.ends[1]);
+  Outcode sides_of(const Edge& edge) const {
+    return near_->outcodes.outcode(edge.ends[0]) & near_->outcodes.outcode(edge.ends[1]);
   }
 
   /// The bits of the spokes that what lies on these sides may touch.
-  unsigned spokes_near(Sides sides) const {
+  unsigned spokes_near(Outcode sides) const {
     return planes_ == nullptr ? all() & ~Spoke_planes::apart_from_spokes(sides)
                               : near(sides, [this](std::size_t i) { return planes_->beyond_edge(i); });
   }
   /// The same of the faces.
-  unsigned faces_near(Sides sides) const {
+  unsigned faces_near(Outcode sides) const {
     return planes_ == nullptr ? all() & ~Spoke_planes::apart_from_faces(sides)
                               : near(sides, [this](std::size_t i) { return planes_->beyond_face(i); });
   }
   template <class Beyond>
-  unsigned near(Sides sides, const Beyond& beyond) const {
+  unsigned near(Outcode sides, const Beyond& beyond) const {
     if ((sides & beyond_all_) != 0)
       return 0;
     unsigned result = 0;

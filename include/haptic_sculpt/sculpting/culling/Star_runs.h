@@ -24,7 +24,7 @@ public:
   /// of those that may, none is left out. The visitor may shorten the motion. \pre it does not keep the run, nor ask for
   /// other runs meanwhile: they share their memory
   template <class Visit>
-  bool for_each_run(const Star<Mesh>& star, const Checklist<Mesh>& list, Star_motion& motion, double margin,
+  bool for_each_run(const Star<Mesh>& star, const Candidate_list<Mesh>& list, Star_motion& motion, double margin,
                     const Visit& visit) {
     place(star, list, motion);
     const Scene scene{star, list, motion, margin};
@@ -44,7 +44,7 @@ public:
   void reserve(std::size_t vertices, std::size_t edges) {
     Near_candidates& all = levels_[0].near;
     all.edges.reserve(edges);
-    all.places.reserve(vertices);
+    all.outcodes.reserve(vertices);
     all.positions.reserve(vertices);
     spokes_.reserve(most_undivided);
   }
@@ -52,7 +52,7 @@ public:
 private:
   struct Scene {
     const Star<Mesh>& star;
-    const Checklist<Mesh>& list;
+    const Candidate_list<Mesh>& list;
     Star_motion& motion;
     double margin;
   };
@@ -61,19 +61,19 @@ private:
   struct Level {
     Near_candidates near;
     struct Part {
-      std::vector<std::uint32_t> edges, places; ///< which of near's, as many as are counted
-      std::size_t number_of_edges, number_of_places;
+      std::vector<std::uint32_t> edges, points; ///< which of near's, as many as are counted
+      std::size_t number_of_edges, number_of_points;
     };
     std::array<Part, Swept_fan::most_fans> parts;
   };
 
   std::vector<Level> levels_ = std::vector<Level>(1); ///< by how often the star has been divided
-  std::vector<Vector> spokes_;                        ///< from where the motion starts, like all places
-  double reach_ = 0;                                  ///< of the coordinates of spokes and places
+  std::vector<Vector> spokes_;                        ///< from where the motion starts, like all points
+  double reach_ = 0;                                  ///< of the coordinates of spokes and points
   Separating_planes planes_;
   Spoke_planes spoke_planes_;
   static constexpr std::uint32_t nowhere = 0xffffffff;
-  std::vector<std::uint32_t> kept_;   ///< the places that are copied
+  std::vector<std::uint32_t> kept_;   ///< the points that are copied
   std::vector<std::uint32_t> copies_; ///< where to; nowhere for all others
 
   /// Of a run.
@@ -87,14 +87,14 @@ private:
   Run run_of_few(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth = 0) {
     Near_candidates& near = levels_[depth].near;
     planes_.assign(scene.motion.way(), spokes_, first, last, reach_, scene.margin, box_of(scene, first, last));
-    planes_.compare(near.places);
+    planes_.compare(near.outcodes);
     return Run(scene.list, scene.star.valence(), near, first, last, planes_);
   }
   /// A narrow part of a large star.
   Run run_of_many(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth) {
     Near_candidates& near = levels_[depth].near;
     spoke_planes_.assign(scene.motion.way(), spokes_, first, last, reach_, scene.margin);
-    spoke_planes_.compare(near.places);
+    spoke_planes_.compare(near.outcodes);
     return Run(scene.list, scene.star.valence(), near, first, last);
   }
 
@@ -126,28 +126,28 @@ private:
   template <class Begin>
   void find_near(const Scene& scene, std::size_t parts, const Begin& begin, std::size_t depth) {
     Level& level = levels_[depth];
-    Places& places = level.near.places;
+    Outcodes& outcodes = level.near.outcodes;
     const auto& edges = level.near.edges;
-    places.clear_sides();
+    outcodes.clear();
     for (std::size_t k = 0; k < parts; ++k) {
       // What is beyond the ends of a part has been left out before.
       const std::array<bool, 2> ends = {depth == 0 || k > 0, depth == 0 || k + 1 < parts};
-      Swept_fan(scene.motion.way(), spokes_, begin(k), begin(k + 1), reach_, scene.margin, ends).compare(places, k);
+      Swept_fan(scene.motion.way(), spokes_, begin(k), begin(k + 1), reach_, scene.margin, ends).compare(outcodes, k);
       typename Level::Part& part = level.parts[k];
       if (part.edges.size() < edges.size())
         part.edges.resize(edges.size());
-      if (part.places.size() < places.size())
-        part.places.resize(places.size());
-      part.number_of_edges = part.number_of_places = 0;
+      if (part.points.size() < outcodes.size())
+        part.points.resize(outcodes.size());
+      part.number_of_edges = part.number_of_points = 0;
     }
     const unsigned all = (1u << parts) - 1;
-    for (std::uint32_t v = 0; v < places.size(); ++v)
-      for (unsigned near = all & ~Swept_fan::apart_from_fans(places.sides(v)); near != 0; near &= near - 1) {
+    for (std::uint32_t v = 0; v < outcodes.size(); ++v)
+      for (unsigned near = all & ~Swept_fan::apart_from_fans(outcodes.outcode(v)); near != 0; near &= near - 1) {
         typename Level::Part& part = level.parts[lowest_bit(near)];
-        part.places[part.number_of_places++] = v;
+        part.points[part.number_of_points++] = v;
       }
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
-      const Places::Sides sides = places.sides(edges[e].ends[0]) & places.sides(edges[e].ends[1]);
+      const Outcodes::Outcode sides = outcodes.outcode(edges[e].ends[0]) & outcodes.outcode(edges[e].ends[1]);
       for (unsigned near = all & ~Swept_fan::apart_from_fans(sides); near != 0; near &= near - 1) {
         typename Level::Part& part = level.parts[lowest_bit(near)];
         part.edges[part.number_of_edges++] = e;
@@ -164,12 +164,12 @@ private:
     const typename Level::Part& part = levels_[depth].parts[which];
     // Whatever is near another time, nothing is allocated then.
     near.edges.reserve(from.edges.size());
-    near.places.reserve(from.places.size());
-    near.positions.reserve(from.places.size());
-    kept_.reserve(from.places.size());
-    if (copies_.size() < from.places.size())
-      copies_.resize(from.places.size(), nowhere);
-    kept_.assign(part.places.begin(), part.places.begin() + part.number_of_places);
+    near.outcodes.reserve(from.outcodes.size());
+    near.positions.reserve(from.outcodes.size());
+    kept_.reserve(from.outcodes.size());
+    if (copies_.size() < from.outcodes.size())
+      copies_.resize(from.outcodes.size(), nowhere);
+    kept_.assign(part.points.begin(), part.points.begin() + part.number_of_points);
     for (std::uint32_t k = 0; k < kept_.size(); ++k)
       copies_[kept_[k]] = k;
     // As a rule an edge that is near has ends that are, but not each.
@@ -185,7 +185,7 @@ private:
       const auto& edge = from.edges[part.edges[k]];
       near.edges[k] = {{copied(edge.ends[0]), copied(edge.ends[1])}, edge.position};
     }
-    near.places.assign(from.places, kept_);
+    near.outcodes.assign(from.outcodes, kept_);
     near.positions.resize(kept_.size());
     for (std::size_t k = 0; k < kept_.size(); ++k) {
       near.positions[k] = from.positions[kept_[k]];
@@ -208,7 +208,7 @@ private:
     return box;
   }
 
-  void place(const Star<Mesh>& star, const Checklist<Mesh>& list, const Star_motion& motion) {
+  void place(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Star_motion& motion) {
     reach_ = quick_magnitude(minus(motion.target(), motion.source()));
     const auto from_source = [&](const Coordinates& p) {
       const Vector place = minus(p, motion.source());
@@ -219,10 +219,10 @@ private:
     for (const Coordinates& p : star.link_points)
       spokes_.push_back(from_source(p));
     Near_candidates& all = levels_[0].near;
-    all.places.resize(list.vertices().size());
+    all.outcodes.resize(list.vertices().size());
     all.positions.resize(list.vertices().size());
     for (std::size_t v = 0; v < all.positions.size(); ++v) {
-      all.places.set(v, from_source(list.vertices()[v].point));
+      all.outcodes.set(v, from_source(list.vertices()[v].point));
       all.positions[v] = static_cast<std::uint32_t>(v);
     }
     all.edges.resize(list.edges().size());

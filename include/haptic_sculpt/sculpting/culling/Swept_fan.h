@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_SWEPT_FAN_H
 #define HAPTIC_SCULPT_SCULPTING_SWEPT_FAN_H
 
-#include <haptic_sculpt/sculpting/culling/Places.h>
+#include <haptic_sculpt/sculpting/culling/Outcodes.h>
 #include <haptic_sculpt/sculpting/culling/separation.h>
 
 #include <cstddef>
@@ -21,10 +21,6 @@ namespace internal {
 /// Points are given relative to the start of the motion, rounded once.
 class Swept_fan {
 public:
-  /// Motions in whose surroundings coordinates reach less or more than this get no planes: products might leave the
-  /// range of doubles.
-  static constexpr double least_reach = 0x1p-200, largest_reach = 0x1p+200;
-
   /// No plane: nothing is known to be apart.
   Swept_fan() = default;
 
@@ -35,7 +31,7 @@ public:
   /// Cost: linear in the number of faces.
   Swept_fan(const Vector& way, const std::vector<Vector>& spokes, std::size_t first, std::size_t last, double reach,
             double margin = 0, std::array<bool, 2> ends = {true, true}) {
-    if (!(reach > least_reach && reach < largest_reach))
+    if (!Outcodes::serve(reach))
       return;
     const auto spoke = [&](std::size_t i) -> const Vector& { return spokes[i < spokes.size() ? i : 0]; };
     Vector up{};
@@ -46,11 +42,12 @@ public:
       planes_at(spoke(first), way, up, 1);
     if (ends[1])
       planes_at(spoke(last), way, up, -1);
+    const double beyond = Outcodes::slack(reach, longest_normal, margin);
     for (std::size_t k = 0; k < size_; ++k) {
       double highest = larger(0.0, quick_dot(normals_[k], way));
       for (std::size_t i = first; i <= last; ++i)
         highest = larger(highest, quick_dot(normals_[k], spoke(i)));
-      levels_[k] = highest + rounding * reach + longest_normal * margin;
+      levels_[k] = highest + beyond;
     }
   }
 
@@ -60,15 +57,15 @@ public:
   /// Adds to the sides of the points on the far side of which planes they certainly lie. All points of a set on the far
   /// side of one plane: the set, and its hull, is certainly apart from the fan. \param fan the number of this one
   /// \pre sides of these points were set
-  void compare(Places& points, std::size_t fan = 0) const {
+  void compare(Outcodes& points, std::size_t fan = 0) const {
     for (std::size_t k = 0; k < size_; k += 2) {
-      const Places::Sides side = Places::Sides{1} << (most_fans * k + fan);
+      const Outcodes::Outcode side = Outcodes::Outcode{1} << (most_fans * k + fan);
       points.compare(normals_[k], levels_[k], side, normals_[k + 1], levels_[k + 1], side << most_fans);
     }
   }
 
   /// The numbers of the fans, a bit each, from which something is apart all of whose corners lie on these sides.
-  static unsigned apart_from_fans(Places::Sides sides) {
+  static unsigned apart_from_fans(Outcodes::Outcode sides) {
     sides |= sides >> 32;
     return static_cast<unsigned>(sides | sides >> 16) & 0xffff;
   }
@@ -86,10 +83,6 @@ public:
   }
 
 private:
-  /// 2^-45: more than ten times what two sums of three products with a direction, whose coordinates are at most 1 +
-  /// lean, and a difference rounded once can be wrong together.
-  static constexpr double rounding = 0x1p-45;
-
   /// How far planes lean over or under the fan. Any value serves; 1 is neither flat nor steep.
   static constexpr double lean = 1;
 

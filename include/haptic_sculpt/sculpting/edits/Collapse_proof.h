@@ -75,7 +75,7 @@ private:
   Edit_proof<Mesh, Filter_counters> proof_;
   Star<Mesh> star_;
   Coordinates centre_{};
-  Checklist<Mesh> list_;
+  Candidate_list<Mesh> list_;
   std::vector<Face_index> candidates_;
   std::vector<Vertex_index> isolated_; ///< those near the star
 

@@ -78,7 +78,7 @@ public:
   /// The sweeps of a star's centre into its neighbour `link[pivot]`, for the collapse that follows: true when nothing but
   /// the faces that vanish is touched. `list` holds the faces not incident to the centre.
   template <class Elements>
-  bool can_collapse(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& centre, std::size_t pivot,
+  bool can_collapse(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Coordinates& centre, std::size_t pivot,
                     Elements& in_the_way) {
     const std::size_t n = star.valence();
     const std::size_t left = pivot + 1 < n ? pivot + 1 : 0, right = pivot > 0 ? pivot - 1 : n - 1;

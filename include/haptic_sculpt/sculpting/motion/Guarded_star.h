@@ -40,7 +40,7 @@ public:
 
   Star<Mesh>& star() { return candidates_.star(); }
   const Star<Mesh>& star() const { return candidates_.star(); }
-  const Checklist<Mesh>& checklist() const { return candidates_.list(); }
+  const Candidate_list<Mesh>& candidate_list() const { return candidates_.list(); }
   std::size_t looks() const { return candidates_.looks(); }
   void collect(Vertex_index v) { candidates_.collect(v); }
   void invalidate() { candidates_.invalidate(); }
@@ -118,10 +118,10 @@ public:
       return false;
     bool free = candidates_.is_certainly_free(source, target);
     if (!free && candidates_.has_pairs(source, target))
-      free = narrow_phase_.is_free(star(), checklist(), candidates_.pairs(), source, target);
+      free = narrow_phase_.is_free(star(), candidate_list(), candidates_.pairs(), source, target);
     else if (!free)
       candidates_.look_along(source, target, [&](const Swept_star_3&) {
-        return !(free = narrow_phase_.is_free(star(), checklist(), source, target));
+        return !(free = narrow_phase_.is_free(star(), candidate_list(), source, target));
       });
     return free && !is_spent() && Delta_limits<Mesh>::are_kept(star(), source, target, delta);
   }
@@ -157,10 +157,10 @@ private:
 
   void find_first_impacts(const Coordinates& source, const Coordinates& target) {
     if (candidates_.has_pairs(source, target))
-      narrow_phase_.first_impacts(star(), checklist(), candidates_.pairs(), source, target, firsts_);
+      narrow_phase_.first_impacts(star(), candidate_list(), candidates_.pairs(), source, target, firsts_);
     else
       candidates_.look_along(source, target, [&](const Swept_star_3& part) {
-        narrow_phase_.first_impacts_near(star(), checklist(), source, target, part.path(), firsts_);
+        narrow_phase_.first_impacts_near(star(), candidate_list(), source, target, part.path(), firsts_);
         return is_spent() || (part.until < 1 && !firsts_.empty() && firsts_[0].impact().time().second <= part.until);
       });
   }

@@ -151,7 +151,7 @@ private:
   void compare_candidates() {
     if (expects_single_drags_) // whatever is near is the vertex or a neighbour at another drag
       return;
-    const auto& candidates = guard_.checklist().vertices();
+    const auto& candidates = guard_.candidate_list().vertices();
     if (compared_look_ != guard_.looks()) {
       compared_look_ = guard_.looks();
       for (const auto& candidate : candidates)

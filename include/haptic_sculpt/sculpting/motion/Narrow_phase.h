@@ -9,7 +9,7 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// All three sweeps of a star against a checklist (completeness: doc/exact_sweeps.md).
+/// All three sweeps of a star against its candidates (completeness: doc/exact_sweeps.md).
 ///
 /// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between its
 /// two, when it cannot come first any more, or when it shares a vertex that makes its meeting no collision: faces
@@ -27,26 +27,26 @@ public:
     , face_vertex_(traits.face_vertex_sweep_3_object()), compare_time_(traits.compare_time_3_object()) {}
 
   /// Whether nothing is touched on the closed way from source to target.
-  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
+  bool is_free(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Coordinates& source,
                const Coordinates& target) {
     return for_each_hit({star, list, {source, target}}, Any());
   }
 
   /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
-  bool is_free(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs,
+  bool is_free(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Near_pairs<Mesh>& pairs,
                const Coordinates& source, const Coordinates& target) {
     return for_each_hit({star, list, {source, target}}, pairs, Any());
   }
 
   /// Fills `firsts` with the impacts that come exactly first; leaves it empty when the way is free.
-  void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
+  void first_impacts(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Coordinates& source,
                      const Coordinates& target, Impacts& firsts) {
     first_impacts_near(star, list, source, target, Box_3(source).include(target), firsts);
   }
 
   /// The same among the pairs that may meet while J is in the box `path`: what comes first while it is there comes
   /// first of all.
-  void first_impacts_near(const Star<Mesh>& star, const Checklist<Mesh>& list, const Coordinates& source,
+  void first_impacts_near(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Coordinates& source,
                           const Coordinates& target, const Box_3& path, Impacts& firsts) {
     firsts.clear();
     for_each_hit({star, list, {source, target, path}}, Keep_first{firsts, compare_time_});
@@ -54,7 +54,7 @@ public:
   }
 
   /// The same where pairs cover the motion. \pre pairs.cover(source, target), and they are of this star and list
-  void first_impacts(const Star<Mesh>& star, const Checklist<Mesh>& list, const Near_pairs<Mesh>& pairs,
+  void first_impacts(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Near_pairs<Mesh>& pairs,
                      const Coordinates& source, const Coordinates& target, Impacts& firsts) {
     firsts.clear();
     for_each_hit({star, list, {source, target}}, pairs, Keep_first{firsts, compare_time_});
@@ -84,7 +84,7 @@ private:
   /// One motion, and what is in its way.
   struct Scene {
     const Star<Mesh>& star;
-    const Checklist<Mesh>& list;
+    const Candidate_list<Mesh>& list;
     Star_motion motion;
   };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CHECKLIST_H
-#define HAPTIC_SCULPT_SCULPTING_CHECKLIST_H
+#ifndef HAPTIC_SCULPT_SCULPTING_CANDIDATE_LIST_H
+#define HAPTIC_SCULPT_SCULPTING_CANDIDATE_LIST_H
 
 #include <haptic_sculpt/sculpting/culling/Distinct_pairs.h>
 #include <haptic_sculpt/surface/Face_corners.h>
@@ -17,7 +17,7 @@ namespace internal {
 /// Everything but the grabbed vertex stands still, so the list holds until another vertex moves or the mesh is edited.
 /// Filled again and again; allocates only when a list is longer than any before.
 template <class Mesh>
-class Checklist {
+class Candidate_list {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
   using Face_index = typename Mesh::Face_index;
