@@ -30,6 +30,7 @@ struct Options {
   int level = 8;
   double radius = 30, speed = 300, rate = 1000, depth = 2, reach = 0.05; ///< mm, mm/s, Hz, mm, mm
   std::size_t ticks = 1000000, work = 400;
+  bool refuses_allocations = false;
   std::string json;
 };
 
@@ -69,6 +70,10 @@ Json of(const Tick_statistics& s) {
           {"max", microseconds(s.largest())}};
 }
 
+/// What the button did in a tick, in the order of Tool_event.
+constexpr const char* event_names[] = {nullptr,    "grabbed", "created_on_face", "created_on_edge",
+                                       "released", "removed", "refused"};
+
 Json run(const Options& options) {
   Device_description<double> description = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
   description.viscous_friction = 0.005, description.encoder_step = 1.53e-4;
@@ -92,7 +97,8 @@ Json run(const Options& options) {
   Loop loop(scene.sculptor, scene.probe, device, *pose, scene.map, parameters, limits);
   if (mlockall(MCL_CURRENT) != 0)
     std::cerr << "haptic_ticks: the memory cannot be locked: first uses of pages are in the times\n";
-  Tick_statistics all, probe, vertex, edits;
+  Tick_statistics all, probe, vertex;
+  std::array<Tick_statistics, std::size(event_names)> events; // by Tool_event
   std::size_t allocations = 0, missed = 0, cut_short = 0, blocked = 0;
   Joint_reading reading;
   for (std::size_t tick = 0; tick < options.ticks && !loop.has_stopped(); ++tick) {
@@ -110,19 +116,26 @@ Json run(const Options& options) {
     cut_short += made.tool.end == Drag_end::work_limit;
     blocked += !made.tool.reached;
     all.add(taken);
-    (made.tool.event != Tool_event::none ? edits : loop.tool().holds_vertex() ? vertex : probe).add(taken);
+    const auto event = static_cast<std::size_t>(made.tool.event);
+    (event != 0 ? events[event] : loop.tool().holds_vertex() ? vertex : probe).add(taken);
     if (made.is_new_fault)
       throw Error(std::string("a fault: ") + name_of(made.fault));
   }
   const Tool_edits& done = loop.tool().edits();
-  if (4 * blocked < all.number())
+  if (options.depth > 0 && 4 * blocked < all.number())
     throw Error("the hand was held back in " + std::to_string(blocked) +
                 " ticks only: that is not what is measured here");
+  if (options.refuses_allocations && allocations != 0)
+    throw Error(std::to_string(allocations) + " allocations were made in ticks, with " + std::to_string(done.created) +
+                " creations and " + std::to_string(done.removed) + " removals");
+  Json of_events;
+  for (std::size_t event = 1; event < events.size(); ++event)
+    of_events[event_names[event]] = of(events[event]);
   return {{"triangles", scene.number_of_faces()},
           {"cpu_us", of(all)},
           {"cpu_us_probe", of(probe)},
           {"cpu_us_vertex_in_hand", of(vertex)},
-          {"cpu_us_button", of(edits)},
+          {"cpu_us_button", of_events},
           {"missed_by_cpu", missed},
           {"allocations", allocations},
           {"blocked", blocked},
@@ -145,10 +158,14 @@ int main(int argc, char** argv) {
   app.add_option("--ticks", options.ticks)->capture_default_str();
   app.add_option("--speed", options.speed, "Of the hand, mm/s")->capture_default_str();
   app.add_option("--rate", options.rate, "Ticks a second")->capture_default_str();
-  app.add_option("--depth", options.depth, "How deep the hand is under the mean surface, mm")->capture_default_str();
+  app.add_option("--depth", options.depth,
+                 "How deep the hand is under the mean surface, mm; less than 0: above it, which tells what the machine "
+                 "itself takes")
+      ->capture_default_str();
   app.add_option("--reach", options.reach, "Of a grab, mm; where no vertex is so near, one is created")
       ->capture_default_str();
   app.add_option("--work", options.work, "Pairs that a drag may decide")->capture_default_str();
+  app.add_flag("--no-allocations", options.refuses_allocations, "End with an error where a tick has allocated");
   app.add_option("--json", options.json, "Write the report here");
   CLI11_PARSE(app, argc, argv);
   try {

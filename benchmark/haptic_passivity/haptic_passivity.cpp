@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the haptic loop's promises of passivity, stability and weightlessness are worth, measured in simulation.
+#include "haptic_passivity/dynamic_limits.h"
 #include "haptic_passivity/gravity_residual.h"
 #include "haptic_passivity/rate_error.h"
 #include "haptic_passivity/stability.h"
@@ -28,7 +29,7 @@ struct Options {
   double seconds = 3, effect_seconds = 3, alarm_seconds = 60;
   std::uint64_t seed = 1;
   bool chart = false;
-  std::vector<std::string> parts{"activity", "gravity", "rate", "effects", "alarms", "passive"};
+  std::vector<std::string> parts{"activity", "gravity", "rate", "effects", "alarms", "dynamics", "passive"};
   std::string json;
   bool has(const char* part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
 };
@@ -228,6 +229,46 @@ Json gravity(const Options& options) {
   return rows;
 }
 
+/// The largest virtual mass and damping, and both sides of where a free mass begins to swing.
+Json dynamics_report(const Options& options) {
+  struct Loop {
+    int form;
+    double tick, delay;
+  };
+  std::vector<Loop> loops{{0, 0.001, 0}, {1, 0.001, 1}, {0, 0.004, 1}};
+  if (options.chart)
+    loops.insert(loops.end(),
+                 {{0, 0.00025, 1}, {1, 0.00025, 0}, {0, 0.001, 0.5}, {1, 0.001, 0}, {0, 0.004, 0}, {1, 0.004, 1}});
+  Json rows = Json::array();
+  for (const auto& [form, tick, delay] : loops) {
+    const Dynamic_limits found = dynamic_limits(form_of(form), tick, delay);
+    rows.push_back({{"form", form == 0 ? "ditetrahedral" : "general"},
+                    {"tick_s", tick},
+                    {"delay", delay},
+                    {"apparent_mass_kg", found.limits.apparent_mass},
+                    {"largest_mass_kg", found.limits.largest_mass},
+                    {"critical_mass_kg", found.critical_mass},
+                    {"largest_damping", found.limits.largest_damping},
+                    {"critical_damping", found.critical_damping},
+                    {"largest_controller", found.limits.largest_controller},
+                    {"largest_is_calm", found.holds},
+                    {"mass_is_calm_below", found.mass_is_calm_below},
+                    {"mass_swings_above", found.mass_swings_above},
+                    {"damping_is_calm_below", found.damping_is_calm_below},
+                    {"damping_swings_above", found.damping_swings_above}});
+    std::printf("%s, T %.2f ms, d %.1f: apparent mass %.1f g; virtual mass up to %.1f g, damping up to %.2f N s/m, "
+                "controller up to %.1f: %s; critical mass %.1f g: calm at 0.8 of it %d, swings at 1.2 of it %d; "
+                "critical damping %.1f N s/m: calm at 0.6 of it %d, swings at twice that %d\n",
+                form == 0 ? "di-tetrahedral" : "general", 1e3 * tick, delay, 1e3 * found.limits.apparent_mass,
+                1e3 * found.limits.largest_mass, found.limits.largest_damping, found.limits.largest_controller,
+                found.holds ? "calm" : "NOT CALM", 1e3 * found.critical_mass, found.mass_is_calm_below,
+                found.mass_swings_above, found.critical_damping, found.damping_is_calm_below,
+                found.damping_swings_above);
+    std::fflush(stdout);
+  }
+  return rows;
+}
+
 /// Limits of stiffness over tick, delay and damping, at the worst pose of the ball about home.
 Json chart() {
   const Device_parameters<double> device = design(Device_form::ditetrahedral, 0.005, 0, 0, 10);
@@ -295,6 +336,14 @@ std::vector<std::string> broken_bounds(const Json& report) {
       broken.push_back("activity does not begin within 10 % of the formula");
   if (report.contains("alarms") && (report["alarms"]["faults"] != 0 || report["alarms"]["false_alarms"] != 0))
     broken.push_back("there were false alarms");
+  for (const Json& row : report.value("dynamics", Json::array())) {
+    if (!row["largest_is_calm"])
+      broken.push_back("a virtual mass or damping that may be asked for buzzes");
+    if (!row["mass_is_calm_below"] || !row["mass_swings_above"])
+      broken.push_back("a free handle does not begin to swing within 20 % of the critical mass");
+    if (!row["damping_is_calm_below"] || !row["damping_swings_above"])
+      broken.push_back("a damped handle does not begin to swing between 0.6 and twice the critical damping");
+  }
   for (const Json& row : report.value("gravity", Json::array()))
     if (row["source"] == "encoders and holding" && row["largest_N"] > 0.06)
       broken.push_back("more than 60 mN of the mechanism's weight is left");
@@ -335,7 +384,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--parts", options.parts, "What to measure")
       ->delimiter(',')
-      ->check(CLI::IsMember({"activity", "gravity", "rate", "effects", "alarms", "passive"}))
+      ->check(CLI::IsMember({"activity", "gravity", "rate", "effects", "alarms", "dynamics", "passive"}))
       ->capture_default_str();
   app.add_flag("--chart", options.chart, "Where activity and instability begin, over tick, delay and damping; minutes");
   app.add_option("--seed", options.seed, "Of everything random")->capture_default_str();
@@ -353,7 +402,7 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   };
   part("activity", activity_report), part("gravity", gravity), part("rate", rates), part("effects", effects),
-      part("alarms", alarms);
+      part("alarms", alarms), part("dynamics", dynamics_report);
   part("passive", passivity);
   if (options.chart)
     report["chart"] = chart();

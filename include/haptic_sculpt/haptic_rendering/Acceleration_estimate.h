@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <complex>
 
 namespace haptic_sculpt {
 
@@ -42,6 +43,11 @@ public:
     return value_;
   }
   const Eigen::Vector3d& value() const { return value_; }
+  /// What becomes of second differences (over the square of the tick) that turn by an angle a tick.
+  std::complex<double> response(double angle) const {
+    const std::complex<double> q = std::polar(1.0, -angle), pass = share_ / (1.0 - (1 - share_) * q);
+    return pass * pass * (1.0 + lag_ * (1.0 - q) + curvature_ * (1.0 - q) * (1.0 - q));
+  }
   void reset() {
     has_step_ = false;
     first_pass_.setZero(), second_pass_.setZero(), change_.setZero(), value_.setZero();

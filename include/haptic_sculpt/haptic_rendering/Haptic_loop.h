@@ -46,7 +46,8 @@ public:
   using Vertex_index = typename Sculptor::Vertex_index;
 
   /// \param probe an isolated vertex of the sculptor's mesh, outside of all solids \param start a pose near the first
-  /// reading \throw Unstable_coupling if `limits`, of the same device and map, do not permit the coupling
+  /// reading \throw Unstable_coupling if `limits`, of the same device and map, do not permit the
+  /// coupling, the virtual mass or the passivity controller
   Haptic_loop(Sculptor& sculptor, Vertex_index probe, const Device_parameters<double>& device,
               const Device_pose<double>& start, const Workspace_map& map, const Haptic_parameters& parameters,
               const Passivity_limits& limits)
@@ -61,6 +62,7 @@ public:
       , controller_(parameters.controller_damping, parameters.tick)
       , inertia_(parameters.inertia, device, parameters.tick, parameters.delay) {
     check_coupling(parameters.coupling, limits);
+    check_dynamics(parameters.coupling.damping, parameters.inertia, parameters.controller_damping, limits);
     sculptor.set_work_limit(parameters.work);
   }
 

@@ -2,9 +2,14 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_LIMITS_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_LIMITS_H
 
+#include <haptic_sculpt/device/dynamics.h>
 #include <haptic_sculpt/haptic_rendering/Force_limit.h>
+#include <haptic_sculpt/haptic_rendering/Inertia_rendering.h>
 #include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
+#include <haptic_sculpt/haptic_rendering/critical_gains.h>
 #include <haptic_sculpt/haptic_rendering/reach_position.h>
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <random>
@@ -24,27 +29,41 @@ inline double stable_stiffness(double friction, double damping, double tick, dou
   return 0.6 * 2 * (friction + damping) / (tick * (1 + 2 * delay));
 }
 
-/// Where the device gives least friction to the handle, for what is rendered there.
+/// Where the device gives least friction, or has least mass, at the handle, for what is rendered there.
 struct Worst_pose {
   Device_pose<double> pose;
   double greatest = 0;   ///< sigma_max(J), m/rad
   double fading = 0;     ///< the share of the force that is rendered there
   bool is_found = false; ///< false: no pose of the workspace can be used
+  double badness = -1;   ///< by which it was sought
 
   /// b_phys at the handle, N s/m, in units of what is rendered.
   double friction(const Device_parameters<double>& parameters) const {
     return is_found ? parameters.viscous_friction() / (greatest * greatest * fading) : 0;
   }
+  /// The least apparent mass at the handle, kg, in units of what is rendered.
+  double apparent_mass(const Device_parameters<double>& parameters) const {
+    if (!is_found)
+      return 0;
+    const auto map = jacobian(parameters, pose);
+    const auto terms = dynamics(parameters, Dynamics_model::spatial, pose, Device_vector<double>(0, 0, 0));
+    if (!map || !terms)
+      return 0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> apparent(
+        haptic_sculpt::apparent_mass(terms->mass, map->linear), Eigen::EigenvaluesOnly);
+    return apparent.eigenvalues()[0] / fading;
+  }
 };
 
 namespace internal {
 
-/// sigma_max^2 times the share that is rendered: what makes a pose bad. Negative where nothing is.
+/// A pose and how bad it is, by `badness(pose)`; not found where nothing is rendered.
 /// Poses with a knee on the other side than at `home` do not count: the way there leads through poses without any
 /// force.
-template <class Contains>
+template <class Contains, class Badness>
 Worst_pose rated_pose(const Device_parameters<double>& parameters, const Device_pose<double>& home,
-                      const Device_vector<double>& theta, const Force_limits& limits, const Contains& contains) {
+                      const Device_vector<double>& theta, const Force_limits& limits, const Contains& contains,
+                      const Badness& badness) {
   Worst_pose rated;
   if (!within_joint_limits(parameters, theta))
     return rated;
@@ -55,20 +74,19 @@ Worst_pose rated_pose(const Device_parameters<double>& parameters, const Device_
   if (!map)
     return rated;
   const auto conditioning = translation_conditioning(*map);
-  rated = {*pose, conditioning.greatest, fading_by_condition(limits, conditioning.condition), true};
+  rated = {*pose, conditioning.greatest, fading_by_condition(limits, conditioning.condition), true, -1};
   rated.is_found = rated.fading > 0;
+  if (rated.is_found)
+    rated.badness = badness(rated);
   return rated;
 }
 
-} // namespace internal
-
 /// Searches the poses whose handle's place `contains(position)` for the worst: a grid of joint angles, and from its
 /// worst a climb by random steps that get smaller. Allocates; some tenths of a second.
-template <class Contains>
-Worst_pose worst_pose(const Device_parameters<double>& parameters, const Force_limits& limits, const Contains& contains,
-                      int per_joint = 25) {
+template <class Contains, class Badness>
+Worst_pose worst_pose_by(const Device_parameters<double>& parameters, const Force_limits& limits,
+                         const Contains& contains, const Badness& badness, int per_joint) {
   using V = Device_vector<double>;
-  const auto badness = [](const Worst_pose& p) { return p.is_found ? p.greatest * p.greatest * p.fading : -1.0; };
   constexpr std::size_t starts = 24;
   std::vector<Worst_pose> worst;
   const auto home = home_pose(parameters);
@@ -78,12 +96,12 @@ Worst_pose worst_pose(const Device_parameters<double>& parameters, const Force_l
   for (int i = 0; i < per_joint * per_joint * per_joint; ++i) {
     const V part(i % per_joint, i / per_joint % per_joint, i / per_joint / per_joint);
     const V theta = parameters.least_angle() + span.cwiseProduct(part / (per_joint - 1.0));
-    const Worst_pose rated = internal::rated_pose(parameters, *home, theta, limits, contains);
+    const Worst_pose rated = rated_pose(parameters, *home, theta, limits, contains, badness);
     if (!rated.is_found)
       continue;
     worst.push_back(rated);
     std::sort(worst.begin(), worst.end(),
-              [&](const Worst_pose& a, const Worst_pose& b) { return badness(a) > badness(b); });
+              [](const Worst_pose& a, const Worst_pose& b) { return a.badness > b.badness; });
     if (worst.size() > starts)
       worst.pop_back();
   }
@@ -98,42 +116,79 @@ Worst_pose worst_pose(const Device_parameters<double>& parameters, const Force_l
       for (int failures = 0; failures < 40;) {
         const double x = number(), y = number(), z = number();
         const Worst_pose next =
-            internal::rated_pose(parameters, *home, V(start.pose.theta + step * V(x, y, z)), limits, contains);
-        if (badness(next) > badness(start))
+            rated_pose(parameters, *home, V(start.pose.theta + step * V(x, y, z)), limits, contains, badness);
+        if (next.badness > start.badness)
           start = next, failures = 0;
         else
           ++failures;
       }
-    if (badness(start) > badness(found))
+    if (start.badness > found.badness)
       found = start;
   }
   return found;
 }
 
+} // namespace internal
+
+/// Searches the poses whose handle's place `contains(position)` for that of least friction. Cost: as worst_pose_by.
+template <class Contains>
+Worst_pose worst_pose(const Device_parameters<double>& parameters, const Force_limits& limits, const Contains& contains,
+                      int per_joint = 25) {
+  return internal::worst_pose_by(
+      parameters, limits, contains, [](const Worst_pose& p) { return p.greatest * p.greatest * p.fading; }, per_joint);
+}
+
+/// The same for that of least apparent mass. Some times slower, for the dynamics of each pose.
+template <class Contains>
+Worst_pose lightest_pose(const Device_parameters<double>& parameters, const Force_limits& limits,
+                         const Contains& contains, int per_joint = 25) {
+  return internal::worst_pose_by(
+      parameters, limits, contains, [&](const Worst_pose& p) { return 1 / p.apparent_mass(parameters); }, per_joint);
+}
+
 /// What may be asked of a loop.
 struct Passivity_limits {
-  double friction = 0;          ///< b_phys at the worst pose, N s/m
-  double passive_stiffness = 0; ///< k_p at the damping asked for, N/m
-  double stable_stiffness = 0;  ///< k_s
-  Worst_pose worst;
+  double friction = 0;           ///< b_phys at the worst pose, N s/m
+  double passive_stiffness = 0;  ///< k_p at the damping asked for, N/m
+  double stable_stiffness = 0;   ///< k_s
+  double apparent_mass = 0;      ///< the least in the workspace, kg
+  double largest_damping = 0;    ///< b that may be asked for, N s/m
+  double largest_mass = 0;       ///< virtual mass that may be asked for, kg
+  double largest_controller = 0; ///< damping of a passivity controller that may be asked for, N s/m
+  Worst_pose worst, lightest;
 
   double largest_stiffness() const { return std::max({passive_stiffness, stable_stiffness, 0.0}); }
   bool permits(const Virtual_coupling& coupling) const { return coupling.stiffness <= largest_stiffness(); }
   bool is_passive(const Virtual_coupling& coupling) const { return coupling.stiffness <= passive_stiffness; }
 };
 
+/// Of what makes a free mass swing by itself, the share that may be asked for: a wall, a hand and its grip take from
+/// the rest. A gain margin of three, 9.5 dB.
+constexpr double stable_share = 1.0 / 3;
+/// k_s was found to hold up to so many times b_phys.
+constexpr double most_damping = 4;
+
 /// The limits over the device's places whose scene is in a box. \param delay ticks
+/// \param cutoff of the acceleration that a virtual mass follows, Hz
 inline Passivity_limits passivity_limits(const Device_parameters<double>& parameters, const Force_limits& limits,
                                          const Workspace_map& map, const Eigen::Vector3d& lower,
-                                         const Eigen::Vector3d& upper, double damping, double tick, double delay) {
+                                         const Eigen::Vector3d& upper, double damping, double tick, double delay,
+                                         double cutoff = Acceleration_estimate::default_cutoff) {
   Passivity_limits found;
-  found.worst = worst_pose(parameters, limits, [&](const Eigen::Vector3d& device) {
+  const auto is_in_scene = [&](const Eigen::Vector3d& device) {
     const Eigen::Vector3d p = map.to_scene(device);
     return (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all();
-  });
+  };
+  found.worst = worst_pose(parameters, limits, is_in_scene);
   found.friction = found.worst.friction(parameters);
   found.passive_stiffness = passive_stiffness(found.friction, damping, tick, delay);
   found.stable_stiffness = stable_stiffness(found.friction, damping, tick, delay);
+  found.lightest = lightest_pose(parameters, limits, is_in_scene);
+  found.apparent_mass = found.lightest.apparent_mass(parameters);
+  const double mass = stable_share * found.apparent_mass;
+  found.largest_mass = mass * critical_mass_ratio(tick, delay, cutoff);
+  found.largest_damping = std::fmin(most_damping * found.friction, mass * critical_damping_rate(tick, delay));
+  found.largest_controller = mass * critical_damping_rate(tick, delay, std::numeric_limits<double>::infinity());
   return found;
 }
 

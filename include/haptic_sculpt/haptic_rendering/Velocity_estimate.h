@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <complex>
 
 namespace haptic_sculpt {
 
@@ -26,6 +27,8 @@ public:
     return value_;
   }
   const Eigen::Vector3d& value() const { return value_; }
+  /// What becomes of steps (over the tick) that turn by an angle a tick.
+  std::complex<double> response(double angle) const { return share_ / (1.0 - (1 - share_) * std::polar(1.0, -angle)); }
   void reset() { value_.setZero(); }
 
 private:

@@ -23,6 +23,20 @@ inline void check_coupling(const Virtual_coupling& coupling, const Passivity_lim
                           " N s/m; ask for less, for a higher rate or for a shorter delay");
 }
 
+/// \throw Unstable_coupling for a damping, virtual mass or controller that is larger than what is stable
+inline void check_dynamics(double damping, const Inertia_parameters& inertia, double controller,
+                           const Passivity_limits& limits) {
+  const auto check = [](const char* what, const char* unit, double asked, double largest) {
+    if (asked > largest)
+      throw Unstable_coupling("the " + std::string(what) + ' ' + internal::number(asked) + ' ' + unit +
+                              " is not stable on this device; the largest that serves at this rate and delay is " +
+                              internal::number(largest) + ' ' + unit);
+  };
+  check("damping", "N s/m", damping, limits.largest_damping);
+  check("virtual mass", "kg", inertia.mass, limits.largest_mass);
+  check("damping of the passivity controller", "N s/m", controller, limits.largest_controller);
+}
+
 } // namespace haptic_sculpt
 
 #endif

@@ -8,6 +8,7 @@
 #include <haptic_sculpt/sculpting/motion/stop.h>
 #include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 #include <haptic_sculpt/surface/broad_phase/fetch_ahead.h>
+#include <haptic_sculpt/surface/broad_phase/query_up_to.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -230,10 +231,11 @@ private:
     take_candidates(anywhere, region);
   }
 
+  /// Where more is near than there is work left, the work is spent and what was found is of no use.
   void look_at(const Swept_star_3& part) {
     candidates_.clear();
-    broad_phase_->query(part, candidates_);
-    work_->spend(candidates_.size());
+    const std::size_t left = work_->left();
+    work_->spend(query_up_to(*broad_phase_, part, left, candidates_) ? candidates_.size() : left + 1);
   }
 
   /// \param part what has been looked at \param region empty for one motion alone: the next one asks again

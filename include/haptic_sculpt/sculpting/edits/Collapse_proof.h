@@ -35,11 +35,8 @@ public:
     centre_ = vertex_coordinates(*mesh_, v);
     if (is_tetrahedron())
       return Refusal<Mesh>{Refusal_reason::tetrahedron, {star_.link.begin(), star_.link.end()}};
-    candidates_.clear();
     // Whatever the pivot, the way stays in the hull of the star.
     const Box_3 box = star_.swept(centre_, centre_).box();
-    broad_phase_->query(box, candidates_);
-    list_.assign(*mesh_, *corners_of_, star_, candidates_, Box_3());
     isolated_.clear();
     for (const Vertex_index w : isolated)
       if (haptic_sculpt::contains(box, vertex_coordinates(*mesh_, w)))
@@ -54,6 +51,10 @@ public:
       return Refusal<Mesh>{Refusal_reason::doubled_edge, in_the_way};
     if (!fan_keeps_delta(pivot, delta, in_the_way))
       return Refusal<Mesh>{Refusal_reason::delta, in_the_way};
+    // Each way by itself: the box around a star that was drawn far out may hold a good part of the mesh.
+    candidates_.clear();
+    broad_phase_->query(star_.swept(centre_, star_.link_points[pivot]), candidates_);
+    list_.assign(*mesh_, *corners_of_, star_, candidates_, Box_3());
     if (!proof_.can_collapse(star_, list_, centre_, pivot, in_the_way) || !passes_isolated(pivot, in_the_way))
       return Refusal<Mesh>{Refusal_reason::blocked, in_the_way};
     return std::nullopt;

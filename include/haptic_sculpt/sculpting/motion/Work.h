@@ -37,6 +37,8 @@ public:
 
   void spend(std::size_t amount = 1) { done_ += amount; }
   bool is_spent() const { return done_ > limit_; }
+  /// So much may still be spent.
+  std::size_t left() const { return is_spent() ? 0 : limit_ - done_; }
   std::size_t done() const { return done_; }
 
   /// A search begins, or goes on, with the vertex at rest.

@@ -31,12 +31,16 @@ public:
     descend([&around](const Node& node) { return node.meeting(around); }, faces);
   }
 
-  void query(const Swept_star_3& star, std::vector<Face_index>& faces) {
+  void query(const Swept_star_3& star, std::vector<Face_index>& faces) { query(star, faces, unlimited); }
+
+  /// The same, given up when there are more than `most` faces, or about as many nodes to read on a level. Returns whether
+  /// the answer is whole.
+  bool query(const Swept_star_3& star, std::vector<Face_index>& faces, std::size_t most) {
     const internal::Star_filter filter(star);
     if (filter.is_thin())
-      descend([&filter](const Node& node) { return filter.meeting(node); }, faces);
-    else // a box costs less to ask
-      descend([&filter](const Node& node) { return node.meeting(filter.box()); }, faces);
+      return descend([&filter](const Node& node) { return filter.meeting(node); }, faces, most);
+    // a box costs less to ask
+    return descend([&filter](const Node& node) { return node.meeting(filter.box()); }, faces, most);
   }
 
   /// Visits faces about in the order of a lower bound of what is sought, until nothing is left within the limit.
@@ -159,7 +163,10 @@ private:
   /// nothing is fetched: what was guessed is much too large.
   static constexpr std::uint32_t nodes_in_cache = 1024, most_ahead = 64;
 
-  static constexpr std::size_t usual_touched = 256, usual_queue = 4096; ///< room is made for so many
+  static constexpr std::size_t usual_touched = 256, usual_queue = 8192; ///< room is made for so many
+
+  static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t few_nodes = 64; ///< of a level are read, whatever the limit of an answer
 
   const Mesh* mesh_;
   std::vector<Node> nodes_;                              ///< level by level from the root
@@ -263,17 +270,27 @@ private:
     return no_slot;
   }
 
-  /// Visits the children that pass, `passing(node)` being a mask of eight; at the lowest level they are faces.
+  /// Visits the children that pass, `passing(node)` being a mask of eight; at the lowest level they are faces. Returns
+  /// false where it was given up.
   template <class Passing>
-  void descend(const Passing& passing, std::vector<Face_index>& faces) {
+  bool descend(const Passing& passing, std::vector<Face_index>& faces, std::size_t most = unlimited) {
+    const std::size_t most_nodes = most < unlimited - few_nodes ? most + few_nodes : unlimited,
+                      first = faces.size();
     const auto found = [&faces](std::uint32_t f) { faces.push_back(Face_index(f)); };
     to_root();
-    while (level_ > 0)
+    while (level_ > 0) {
       go_down(passing);
-    for (; begin_ != end_; ++begin_)
+      if (end_ - begin_ > most_nodes)
+        return false;
+    }
+    for (; begin_ != end_; ++begin_) {
       for (unsigned mask = passing(nodes_[level_begin_[0] + queue_[begin_]]); mask != 0; mask &= mask - 1)
         found(face_of_slot_[std::size_t{queue_[begin_]} * width + internal::lowest_bit(mask)]);
+      if (faces.size() - first > most)
+        return false;
+    }
     overflow_.visit(passing, found);
+    return faces.size() - first <= most;
   }
 
   void to_root() {

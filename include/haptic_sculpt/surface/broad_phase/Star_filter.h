@@ -9,7 +9,8 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Which boxes of a node may meet what a star sweeps: those in the box around it, in the cone from its start to the
-/// target, in the cone from its link to where its centre is, and in the slab around all; where these are thin.
+/// target, in that from the end back to the start, in the cone from its link to where its centre is, and in the slab
+/// around all; where these are thin.
 class Star_filter {
 public:
   explicit Star_filter(const Swept_star_3& star) {
@@ -20,7 +21,8 @@ public:
       from_link_ = Cone_of_boxes(link, around, 1);
     if (!star.is_box) {
       from_start_ = Cone_of_boxes(Box_3(link).include(star.source), Box_3(star.target), star.until);
-      if (from_link_.is_long() || from_start_.is_long())
+      from_end_ = Cone_of_boxes(Box_3(link).include(star.target), Box_3(star.source), 1);
+      if (from_link_.is_long() || from_start_.is_long() || from_end_.is_long())
         slab_ = Slab_of_points(star);
     }
     around_ = Float_box::query(around.include(link));
@@ -30,6 +32,8 @@ public:
     unsigned mask = node.meeting(around_);
     if (mask != 0 && from_start_.is_long())
       mask &= from_start_.meeting(node);
+    if (mask != 0 && from_end_.is_long())
+      mask &= from_end_.meeting(node);
     if (mask != 0 && from_link_.is_long())
       mask &= from_link_.meeting(node);
     if (mask != 0 && slab_.is_thin())
@@ -38,11 +42,11 @@ public:
   }
 
   /// Whether there is more to it than the box.
-  bool is_thin() const { return from_start_.is_long() || from_link_.is_long() || slab_.is_thin(); }
+  bool is_thin() const { return from_start_.is_long() || from_end_.is_long() || from_link_.is_long() || slab_.is_thin(); }
   const Float_box& box() const { return around_; }
 
 private:
-  Cone_of_boxes from_start_, from_link_;
+  Cone_of_boxes from_start_, from_end_, from_link_;
   Slab_of_points slab_{Swept_star_3()};
   Float_box around_;
 };
