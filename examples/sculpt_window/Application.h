@@ -45,7 +45,7 @@ public:
   ///@{
   void on_move(double x, double y);
   void on_press(int button, bool shift, bool ctrl, bool alt); ///< 0: left, 1: right, 2: middle
-  void on_release();
+  void on_release(int button);
   void on_scroll(double notches, bool ctrl);
   void on_key(const Key& key);
   void on_drop(const std::string& path);
@@ -62,6 +62,8 @@ public:
   void draw_panels();
   void frame_done(std::uint64_t nanoseconds);
   bool is_done() const { return is_done_; }
+  /// Of the window: what is open, and whether it is saved.
+  std::string title() const { return "sculpt_window " + path_ + (is_unsaved() ? " (not saved)" : ""); }
   /// Whether a script has actions left.
   bool is_playing() const { return next_action_ < script_.size(); }
   /// A picture is due: of what has just been drawn. \return where it goes; empty: none is due

@@ -13,7 +13,7 @@ using Kind = Request::Kind;
 
 void Application::choose(Tool tool) {
   if (button_ == 0)
-    on_release();
+    on_release(0);
   choices_.tool = tool;
   point();
 }
@@ -79,10 +79,10 @@ void Application::obey(Order order) {
     break;
   case Order::save:
     std::snprintf(choices_.name.data(), choices_.name.size(), "%s", options_.out.c_str());
-    if (script_.empty())
-      choices_.question = Choices::Question::name_to_save;
-    else
+    if (is_playing()) // a script types nothing
       save(options_.out);
+    else
+      choices_.question = Choices::Question::name_to_save;
     break;
   case Order::open:
     std::snprintf(choices_.name.data(), choices_.name.size(), "%s", path_.c_str());

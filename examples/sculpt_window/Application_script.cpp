@@ -77,10 +77,11 @@ bool Application::act(const Action& action) {
     return true;
   }
   case Kind::release:
-    on_release();
+    if (button_ >= 0)
+      on_release(button_);
     return true;
   case Kind::scroll:
-    on_scroll(n[0], false);
+    on_scroll(n[0], action.word == "ctrl");
     return true;
   case Kind::key:
     on_key(*key_named(action.word));
@@ -126,7 +127,7 @@ bool Application::act(const Action& action) {
     return true;
   case Kind::settle: {
     // For some frames on end: what is seen has been drawn since. A drag may creep for ever.
-    const auto patience = std::chrono::seconds(3);
+    const auto patience = std::chrono::seconds(1);
     if (!waits_until_)
       waits_until_ = Clock::now() + patience;
     settled_frames_ = is_settled() && (!is_on_the_way() || Clock::now() > *waits_until_) ? settled_frames_ + 1 : 0;

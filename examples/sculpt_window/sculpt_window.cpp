@@ -64,8 +64,7 @@ public:
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_SAMPLES, options.samples);
-    window_ =
-        glfwCreateWindow(options.size[0], options.size[1], ("sculpt_window " + options.mesh).c_str(), nullptr, nullptr);
+    window_ = glfwCreateWindow(options.size[0], options.size[1], "sculpt_window", nullptr, nullptr);
     if (window_ == nullptr) {
       glfwTerminate();
       refuse("there is no window with OpenGL 3.3");
@@ -104,6 +103,8 @@ public:
   }
 
   void draw(Application& application) {
+    if (const std::string title = application.title(); title != title_)
+      glfwSetWindowTitle(window_, (title_ = title).c_str());
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
@@ -127,6 +128,7 @@ public:
 
 private:
   GLFWwindow* window_ = nullptr;
+  std::string title_;
 
   [[noreturn]] static void refuse(const std::string& what) {
     throw No_window("no window can be made: " + what + (glfw_says().empty() ? "" : " (" + glfw_says() + ')') +
@@ -143,7 +145,7 @@ private:
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
       if (action == GLFW_RELEASE)
-        application_of(w).on_release();
+        application_of(w).on_release(button);
       else if (!ImGui::GetIO().WantCaptureMouse && button <= GLFW_MOUSE_BUTTON_MIDDLE)
         application_of(w).on_press(button, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0,
                                    (mods & GLFW_MOD_ALT) != 0);
