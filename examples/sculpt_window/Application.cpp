@@ -239,8 +239,10 @@ void Application::draw() {
   view_.draw(status_, marks);
 }
 
-void Application::frame_done(std::uint64_t nanoseconds) {
-  frames_.add(nanoseconds);
+void Application::frame_done(const Frame_time& time) {
+  frames_.add(time.elapsed);
+  frames_of_thread_.add(time.thread);
+  frames_of_process_.add(time.process);
 }
 
 } // namespace haptic_sculpt::window_program

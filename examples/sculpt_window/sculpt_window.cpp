@@ -18,6 +18,7 @@
 #include <imgui_impl_opengl3.h>
 
 #include <csignal>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -175,6 +176,13 @@ private:
   }
 };
 
+/// ns
+std::uint64_t time_of(clockid_t clock) {
+  timespec time;
+  clock_gettime(clock, &time);
+  return static_cast<std::uint64_t>(time.tv_sec) * 1000000000u + static_cast<std::uint64_t>(time.tv_nsec);
+}
+
 int run(const Options& options) {
   std::vector<Action> script;
   if (!options.script.empty()) {
@@ -195,6 +203,7 @@ int run(const Options& options) {
     application.step();
     if (application.needs_frame()) {
       const auto begin = Clock::now();
+      const std::uint64_t thread = time_of(CLOCK_THREAD_CPUTIME_ID), process = time_of(CLOCK_PROCESS_CPUTIME_ID);
       window.draw(application);
       if (const std::string path = application.take_screenshot(); !path.empty()) {
         try {
@@ -206,8 +215,10 @@ int run(const Options& options) {
         window.show();
       } else { // a screenshot's frame is not one that a hand waits for
         window.show();
-        application.frame_done(static_cast<std::uint64_t>(
-            std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count()));
+        application.frame_done({static_cast<std::uint64_t>(
+                                    std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count()),
+                                time_of(CLOCK_THREAD_CPUTIME_ID) - thread,
+                                time_of(CLOCK_PROCESS_CPUTIME_ID) - process});
       }
     }
     std::this_thread::sleep_until(due + frame_time);
