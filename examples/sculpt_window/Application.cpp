@@ -184,6 +184,8 @@ void Application::take_reports() {
     case Report::Kind::copied:
       background_.save(report.copy, names_to_save_.front(), report.edits);
       names_to_save_.pop_front();
+      if (!names_to_save_.empty())
+        ask(request_here(Kind::copy));
       break;
     }
   }

@@ -63,6 +63,12 @@ void Application::obey(Order order) {
   case Order::weaker:
     choices_.brush.strength = std::fmax(-1, choices_.brush.strength - 0.1);
     break;
+  case Order::flip:
+    ask(request_here(Kind::flip));
+    break;
+  case Order::collapse:
+    ask(request_here(Kind::collapse));
+    break;
   case Order::undo:
     ask(request_here(Kind::undo));
     break;
@@ -149,7 +155,8 @@ void Application::save(const std::string& path) {
     return;
   }
   names_to_save_.push_back(path);
-  ask(request_here(Kind::copy));
+  if (names_to_save_.size() == 1)
+    ask(request_here(Kind::copy));
 }
 
 void Application::open(const std::string& path) {

@@ -111,6 +111,7 @@ def axis(points):
     return math.atan2(2 * xy, xx - yy) / 2
 
 
+BALL = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
 CONTACT = colorsys.rgb_to_hsv(0.93, 0.00, 0.60)[0]
 FORCE = colorsys.rgb_to_hsv(0.00, 0.62, 0.12)[0]
 
@@ -168,7 +169,7 @@ else:
     check(False, f"five lines were to be printed: {lines}")
 
 # All that a hand can do, on meshes of different kinds; the log makes the same again.
-MESHES = [("ball and moon", os.path.join(SOURCE, "examples/data/ball_and_moon.off")), ("box", cube)]
+MESHES = [("ball and moon", BALL), ("box", cube)]
 shared = os.path.join(SOURCE, "../shared/meshes")
 if os.path.isdir(shared):
     MESHES += [(name, os.path.join(shared, name)) for name in sorted(os.listdir(shared))
@@ -198,6 +199,12 @@ drag 155 115 145 107.5 6
 key u
 key u
 key shift+u
+move 152 108
+key e
+move 140 120
+key c
+move 160 118
+key e
 tool remove
 click 147.5 112.5
 orbit 70 20
@@ -212,6 +219,7 @@ save {out}
 settle
 quit
 """
+made = set()
 for name, mesh in MESHES:
     out, log = at("out.off"), at("work.log")
     for path in (out, log):
@@ -228,14 +236,29 @@ for name, mesh in MESHES:
     elif lines:
         check(lines[0]["edits"] > 0, f"{name}: nothing was edited: {lines[0]}")
         replayed(mesh, log, out, name)
+        made.update(line.split()[0] for line in open(log) if line[0] != "#")
         report = json.load(open(at("report.json")))
         check(report["frames"] > 50 and report["frame_ns"]["p99"] >= report["frame_ns"]["p50"] > 0, f"{name}: frame times: {report}")
         check(report["ticks"] > 500, f"{name}: ticks: {report}")
         check(report["uploaded"]["faces"] > 0 and report["uploaded"]["bytes"] < 108 * (report["uploaded"]["faces"] + 1100 + lines[0]["faces"] // 8),
               f"{name}: uploads: {report['uploaded']}")
 
+missing = {"drag", "insert_face", "remove", "flip", "collapse", "undo", "redo", "stroke", "end"} - made
+check(not missing, f"the logs have no line {missing}: {made}")
+
+# A log that sculpt has begun, also by remeshing, is gone on with.
+remeshed = at("remeshed.log")
+run(BALL, "--log", remeshed, "--script", "-", "-o", at("again.off"), script="remesh 0.2\n")
+lines, _ = window(BALL, "--log", remeshed, "--samples", 0, "--size", 300, 225, script=f"""
+settle
+drag 150 110 170 90 4
+save {at("further.off")}
+settle
+quit
+""", what="a remeshed log")
+replayed(BALL, remeshed, at("further.off"), "a remeshed log")
+
 # A process that is killed loses nothing: its log makes what it had done, and the same command goes on from there.
-BALL = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
 mesh = shutil.copy(BALL, at("killed.off"))
 process = start(mesh, "--samples", 0, script=f"""
 settle
