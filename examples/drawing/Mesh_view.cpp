@@ -6,9 +6,10 @@
 namespace haptic_sculpt::drawing {
 namespace {
 
-unsigned compiled(unsigned kind, const char* source) {
+unsigned compiled(unsigned kind, const std::string& source) {
   const unsigned shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &source, nullptr);
+  const char* const text = source.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
   glCompileShader(shader);
   int good = 0;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
@@ -21,6 +22,18 @@ unsigned compiled(unsigned kind, const char* source) {
                         log);
   }
   return shader;
+}
+
+unsigned linked(const std::string& vertex_source, const std::string& fragment_source) {
+  const unsigned vertex = compiled(GL_VERTEX_SHADER, vertex_source);
+  const unsigned fragment = compiled(GL_FRAGMENT_SHADER, fragment_source);
+  const unsigned program = glCreateProgram();
+  glAttachShader(program, vertex);
+  glAttachShader(program, fragment);
+  glLinkProgram(program);
+  glDeleteShader(vertex);
+  glDeleteShader(fragment);
+  return program;
 }
 
 std::vector<Corner> mesh_corners(const Scene& scene, const Camera& camera) {
@@ -54,14 +67,8 @@ std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::V
 }
 
 Mesh_view::Mesh_view() {
-  const unsigned vertex = compiled(GL_VERTEX_SHADER, vertex_shader);
-  const unsigned fragment = compiled(GL_FRAGMENT_SHADER, fragment_shader);
-  program_ = glCreateProgram();
-  glAttachShader(program_, vertex);
-  glAttachShader(program_, fragment);
-  glLinkProgram(program_);
-  glDeleteShader(vertex);
-  glDeleteShader(fragment);
+  program_ = linked(vertex_shader, fragment_shader);
+  flat_program_ = linked(flat_vertex_shader, flat_fragment_shader);
   mesh_.create();
   marks_.create();
 }
@@ -69,6 +76,7 @@ Mesh_view::Mesh_view() {
 Mesh_view::~Mesh_view() {
   marks_.destroy();
   mesh_.destroy();
+  glDeleteProgram(flat_program_);
   glDeleteProgram(program_);
 }
 
@@ -89,34 +97,37 @@ void Mesh_view::set_marks(const Scene& scene, const Camera& camera) {
   marks_.set(marks.corners());
 }
 
-int Mesh_view::uniform(const char* name) const {
-  return glGetUniformLocation(program_, name);
+void Mesh_view::use(unsigned program, const Camera& camera) const {
+  glUseProgram(program);
+  glUniformMatrix4fv(glGetUniformLocation(program, "projection"), 1, GL_FALSE,
+                     Eigen::Matrix4f(camera.projection().cast<float>()).data());
+  glUniformMatrix3fv(glGetUniformLocation(program, "rotation"), 1, GL_FALSE,
+                     Eigen::Matrix3f(camera.rotation().cast<float>()).data());
+  glUniform1f(glGetUniformLocation(program, "edge_opacity"), edge_opacity_);
 }
 
-void Mesh_view::draw_mesh(const Camera& camera, const Color& background, Passes passes) const {
+void Mesh_view::draw_mesh(const Camera& camera, const Color& background, Faces faces) const {
   glViewport(0, 0, camera.width(), camera.height());
   glClearColor(background.x(), background.y(), background.z(), 1);
   glDepthMask(GL_TRUE);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_MULTISAMPLE);
-  glUseProgram(program_);
-  glUniformMatrix4fv(uniform("projection"), 1, GL_FALSE, Eigen::Matrix4f(camera.projection().cast<float>()).data());
-  glUniformMatrix3fv(uniform("rotation"), 1, GL_FALSE, Eigen::Matrix3f(camera.rotation().cast<float>()).data());
-  glUniform1f(uniform("opacity"), 1);
-
-  glUniform1i(uniform("with_edges"), 1);
-  glUniform1f(uniform("edge_opacity"), edge_opacity_);
   glDisable(GL_BLEND);
   glDepthFunc(GL_LESS);
-  if (passes == Passes::one) {
-    glDisable(GL_CULL_FACE);
+  glEnable(GL_CULL_FACE);
+  if (faces == Faces::outside) {
+    use(flat_program_, camera);
+    glCullFace(GL_BACK);
     mesh_.draw();
+    glDisable(GL_CULL_FACE);
     return;
   }
+  use(program_, camera);
+  glUniform1f(glGetUniformLocation(program_, "opacity"), 1);
+  glUniform1i(glGetUniformLocation(program_, "with_edges"), 1);
   // Faces in contact are nearer to each other than depths can be told apart, and what is seen would change from pixel to pixel.
   // One of the two is seen from inside, wherever the surface is closed and faces outwards: it is put behind the other.
-  glEnable(GL_CULL_FACE);
   glCullFace(GL_FRONT);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2, 32);
@@ -127,19 +138,21 @@ void Mesh_view::draw_mesh(const Camera& camera, const Color& background, Passes 
   glDisable(GL_CULL_FACE);
 }
 
-void Mesh_view::draw_marks() const {
-  glUniform1i(uniform("with_edges"), 0);
+void Mesh_view::draw_marks(const Camera& camera) const {
+  use(program_, camera);
+  glUniform1i(glGetUniformLocation(program_, "with_edges"), 0);
+  const int opacity = glGetUniformLocation(program_, "opacity");
   glEnable(GL_CULL_FACE); // the back of a mark would shine through it twice
   glCullFace(GL_BACK);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_GREATER); // what the surface hides
-  glUniform1f(uniform("opacity"), 0.3f);
+  glUniform1f(opacity, 0.3f);
   marks_.draw();
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS); // what it does not
-  glUniform1f(uniform("opacity"), 1);
+  glUniform1f(opacity, 1);
   marks_.draw();
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);

@@ -31,26 +31,26 @@ public:
   /// For who changes the mesh triangle by triangle (corners_of()).
   Triangle_buffer& mesh() { return mesh_; }
 
-  /// Whether faces seen from inside are put behind those seen from outside, by drawing all twice. \see draw_mesh
-  enum class Passes { two, one };
+  /// Which faces are drawn: all of any mesh; or those seen from outside, in a quarter of the time, where faces are flat.
+  /// Of a closed surface that faces outwards no others are to be seen.
+  enum class Faces { all, outside };
 
   /// Clears the framebuffer to `background` and draws.
-  void draw(const Camera& camera, const Color& background, Passes passes = Passes::two) const {
-    draw_mesh(camera, background, passes);
-    draw_marks();
+  void draw(const Camera& camera, const Color& background, Faces faces = Faces::all) const {
+    draw_mesh(camera, background, faces);
+    draw_marks(camera);
   }
-  /// Clears and draws the mesh alone. In one pass it is a little faster, and what is seen of faces in contact may change
-  /// from pixel to pixel.
-  void draw_mesh(const Camera& camera, const Color& background, Passes passes = Passes::two) const;
+  /// Clears and draws the mesh alone.
+  void draw_mesh(const Camera& camera, const Color& background, Faces faces = Faces::all) const;
 
 private:
-  unsigned program_ = 0;
+  unsigned program_ = 0, flat_program_ = 0; ///< for anything; for flat faces seen from outside
   float edge_opacity_ = Scene().edge_opacity;
   Triangle_buffer mesh_, marks_;
 
   /// \pre the mesh has just been drawn
-  void draw_marks() const;
-  int uniform(const char* name) const;
+  void draw_marks(const Camera& camera) const;
+  void use(unsigned program, const Camera& camera) const;
 };
 
 } // namespace haptic_sculpt::drawing

@@ -2,49 +2,101 @@
 #ifndef HAPTIC_SCULPT_DRAWING_SHADERS_H
 #define HAPTIC_SCULPT_DRAWING_SHADERS_H
 
+#include <string>
+
 namespace haptic_sculpt::drawing {
 
-/// Places a corner, and numbers the three corners of its triangle, which share no vertices, by barycentric coordinates.
-inline const char* const vertex_shader = R"(#version 330 core
+/// The parts of which the programs for the graphics card are put together. Software runs them, too (llvmpipe), and then
+/// every operation on a pixel is felt.
+namespace shader_parts {
+
+inline const std::string version = "#version 330 core\n";
+
+/// What is given for each corner. The three corners of a triangle, which share no vertices, are numbered by the
+/// barycentric coordinates `barycentric()`.
+inline const std::string corner = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 color;
 uniform mat4 projection;
 uniform mat3 rotation;
-out vec3 eye_normal, corner_color, barycentric;
-void main() {
-  gl_Position = projection * vec4(position, 1);
-  eye_normal = rotation * normal;
-  corner_color = color;
-  barycentric = vec3(0);
-  barycentric[gl_VertexID % 3] = 1;
-})";
+vec3 barycentric() {
+  vec3 result = vec3(0);
+  result[gl_VertexID % 3] = 1;
+  return result;
+}
+)";
 
-/// Lights a face or mark, and draws a face's edges over it.
-///
-/// The gradient of a barycentric coordinate is 1 / the triangle's height in pixels, so `barycentric / gradient` is the
-/// distance to an edge in pixels.
-inline const char* const fragment_shader = R"(#version 330 core
-in vec3 eye_normal, corner_color, barycentric;
-uniform bool with_edges;
-uniform float opacity, edge_opacity;
-out vec4 result;
-void main() {
-  vec3 n = normalize(gl_FrontFacing ? eye_normal : -eye_normal);
-  vec3 base = gl_FrontFacing || !with_edges ? corner_color : vec3(0.93, 0.60, 0.68);
+/// The colour of a place under two lights that stay beside the eye. \pre n has length 1, in axes of the eye
+inline const std::string lights = R"(
+vec3 lit(vec3 base, vec3 n) {
   vec3 key = normalize(vec3(-0.45, 0.75, 0.70)), fill = normalize(vec3(0.80, -0.10, 0.55));
   // Light adds up in linear intensities; squares and roots stand for the screen's gamma of 2.2.
   vec3 light = mix(vec3(0.20, 0.19, 0.20), vec3(0.30, 0.32, 0.36), 0.5 + 0.5 * n.y);
   light += vec3(0.74, 0.72, 0.68) * max(dot(n, key), 0) + vec3(0.16, 0.18, 0.22) * max(dot(n, fill), 0);
   float shine = 0.06 * pow(max(dot(n, normalize(key + vec3(0, 0, 1))), 0), 40);
-  vec3 shaded = sqrt(base * base * light + shine);
-  if (with_edges) {
-    vec3 gradient = max(sqrt(dFdx(barycentric) * dFdx(barycentric) + dFdy(barycentric) * dFdy(barycentric)), 1e-12);
-    vec3 line = (1 - smoothstep(0.25, 1.15, barycentric / gradient)) * smoothstep(3, 14, 1 / gradient);
-    shaded = mix(shaded, vec3(0.13, 0.17, 0.24), edge_opacity * max(line.x, max(line.y, line.z)));
-  }
+  return sqrt(base * base * light + shine);
+}
+)";
+
+/// A colour with a face's edges over it.
+///
+/// The gradient of a barycentric coordinate is 1 / the triangle's height in pixels, so `barycentric / gradient` is the
+/// distance to an edge in pixels. Lines fade where triangles are too small for them.
+inline const std::string edges = R"(
+uniform float edge_opacity;
+vec3 with_edges_over(vec3 shaded, vec3 barycentric) {
+  vec3 right = dFdx(barycentric), up = dFdy(barycentric);
+  vec3 height = inversesqrt(max(right * right + up * up, 1e-24));
+  vec3 line = (1 - smoothstep(0.25, 1.15, barycentric * height)) * smoothstep(3, 14, height);
+  return mix(shaded, vec3(0.13, 0.17, 0.24), edge_opacity * max(line.x, max(line.y, line.z)));
+}
+)";
+
+} // namespace shader_parts
+
+/// \name Any mesh and marks: normals and colours may differ from corner to corner, and faces are seen from both sides
+///@{
+inline const std::string vertex_shader = shader_parts::version + shader_parts::corner + R"(
+out vec3 eye_normal, corner_color, place;
+void main() {
+  gl_Position = projection * vec4(position, 1);
+  eye_normal = rotation * normal;
+  corner_color = color;
+  place = barycentric();
+})";
+inline const std::string fragment_shader = shader_parts::version + shader_parts::lights + shader_parts::edges + R"(
+in vec3 eye_normal, corner_color, place;
+uniform bool with_edges;
+uniform float opacity;
+out vec4 result;
+void main() {
+  vec3 n = normalize(gl_FrontFacing ? eye_normal : -eye_normal);
+  vec3 shaded = lit(gl_FrontFacing || !with_edges ? corner_color : vec3(0.93, 0.60, 0.68), n);
+  if (with_edges)
+    shaded = with_edges_over(shaded, place);
   result = vec4(shaded, opacity);
 })";
+///@}
+
+/// \name A mesh of flat faces that are seen from outside: the same picture of it, lit once a corner instead of once a pixel
+///@{
+inline const std::string flat_vertex_shader = shader_parts::version + shader_parts::corner + shader_parts::lights + R"(
+flat out vec3 face_color;
+noperspective out vec2 place;
+void main() {
+  gl_Position = projection * vec4(position, 1);
+  face_color = lit(color, normalize(rotation * normal));
+  place = barycentric().xy;
+})";
+inline const std::string flat_fragment_shader = shader_parts::version + shader_parts::edges + R"(
+flat in vec3 face_color;
+noperspective in vec2 place;
+out vec4 result;
+void main() {
+  result = vec4(with_edges_over(face_color, vec3(place, 1 - place.x - place.y)), 1);
+})";
+///@}
 
 } // namespace haptic_sculpt::drawing
 

@@ -109,7 +109,7 @@ public:
     else if (first == "drag")
       drag();
     else if (first == "scroll")
-      add(Kind::scroll).numbers[0] = line_.number("a number of notches");
+      scroll();
     else if (first == "key")
       key();
     else if (first == "view")
@@ -201,6 +201,16 @@ private:
     }
     add(Kind::settle);
     add(Kind::release);
+  }
+  /// scroll NOTCHES [ctrl]
+  void scroll() {
+    Action& action = add(Kind::scroll);
+    action.numbers[0] = line_.number("a number of notches");
+    if (const auto more = line_.next()) {
+      if (*more != "ctrl")
+        line_.fail("'" + *more + "' is not ctrl");
+      action.word = *more;
+    }
   }
   void key() {
     Action& action = add(Kind::key);

@@ -46,7 +46,7 @@ struct Action {
   std::size_t line = 0;
   Spot spot, to; ///< move: from `spot` by `share` of the way to `to`
   double share = 0;
-  std::string word; ///< key, file, tool, kind of brush; press: button and modifiers
+  std::string word; ///< key, file, tool, kind of brush; press: button and modifiers; scroll: its modifier
   std::array<double, 3> numbers{};
 };
 

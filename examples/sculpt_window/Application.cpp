@@ -11,8 +11,6 @@ using Hold = Status::Hold;
 Application::Application(const Options& options, std::vector<Action> script)
     : options_(options), script_(std::move(script)) {
   choices_.name.fill(0);
-  if (!options_.record.empty())
-    record(options_.record);
 }
 
 Application::~Application() {
@@ -22,6 +20,8 @@ Application::~Application() {
 
 void Application::open_first(int width, int height) {
   view_size_ = {width, height};
+  if (!options_.record.empty())
+    record(options_.record);
   enter(window_program::open(options_.mesh, options_.log_of(options_.mesh)));
 }
 
@@ -103,13 +103,13 @@ void Application::on_move(double x, double y) {
 }
 
 void Application::on_press(int button, bool shift, bool ctrl, bool alt) {
+  if (button_ >= 0 || !view_.has_mesh())
+    return; // one at a time
   note("press %s%s%s%s",
        button == 0   ? "left"
        : button == 1 ? "right"
                      : "middle",
        shift ? " shift" : "", ctrl ? " ctrl" : "", alt ? " alt" : "");
-  if (button_ >= 0 || !view_.has_mesh())
-    return;
   button_ = button, shifts_ = ctrl;
   is_along_normal_ = button == 0 && (shift || alt);
   if (button == 0) {
@@ -120,16 +120,18 @@ void Application::on_press(int button, bool shift, bool ctrl, bool alt) {
   }
 }
 
-void Application::on_release() {
+void Application::on_release(int button) {
+  if (button_ != button)
+    return; // another one, or pressed on a panel
   note("release");
-  if (button_ == 0)
+  if (button == 0)
     ask(request_here(Kind::let_go));
   button_ = -1;
   is_along_normal_ = false;
 }
 
 void Application::on_scroll(double notches, bool ctrl) {
-  note("scroll %.17g", notches);
+  note("scroll %.17g%s", notches, ctrl ? " ctrl" : "");
   if (!view_.has_mesh())
     return;
   if (ctrl)
@@ -140,12 +142,15 @@ void Application::on_scroll(double notches, bool ctrl) {
 }
 
 void Application::on_key(const Key& key) {
-  note("key %s", key.name);
+  // What a dialogue asks for is noted when it is answered; and a recording does not record.
+  if (is_playing() || (key.order != Order::save && key.order != Order::open && key.order != Order::record))
+    note("key %s", key.name);
   if (choices_.question == Choices::Question::none || key.order == Order::let_go)
     obey(key.order);
 }
 
 void Application::on_drop(const std::string& path) {
+  note("open %s", path.c_str());
   open(path);
 }
 
@@ -179,6 +184,8 @@ void Application::take_reports() {
     case Report::Kind::copied:
       background_.save(report.copy, names_to_save_.front(), report.edits);
       names_to_save_.pop_front();
+      if (!names_to_save_.empty())
+        ask(request_here(Kind::copy));
       break;
     }
   }
@@ -234,8 +241,10 @@ void Application::draw() {
   view_.draw(status_, marks);
 }
 
-void Application::frame_done(std::uint64_t nanoseconds) {
-  frames_.add(nanoseconds);
+void Application::frame_done(const Frame_time& time) {
+  frames_.add(time.elapsed);
+  frames_of_thread_.add(time.thread);
+  frames_of_process_.add(time.process);
 }
 
 } // namespace haptic_sculpt::window_program

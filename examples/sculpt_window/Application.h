@@ -45,7 +45,7 @@ public:
   ///@{
   void on_move(double x, double y);
   void on_press(int button, bool shift, bool ctrl, bool alt); ///< 0: left, 1: right, 2: middle
-  void on_release();
+  void on_release(int button);
   void on_scroll(double notches, bool ctrl);
   void on_key(const Key& key);
   void on_drop(const std::string& path);
@@ -60,8 +60,14 @@ public:
   /// Draws the scene; panels.cpp draws the panels over it.
   void draw();
   void draw_panels();
-  void frame_done(std::uint64_t nanoseconds);
+  /// How long a frame took, in nanoseconds: of time, and of processors, this thread's and all threads'.
+  struct Frame_time {
+    std::uint64_t elapsed, thread, process;
+  };
+  void frame_done(const Frame_time& time);
   bool is_done() const { return is_done_; }
+  /// Of the window: what is open, and whether it is saved.
+  std::string title() const { return "sculpt_window " + path_ + (is_unsaved() ? " (not saved)" : ""); }
   /// Whether a script has actions left.
   bool is_playing() const { return next_action_ < script_.size(); }
   /// A picture is due: of what has just been drawn. \return where it goes; empty: none is due
@@ -101,7 +107,7 @@ private:
   Eigen::Vector3d pivot_ = Eigen::Vector3d::Zero();
 
   std::deque<std::pair<Clock::time_point, std::string>> messages_;
-  Tick_statistics frames_;
+  Tick_statistics frames_, frames_of_thread_, frames_of_process_;
   int frames_due_ = 3;
   Clock::time_point last_frame_{};
   bool is_done_ = false, has_failed_to_write_ = false, quits_after_save_ = false, discards_ = false;

@@ -13,7 +13,7 @@ using Kind = Request::Kind;
 
 void Application::choose(Tool tool) {
   if (button_ == 0)
-    on_release();
+    on_release(0);
   choices_.tool = tool;
   point();
 }
@@ -63,6 +63,12 @@ void Application::obey(Order order) {
   case Order::weaker:
     choices_.brush.strength = std::fmax(-1, choices_.brush.strength - 0.1);
     break;
+  case Order::flip:
+    ask(request_here(Kind::flip));
+    break;
+  case Order::collapse:
+    ask(request_here(Kind::collapse));
+    break;
   case Order::undo:
     ask(request_here(Kind::undo));
     break;
@@ -79,10 +85,10 @@ void Application::obey(Order order) {
     break;
   case Order::save:
     std::snprintf(choices_.name.data(), choices_.name.size(), "%s", options_.out.c_str());
-    if (script_.empty())
-      choices_.question = Choices::Question::name_to_save;
-    else
+    if (is_playing()) // a script types nothing
       save(options_.out);
+    else
+      choices_.question = Choices::Question::name_to_save;
     break;
   case Order::open:
     std::snprintf(choices_.name.data(), choices_.name.size(), "%s", path_.c_str());
@@ -149,7 +155,8 @@ void Application::save(const std::string& path) {
     return;
   }
   names_to_save_.push_back(path);
-  ask(request_here(Kind::copy));
+  if (names_to_save_.size() == 1)
+    ask(request_here(Kind::copy));
 }
 
 void Application::open(const std::string& path) {

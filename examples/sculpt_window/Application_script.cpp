@@ -18,6 +18,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Percentiles percentiles_of(const Tick_statistics& times) {
+  return {times.percentile(0.5), times.percentile(0.99), times.percentile(0.999), times.largest()};
+}
+
 Json times_of(const Percentiles& p) {
   return {{"p50", p.p50}, {"p99", p.p99}, {"p999", p.p999}, {"max", p.largest}};
 }
@@ -77,10 +81,11 @@ bool Application::act(const Action& action) {
     return true;
   }
   case Kind::release:
-    on_release();
+    if (button_ >= 0)
+      on_release(button_);
     return true;
   case Kind::scroll:
-    on_scroll(n[0], false);
+    on_scroll(n[0], action.word == "ctrl");
     return true;
   case Kind::key:
     on_key(*key_named(action.word));
@@ -126,7 +131,7 @@ bool Application::act(const Action& action) {
     return true;
   case Kind::settle: {
     // For some frames on end: what is seen has been drawn since. A drag may creep for ever.
-    const auto patience = std::chrono::seconds(3);
+    const auto patience = std::chrono::seconds(1);
     if (!waits_until_)
       waits_until_ = Clock::now() + patience;
     settled_frames_ = is_settled() && (!is_on_the_way() || Clock::now() > *waits_until_) ? settled_frames_ + 1 : 0;
@@ -247,13 +252,13 @@ int Application::finish() {
         destroy(report.model, keeps), has_left = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  const Percentiles frames{frames_.percentile(0.5), frames_.percentile(0.99), frames_.percentile(0.999),
-                           frames_.largest()};
+  const Percentiles frames = percentiles_of(frames_), of_process = percentiles_of(frames_of_process_);
   const auto ms = [](std::uint64_t ns) { return double(ns) / 1e6; };
-  std::printf("%llu frames: median %.2f ms, 99 %% within %.2f ms, longest %.2f ms; %zu bytes uploaded for %zu changed "
-              "faces\n",
+  std::printf("%llu frames: median %.2f ms, 99 %% within %.2f ms, longest %.2f ms (%.2f, %.2f, %.2f ms of all "
+              "processors); %zu bytes uploaded for %zu changed faces\n",
               static_cast<unsigned long long>(frames_.number()), ms(frames.p50), ms(frames.p99), ms(frames.largest),
-              view_.uploaded_bytes(), view_.uploaded_faces());
+              ms(of_process.p50), ms(of_process.p99), ms(of_process.largest), view_.uploaded_bytes(),
+              view_.uploaded_faces());
   std::printf(
       "%llu ticks: median %.3f ms, 99 %% within %.3f ms, longest %.3f ms; %llu missed by work, %llu woken late\n",
       static_cast<unsigned long long>(last.ticks), ms(last.work.p50), ms(last.work.p99), ms(last.work.largest),
@@ -262,6 +267,8 @@ int Application::finish() {
     const Json report = {{"version", HAPTIC_SCULPT_VERSION},
                          {"frames", frames_.number()},
                          {"frame_ns", times_of(frames)},
+                         {"frame_thread_cpu_ns", times_of(percentiles_of(frames_of_thread_))},
+                         {"frame_process_cpu_ns", times_of(of_process)},
                          {"uploaded", {{"bytes", view_.uploaded_bytes()}, {"faces", view_.uploaded_faces()}}},
                          {"ticks", last.ticks},
                          {"tick_ns", times_of(last.work)},

@@ -23,7 +23,7 @@ std::optional<Opened> Background::take_opened() {
   return opening_.get();
 }
 
-void Background::save(void* copy, const std::string& path, std::uint64_t edits) {
+void Background::save(Scene_copy* copy, const std::string& path, std::uint64_t edits) {
   saving_.push_back(std::async(std::launch::async, [=] {
     Saved saved{path, edits, {}, nullptr};
     try {

@@ -66,16 +66,23 @@ public:
     return noted(model_->sculptor->insert_on_face(f, p), line);
   }
   Edited insert_on_edge(Mesh::Edge_index e, const Kernel::Point_3& p) {
-    Logged_edit line = with_point({Kind::insert_edge, 2, true}, p);
     // From source to target: a Surface_mesh edge knows its direction, and new faces get their indices by it.
-    const auto h = model_->mesh.halfedge(e);
-    line.index = {model_->sculptor->name(model_->mesh.source(h)), model_->sculptor->name(model_->mesh.target(h))};
+    const Logged_edit line = with_point(with_ends({Kind::insert_edge, 2, true}, model_->mesh.halfedge(e)), p);
     return noted(model_->sculptor->insert_on_edge(e, p), line);
   }
   Edited remove(Vertex_index v) {
     Logged_edit line{Kind::remove, 1};
     line.index[0] = model_->sculptor->name(v);
     return noted(model_->sculptor->remove(v), line);
+  }
+  Edited flip(Mesh::Edge_index e) {
+    const Logged_edit line = with_ends({Kind::flip, 2}, model_->mesh.halfedge(e));
+    return noted(model_->sculptor->flip(e), line);
+  }
+  /// Draws the source into the target.
+  Edited collapse(Mesh::Halfedge_index h) {
+    const Logged_edit line = with_ends({Kind::collapse, 2}, h);
+    return noted(model_->sculptor->collapse(h), line);
   }
   Edited undo() { return noted(model_->sculptor->undo(), {Kind::undo}); }
   Edited redo() { return noted(model_->sculptor->redo(), {Kind::redo}); }
@@ -103,6 +110,10 @@ private:
 
   static Logged_edit with_point(Logged_edit line, const Kernel::Point_3& p) {
     line.point = {p.x(), p.y(), p.z()};
+    return line;
+  }
+  Logged_edit with_ends(Logged_edit line, Mesh::Halfedge_index h) const {
+    line.index = {model_->sculptor->name(model_->mesh.source(h)), model_->sculptor->name(model_->mesh.target(h)), 0};
     return line;
   }
   void log(const Logged_edit& line) {

@@ -84,6 +84,15 @@ public:
     is_pointed_at_known_ = false; // what was pointed at may be another face now
   }
 
+  std::string flip(const Request& request) {
+    return edit_pointed_edge(request, "the edge cannot be flipped: ", [this](Mesh::Halfedge_index h) {
+      return editor_.flip(model_->mesh.edge(h));
+    });
+  }
+  std::string collapse(const Request& request) {
+    return edit_pointed_edge(
+        request, "the edge cannot be collapsed: ", [this](Mesh::Halfedge_index h) { return editor_.collapse(h); });
+  }
   std::string undo() {
     let_go();
     return refusal(editor_.undo(), "nothing is undone: ");
@@ -156,20 +165,54 @@ private:
     return best;
   }
 
-  /// Nearer to an edge than a twentieth of the face's altitude: on the edge; else it would leave a sliver.
-  Editor::Edited create(const Surface_hit<Mesh>& hit) {
-    if (hit.feature == Surface_feature::edge)
-      return editor_.insert_on_edge(hit.edge, hit.point);
+  /// Of the face that is met: the edge that is nearest, and how near, in parts of the face's altitude on it.
+  std::pair<Mesh::Halfedge_index, double> nearest_edge(const Surface_hit<Mesh>& hit) const {
     const Mesh& mesh = model_->mesh;
     auto h = mesh.halfedge(hit.face);
+    std::pair<Mesh::Halfedge_index, double> nearest{h, std::numeric_limits<double>::infinity()};
     const Eigen::Vector3d p = internal::vector_of(hit.point);
     for (int i = 0; i < 3; ++i, h = mesh.next(h)) {
       const Eigen::Vector3d a = internal::vector_of(mesh.point(mesh.source(h))),
                             b = internal::vector_of(mesh.point(mesh.target(h))),
                             c = internal::vector_of(mesh.point(mesh.target(mesh.next(h))));
-      if ((b - a).cross(p - a).norm() < 0.05 * (b - a).cross(c - a).norm())
-        return editor_.insert_on_edge(mesh.edge(h), hit.point);
+      const double height = (b - a).cross(p - a).norm() / (b - a).cross(c - a).norm();
+      if (height < nearest.second)
+        nearest = {h, height};
     }
+    return nearest;
+  }
+  /// From the end that is nearer to where the mouse points. \return the null index where it points at none
+  Mesh::Halfedge_index pointed_edge() {
+    const auto hit = pointed();
+    if (!hit || hit->feature == Surface_feature::vertex)
+      return {};
+    const Mesh& mesh = model_->mesh;
+    const auto h = hit->feature == Surface_feature::edge ? mesh.halfedge(hit->edge) : nearest_edge(*hit).first;
+    return CGAL::squared_distance(mesh.point(mesh.target(h)), hit->point) <
+                   CGAL::squared_distance(mesh.point(mesh.source(h)), hit->point)
+               ? mesh.opposite(h)
+               : h;
+  }
+  /// Makes an edit of it. \return why it was refused; empty: it was not
+  template <class Edit>
+  std::string edit_pointed_edge(const Request& request, const char* refused, const Edit& edit) {
+    let_go();
+    pointer_ = request.pointer;
+    const auto h = pointed_edge();
+    if (!h.is_valid())
+      return "there is no edge here: point at one, on the surface";
+    if (!editor_.has_room(64))
+      return "the disk is behind with the log; wait a moment";
+    return refusal(edit(h), refused);
+  }
+
+  /// Nearer to an edge than a twentieth of the face's altitude: on the edge; else it would leave a sliver.
+  Editor::Edited create(const Surface_hit<Mesh>& hit) {
+    if (hit.feature == Surface_feature::edge)
+      return editor_.insert_on_edge(hit.edge, hit.point);
+    const auto [h, height] = nearest_edge(hit);
+    if (height < 0.05)
+      return editor_.insert_on_edge(model_->mesh.edge(h), hit.point);
     return editor_.insert_on_face(hit.face, hit.point);
   }
 
@@ -310,6 +353,7 @@ inline void Hand::tell(Status& status) {
   status.redo_steps = sculptor.history().number_of_redo_steps();
   status.vertices = model_->mesh.number_of_vertices();
   status.faces = model_->mesh.number_of_faces();
+  status.vertex_slots = model_->mesh.num_vertices(), status.face_slots = model_->mesh.num_faces();
   status.edits = model_->edits;
   status.dirty_faces = model_->dirty.size();
   status.brush_left = brush_.left();

@@ -5,6 +5,7 @@
 #include "Log_thread.h"
 #include "exchange.h"
 
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_teller.h>
 #include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
 #include <haptic_sculpt/sculpting.h>
 
@@ -44,8 +45,9 @@ private:
   std::size_t next_ = 0;
 };
 
-/// What the Sculptor tells: faces become dirty, and moves are listed where a caller asks for them.
-struct Face_watch : Default_edit_visitor {
+/// What the Sculptor tells: faces become dirty, moves are listed where a caller asks for them, and a copy under way
+/// (Scene_teller) follows.
+struct Face_watch : Scene_teller<Mesh> {
   struct Move {
     Vertex_index vertex;
     Kernel::Point_3 point;
@@ -54,17 +56,25 @@ struct Face_watch : Default_edit_visitor {
   Dirty_faces* dirty;
   std::vector<Move>* moves = nullptr;
 
-  Face_watch(const Mesh& mesh, Dirty_faces& dirty) : mesh(&mesh), dirty(&dirty) {}
+  Face_watch(const Mesh& mesh, Dirty_faces& dirty)
+      : Scene_teller<Mesh>(mesh, Vertex_index()), mesh(&mesh), dirty(&dirty) {} // no vertex is a probe
 
   void vertex_moved(Vertex_index v) {
+    Scene_teller<Mesh>::vertex_moved(v);
     for (const Face_index f : mesh->faces_around_target(mesh->halfedge(v)))
       if (f.is_valid())
         dirty->mark(f);
     if (moves != nullptr)
       moves->push_back({v, mesh->point(v)});
   }
-  void face_dies(Face_index f) { dirty->mark(f); }
-  void face_created(Face_index f) { dirty->mark(f); }
+  void face_dies(Face_index f) {
+    Scene_teller<Mesh>::face_dies(f);
+    dirty->mark(f);
+  }
+  void face_created(Face_index f) {
+    Scene_teller<Mesh>::face_created(f);
+    dirty->mark(f);
+  }
 };
 
 /// A mesh, its Sculptor and its log. Made by a thread that may take its time, then the loop's alone.
@@ -99,18 +109,12 @@ struct Model {
   double extent() const { return (upper - lower).norm(); }
 };
 
-/// The mesh of a moment, to be written by a thread that may take its time.
-struct Mesh_copy {
-  Mesh mesh;
-  std::vector<Validity_report::Vertex_index> order; ///< of the vertices' numbers
-};
-
 /// Reads, checks, and makes again what a log has of it. \param log its path; empty: none
 /// \throw what reading meshes and logs throws
 std::unique_ptr<Model> open_model(const std::string& path, const std::string& log);
 
 /// Writes by the rules of `sculpt -o`. \return what of an old file could not be kept \throw Write_error
-std::string write_copy(const Mesh_copy& copy, const std::string& path);
+std::string write_copy(const Scene_copy& copy, const std::string& path);
 
 } // namespace haptic_sculpt::window_program
 

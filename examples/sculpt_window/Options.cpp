@@ -25,7 +25,7 @@ std::string lists() {
   return text +
          "Script, one action a line; # comments; PLACE is X Y in pixels from the upper left, or @X,Y,Z of the mesh:\n"
          "  move PLACE | press left|right|middle [shift|ctrl|alt] | release | click PLACE\n"
-         "  drag PLACE PLACE [STEPS] [normal|right|middle] | scroll NOTCHES | key NAME\n"
+         "  drag PLACE PLACE [STEPS] [normal|right|middle] | scroll NOTCHES [ctrl] | key NAME\n"
          "  view X Y Z | orbit DEGREES DEGREES | zoom FACTOR | fit\n"
          "  tool drag|probe|create|remove|brush | brush KIND RADIUS [STRENGTH] | depth LENGTH\n"
          "  wait SECONDS | settle | screenshot FILE | save FILE | open FILE | record FILE\n"

@@ -33,17 +33,22 @@ Percentiles percentiles_of(const Tick_statistics& times) {
 
 struct Sculpting_thread::Parts {
   static constexpr std::size_t faces_a_tick = 1000;
+  static constexpr std::size_t copied_a_tick = 1000; ///< elements, about 30 microseconds
 
   boost::lockfree::spsc_queue<Request> requests{1024};
   boost::lockfree::spsc_queue<Face_change> changes{std::size_t(1) << 16};
   boost::lockfree::spsc_queue<Report> reports{256};
   Latest<Status> latest;
   std::atomic<bool> ends{false};
-  std::uint64_t asked = 0; ///< the window's
+  // The window's:
+  std::uint64_t asked = 0;
+  std::uint32_t entered = 0;                           ///< models
+  std::size_t entered_vertices = 0, entered_faces = 0; ///< slots of the last of them
 
   // The loop's:
   Model* model = nullptr;
   std::optional<Hand> hand;
+  Scene_copy* copying = nullptr; ///< under way
   Status status;
   Tick_statistics work, lateness;
   std::thread thread;
@@ -52,7 +57,9 @@ struct Sculpting_thread::Parts {
     Report report;
     report.kind = kind;
     std::strncpy(report.text.data(), text.c_str(), report.text.size() - 1);
-    reports.push(report); // a full ring: the window has 256 messages to show already
+    const std::size_t spare = 16; // for what must not be lost
+    if (reports.write_available() > spare)
+      reports.push(report); // else the window has 240 messages to show already
   }
 
   void answer(const Request& request) {
@@ -66,6 +73,8 @@ struct Sculpting_thread::Parts {
   void enter(Model* next) {
     if (hand)
       hand->let_go();
+    while (copying != nullptr) // what was asked for comes: nobody's hand is there to wait for the tick
+      copy_on();
     hand.reset();
     if (model != nullptr) {
       Report report;
@@ -92,6 +101,12 @@ struct Sculpting_thread::Parts {
     case Request::Kind::let_go:
       hand->let_go();
       break;
+    case Request::Kind::flip:
+      refused = hand->flip(request);
+      break;
+    case Request::Kind::collapse:
+      refused = hand->collapse(request);
+      break;
     case Request::Kind::undo:
       refused = hand->undo();
       break;
@@ -102,7 +117,9 @@ struct Sculpting_thread::Parts {
       model->sculptor->set_response(request.response == 0 ? Response::slide : Response::stop);
       break;
     case Request::Kind::copy:
-      copy();
+      copying = request.copy;
+      copying->begin();
+      model->sculptor->visitor().tell_to(copying);
       break;
     default:
       break;
@@ -111,13 +128,13 @@ struct Sculpting_thread::Parts {
       say(Report::Kind::refused, refused);
   }
 
-  void copy() {
-    auto* const copy = new Mesh_copy{model->mesh, {}};
-    for (std::size_t name = 0; name < model->sculptor->number_of_names(); ++name)
-      if (const auto v = model->sculptor->vertex(name); v.is_valid())
-        copy->order.emplace_back(static_cast<Mesh::size_type>(v));
+  /// A part of the copy under way. The hand goes on meanwhile, and what it changes is in the copy, too.
+  void copy_on() {
+    if (copying == nullptr || !copying->copy_some(*model->sculptor, Vertex_index(), copied_a_tick))
+      return;
+    model->sculptor->visitor().tell_to(static_cast<Scene_copy*>(nullptr));
     Report report;
-    report.kind = Report::Kind::copied, report.copy = copy, report.edits = model->edits;
+    report.kind = Report::Kind::copied, report.copy = std::exchange(copying, nullptr), report.edits = model->edits;
     reports.push(report);
   }
 
@@ -140,6 +157,7 @@ struct Sculpting_thread::Parts {
     if (!hand)
       return;
     hand->move();
+    copy_on();
     tell_faces();
     hand->tell(status);
   }
@@ -181,14 +199,31 @@ Sculpting_thread::Sculpting_thread() : parts_(std::make_unique<Parts>()) {
 Sculpting_thread::~Sculpting_thread() {
   parts_->ends = true;
   parts_->thread.join();
+  delete parts_->copying;
   parts_->hand.reset();
   destroy(parts_->model, true);
 }
 
 std::uint64_t Sculpting_thread::ask(Request request) {
   request.number = parts_->asked + 1;
+  std::unique_ptr<Scene_copy> copy;
+  if (request.kind == Request::Kind::copy) {
+    // While it is filled, and while this request waits, each tick may create a vertex, and two faces with it.
+    std::size_t vertices = parts_->entered_vertices, faces = parts_->entered_faces;
+    if (const Status& now = status(); now.scene == parts_->entered)
+      vertices = std::max(vertices, now.vertex_slots), faces = std::max(faces, now.face_slots);
+    const std::size_t ticks = (vertices + faces) / Parts::copied_a_tick + 2048;
+    copy = std::make_unique<Scene_copy>(vertices + ticks, faces + 2 * ticks);
+    request.copy = copy.get();
+  }
+  Mesh::size_type vertices = 0, faces = 0; // of a model: once it is handed over it is the loop's
+  if (request.kind == Request::Kind::enter && request.model != nullptr)
+    vertices = request.model->mesh.num_vertices(), faces = request.model->mesh.num_faces();
   if (!parts_->requests.push(request))
     return 0;
+  copy.release();
+  if (request.kind == Request::Kind::enter)
+    ++parts_->entered, parts_->entered_vertices = vertices, parts_->entered_faces = faces;
   return ++parts_->asked;
 }
 const Status& Sculpting_thread::status() {
@@ -226,9 +261,8 @@ void destroy(Model* model, bool keeps_log) {
     std::remove(log.c_str());
 }
 
-std::string write_and_destroy(void* copy, const std::string& path) {
-  const std::unique_ptr<Mesh_copy> mesh(static_cast<Mesh_copy*>(copy));
-  return write_copy(*mesh, path);
+std::string write_and_destroy(Scene_copy* copy, const std::string& path) {
+  return write_copy(*std::unique_ptr<Scene_copy>(copy), path);
 }
 
 } // namespace haptic_sculpt::window_program

@@ -23,7 +23,8 @@ public:
   Sculpting_thread(const Sculpting_thread&) = delete;
   Sculpting_thread& operator=(const Sculpting_thread&) = delete;
 
-  /// \return the number of the request; 0 if the queue is full: then ask later
+  /// A copy is asked for once the one before has come. \return the number of the request; 0 if the queue is full: then
+  /// ask later
   std::uint64_t ask(Request request);
   const Status& status();
   bool take(Face_change& change);
@@ -49,7 +50,7 @@ Opened open(const std::string& path, const std::string& log);
 void destroy(Model* model, bool keeps_log);
 
 /// Writes a Report's copy and destroys it. \return what of an old file could not be kept \throw Write_error
-std::string write_and_destroy(void* copy, const std::string& path);
+std::string write_and_destroy(Scene_copy* copy, const std::string& path);
 
 } // namespace haptic_sculpt::window_program
 

@@ -36,9 +36,13 @@ void Sculpture_view::show(const std::vector<Face_change>& faces, int width, int 
   first_camera_ = camera_;
   std::vector<drawing::Corner> corners;
   corners.reserve(3 * faces.size());
-  for (const Face_change& face : faces)
-    for (const drawing::Corner& corner : corners_of(face, *camera_))
-      corners.push_back(corner);
+  double volume = 0; // six times
+  for (const Face_change& face : faces) {
+    const auto at = corners_of(face, *camera_);
+    corners.insert(corners.end(), at.begin(), at.end());
+    volume += double(at[0].position.dot(at[1].position.cross(at[2].position)));
+  }
+  faces_outwards_ = volume > 0;
   if (!view_)
     view_.emplace();
   view_->mesh().set(corners);
@@ -92,9 +96,8 @@ void Sculpture_view::upload() {
 void Sculpture_view::draw(const Status& status, const Hand_marks& marks) {
   upload();
   view_->set_marks(marks_of(status, marks), *camera_);
-  const std::size_t many = 50000; // triangles: a frame should not take longer than an eye notices
   view_->draw(*camera_, drawing::colors::white,
-              view_->mesh().size() < many ? drawing::Mesh_view::Passes::two : drawing::Mesh_view::Passes::one);
+              faces_outwards_ ? drawing::Mesh_view::Faces::outside : drawing::Mesh_view::Faces::all);
 }
 
 drawing::Scene Sculpture_view::marks_of(const Status& status, const Hand_marks& marks) const {

@@ -46,6 +46,7 @@ public:
 private:
   std::optional<drawing::Mesh_view> view_;
   std::optional<drawing::Camera> camera_, first_camera_;
+  bool faces_outwards_ = true; ///< else the mesh is turned inside out, and what is seen of it are the backs of faces
   std::vector<Face_change> changes_;
   std::size_t uploaded_ = 0, uploaded_faces_ = 0;
 

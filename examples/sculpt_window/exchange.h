@@ -11,6 +11,10 @@
 #include <atomic>
 #include <cstdint>
 
+namespace haptic_sculpt {
+class Scene_copy;
+}
+
 namespace haptic_sculpt::window_program {
 
 struct Model;
@@ -42,15 +46,16 @@ struct Brush {
 
 /// What the window asks of the loop.
 struct Request {
-  enum class Kind : std::uint8_t { point, press, let_go, undo, redo, response, copy, enter };
+  enum class Kind : std::uint8_t { point, press, let_go, flip, collapse, undo, redo, response, copy, enter };
   Kind kind = Kind::point;
   std::uint64_t number = 0; ///< Status::answered tells when it was done
   Pointer pointer;
   Tool tool = Tool::drag;
   Brush brush;
-  double depth = 0;       ///< by how much a probe is pressed into what it points at
-  int response = 0;       ///< 0: slide, 1: stop
-  Model* model = nullptr; ///< enter: it is the loop's until it comes back as Report::Kind::left
+  double depth = 0;           ///< by how much a probe is pressed into what it points at
+  int response = 0;           ///< 0: slide, 1: stop
+  Model* model = nullptr;     ///< enter: it is the loop's until it comes back as Report::Kind::left
+  Scene_copy* copy = nullptr; ///< copy: the loop's until it comes back, filled, as Report::Kind::copied
 };
 
 /// What the loop tells besides its Status.
@@ -59,7 +64,7 @@ struct Report {
   Kind kind = Kind::said;
   std::array<char, 200> text{};
   Model* model = nullptr;
-  void* copy = nullptr;    ///< copied: a Mesh_copy, from here on the window's
+  Scene_copy* copy = nullptr;
   std::uint64_t edits = 0; ///< copied: Status::edits of that moment
 };
 
@@ -108,6 +113,7 @@ struct Status {
   int pointed_size = 0;
 
   std::size_t vertices = 0, faces = 0;
+  std::size_t vertex_slots = 0, face_slots = 0; ///< removed ones included
   std::size_t undo_steps = 0, redo_steps = 0;
   std::uint64_t edits = 0;     ///< that changed the mesh, since it was entered; undo and redo count
   std::size_t dirty_faces = 0; ///< not told yet

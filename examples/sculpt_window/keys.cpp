@@ -18,6 +18,8 @@ const std::vector<Key>& keys() {
       {"[", GLFW_KEY_LEFT_BRACKET, false, false, Order::smaller, "smaller brush; a probe is pressed in less"},
       {".", GLFW_KEY_PERIOD, false, false, Order::stronger, "stronger brush"},
       {",", GLFW_KEY_COMMA, false, false, Order::weaker, "weaker brush; below 0 it works the other way"},
+      {"e", GLFW_KEY_E, false, false, Order::flip, "flip the edge that is pointed at"},
+      {"c", GLFW_KEY_C, false, false, Order::collapse, "collapse it: its nearer end goes into the other"},
       {"u", GLFW_KEY_U, false, false, Order::undo, "undo"},
       {"shift+u", GLFW_KEY_U, false, true, Order::redo, "redo"},
       {"ctrl+z", GLFW_KEY_Z, true, false, Order::undo, "undo"},

@@ -20,6 +20,8 @@ enum class Order {
   smaller,
   stronger,
   weaker,
+  flip,
+  collapse,
   undo,
   redo,
   let_go,

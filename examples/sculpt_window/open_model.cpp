@@ -74,8 +74,8 @@ public:
       sculpt_program::carry_out_brush(*sculptor_, command);
       break;
     case Kind::remesh:
-      throw Error("the log has a line that remeshes, which the window does not make again: let sculpt make it and save "
-                  "the mesh, and open that");
+      sculpt_program::carry_out_remesh(*sculptor_, command);
+      break;
     case Kind::probe:
     case Kind::mesh:
       break;
@@ -142,10 +142,10 @@ std::unique_ptr<Model> open_model(const std::string& path, const std::string& lo
   return model;
 }
 
-std::string write_copy(const Mesh_copy& copy, const std::string& path) {
-  Write_options options;
-  options.vertex_order = copy.order;
-  return write_surface(path, copy.mesh, options);
+std::string write_copy(const Scene_copy& copy, const std::string& path) {
+  if (!copy.is_whole())
+    throw Error("the copy of the mesh, which was to be saved as '" + path + "', has no room for all of it; save again");
+  return write_surface(path, copy.mesh<Mesh>());
 }
 
 } // namespace haptic_sculpt::window_program

@@ -17,6 +17,7 @@ ImVec4 color_of(const drawing::Color& c) {
 }
 
 const char* const tool_names[] = {"drag a vertex", "touch with a probe", "create a vertex", "remove a vertex", "brush"};
+const char* const tool_words[] = {"drag", "probe", "create", "remove", "brush"}; // of scripts
 const char* const brush_names[] = {"grab", "inflate", "smooth", "flatten", "pinch"};
 
 double ms(std::uint64_t ns) {
@@ -54,18 +55,22 @@ void Application::draw_state() {
   ImGui::Separator();
   for (int i = 0; i < 5; ++i) {
     const std::string label = std::to_string(i + 1) + "  " + tool_names[i];
-    if (ImGui::RadioButton(label.c_str(), int(choices_.tool) == i))
+    if (ImGui::RadioButton(label.c_str(), int(choices_.tool) == i)) {
+      note("tool %s", tool_words[i]);
       choose(static_cast<Tool>(i));
+    }
   }
   if (choices_.tool == Tool::brush) {
     int kind = int(choices_.brush.kind);
     float strength = float(choices_.brush.strength);
     ImGui::SetNextItemWidth(110);
-    if (ImGui::Combo("b", &kind, brush_names, 5))
-      choices_.brush.kind = static_cast<Brush_kind>(kind);
+    bool changes = ImGui::Combo("b", &kind, brush_names, 5);
     ImGui::SetNextItemWidth(110);
-    if (ImGui::SliderFloat("strength  , .", &strength, -1, 1, "%.1f"))
-      choices_.brush.strength = double(strength);
+    changes = ImGui::SliderFloat("strength  , .", &strength, -1, 1, "%.1f") || changes;
+    if (changes) {
+      choices_.brush.kind = static_cast<Brush_kind>(kind), choices_.brush.strength = double(strength);
+      note("brush %s %.17g %.17g", brush_names[kind], choices_.brush.radius, choices_.brush.strength);
+    }
     ImGui::Text("radius %.4g  [ ]", choices_.brush.radius);
   } else if (choices_.tool == Tool::probe) {
     ImGui::Text("pressed in by %.4g  [ ]", choices_.depth);
@@ -168,8 +173,10 @@ void Application::draw_question() {
     const bool cancelled = ImGui::Button("Cancel");
     if (agreed || cancelled)
       choices_.question = Question::none;
-    if (agreed)
+    if (agreed) {
+      note("%s %s", saves ? "save" : "open", choices_.name.data());
       saves ? save(choices_.name.data()) : open(choices_.name.data());
+    }
   }
   ImGui::End();
 }

@@ -18,6 +18,7 @@
 #include <imgui_impl_opengl3.h>
 
 #include <csignal>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -64,8 +65,7 @@ public:
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_SAMPLES, options.samples);
-    window_ =
-        glfwCreateWindow(options.size[0], options.size[1], ("sculpt_window " + options.mesh).c_str(), nullptr, nullptr);
+    window_ = glfwCreateWindow(options.size[0], options.size[1], "sculpt_window", nullptr, nullptr);
     if (window_ == nullptr) {
       glfwTerminate();
       refuse("there is no window with OpenGL 3.3");
@@ -104,6 +104,8 @@ public:
   }
 
   void draw(Application& application) {
+    if (const std::string title = application.title(); title != title_)
+      glfwSetWindowTitle(window_, (title_ = title).c_str());
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
@@ -127,6 +129,7 @@ public:
 
 private:
   GLFWwindow* window_ = nullptr;
+  std::string title_;
 
   [[noreturn]] static void refuse(const std::string& what) {
     throw No_window("no window can be made: " + what + (glfw_says().empty() ? "" : " (" + glfw_says() + ')') +
@@ -143,7 +146,7 @@ private:
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
       if (action == GLFW_RELEASE)
-        application_of(w).on_release();
+        application_of(w).on_release(button);
       else if (!ImGui::GetIO().WantCaptureMouse && button <= GLFW_MOUSE_BUTTON_MIDDLE)
         application_of(w).on_press(button, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0,
                                    (mods & GLFW_MOD_ALT) != 0);
@@ -173,6 +176,13 @@ private:
   }
 };
 
+/// ns
+std::uint64_t time_of(clockid_t clock) {
+  timespec time;
+  clock_gettime(clock, &time);
+  return static_cast<std::uint64_t>(time.tv_sec) * 1000000000u + static_cast<std::uint64_t>(time.tv_nsec);
+}
+
 int run(const Options& options) {
   std::vector<Action> script;
   if (!options.script.empty()) {
@@ -193,6 +203,7 @@ int run(const Options& options) {
     application.step();
     if (application.needs_frame()) {
       const auto begin = Clock::now();
+      const std::uint64_t thread = time_of(CLOCK_THREAD_CPUTIME_ID), process = time_of(CLOCK_PROCESS_CPUTIME_ID);
       window.draw(application);
       if (const std::string path = application.take_screenshot(); !path.empty()) {
         try {
@@ -204,8 +215,10 @@ int run(const Options& options) {
         window.show();
       } else { // a screenshot's frame is not one that a hand waits for
         window.show();
-        application.frame_done(static_cast<std::uint64_t>(
-            std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count()));
+        application.frame_done({static_cast<std::uint64_t>(
+                                    std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count()),
+                                time_of(CLOCK_THREAD_CPUTIME_ID) - thread,
+                                time_of(CLOCK_PROCESS_CPUTIME_ID) - process});
       }
     }
     std::this_thread::sleep_until(due + frame_time);

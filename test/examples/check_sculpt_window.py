@@ -14,37 +14,19 @@ import tempfile
 import time
 import zlib
 
+from box_mesh import box
 from program_runs import SCULPT, SOURCE, check, end, run, write, bytes_of, points
+from virtual_display import Display
 
 WINDOW = os.path.abspath(sys.argv[4])
-SKIPPED = 77  # what CMake takes for skipped
-if shutil.which("Xvfb") is None:
-    print("skipped: there is no Xvfb (Debian: xvfb), so no window can be opened without a display")
-    sys.exit(SKIPPED)
-
 folder = tempfile.mkdtemp()
 at = lambda name: os.path.join(folder, name)
 
 
-def start_display():
-    read, write_end = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1300x1000x24", "-nolisten", "tcp"],
-                              pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.close(write_end)
-    number = b""
-    while not number.endswith(b"\n"):
-        part = os.read(read, 16)
-        if not part:
-            print("skipped: Xvfb does not start")
-            sys.exit(SKIPPED)
-        number += part
-    return server, ":" + number.decode().strip()
+display = Display()
 
 
-server, DISPLAY = start_display()
-
-
-def start(*arguments, script="", display=DISPLAY):
+def start(*arguments, script="", display=display.name):
     environment = dict(os.environ, LP_NUM_THREADS="1")
     environment.pop("DISPLAY", None)
     environment.pop("WAYLAND_DISPLAY", None)
@@ -55,7 +37,7 @@ def start(*arguments, script="", display=DISPLAY):
                             env=environment, cwd=folder)
 
 
-def window(*arguments, script="", code=0, what="window", display=DISPLAY):
+def window(*arguments, script="", code=0, what="window", display=display.name):
     process = start(*arguments, script=script, display=display)
     try:
         out, err = process.communicate(timeout=120)
@@ -74,32 +56,6 @@ def replayed(mesh, log, saved, what):
     check(done.returncode == 0, f"{what}: sculpt does not replay the log: {done.stderr}")
     check(os.path.exists(saved) and bytes_of(saved) == bytes_of(at("again.off")), f"{what}: the replayed mesh is another one")
     check("blocked 0, " in done.stdout and "refused 0\n" in done.stdout, f"{what}: a line of the log is not made whole: {done.stdout[:500]}")
-
-
-def off(vertices, faces):
-    return "OFF\n%d %d 0\n" % (len(vertices), len(faces)) + "".join("%r %r %r\n" % tuple(v) for v in vertices) + \
-        "".join("3 %d %d %d\n" % tuple(f) for f in faces)
-
-
-def box(n, size=(2.0, 2.0, 2.0)):
-    """A box about the origin, each side cut into n x n squares of two triangles."""
-    number, faces = {}, []
-
-    def vertex(i, j, k):
-        return number.setdefault((i, j, k), len(number))
-
-    def square(a, b, c, d):
-        faces.extend([(a, b, c), (a, c, d)])
-
-    for i in range(n):
-        for j in range(n):
-            square(*(vertex(x, y, n) for x, y in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))))
-            square(*(vertex(x, y, 0) for x, y in ((i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j))))
-            square(*(vertex(n, y, z) for y, z in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))))
-            square(*(vertex(0, y, z) for y, z in ((i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j))))
-            square(*(vertex(x, n, z) for x, z in ((i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j))))
-            square(*(vertex(x, 0, z) for x, z in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))))
-    return off([[s * (c / n - 0.5) for s, c in zip(size, v)] for v in number], faces)
 
 
 def read_png(path):
@@ -155,6 +111,7 @@ def axis(points):
     return math.atan2(2 * xy, xx - yy) / 2
 
 
+BALL = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
 CONTACT = colorsys.rgb_to_hsv(0.93, 0.00, 0.60)[0]
 FORCE = colorsys.rgb_to_hsv(0.00, 0.62, 0.12)[0]
 
@@ -212,7 +169,7 @@ else:
     check(False, f"five lines were to be printed: {lines}")
 
 # All that a hand can do, on meshes of different kinds; the log makes the same again.
-MESHES = [("ball and moon", os.path.join(SOURCE, "examples/data/ball_and_moon.off")), ("box", cube)]
+MESHES = [("ball and moon", BALL), ("box", cube)]
 shared = os.path.join(SOURCE, "../shared/meshes")
 if os.path.isdir(shared):
     MESHES += [(name, os.path.join(shared, name)) for name in sorted(os.listdir(shared))
@@ -220,42 +177,49 @@ if os.path.isdir(shared):
 WORK = """
 key tab
 settle
-drag 300 215 380 150 6
-drag 280 230 300 125 6 normal
+drag 150 107.5 190 75 6
+drag 140 115 150 62.5 6 normal
 tool create
-drag 320 260 350 215 6
+drag 160 130 175 107.5 6
 tool brush
 key .
-drag 250 240 320 240 6
+drag 125 120 160 120 6
 key b
 key b
 key b
 key b
-drag 300 225 350 190 6
+drag 150 112.5 175 95 6
 key b
 key b
-drag 280 210 320 235 6
+drag 140 105 160 117.5 6
 key b
-drag 310 210 280 235 6
+drag 155 105 140 117.5 6
 key b
-drag 310 230 290 215 6
+drag 155 115 145 107.5 6
 key u
 key u
 key shift+u
+move 152 108
+key e
+move 140 120
+key c
+move 160 118
+key e
 tool remove
-click 295 225
+click 147.5 112.5
 orbit 70 20
 tool drag
-drag 300 225 150 230 6
-drag 305 220 450 220 6
+drag 150 112.5 75 115 6
+drag 152.5 110 225 110 6
 key t
-drag 290 235 300 450 6
+drag 145 117.5 150 225 6
 settle
 print
 save {out}
 settle
 quit
 """
+made = set()
 for name, mesh in MESHES:
     out, log = at("out.off"), at("work.log")
     for path in (out, log):
@@ -265,21 +229,36 @@ for name, mesh in MESHES:
         _, err = window(mesh, "--no-log", script="quit\n", code=3, what=name)
         check("not a valid surface" in err or "cannot" in err, f"{name}: {err}")
         continue
-    lines, err = window(mesh, "--log", log, "--size", 600, 450, "--samples", 0, "--report", at("report.json"),
+    lines, err = window(mesh, "--log", log, "--size", 300, 225, "--samples", 0, "--report", at("report.json"),
                         script=WORK.format(out=out), what=name)
     if lines and name.startswith("gen_extreme"):  # thinner than 1e-300 of its length: there is nothing to point at
         check(lines[0]["edits"] == 0 and "nothing to take hold of" in lines[0]["refused"], f"{name}: {lines[0]}")
     elif lines:
         check(lines[0]["edits"] > 0, f"{name}: nothing was edited: {lines[0]}")
         replayed(mesh, log, out, name)
+        made.update(line.split()[0] for line in open(log) if line[0] != "#")
         report = json.load(open(at("report.json")))
         check(report["frames"] > 50 and report["frame_ns"]["p99"] >= report["frame_ns"]["p50"] > 0, f"{name}: frame times: {report}")
         check(report["ticks"] > 500, f"{name}: ticks: {report}")
         check(report["uploaded"]["faces"] > 0 and report["uploaded"]["bytes"] < 108 * (report["uploaded"]["faces"] + 1100 + lines[0]["faces"] // 8),
               f"{name}: uploads: {report['uploaded']}")
 
+missing = {"drag", "insert_face", "remove", "flip", "collapse", "undo", "redo", "stroke", "end"} - made
+check(not missing, f"the logs have no line {missing}: {made}")
+
+# A log that sculpt has begun, also by remeshing, is gone on with.
+remeshed = at("remeshed.log")
+run(BALL, "--log", remeshed, "--script", "-", "-o", at("again.off"), script="remesh 0.2\n")
+lines, _ = window(BALL, "--log", remeshed, "--samples", 0, "--size", 300, 225, script=f"""
+settle
+drag 150 110 170 90 4
+save {at("further.off")}
+settle
+quit
+""", what="a remeshed log")
+replayed(BALL, remeshed, at("further.off"), "a remeshed log")
+
 # A process that is killed loses nothing: its log makes what it had done, and the same command goes on from there.
-BALL = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
 mesh = shutil.copy(BALL, at("killed.off"))
 process = start(mesh, "--samples", 0, script=f"""
 settle
@@ -379,6 +358,4 @@ quit
 check(len(lines) == 1 and lines[0]["faces"] == 192 and lines[0]["edits"] == 0, f"another mesh is opened: {lines}")
 check(os.path.exists(mesh + ".log") and not os.path.exists(second + ".log"), "the log of unsaved work stays")
 
-server.terminate()
-server.wait()
 end()

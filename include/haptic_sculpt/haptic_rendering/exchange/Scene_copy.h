@@ -83,7 +83,8 @@ public:
   }
   ///@}
 
-  /// The mesh, vertices in the order of their numbers. \pre is_whole()
+  /// The mesh, vertices in the order of their numbers, each face with the corner first that it had: a file of it is the
+  /// one that the mesh itself would be written to. \pre is_whole()
   template <class Mesh>
   Mesh mesh() const {
     std::vector<std::uint32_t> order;
@@ -96,8 +97,8 @@ public:
     for (const std::uint32_t v : order)
       vertex[v] = mesh.add_vertex({points[v][0], points[v][1], points[v][2]});
     for (const auto& face : faces)
-      if (face[0] != no_corner)
-        mesh.add_face(vertex[face[0]], vertex[face[1]], vertex[face[2]]);
+      if (face[0] != no_corner) // the halfedge of a face is the last one: so it is the one that it was
+        mesh.add_face(vertex[face[1]], vertex[face[2]], vertex[face[0]]);
     return mesh;
   }
 
