@@ -3,12 +3,16 @@
 #define HAPTIC_SCULPT_BENCHMARK_COMPARISON_H
 
 #include "meshes/generated_meshes.h"
+#include "sculpting/Mesh_snapshot.h"
 
+#include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/surface.h>
 
 #include <nlohmann/json.hpp>
 
-#include <chrono>
+#include <ctime>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,7 +33,7 @@ struct Named_mesh {
 
 /// What came out of a function, by CGAL alone or under the guard.
 struct Outcome {
-  double seconds = 0;
+  double seconds = 0;    ///< of processor time, so that a busy machine changes little
   std::size_t pairs = 0; ///< of self-intersecting faces
   bool is_valid = false; ///< validate()
   std::size_t faces = 0;
@@ -48,10 +52,23 @@ struct Comparison {
   double set_up = 0; ///< seconds to make the Sculptor
   double share = 1;  ///< of the way asked for that was made
   std::size_t asked = 0, refused = 0;
+  std::size_t drags = 0; ///< of targets
+  bool out_of_work = false;
+  bool undone_to_the_bit = false, redone_to_the_bit = false;
+
+  bool is_kept() const { return guarded.pairs == 0 && guarded.is_valid && undone_to_the_bit && redone_to_the_bit; }
 };
 
-inline double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+struct Settings {
+  unsigned seed = 1, iterations = 5;                               ///< iterations of remeshing
+  std::string only;                                                ///< functions whose names have this in them
+  double drags_a_vertex = std::numeric_limits<double>::infinity(); ///< at most, of targets
+
+  bool wants(const std::string& function) const { return function.find(only) != std::string::npos; }
+};
+
+inline double seconds_since(std::clock_t begin) {
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
 double mean_edge(const Mesh& mesh);
@@ -60,10 +77,26 @@ double mean_edge(const Mesh& mesh);
 void measure(Mesh mesh, double unit, const Mesh* input, Outcome& outcome);
 Json to_json(const Comparison& comparison);
 
-/// CGAL's functions that move points, on one mesh.
-void compare_functions(const Named_mesh& scene, unsigned seed, std::vector<Comparison>& results);
+/// Takes back all that was done since the mesh was `before`, and does it again.
+/// \pre it was one step of the history
+template <class Sculptor>
+void undo_and_redo(Sculptor& sculptor, const test::Mesh_snapshot& before, Comparison& comparison) {
+  const test::Mesh_snapshot after = test::snapshot(sculptor);
+  if (after == before) { // no step at all
+    comparison.undone_to_the_bit = comparison.redone_to_the_bit = true;
+    return;
+  }
+  sculptor.undo();
+  comparison.undone_to_the_bit = test::snapshot(sculptor) == before;
+  sculptor.redo();
+  comparison.redone_to_the_bit = test::snapshot(sculptor) == after;
+}
+
+/// CGAL's functions that move points, on one mesh. \param tell `tell(comparison)`
+using Tell = std::function<void(const Comparison&)>;
+void compare_functions(const Named_mesh& scene, const Settings& settings, const Tell& tell);
 /// Remeshing to 0.7, 1, 1.5, 2 and 3 mean edges.
-void compare_remeshing(const Named_mesh& scene, unsigned iterations, std::vector<Comparison>& results);
+void compare_remeshing(const Named_mesh& scene, const Settings& settings, const Tell& tell);
 /// Every vertex of a mesh by a tenth of an edge, in a random direction, in one stroke.
 Json move_all_by_a_tenth(Mesh mesh, unsigned seed);
 

@@ -19,16 +19,18 @@ namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
 namespace params = CGAL::parameters;
-using Clock = std::chrono::steady_clock;
 
 /// Runs the function on one mesh in each of the ways in which it can be guarded.
 class Function_comparison {
 public:
-  Function_comparison(const Named_mesh& scene, std::vector<Comparison>& results) : scene_(scene), results_(results) {}
+  Function_comparison(const Named_mesh& scene, const Settings& settings, const Tell& tell)
+      : scene_(scene), settings_(settings), tell_(tell) {}
 
   /// \param function `function(mesh, map)`: writes points through the map
   template <class Function>
   void by_map(const std::string& name, const Function& function) {
+    if (!settings_.wants(name))
+      return;
     begin(name, "map", [&](Mesh& mesh) { return function(mesh, get(CGAL::vertex_point, mesh)); });
     Mesh mesh = scene_.mesh;
     guarded(mesh, [&](Sculptor<Mesh>& sculptor) {
@@ -43,6 +45,8 @@ public:
   /// \param function `function(mesh, allow)`: asks before each move
   template <class Plain, class Function>
   void by_functor(const std::string& name, const Plain& plain, const Function& function) {
+    if (!settings_.wants(name))
+      return;
     begin(name, "functor", plain);
     Mesh mesh = scene_.mesh;
     guarded(mesh, [&](Sculptor<Mesh>& sculptor) {
@@ -55,20 +59,28 @@ public:
   /// \param function `function(mesh)`: its result is where the vertices are to go
   template <class Function>
   void by_targets(const std::string& name, const Function& function) {
+    if (!settings_.wants(name))
+      return;
     const Mesh result = begin(name, "targets", function);
     Mesh mesh = scene_.mesh;
     guarded(mesh, [&](Sculptor<Mesh>& sculptor) {
-      const Move_report report = move_vertices(sculptor, mesh.vertices(), get(CGAL::vertex_point, result));
+      comparison_.guarded.seconds = comparison_.plain.seconds; // the function has to be called first
+      Move_parameters parameters;
+      if (std::isfinite(settings_.drags_a_vertex))
+        parameters.most_drags(static_cast<std::size_t>(settings_.drags_a_vertex * mesh.number_of_vertices()));
+      const Move_report report = move_vertices(sculptor, mesh.vertices(), get(CGAL::vertex_point, result), parameters);
+      comparison_.drags = report.drags;
+      comparison_.out_of_work = report.out_of_work;
       comparison_.asked = report.asked;
       comparison_.refused = report.asked - report.reached;
       comparison_.share = report.asked_l2 > 0 ? 1 - report.left_l2 / report.asked_l2 : 1;
     });
-    results_.back().guarded.seconds += results_.back().plain.seconds; // the function has to be called first
   }
 
 private:
   const Named_mesh& scene_;
-  std::vector<Comparison>& results_;
+  const Settings& settings_;
+  const Tell& tell_;
   Comparison comparison_;
 
   template <class Function>
@@ -78,7 +90,7 @@ private:
     comparison_.function = name;
     comparison_.way = way;
     Mesh mesh = scene_.mesh;
-    const auto start = Clock::now();
+    const auto start = std::clock();
     comparison_.plain.failed = !function(mesh);
     comparison_.plain.seconds = seconds_since(start);
     measure(mesh, mean_edge(scene_.mesh), nullptr, comparison_.plain);
@@ -87,15 +99,19 @@ private:
 
   template <class Work>
   void guarded(Mesh& mesh, const Work& work) {
-    auto start = Clock::now();
+    auto start = std::clock();
     Sculptor<Mesh> sculptor(mesh);
     comparison_.set_up = seconds_since(start);
-    start = Clock::now();
-    const auto stroke = sculptor.stroke();
-    work(sculptor);
-    comparison_.guarded.seconds = seconds_since(start);
+    const test::Mesh_snapshot before = test::snapshot(sculptor);
+    start = std::clock();
+    {
+      const auto stroke = sculptor.stroke();
+      work(sculptor);
+    }
+    comparison_.guarded.seconds += seconds_since(start);
     measure(mesh, mean_edge(scene_.mesh), nullptr, comparison_.guarded);
-    results_.push_back(comparison_);
+    undo_and_redo(sculptor, before, comparison_);
+    tell_(comparison_);
   }
 };
 
@@ -148,8 +164,8 @@ bool twist_by_arap(Mesh& mesh) {
 
 } // namespace
 
-void compare_functions(const Named_mesh& scene, unsigned seed, std::vector<Comparison>& results) {
-  Function_comparison compare(scene, results);
+void compare_functions(const Named_mesh& scene, const Settings& settings, const Tell& tell) {
+  Function_comparison compare(scene, settings, tell);
   const auto relaxed = params::number_of_iterations(5);
   compare.by_map("tangential_relaxation", [&](Mesh& mesh, const auto& map) {
     PMP::tangential_relaxation(mesh, relaxed.vertex_point_map(map));
@@ -175,7 +191,7 @@ void compare_functions(const Named_mesh& scene, unsigned seed, std::vector<Compa
   const double edge = mean_edge(scene.mesh);
   compare.by_map("random_perturbation", [&](Mesh& mesh, const auto& map) {
     PMP::random_perturbation(vertices(mesh), mesh, 0.5 * edge,
-                             params::vertex_point_map(map).do_project(false).random_seed(seed));
+                             params::vertex_point_map(map).do_project(false).random_seed(settings.seed));
     return true;
   });
   compare.by_targets("smooth_shape", [&](Mesh& mesh) {

@@ -12,29 +12,31 @@
 namespace haptic_sculpt::benchmark {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
-using Clock = std::chrono::steady_clock;
 
-void compare_remeshing(const Named_mesh& scene, unsigned iterations, std::vector<Comparison>& results) {
+void compare_remeshing(const Named_mesh& scene, const Settings& settings, const Tell& tell) {
   for (const double factor : {0.7, 1.0, 1.5, 2.0, 3.0}) {
     Comparison comparison;
     comparison.mesh = scene.name;
     char name[64];
     std::snprintf(name, sizeof name, "isotropic_remeshing, %.1f mean edges", factor);
     comparison.function = name;
+    if (!settings.wants(name))
+      continue;
     comparison.way = "remesher";
     const double length = factor * mean_edge(scene.mesh);
-    const auto np = CGAL::parameters::number_of_iterations(iterations);
+    const auto np = CGAL::parameters::number_of_iterations(settings.iterations);
 
     Mesh plain = scene.mesh, guarded = scene.mesh;
-    auto start = Clock::now();
+    auto start = std::clock();
     PMP::isotropic_remeshing(plain.faces(), length, plain, np);
     comparison.plain.seconds = seconds_since(start);
     measure(plain, length, &scene.mesh, comparison.plain);
 
-    start = Clock::now();
+    start = std::clock();
     Sculptor<Mesh> sculptor(guarded);
     comparison.set_up = seconds_since(start);
-    start = Clock::now();
+    const test::Mesh_snapshot before = test::snapshot(sculptor);
+    start = std::clock();
     const Remeshing_report report = haptic_sculpt::isotropic_remeshing(sculptor, length, np);
     comparison.guarded.seconds = seconds_since(start);
     for (const auto& count : {report.splits, report.collapses, report.flips, report.moves}) {
@@ -42,7 +44,8 @@ void compare_remeshing(const Named_mesh& scene, unsigned iterations, std::vector
       comparison.refused += count.refused;
     }
     measure(guarded, length, &scene.mesh, comparison.guarded);
-    results.push_back(comparison);
+    undo_and_redo(sculptor, before, comparison);
+    tell(comparison);
   }
 }
 
@@ -58,13 +61,13 @@ Json move_all_by_a_tenth(Mesh mesh, unsigned seed) {
     while (d.squared_length() > 1 || d.squared_length() < 0.01);
     targets[v] = mesh.point(v) + 0.1 * edge / std::sqrt(d.squared_length()) * d;
   }
-  auto start = Clock::now();
+  auto start = std::clock();
   Sculptor<Mesh> sculptor(mesh);
   const double set_up = seconds_since(start);
-  start = Clock::now();
+  start = std::clock();
   const Move_report report = move_vertices(sculptor, mesh.vertices(), targets);
   const double seconds = seconds_since(start);
-  start = Clock::now();
+  start = std::clock();
   const bool intersects = PMP::does_self_intersect(mesh);
   const double check = seconds_since(start);
   return {{"faces", mesh.number_of_faces()},
