@@ -197,3 +197,31 @@ BOOST_AUTO_TEST_CASE(units_in_the_last_place_are_those_of_the_next_double) {
   BOOST_TEST(internal::unit_in_the_last_place(0) == std::numeric_limits<double>::denorm_min());
   BOOST_TEST(internal::unit_in_the_last_place(std::numeric_limits<double>::infinity()) == 0);
 }
+
+BOOST_AUTO_TEST_CASE(a_slide_to_a_target_beyond_reach_does_no_less_than_a_stop) {
+  // A corner of a tetrahedron drawn through the face opposite: to 1e19 and beyond the slide has once stayed where it was.
+  std::size_t moved = 0, less = 0, unexplained = 0;
+  for (const double far : {1e3, 2e3, 1e6, 1e17, 1e19, 1e20, 1e40, 1e100, 1e200, 1e301})
+    for (const Point_3& direction : {Point_3(1, 0, 0), Point_3(1, 1, 1), Point_3(3, 1, 2), Point_3(1, 0, 1)}) {
+      const Point_3 target(far * direction.x() / 4, far * direction.y() / 4, far * direction.z() / 4);
+      std::array<Drag_result<Mesh>, 2> results;
+      for (int k = 0; k < 2; ++k) {
+        Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+        mesh.point(Vertex_index(0)) = Point_3(0, 0, 0);
+        mesh.point(Vertex_index(1)) = Point_3(1, 0, 0);
+        mesh.point(Vertex_index(2)) = Point_3(0, 1, 0);
+        mesh.point(Vertex_index(3)) = Point_3(0, 0, 1);
+        Sculptor<Mesh> sculptor(mesh, parameters::response(k == 0 ? Response::slide : Response::stop));
+        results[static_cast<std::size_t>(k)] = sculptor.grab(Vertex_index(0)).drag_to(target);
+        BOOST_TEST(validate(mesh).is_valid());
+      }
+      moved += results[0].position != Point_3(0, 0, 0);
+      // One that ends beside the other within a clearance or two is as near.
+      less += is_farther(target, results[0].position, results[1].position) &&
+              CGAL::squared_distance(results[0].position, results[1].position) > 1e-28;
+      unexplained += results[0].end == Drag_end::no_progress;
+    }
+  BOOST_TEST(moved == 40u);
+  BOOST_TEST(less == 0u);
+  BOOST_TEST(unexplained == 0u);
+}

@@ -110,6 +110,8 @@ public:
     // To keep a clearance from what was nearer J may have gone back: then it had better stay.
     if (end != Walk_end::reached && is_farther(target, walk_.x, source))
       walk_.return_to(source);
+    if (end != Walk_end::reached && walk_.x == source && walk_.is_beyond_reach(target) && !guard.is_spent())
+      return stop_instead(guard, source, target, rules, result);
     make_shorter(target, is_free);
     walk_.forget([](const auto& facet) { return facet.is_over(Slide_lengths::clearances_of_lift); });
     report(end, source, result);
@@ -150,6 +152,19 @@ private:
     const bool is_other_search =
         work.is_resumed() && length(minus(target, searched_for_)) > 4 * walk_.lengths().clearance;
     return guard.is_spent() || is_short || (end == Walk_end::settled && (is_other_search || work.has_left_out()));
+  }
+
+  /// Towards a target that is beyond reach the walk may have led nowhere: then a slide does no less than a stop does.
+  template <class Guard>
+  Coordinates stop_instead(Guard& guard, const Coordinates& source, const Coordinates& target, const Drag_rules& rules,
+                           Drag_result<Mesh>& result) {
+    walk_.facets.clear();
+    const Coordinates end = guard.leg(source, target, rules, result);
+    if (end != source)
+      walk_.step_to(end);
+    result.legs = walk_.legs();
+    result.end = guard.is_spent() ? Drag_end::work_limit : Drag_end::stuck;
+    return end;
   }
 
   /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many
