@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/sculpt.md.
+#include "../Printable_stream.h"
 #include "Log_file.h"
 #include "output_targets.h"
 #include "nearest_vertices.h"
@@ -248,6 +249,7 @@ std::string in_words_of_a_user(const Invalid_surface& error, bool is_triangulate
 } // namespace
 
 int main(int argc, char** argv) {
+  const examples::Printable_stream messages(std::cerr), table(std::cout);
   std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is told like a full disk, and the others are written
   Arguments arguments;
   if (const auto is_good = read_arguments(argc, argv, arguments))

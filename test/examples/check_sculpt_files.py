@@ -93,6 +93,42 @@ def rights(folder, mesh):
     check(status.st_uid == 34567 and stat.S_IMODE(status.st_mode) == 0o666, f"a group comes by rights: mode {stat.S_IMODE(status.st_mode):o}")
 
 
+def sticky_folder(folder, mesh):
+    """Where only its owner may replace a file, that is found before the work."""
+    if os.getuid() != 0:
+        print("skipped: only root can be somebody else")
+        return
+    os.chmod(folder, 0o1777)
+    os.chmod(os.path.dirname(folder), 0o755)
+    out = write(f"{folder}/of_root.off", "kept")
+    os.chmod(out, 0o666)
+    done = run(mesh, "-o", out, user=34567)
+    fails(5, ["of_root.off", "owner"], done, "a file of another in a sticky folder")
+    check("asked" not in done.stdout, "the work is done before the output is looked at")
+    check(open(out).read() == "kept", "the old file is spoilt")
+
+
+def control_bytes(folder, mesh):
+    """No byte that a terminal obeys comes from a name or a script."""
+    def is_text(done, what):
+        text = done.stdout + done.stderr
+        bad = [c for c in text if (ord(c) < 0x20 and c not in "\n\r\t") or 0x7f <= ord(c) < 0xa0]
+        check(not bad, f"{what}: {bad} in {text!r}")
+        check("\\x" in text, f"{what}: nothing is escaped in {text!r}")
+
+    script = write(f"{folder}/bad\x1b[2J.script", "drag 0 1 1\n")
+    is_text(run(mesh, "--script", script), "name of a script")
+    is_text(run(mesh, "--response", "\x1b[31m"), "value of an option")
+    is_text(run(mesh, "--clearance", "\x7f\x07"), "number of an option")
+    is_text(run(mesh, "surplus\x1b]0;title\x07"), "surplus argument")
+    is_text(run(mesh, "--script", "/dev/stdin", script="drag 0 \u009b31m 0 0\n"), "control character of two bytes")
+    with open(f"{folder}/byte.script", "wb") as file:
+        file.write(b"drag 0 \x9b31m 0 0\n")
+    is_text(run(mesh, "--script", f"{folder}/byte.script"), "control character of one byte")
+    umlaut = write(f"{folder}/räume.script", "drag 0 1 1\n")
+    check("räume" in run(mesh, "--script", umlaut).stderr, "letters beyond ASCII are shown")
+
+
 def left_over_files(folder, mesh):
     """Temporary files of dead processes go, those of living ones stay, and so does everything else."""
     dead = subprocess.Popen(["true"])
@@ -117,7 +153,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
         os.chmod(mesh, 0o644)
-        for part in (bad_targets, links, rights, left_over_files):
+        for part in (bad_targets, links, rights, sticky_folder, control_bytes, left_over_files):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             part(inner, mesh)

@@ -61,6 +61,10 @@ inline std::string why_not_replaceable(const std::filesystem::path& target) {
   const fs::path folder = internal::folder_of(target);
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     return "no file can be made in its folder" + system_says();
+  struct stat file {}, around {};
+  if (::stat(target.c_str(), &file) == 0 && ::stat(folder.c_str(), &around) == 0 && (around.st_mode & S_ISVTX) != 0 &&
+      ::geteuid() != 0 && ::geteuid() != file.st_uid && ::geteuid() != around.st_uid)
+    return "in this folder only its owner (user " + std::to_string(file.st_uid) + ") may replace the file";
   return fs::is_directory(folder, error) ? "" : "'" + folder.string() + "' is not a folder";
 }
 
