@@ -236,7 +236,8 @@ private:
     Swept_star_3 anywhere{region.lower, region.upper};
     anywhere.is_box = true;
     candidates_.clear();
-    if (!query_up_to(*broad_phase_, anywhere, few_about_probe, candidates_)) {
+    // Of a drag's work no more than a quarter: what is left has to do for the motions.
+    if (!query_up_to(*broad_phase_, anywhere, std::min(few_about_probe, work_->left() / 4), candidates_)) {
       crowded_way_ = way / 2;
       return false;
     }
