@@ -148,9 +148,17 @@ json json_of(const Device_description<double>& d) {
 }
 
 json json_of(const Settings& s) {
-  return {{"rate", s.rate},       {"delay", s.delay},           {"stiffness", s.stiffness},
-          {"damping", s.damping}, {"reach", s.reach},           {"work", s.work},
-          {"map", s.map},         {"device", json_of(s.device)}};
+  return {{"rate", s.rate},
+          {"delay", s.delay},
+          {"stiffness", s.stiffness},
+          {"damping", s.damping},
+          {"reach", s.reach},
+          {"work", s.work},
+          {"virtual_mass", s.virtual_mass},
+          {"compensated_inertia", s.compensated_inertia},
+          {"controller", s.controller},
+          {"map", s.map},
+          {"device", json_of(s.device)}};
 }
 
 Settings settings_of(const json& j) {
@@ -158,6 +166,8 @@ Settings settings_of(const json& j) {
     Settings s;
     s.rate = j.at("rate"), s.delay = j.at("delay"), s.stiffness = j.at("stiffness"), s.damping = j.at("damping");
     s.reach = j.at("reach"), s.work = j.at("work"), s.map = j.at("map").get<std::vector<double>>();
+    s.virtual_mass = j.value("virtual_mass", 0.0); // older recordings have none
+    s.compensated_inertia = j.value("compensated_inertia", 0.0), s.controller = j.value("controller", 0.0);
     s.device = device_of(j.at("device"));
     return s;
   } catch (const json::exception& error) {

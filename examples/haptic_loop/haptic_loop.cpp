@@ -82,6 +82,9 @@ void check_numbers(const Settings& s, double seconds) {
   require(s.delay >= 0 && s.delay <= Torque_delay<double>::most_ticks, "--delay must be from 0 to 16 ticks");
   require(s.stiffness >= 0 && std::isfinite(s.stiffness), "--stiffness must be a finite number >= 0, N/m");
   require(s.damping >= 0 && std::isfinite(s.damping), "--damping must be a finite number >= 0, N s/m");
+  require(s.virtual_mass >= 0 && s.virtual_mass <= 10, "--virtual-mass must be from 0 to 10 kg");
+  require(s.compensated_inertia >= 0 && s.compensated_inertia <= 1, "--compensated-inertia must be from 0 to 1");
+  require(s.controller >= 0 && std::isfinite(s.controller), "--controller must be a finite number >= 0, N s/m");
   require(s.reach >= 0 && std::isfinite(s.reach), "--reach must be a finite length >= 0, m");
   require(s.work > 0, "--work must be at least 1");
   require(seconds >= 0 && std::isfinite(seconds), "--seconds must be a finite time >= 0");
@@ -165,7 +168,8 @@ int main(int argc, char** argv) {
   Settings& settings = plan.settings;
   CLI::App app("Sculpts in a closed loop: a simulated device in a simulated hand that follows a path.\n"
                "Exit: 0 done, 1 out of memory, 2 usage, 3 mesh refused, 4 path cannot be read, 5 cannot write, "
-               "6 recording of another mesh, 7 stiffness neither passive nor stable, 8 a fault ended the run.");
+               "6 recording of another mesh, 7 stiffness, damping, virtual mass or controller not stable, 8 a fault "
+               "ended the run.");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->capture_default_str();
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes");
   app.add_option("--seconds", arguments.seconds, "How long; by default as long as the path");
@@ -173,6 +177,14 @@ int main(int argc, char** argv) {
   app.add_option("--delay", settings.delay, "From a command to its torque, ticks")->capture_default_str();
   app.add_option("--stiffness", settings.stiffness, "Of the coupling, at the handle, N/m")->capture_default_str();
   app.add_option("--damping", settings.damping, "Of the coupling, at the handle, N s/m")->capture_default_str();
+  app.add_option("--virtual-mass", settings.virtual_mass, "What is grabbed weighs so much more when shaken, kg")
+      ->capture_default_str();
+  app.add_option("--compensated-inertia", settings.compensated_inertia,
+                 "Share of the device's own inertia that its motors carry, 0 to 1")
+      ->capture_default_str();
+  app.add_option("--controller", settings.controller,
+                 "The most that the passivity controller may damp, N s/m; 0: there is none")
+      ->capture_default_str();
   app.add_option("--map", settings.map,
                  "SCALE X Y Z [RX RY RZ]: scene = (X, Y, Z) + SCALE R (device - home); by default the scene is fitted")
       ->expected(4, 7);

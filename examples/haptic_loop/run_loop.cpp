@@ -72,6 +72,9 @@ public:
     Haptic_parameters parameters;
     parameters.tick = tick_, parameters.delay = settings_.delay;
     parameters.coupling = {settings_.stiffness, settings_.damping};
+    parameters.inertia.mass = settings_.virtual_mass;
+    parameters.inertia.compensated = settings_.compensated_inertia;
+    parameters.controller_damping = settings_.controller;
     parameters.reach = settings_.reach, parameters.work = settings_.work;
     const Passivity_limits limits = limits_of(parameters, scene);
     const Device_pose<double> start = start_pose();
@@ -127,6 +130,8 @@ private:
     result_.friction = limits.friction;
     result_.passive_stiffness = limits.passive_stiffness;
     result_.stable_stiffness = limits.stable_stiffness;
+    result_.largest_damping = limits.largest_damping, result_.largest_mass = limits.largest_mass;
+    result_.largest_controller = limits.largest_controller;
     if (limits.permits(parameters.coupling) && !limits.is_passive(parameters.coupling))
       notes_.push_back("the stiffness " + internal::number(settings_.stiffness) +
                        " N/m is stable, but not passive: that ends at " +
@@ -272,6 +277,8 @@ private:
     const Workspace_map& map = scene.map;
     result_.observed = loop.observer().energy();
     result_.least_observed = loop.observer().least();
+    result_.mass_energy = loop.inertia().mass_energy();
+    result_.compensation_energy = loop.inertia().compensation_energy();
     if (!result_.has_true_energy)
       result_.port = loop.observer().port(), result_.dissipated = loop.observer().dissipated();
     const Tool_edits& edits = loop.tool().edits();

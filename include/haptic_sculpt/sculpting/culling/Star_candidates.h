@@ -74,6 +74,7 @@ public:
     pairs_.clear();
     patience_ = 1, waited_ = 0;
     is_crowded_ = false;
+    crowded_way_ = std::numeric_limits<double>::infinity();
   }
 
   /// Whether there is a proof that the motion is free which costs less than the sweeps. Looked for where only one motion is to be
@@ -114,8 +115,10 @@ public:
   template <class Is_enough>
   void look_along(const Coordinates& source, const Coordinates& target, const Is_enough& is_enough) {
     Swept_star_3 part = star_.swept(source, target);
-    if (!is_long(source, target)) {
-      look_close_by(part);
+    const bool is_listed = star_.valence() == 0 && look_about_probe(part);
+    if (is_listed || !is_long(source, target)) {
+      if (!is_listed)
+        look_close_by(part);
       if (!work_->is_spent())
         is_enough(part);
       return;
@@ -161,6 +164,7 @@ private:
   std::size_t looks_ = 0;
   int patience_ = 1, waited_ = 0;
   bool is_crowded_ = false; ///< the last long motion passed over many faces
+  double crowded_way_ = std::numeric_limits<double>::infinity(); ///< about a probe's motion of half that length many were
   bool is_for_one_motion_ = false, has_looked_ = false; ///< has_looked_: the candidates are those of the motion at hand
   Convex_star<Mesh> convex_star_;
   std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
@@ -182,6 +186,9 @@ private:
   /// wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many are soon stopped.
   static constexpr std::size_t few_faces = 192;
   static constexpr double least_part = 0x1p-10;
+
+  /// About a probe's motion no more are listed: each motion looks through all of them.
+  static constexpr std::size_t few_about_probe = 64;
 
   bool has_isolated() const { return isolated_ != nullptr && !isolated_->is_empty(); }
 
@@ -211,6 +218,32 @@ private:
     if (!has_looked_)
       look_at(motion);
     take_candidates(motion);
+  }
+
+  /// Makes the list complete for a probe's motion and half as much about it, where few faces are: a slide makes many
+  /// short motions about one place. Returns false, and nothing has changed, where there are many.
+  bool look_about_probe(const Swept_star_3& motion) {
+    Box_3 region = motion.path();
+    if (list_.region().contains(region))
+      return true;
+    double way = 0;
+    for (int i = 0; i < 3; ++i)
+      way = std::fmax(way, region.upper[i] - region.lower[i]);
+    if (is_for_one_motion_ || !(way < crowded_way_))
+      return false;
+    for (int i = 0; i < 3; ++i)
+      region.lower[i] -= region_margin * way, region.upper[i] += region_margin * way;
+    Swept_star_3 anywhere{region.lower, region.upper};
+    anywhere.is_box = true;
+    candidates_.clear();
+    // Of a drag's work no more than a quarter: what is left has to do for the motions.
+    if (!query_up_to(*broad_phase_, anywhere, std::min(few_about_probe, work_->left() / 4), candidates_)) {
+      crowded_way_ = way / 2;
+      return false;
+    }
+    work_->spend(candidates_.size());
+    take_candidates(anywhere, region);
+    return true;
   }
 
   /// Makes the list complete for a motion that is not long, and `room` around it. Those of one grab share a list.

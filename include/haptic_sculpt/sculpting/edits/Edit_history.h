@@ -29,7 +29,7 @@ public:
     if (is_off())
       return;
     reserve_records(edits, moves);
-    latest_.reserve(names);
+    latest_.resize(std::max(latest_.size(), names), no_move); // or the first stroke would fill it
     current_.around.reserve(usual_around * usual_around);
   }
 
