@@ -31,7 +31,7 @@ public:
   /// For who changes the mesh triangle by triangle (corners_of()).
   Triangle_buffer& mesh() { return mesh_; }
 
-  /// Which faces are drawn: all of any mesh; or those seen from outside, in a quarter of the time, where faces are flat.
+  /// Which faces are drawn: all of any mesh; or those seen from outside, in about half of the time, where faces are flat.
   /// Of a closed surface that faces outwards no others are to be seen.
   enum class Faces { all, outside };
 

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Percentiles percentiles_of(const Tick_statistics& times) {
+Percentiles summary_of(const Tick_statistics& times) {
   return {times.percentile(0.5), times.percentile(0.99), times.percentile(0.999), times.largest()};
 }
 
@@ -252,7 +252,7 @@ int Application::finish() {
         destroy(report.model, keeps), has_left = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  const Percentiles frames = percentiles_of(frames_), of_process = percentiles_of(frames_of_process_);
+  const Percentiles frames = summary_of(frames_), of_process = summary_of(frames_of_process_);
   const auto ms = [](std::uint64_t ns) { return double(ns) / 1e6; };
   std::printf("%llu frames: median %.2f ms, 99 %% within %.2f ms, longest %.2f ms (%.2f, %.2f, %.2f ms of all "
               "processors); %zu bytes uploaded for %zu changed faces\n",
@@ -267,7 +267,7 @@ int Application::finish() {
     const Json report = {{"version", HAPTIC_SCULPT_VERSION},
                          {"frames", frames_.number()},
                          {"frame_ns", times_of(frames)},
-                         {"frame_thread_cpu_ns", times_of(percentiles_of(frames_of_thread_))},
+                         {"frame_thread_cpu_ns", times_of(summary_of(frames_of_thread_))},
                          {"frame_process_cpu_ns", times_of(of_process)},
                          {"uploaded", {{"bytes", view_.uploaded_bytes()}, {"faces", view_.uploaded_faces()}}},
                          {"ticks", last.ticks},

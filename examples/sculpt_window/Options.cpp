@@ -62,8 +62,9 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
       ->expected(2)
       ->type_name("WIDTH HEIGHT")
       ->check(CLI::Range(64, 8192));
-  app.add_option("--samples", options.samples, "A pixel is drawn by: 0 is fastest, 4 has smooth edges")
-      ->capture_default_str()
+  app.add_option("--samples", options.samples,
+                 "A pixel is drawn by: 0 is fastest, 4 has smooth edges. By default 4, but 0 where the driver draws in "
+                 "software")
       ->check(CLI::Range(0, 16));
   try {
     app.parse(argc, argv);

@@ -13,7 +13,7 @@ struct Options {
   std::string mesh, out, log, script, screenshot, report, record;
   bool without_log = false;
   std::vector<int> size = {1200, 900};
-  int samples = 4;
+  std::optional<int> samples; ///< none: as the driver is
 
   /// The log of a mesh: the one that was asked for, of the first; else one beside it, which is gone when all is well.
   std::string log_of(const std::string& path) const {

@@ -64,7 +64,7 @@ public:
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_SAMPLES, options.samples);
+    glfwWindowHint(GLFW_SAMPLES, options.samples ? *options.samples : draws_in_software() ? 0 : 4);
     window_ = glfwCreateWindow(options.size[0], options.size[1], "sculpt_window", nullptr, nullptr);
     if (window_ == nullptr) {
       glfwTerminate();
@@ -130,6 +130,22 @@ public:
 private:
   GLFWwindow* window_ = nullptr;
   std::string title_;
+
+  /// Asks the driver, by a window that is not shown. \pre what the context has to be has been said
+  static bool draws_in_software() {
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    GLFWwindow* const window = glfwCreateWindow(1, 1, "", nullptr, nullptr);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
+    if (window == nullptr)
+      return false; // what is missing is told of the window proper
+    glfwMakeContextCurrent(window);
+    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    glfwDestroyWindow(window);
+    for (const char* const name : {"llvmpipe", "softpipe", "swrast", "Software", "SwiftShader"})
+      if (renderer.find(name) != std::string::npos)
+        return true;
+    return false;
+  }
 
   [[noreturn]] static void refuse(const std::string& what) {
     throw No_window("no window can be made: " + what + (glfw_says().empty() ? "" : " (" + glfw_says() + ')') +
