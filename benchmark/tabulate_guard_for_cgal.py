@@ -8,7 +8,7 @@ import sys
 if len(sys.argv) < 2:
     sys.exit(__doc__)
 rows = [row for path in sys.argv[1:] for row in json.load(open(path))["comparisons"]]
-remeshed = [row for row in rows if row["way"] == "remesher"]
+remeshed = [row for row in rows if row["way"] == "remesher" and not row["plain"]["failed"]]
 moved = [row for row in rows if row["way"] != "remesher"]
 median = statistics.median
 

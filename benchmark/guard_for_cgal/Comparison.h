@@ -50,7 +50,7 @@ struct Comparison {
   std::string mesh, function, way; ///< way: how the guard comes in: "map", "functor", "targets" or "remesher"
   Outcome plain, guarded;
   double set_up = 0; ///< seconds to make the Sculptor
-  double share = 1;  ///< of the way asked for that was made
+  double share = 1;  ///< of the way asked for that was made; not known of functors
   std::size_t asked = 0, refused = 0;
   std::size_t drags = 0; ///< of targets
   bool out_of_work = false;
@@ -72,6 +72,9 @@ inline double seconds_since(std::clock_t begin) {
 }
 
 double mean_edge(const Mesh& mesh);
+/// Whether all triangles have areas as doubles, neither 0 nor infinite. Where none at a vertex has one, CGAL 5.5's
+/// tangential_relaxation reads beyond an array.
+bool has_areas(const Mesh& mesh);
 /// All but seconds. \param unit a length \param input what the surface was; nullptr where its distance is of no
 /// interest
 void measure(Mesh mesh, double unit, const Mesh* input, Outcome& outcome);

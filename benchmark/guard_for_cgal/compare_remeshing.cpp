@@ -28,9 +28,12 @@ void compare_remeshing(const Named_mesh& scene, const Settings& settings, const 
 
     Mesh plain = scene.mesh, guarded = scene.mesh;
     auto start = std::clock();
-    PMP::isotropic_remeshing(plain.faces(), length, plain, np);
-    comparison.plain.seconds = seconds_since(start);
-    measure(plain, length, &scene.mesh, comparison.plain);
+    comparison.plain.failed = !has_areas(scene.mesh);
+    if (!comparison.plain.failed) {
+      PMP::isotropic_remeshing(plain.faces(), length, plain, np);
+      comparison.plain.seconds = seconds_since(start);
+      measure(plain, length, &scene.mesh, comparison.plain);
+    }
 
     start = std::clock();
     Sculptor<Mesh> sculptor(guarded);

@@ -44,6 +44,18 @@ Json to_json(const Outcome& outcome) {
 
 } // namespace
 
+bool has_areas(const Mesh& mesh) {
+  for (const Face_index f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    const Point_3& a = mesh.point(mesh.source(h));
+    const double square =
+        CGAL::cross_product(mesh.point(mesh.target(h)) - a, mesh.point(mesh.target(mesh.next(h))) - a).squared_length();
+    if (!(square > 0 && std::isfinite(square)))
+      return false;
+  }
+  return true;
+}
+
 double mean_edge(const Mesh& mesh) {
   double sum = 0;
   for (const Edge_index e : mesh.edges())

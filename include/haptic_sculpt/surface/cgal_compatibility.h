@@ -3,7 +3,8 @@
 #define HAPTIC_SCULPT_SURFACE_CGAL_COMPATIBILITY_H
 
 /// \file
-/// The one place of this folder that knows CGAL 5.5 from CGAL 6.
+/// The one place that knows CGAL 5.5 from CGAL 6, but for the search tree of sculpting/many_vertices/Input_surface.h,
+/// whose headers only remeshing is to pay for.
 
 #include <haptic_sculpt/no_fast_math.h>
 

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Remeshing_report.h>
 #include <haptic_sculpt/sculpting/many_vertices/Edge_queue.h>
+#include <haptic_sculpt/sculpting/many_vertices/Rated_collapse.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_marks.h>
 #include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/sculpting/many_vertices/projections.h>
@@ -87,6 +88,8 @@ private:
 
   using Entry = typename Edge_queue<Mesh>::Entry;
 
+  using Collapse = Rated_collapse<Halfedge_index>;
+
   static double square(double x) { return x * x; }
   Coordinates place(Vertex_index v) const { return vertex_coordinates(mesh_, v); }
   double length(Edge_index e) const { return squared_length(mesh_, e); }
@@ -167,15 +170,13 @@ private:
     for (Entry entry = queue.pop(); entry.edge.is_valid(); entry = queue.pop()) {
       if (!goes_on())
         return;
-      // The direction that leaves the better triangles first.
       const Halfedge_index h = mesh_.halfedge(entry.edge);
-      std::array<std::pair<double, Halfedge_index>, 2> ways = {
-          std::pair(shape_after_collapse(h), h), std::pair(shape_after_collapse(mesh_.opposite(h)), mesh_.opposite(h))};
-      if (ways[0].first < ways[1].first)
+      std::array<Collapse, 2> ways = {rated_collapse(h), rated_collapse(mesh_.opposite(h))};
+      if (ways[1].is_better_than(ways[0]))
         std::swap(ways[0], ways[1]);
-      for (const auto& [shape, way] : ways)
-        if (shape >= 0)
-          if (const Vertex_index kept = collapse(way); kept.is_valid()) {
+      for (const Collapse& way : ways)
+        if (way.is_wanted())
+          if (const Vertex_index kept = collapse(way.halfedge); kept.is_valid()) {
             for (const Halfedge_index g : mesh_.halfedges_around_target(mesh_.halfedge(kept)))
               offer(mesh_.edge(g));
             break;
@@ -206,6 +207,14 @@ private:
       if (squared_length(p, target) > high_)
         return -1;
     return shape_after_move(star_, place(star_.centre), target, position_in_link(mesh_.target(h)));
+  }
+
+  Collapse rated_collapse(Halfedge_index h) {
+    const double shape = shape_after_collapse(h);
+    return {h, shape,
+            shape < 0 ? 0
+                      : volume_of_collapse(star_, place(star_.centre), position_in_link(mesh_.target(h)),
+                                           options_.target_edge_length)};
   }
 
   std::size_t position_in_link(Vertex_index v) const {

@@ -4,21 +4,31 @@
 
 #include <haptic_sculpt/sculpting/Response.h>
 
+#include <limits>
+#include <optional>
+
 namespace haptic_sculpt {
 namespace internal {
 
-/// Sets the response of a Sculptor, and whether it expects single drags; at its end, an exception included, both are as
-/// they were before. Lets go of the vertex in hand.
+/// Sets the response of a Sculptor, whether it expects single drags, and a bound on the work of each, unless it has a
+/// tighter one; at its end, an exception included, all are as they were before. Lets go of the vertex in hand.
 template <class Sculptor>
 class Response_scope {
 public:
-  Response_scope(Sculptor& sculptor, Response rule, bool expects_single_drags)
+  Response_scope(Sculptor& sculptor, Response rule, bool expects_single_drags,
+                 std::size_t most_work = std::numeric_limits<std::size_t>::max())
       : sculptor_(sculptor)
       , before_(sculptor.options().response_rule)
-      , expected_before_(sculptor.expects_single_drags()) {
+      , expected_before_(sculptor.expects_single_drags())
+      , work_before_(sculptor.options().work_bound) {
     set(rule, expects_single_drags);
+    if (most_work < work_before_.value_or(std::numeric_limits<std::size_t>::max()))
+      sculptor_.set_work_limit(most_work);
   }
-  ~Response_scope() { set(before_, expected_before_); }
+  ~Response_scope() {
+    set(before_, expected_before_);
+    sculptor_.set_work_limit(work_before_);
+  }
 
   Response_scope(const Response_scope&) = delete;
   Response_scope& operator=(const Response_scope&) = delete;
@@ -27,6 +37,7 @@ private:
   Sculptor& sculptor_;
   Response before_;
   bool expected_before_;
+  std::optional<std::size_t> work_before_;
 
   void set(Response rule, bool expects_single_drags) {
     sculptor_.set_response(rule);

@@ -57,6 +57,9 @@ private:
   static constexpr double least_step = 1.0 / 128;
   /// So many passes of slides are made when few are left.
   static constexpr int slide_passes_of_few = 3;
+  /// A slide decides at most so many pairs: few need more, where parts lie close about each other, and these would take
+  /// most of the time (doc/many_vertices.md).
+  static constexpr std::size_t slide_work = 10000;
   /// Another pass is made at the end while the last has gained more than this share of what was left, as a sum of
   /// distances.
   static constexpr double least_gain = 0.01;
@@ -202,7 +205,7 @@ private:
   void slide_few(Positions& behind, double share) {
     if (behind.empty() || !parameters_.slides)
       return;
-    const Response_scope scope(sculptor_, Response::slide, false);
+    const Response_scope scope(sculptor_, Response::slide, false, slide_work);
     for (int i = 0; i < slide_passes_of_few && goes_on_ && !behind.empty(); ++i)
       pass(behind, share, false);
   }
@@ -239,7 +242,7 @@ private:
     passes_to_the_end(std::numeric_limits<int>::max());
     if (!parameters_.slides)
       return;
-    const Response_scope scope(sculptor_, Response::slide, false);
+    const Response_scope scope(sculptor_, Response::slide, false, slide_work);
     passes_to_the_end(all_behind().size() <= few(vertices_.size()) ? slide_passes_of_few
                                                                    : std::numeric_limits<int>::max());
   }

@@ -51,17 +51,19 @@ bool is_smooth_at(const Star<Mesh>& star, const Coordinates& p) {
   return true;
 }
 
-/// Whether triangles abc and bad may become adc and dbc: no normal turns over, and no sliver is made. If it is not
-/// wanted for other reasons it has to make a sliver better.
+/// Whether triangles abc and bad may become adc and dbc: no normal turns over, no sliver is made, and, as CGAL asks,
+/// the product of the two normals, as long as the areas, does not shrink: so no crease is cut off. If it is not wanted
+/// for other reasons it has to make a sliver better.
 inline bool shape_permits_flip(const Vector& a, const Vector& b, const Vector& c, const Vector& d, bool is_wanted) {
   const double least_before = smaller(least_angle_measure(a, b, c), least_angle_measure(b, a, d)),
                least_after = smaller(least_angle_measure(a, d, c), least_angle_measure(d, b, c));
   const bool was_sliver = least_before < least_wanted_angle;
   if (was_sliver ? least_after <= least_before : !is_wanted || least_after < least_wanted_angle)
     return false;
-  const Vector mean = plus(area_normal(a, b, c), area_normal(b, a, d)), first = area_normal(a, d, c),
-               second = area_normal(d, b, c);
-  return point_alike(first, second) && point_alike(mean, first) && point_alike(mean, second);
+  const Vector abc = area_normal(a, b, c), bad = area_normal(b, a, d), mean = plus(abc, bad),
+               first = area_normal(a, d, c), second = area_normal(d, b, c);
+  return quick_dot(first, second) >= quick_dot(abc, bad) && point_alike(first, second) && point_alike(mean, first) &&
+         point_alike(mean, second);
 }
 
 /// The mean of the neighbours of a vertex at p, put back into the tangent plane.
