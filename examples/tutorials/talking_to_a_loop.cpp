@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One thread runs the haptic loop; another shows what it sculpts, asks it to undo, and has a copy to save.
+#include <haptic_sculpt/haptic_rendering.h>
+#include <haptic_sculpt/surface.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <iostream>
+#include <thread>
+
+using namespace haptic_sculpt;
+using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
+using Scene = Loop_scene<Mesh>; // mesh, probe, Sculptor and map; made by any thread
+
+/// A device without force: goes down to the surface, presses its button, draws what it holds up and aside, lets go.
+struct Mouse {
+  int tick = 0;
+  Pose_reading read_pose() {
+    const double down = std::min(tick, 400) / 400., up = std::clamp((tick - 400) / 300., 0., 1.);
+    Pose_reading reading;
+    reading.position = {0.003 + 0.004 * up, 0.002, 0.05 * (1 - down) + 0.045 * up};
+    reading.button = tick >= 400 && tick < 700 ? 1 : 0;
+    reading.elapsed = 0.001;
+    ++tick;
+    return reading;
+  }
+  void write_force(const Eigen::Vector3d&) {}
+};
+
+int main(int argc, char** argv) {
+  if (argc != 2)
+    return std::cerr << "usage: talking_to_a_loop MESH\n", 2;
+  const Eigen::Vector3d home = Eigen::Vector3d::Zero();
+  const double radius = 0.04; // m: a ball about home that the hand reaches
+  const Pose_loop_parameters parameters;
+  Mouse mouse;
+
+  Scene scene(read_surface<Mesh>(argv[1]),
+              [&](const auto& lower, const auto& upper) { return Workspace_map::fitted(lower, upper, home, radius); });
+  Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.probe, scene.map, parameters);
+  Loop_desk<Scene> desk;
+  Scene_feed feed;
+  Loop_session session(loop, scene, &desk, &feed, nullptr); // nullptr: no log
+  Scene_copy shown(scene.mesh.num_vertices() + 16, scene.mesh.num_faces() + 32);
+
+  std::atomic<bool> ends{false};
+  std::thread loop_thread([&] {
+    while (!ends) { // the loop's thread
+      mouse.write_force(session.tick(mouse.read_pose()).force);
+      std::this_thread::sleep_for(std::chrono::microseconds(200)); // a device has a clock
+    }
+    session.end();
+  });
+
+  // From here on this is the window's thread.
+  Loop_command<Scene> copy;
+  copy.kind = Loop_command<Scene>::Kind::copy, copy.copy = &shown;
+  desk.ask(copy);
+  Loop_answer<Scene> answer;
+  while (!desk.take(answer)) // the hand goes on meanwhile
+    std::this_thread::yield();
+  bool is_good = answer.done, has_moved = false;
+  const auto follow = [&] { // what has changed since
+    for (Scene_change change; feed.take(change);) // the window's thread
+      if (change.number > shown.number)
+        shown.follow(change), has_moved = true;
+  };
+  for (Tick_view tick; tick.tick < 800; follow())
+    while (feed.take(tick))
+      ;
+  const Mesh sculpted = shown.mesh<Mesh>(); // to be drawn, or saved
+  std::cout << "the hand has " << (has_moved ? "sculpted" : "done nothing") << "; " << sculpted.number_of_faces()
+            << " faces\n";
+
+  Loop_command<Scene> undo;
+  undo.kind = Loop_command<Scene>::Kind::undo;
+  desk.ask(undo);
+  while (!desk.take(answer)) // done, or refused and why
+    std::this_thread::yield();
+  ends = true;
+  loop_thread.join();
+  follow();
+  const Mesh before = read_surface<Mesh>(argv[1]), after = shown.mesh<Mesh>();
+  is_good = is_good && has_moved && answer.done && before.number_of_vertices() == after.number_of_vertices();
+  for (const auto v : before.vertices())
+    is_good = is_good && before.point(v) == after.point(v);
+  std::cout << "undone: " << (is_good ? "all is as before\n" : "not all is as before\n");
+  return is_good ? 0 : 1;
+}
