@@ -53,7 +53,9 @@ inline Dynamic_limits dynamic_limits(Device_form form, double tick, double delay
   found.mass_is_calm_below = is_calm_with(0, 0, 0.8 * found.critical_mass, 0);
   found.mass_swings_above = !is_calm_with(0, 0, 1.2 * found.critical_mass, 0);
   found.damping_is_calm_below = is_calm_with(k_s, 0.6 * found.critical_damping, 0, 0);
-  found.damping_swings_above = !is_calm_with(k_s, 2 * found.critical_damping, 0, 0);
+  // A wall that damps far too much throws the handle off, and it may come to rest beside it.
+  found.damping_swings_above =
+      !is_calm_with(k_s, 1.3 * found.critical_damping, 0, 0) || !is_calm_with(k_s, 2 * found.critical_damping, 0, 0);
   return found;
 }
 
