@@ -87,6 +87,24 @@ BOOST_AUTO_TEST_CASE(a_sphere_gets_good_triangles) {
   BOOST_TEST(static_cast<double>(good) > 0.97 * static_cast<double>(mesh.number_of_edges()));
 }
 
+BOOST_AUTO_TEST_CASE(creases_and_corners_are_not_cut_off) {
+  // The flip is wanted for other reasons; in a plane it may be made, over a crease of 30 degrees it may not.
+  const internal::Vector a = {0, 0, 0}, b = {1, 0, 0}, c = {0.5, 0.875, 0}, folded = {0.5, -0.75, -0.4375};
+  BOOST_TEST(internal::shape_permits_flip(a, b, c, {0.5, -0.125, 0}, true));
+  BOOST_TEST(!internal::shape_permits_flip(a, b, c, folded, true));
+
+  // The top of a pyramid goes into a corner of its square base.
+  internal::Star<Mesh> star;
+  star.link_points = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  star.link.resize(4);
+  BOOST_TEST(internal::volume_of_collapse(star, {0, 0, 0}, 0, 1) == 0);
+  BOOST_TEST(internal::volume_of_collapse(star, {0, 0, 0.5}, 0, 1) == 2); // a pyramid on 2, 1/2 high
+  BOOST_TEST(internal::volume_of_collapse(star, {0, 0, 0.5}, 0, 2) == 0.25);
+  // Along a crease nothing is taken.
+  star.link_points = {{1, 0, 0}, {0, 1, -1}, {-1, 0, 0}, {0, -1, -1}};
+  BOOST_TEST(internal::volume_of_collapse(star, {0, 0, 0}, 0, 1) == 0);
+}
+
 BOOST_AUTO_TEST_CASE(constrained_edges_stay) {
   for (const double target : {0.05, 0.3}) {
     for (const bool by_angle : {true, false}) {

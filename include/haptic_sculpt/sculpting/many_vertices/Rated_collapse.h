@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_RATED_COLLAPSE_H
 #define HAPTIC_SCULPT_SCULPTING_RATED_COLLAPSE_H
 
+#include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
 #include <haptic_sculpt/surface/star.h>
 
