@@ -4,6 +4,7 @@
 import fcntl
 import json
 import os
+import shutil
 import stat
 import subprocess
 import tempfile
@@ -68,6 +69,11 @@ def links(folder, mesh):
     fails(2, ["one file"], run(mesh, "--report", f"{folder}/one.json", "--picture", f"{folder}/both"), "two outputs in one file through a link that leads nowhere")
 
 
+def for_everybody(folder):
+    """The program, where other users reach it: not in a home folder."""
+    return shutil.copy(SCULPT, f"{folder}/program")
+
+
 def rights(folder, mesh):
     out = write(f"{folder}/out.off", "old")
     for before, after in ((0o640, 0o640), (0o4755, 0o755), (0o2775, 0o775), (0o6777, 0o777), (0o600, 0o600)):
@@ -85,7 +91,7 @@ def rights(folder, mesh):
     os.chmod(os.path.dirname(folder), 0o755)
     os.chown(out, 12345, 23456)
     os.chmod(out, 0o676)
-    done = run(mesh, "-o", out, "--report", f"{folder}/report.json", user=34567)
+    done = run(mesh, "-o", out, "--report", f"{folder}/report.json", program=for_everybody(folder), user=34567)
     check(done.returncode == 0, f"another user: {done.stderr}")
     for part in (out, "owner (user 12345)", "34567", "group (23456)"):
         check(part in done.stderr and any(part in note for note in json.load(open(f"{folder}/report.json"))["notes"]), f"the message does not say {part}: {done.stderr}")
@@ -102,7 +108,7 @@ def sticky_folder(folder, mesh):
     os.chmod(os.path.dirname(folder), 0o755)
     out = write(f"{folder}/of_root.off", "kept")
     os.chmod(out, 0o666)
-    done = run(mesh, "-o", out, user=34567)
+    done = run(mesh, "-o", out, program=for_everybody(folder), user=34567)
     fails(5, ["of_root.off", "owner"], done, "a file of another in a sticky folder")
     check("asked" not in done.stdout, "the work is done before the output is looked at")
     check(open(out).read() == "kept", "the old file is spoilt")

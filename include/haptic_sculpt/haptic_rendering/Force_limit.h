@@ -51,6 +51,26 @@ private:
   Eigen::Vector3d value_ = Eigen::Vector3d::Zero();
 };
 
+/// What is left of a force after a fault: a share that goes from 1 to exactly 0 in equal steps.
+class Fade_out {
+public:
+  /// The share in the next tick. \param part of the time to fade that a tick takes
+  double next(double part) {
+    share_ = std::fmax(0.0, share_ - part);
+    if (share_ < least_share)
+      share_ = 0;
+    return share_;
+  }
+  bool is_over() const { return share_ == 0; }
+  void reset() { share_ = 1; }
+
+private:
+  /// Less is nothing but what sums of rounded steps leave.
+  static constexpr double least_share = 1e-9;
+
+  double share_ = 1;
+};
+
 /// The largest share, at most 1, of `torque` that all three motors can add to `carried`, N m: 0 where that alone is too
 /// much for one of them. One share for all three keeps the direction of the force; clipping each motor by itself turns
 /// it by 20 to 30 degrees.

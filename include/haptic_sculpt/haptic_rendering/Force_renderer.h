@@ -41,21 +41,19 @@ public:
   /// After a fault: the last torques, less each tick, and 0 once the time to fade has passed. Uses nothing that a
   /// device says.
   Rendered_force fade_out() {
-    fade_ = std::fmax(0.0, fade_ - tick_ / limits_.fade_time);
-    if (fade_ < least_fade)
-      fade_ = 0;
+    const double share = fade_.next(tick_ / limits_.fade_time);
     Rendered_force faded = last_;
-    faded.force *= fade_, faded.interaction_torque *= fade_, faded.torque *= fade_;
+    faded.force *= share, faded.interaction_torque *= share, faded.torque *= share;
     return faded;
   }
-  bool has_faded() const { return fade_ == 0; }
+  bool has_faded() const { return fade_.is_over(); }
 
   /// A refused edit is felt, the less the lighter the mechanism is there. \param direction in axes of the device
   void refuse(const Handle_motion& handle, const Eigen::Vector3d& direction) {
     burst_.begin(direction, mobility(handle, direction.normalized()));
   }
   /// Forces begin at 0 and come back slowly.
-  void restart() { ramp_ = 0, fade_ = 1, slew_.reset(), last_ = Rendered_force(); }
+  void restart() { ramp_ = 0, fade_.reset(), slew_.reset(), last_ = Rendered_force(); }
 
   double ramp() const { return ramp_; }
   const Force_limits& limits() const { return limits_; }
@@ -63,10 +61,8 @@ public:
 private:
   Force_limits limits_;
   Gravity_compensation compensation_;
-  /// A share of the force that is nothing but what sums of rounded shares leave.
-  static constexpr double least_fade = 1e-9;
-
-  double tick_, ramp_ = 0, fade_ = 1;
+  double tick_, ramp_ = 0;
+  Fade_out fade_;
   Slew_limit slew_;
   Refusal_burst burst_;
   Rendered_force last_;

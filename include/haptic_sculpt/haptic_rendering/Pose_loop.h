@@ -83,9 +83,7 @@ public:
       }
     }
     if (tick_.fault != Loop_fault::none) {
-      fade_ = std::fmax(0.0, fade_ - parameters_.tick / parameters_.limits.fade_time);
-      fade_ = fade_ < least_fade ? 0 : fade_;
-      tick_.force = fade_ * at_fault_;
+      tick_.force = fade_.next(parameters_.tick / parameters_.limits.fade_time) * at_fault_;
       tick_.coupling.setZero();
       const Eigen::Vector3d held = tick_.tool.proxy;
       tick_.tool = Tool_step();
@@ -100,7 +98,7 @@ public:
   /// After a fault: forces come back slowly, from 0, from where everything is.
   void restart() {
     watchdog_.reset(), velocity_.reset(), slew_.reset(), tool_.let_go();
-    is_first_ = true, ramp_ = 0, fade_ = 1;
+    is_first_ = true, ramp_ = 0, fade_.reset();
     tick_ = Pose_tick();
   }
   /// From here on in another sculpture; forces begin at 0. The old one is let go of, and may be destroyed.
@@ -111,14 +109,13 @@ public:
     restart();
   }
 
-  bool has_stopped() const { return tick_.fault != Loop_fault::none && fade_ == 0; }
+  bool has_stopped() const { return tick_.fault != Loop_fault::none && fade_.is_over(); }
   const Tool<Sculptor>& tool() const { return tool_; }
   Tool<Sculptor>& tool() { return tool_; }
   const Pose_loop_parameters& parameters() const { return parameters_; }
   const Workspace_map& map() const { return map_; }
 
 private:
-  static constexpr double least_fade = 1e-9; ///< what sums of rounded shares leave
   Pose_loop_parameters parameters_;
   Workspace_map map_;
   Tool<Sculptor> tool_;
@@ -129,7 +126,8 @@ private:
   Pose_tick tick_;
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero(), at_fault_ = Eigen::Vector3d::Zero();
   bool is_first_ = true;
-  double ramp_ = 0, fade_ = 1;
+  double ramp_ = 0;
+  Fade_out fade_;
 
   void render(const Pose_reading& reading) {
     velocity_.add(is_first_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(reading.position - last_));
