@@ -38,9 +38,15 @@ inline double largest_magnitude(const Vector& a) {
   return std::fmax(std::abs(a[0]), std::fmax(std::abs(a[1]), std::abs(a[2])));
 }
 
-/// Euclidean length without overflow or underflow on the way: scaled by a power of two.
+/// Whether squares of a vector with this largest coordinate, and what is added to them, are far from both ends of the
+/// range. Scaling by a power of two would change no bit of a length then, and costs more than the rest.
+inline bool has_plain_squares(double largest) { return largest > 0x1p-400 && largest < 0x1p400; }
+
+/// Euclidean length without overflow or underflow on the way: scaled by a power of two where that is needed.
 inline double length(const Vector& a) {
   const double largest = largest_magnitude(a);
+  if (has_plain_squares(largest))
+    return std::sqrt(dot(a, a));
   if (largest == 0 || !std::isfinite(largest))
     return largest;
   const int exponent = std::ilogb(largest);
@@ -51,6 +57,10 @@ inline double length(const Vector& a) {
 /// The vector of length 1 in the direction of a; zero for zero.
 inline Vector normalized(const Vector& a) {
   const double largest = largest_magnitude(a);
+  if (has_plain_squares(largest)) {
+    const double l = std::sqrt(dot(a, a));
+    return {a[0] / l, a[1] / l, a[2] / l};
+  }
   if (largest == 0 || !std::isfinite(largest))
     return {0, 0, 0};
   const int exponent = std::ilogb(largest);
