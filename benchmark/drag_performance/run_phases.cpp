@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the time of a drag goes. Nothing in the library is timed from within: the same motions are made by a whole Sculptor, by its
-// Guarded_star with the stop, and by its Guarded_star deciding only; the differences are the phases. Checklists are filled once more
+// Guarded_star with the stop, and by its Guarded_star deciding only; the differences are the phases. Lists of candidates are filled once more
 // by themselves, one star after the other, so that they find the memory as cold. Of a slide, the calls of its guard are timed.
 #include "drag_performance/Timed_guard.h"
 #include "drag_performance/Random_motions.h"
@@ -73,7 +73,7 @@ Pass by_sculptor(const Workload_mesh& scene, const Drags& drags, const Is_counte
   return pass;
 }
 
-/// What a checklist was filled for.
+/// What a list of candidates was filled for.
 struct Wanted_list {
   const Drag_of_steps* drag;
   Vector source, target;
@@ -105,7 +105,7 @@ void fill_lists(const Mesh& mesh, const std::vector<Wanted_list>& wanted, Latenc
 }
 
 /// The same by a Guarded_star alone. \param with_stop false: only decides
-/// \param lists gets, for each step that counts, the time to fill its checklist; 0 where it was there
+/// \param lists gets, for each step that counts, the time to fill its list of candidates; 0 where it was there
 template <class Is_counted>
 Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_counted& is_counted, bool with_stop, Latencies* lists = nullptr) {
   Mesh mesh = scene.mesh;

@@ -65,7 +65,7 @@ public:
   void reset() { share_ = 1; }
 
 private:
-  /// Less is nothing but what sums of rounded steps leave.
+  /// Of the force, no unit: less is nothing but what sums of rounded steps leave.
   static constexpr double least_share = 1e-9;
 
   double share_ = 1;

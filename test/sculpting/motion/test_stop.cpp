@@ -169,7 +169,7 @@ Point_3 far_point(const Integer_point& p) {
 
 BOOST_AUTO_TEST_CASE(a_rounded_stop_is_proven_beside_a_wall_that_is_nearer_than_an_ulp) {
   // A tip comes down to a floor along a wall that is parallel to its path and 1/|n| of an ulp beside it, so that
-  // rounding puts about half of the points of the path on the other side of the wall.
+  // rounding puts a third of the points of the path on the other side of the wall.
   const unsigned seed = seed_from_environment(14);
   Random random(seed);
   const auto number = [&](int low, int high) { return std::uniform_int_distribution<std::int64_t>(low, high)(random); };

@@ -30,11 +30,9 @@ public:
   /// Whether planes serve where no coordinate is larger than `reach`: else products might leave the range of doubles.
   static bool serve(double reach) { return reach > least_reach && reach < largest_reach; }
 
-  /// So far beyond the highest of what moves, measured and rounded along n, a point is certainly apart from it, and
-  /// farther than `margin`. \param reach bounds all coordinates \param longest bounds |n|, in units of largest
-  /// coordinate 1
+  /// A point so far beyond the highest of what moves, both measured and rounded along n, is certainly apart from it by
+  /// more than `margin`. \param reach bounds all coordinates \param longest bounds the length of n
   static double slack(double reach, double longest, double margin) { return rounding * reach + longest * margin; }
-
 
   void reserve(std::size_t n) { x_.reserve(n), y_.reserve(n), z_.reserve(n), sides_.reserve(n); }
   void resize(std::size_t n) { x_.resize(n), y_.resize(n), z_.resize(n); }

@@ -110,7 +110,7 @@ public:
     // To keep a clearance from what was nearer J may have gone back: then it had better stay.
     if (end != Walk_end::reached && is_farther(target, walk_.x, source))
       walk_.return_to(source);
-    if (end != Walk_end::reached && walk_.x == source && walk_.is_beyond_reach(target) && !guard.is_spent())
+    if (end != Walk_end::reached && end != Walk_end::spent && walk_.x == source && walk_.is_beyond_reach(target))
       return stop_instead(guard, source, target, rules, result);
     make_shorter(target, is_free);
     walk_.forget([](const auto& facet) { return facet.is_over(Slide_lengths::clearances_of_lift); });
