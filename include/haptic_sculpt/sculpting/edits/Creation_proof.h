@@ -8,6 +8,8 @@
 
 #include <boost/container/static_vector.hpp>
 
+#include <limits>
+
 namespace haptic_sculpt {
 namespace internal {
 
@@ -31,13 +33,11 @@ public:
   Refused refuse(const Old_halfedges& old_halfedges, const Coordinates& p, double delta,
                  const std::vector<Vertex_index>& isolated) {
     old_faces_.clear(), new_faces_.clear();
-    Box_3 box(p);
     for (const Halfedge_index h : old_halfedges) {
       Mesh_watch<Mesh>::check_face(*corners_of_, mesh_->face(h));
       const Corners<Mesh> old = corners_at(*mesh_, h);
       old_faces_.push_back(old);
       for (int i = 0; i < 3; ++i) {
-        box.include(old[i].point);
         if (old[i].point == p)
           return Refusal<Mesh>{Refusal_reason::coincident_vertex, {old[i].index}};
         if (i > 0 || old_halfedges.size() == 1) // the side that two old faces share is split
@@ -51,7 +51,7 @@ public:
       for (std::size_t j = i + 1; j < new_faces_.size(); ++j)
         if (proof_.meet_improperly(new_faces_[i], new_faces_[j]))
           return Refusal<Mesh>{Refusal_reason::blocked, {new_faces_[j][1].index, new_faces_[j][2].index}};
-    if (Refused refused = refuse_what_is_near(old_halfedges, p, box))
+    if (Refused refused = refuse_what_is_near(old_halfedges, p))
       return refused;
     for (const Vertex_index v : isolated)
       if (stands_between(vertex_coordinates(*mesh_, v), p))
@@ -77,10 +77,28 @@ private:
     return false;
   }
 
-  Refused refuse_what_is_near(const Old_halfedges& old_halfedges, const Coordinates& p, const Box_3& box) {
+  /// Adds what is near the tetrahedron between an old face and the new faces in its place. It is what a corner's edge
+  /// opposite passes over where the corner goes to p: of a face of a spike, far less than a box holds if the edge is
+  /// short.
+  void add_candidates(const Corners<Mesh>& old, const Coordinates& p) {
+    int apex = 0;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const Coordinates &a = old[(i + 1) % 3].point, &b = old[(i + 2) % 3].point;
+      const double length = std::fmax(std::fmax(std::abs(a[0] - b[0]), std::abs(a[1] - b[1])), std::abs(a[2] - b[2]));
+      if (length < shortest)
+        apex = i, shortest = length;
+    }
+    const std::array<Coordinates, 2> edge = {old[(apex + 1) % 3].point, old[(apex + 2) % 3].point};
+    broad_phase_->query(Swept_star_3{old[apex].point, p, edge.data(), edge.size()}, candidates_);
+  }
+
+  Refused refuse_what_is_near(const Old_halfedges& old_halfedges, const Coordinates& p) {
     candidates_.clear();
-    broad_phase_->query(box, candidates_);
+    for (const Corners<Mesh>& old : old_faces_)
+      add_candidates(old, p);
     std::sort(candidates_.begin(), candidates_.end());
+    candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
     for (const Face_index f : candidates_) {
       bool is_old = false;
       for (const Halfedge_index h : old_halfedges)

@@ -8,26 +8,21 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// What lies between two parallel planes that have a swept star between them: a long edge that goes far sideways sweeps
-/// a sheet. The proof that no rounding loses a box is in doc/broad_phase.md.
+/// What lies between two parallel planes that have a swept star between them. A long edge that goes far sideways sweeps
+/// a sheet, which one slab holds; a needle is held by two that cross along it. The proof that no rounding loses a box
+/// is in doc/broad_phase.md.
 class Slab_of_points {
 public:
-  /// About the plane of the source, the target and a point of the link.
-  explicit Slab_of_points(const Swept_star_3& star) {
-    if (star.valence == 0)
+  using Vector = std::array<double, 3>;
+
+  Slab_of_points() = default; ///< everything
+
+  /// \param normal of the planes; any will do, and of one that is too short or not finite the slab is everything
+  Slab_of_points(const Swept_star_3& star, const Vector& normal) {
+    const double largest = std::fmax(std::fmax(std::abs(normal[0]), std::abs(normal[1])), std::abs(normal[2]));
+    if (star.valence == 0 || !(largest > least_normal && largest < 1 / least_normal))
       return;
     const auto &s = star.source, &t = star.target, &g = star.link[0];
-    double normal[3], largest = 0;
-    for (int i = 0; i < 3; ++i)
-      if (!(std::abs(s[i] - g[i]) < largest_extent && std::abs(t[i] - g[i]) < largest_extent))
-        return;
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      normal[i] = (s[j] - g[j]) * (t[k] - g[k]) - (s[k] - g[k]) * (t[j] - g[j]);
-      largest = std::fmax(largest, std::abs(normal[i]));
-    }
-    if (!(largest > least_size))
-      return;
     double low = 0, high = 0, across = 0;
     for (int i = 0; i < 3; ++i) {
       origin_[i] = static_cast<float>(g[i]); // any origin will do
@@ -77,7 +72,7 @@ public:
   }
 
 private:
-  static constexpr double least_size = 0x1p-200, largest_extent = 0x1p+100;
+  static constexpr double least_normal = 0x1p-900; ///< shorter ones, and their inverses, are not divided by
   static constexpr float least_error =
       0x1p-120f; ///< more than products lose that underflow; far below any thickness there is
 
