@@ -36,11 +36,8 @@ public:
   /// The same, given up when there are more than `most` faces, or about as many nodes to read on a level. Returns whether
   /// the answer is whole.
   bool query(const Swept_star_3& star, std::vector<Face_index>& faces, std::size_t most) {
-    const internal::Star_filter filter(star);
-    if (filter.is_thin())
-      return descend([&filter](const Node& node) { return filter.meeting(node); }, faces, most);
-    // a box costs less to ask
-    return descend([&filter](const Node& node) { return node.meeting(filter.box()); }, faces, most);
+    internal::Star_filter filter(star);
+    return descend([&filter](const Node& node) { return filter.meeting(node); }, faces, most);
   }
 
   /// Visits faces about in the order of a lower bound of what is sought, until nothing is left within the limit.

@@ -9,11 +9,12 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Which boxes of a node may meet what a star sweeps: those in the box around it, in the cone from its start to the
-/// target, in that from the end back to the start, in the cone from its link to where its centre is, and in two slabs
-/// around all; where these are thin.
+/// target, in that from the end back to the start, in the cone from its link to where its centre is, and, where many
+/// nodes are asked about, in two slabs around all; where these are thin.
 class Star_filter {
 public:
-  explicit Star_filter(const Swept_star_3& star) {
+  /// \pre the star stays as it is while it is asked
+  explicit Star_filter(const Swept_star_3& star) : star_(&star) {
     Box_3 link, around = star.path();
     for (std::size_t i = 0; i < star.valence; ++i)
       link.include(star.link[i]);
@@ -22,49 +23,57 @@ public:
     if (!star.is_box) {
       from_start_ = Cone_of_boxes(Box_3(link).include(star.source), Box_3(star.target), star.until);
       from_end_ = Cone_of_boxes(Box_3(link).include(star.target), Box_3(star.source), 1);
-      if (from_link_.is_long() || from_start_.is_long() || from_end_.is_long())
-        make_slabs(star);
     }
+    has_cones_ = from_start_.is_long() || from_end_.is_long() || from_link_.is_long();
     around_ = Float_box::query(around.include(link));
   }
 
-  unsigned meeting(const Box_node& node) const {
+  unsigned meeting(const Box_node& node) {
     unsigned mask = node.meeting(around_);
-    if (mask != 0 && from_start_.is_long())
-      mask &= from_start_.meeting(node);
-    if (mask != 0 && from_end_.is_long())
-      mask &= from_end_.meeting(node);
-    if (mask != 0 && from_link_.is_long())
-      mask &= from_link_.meeting(node);
+    if (mask != 0 && has_cones_) { // a box costs less to ask
+      if (from_start_.is_long())
+        mask &= from_start_.meeting(node);
+      if (mask != 0 && from_end_.is_long())
+        mask &= from_end_.meeting(node);
+      if (mask != 0 && from_link_.is_long())
+        mask &= from_link_.meeting(node);
+    }
+    return mask != 0 && ++nodes_ >= many_nodes ? meeting_slabs(node, mask) : mask;
+  }
+
+private:
+  static constexpr std::size_t many_nodes = 32; ///< in the box and the cones; of fewer, slabs cost more than they save
+
+  const Swept_star_3* star_;
+  Cone_of_boxes from_start_, from_end_, from_link_;
+  std::array<Slab_of_points, 2> slabs_;
+  Float_box around_;
+  bool has_cones_ = false;
+  std::size_t nodes_ = 0;
+
+  unsigned meeting_slabs(const Box_node& node, unsigned mask) {
+    if (nodes_ == many_nodes)
+      make_slabs();
     for (const Slab_of_points& slab : slabs_)
       if (mask != 0 && slab.is_thin())
         mask &= slab.meeting(node);
     return mask;
   }
 
-  /// Whether there is more to it than the box.
-  bool is_thin() const { return from_start_.is_long() || from_end_.is_long() || from_link_.is_long(); }
-  const Float_box& box() const { return around_; }
-
-private:
-  Cone_of_boxes from_start_, from_end_, from_link_;
-  std::array<Slab_of_points, 2> slabs_;
-  Float_box around_;
-
   /// One about the plane of the source, the target and a point of the link, the other across it and along the line of
   /// the source and that point.
-  void make_slabs(const Swept_star_3& star) {
+  void make_slabs() {
     using Vector = Slab_of_points::Vector;
-    if (star.valence == 0)
+    if (star_->valence == 0 || star_->is_box)
       return;
     Vector along{}, beside{};
     for (int i = 0; i < 3; ++i)
-      along[i] = star.source[i] - star.link[0][i], beside[i] = star.target[i] - star.link[0][i];
+      along[i] = star_->source[i] - star_->link[0][i], beside[i] = star_->target[i] - star_->link[0][i];
     const auto cross = [](const Vector& a, const Vector& b) {
       return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     };
     const Vector normal = cross(along, beside);
-    slabs_ = {Slab_of_points(star, normal), Slab_of_points(star, cross(normal, along))};
+    slabs_ = {Slab_of_points(*star_, normal), Slab_of_points(*star_, cross(normal, along))};
   }
 };
 
