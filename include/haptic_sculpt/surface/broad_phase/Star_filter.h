@@ -66,9 +66,11 @@ private:
     using Vector = Slab_of_points::Vector;
     if (star_->valence == 0 || star_->is_box)
       return;
+    const bool goes_there = star_->target == star_->link[0]; // as where an edge collapses: no plane would be known
+    const Vector& point = star_->link[goes_there && star_->valence > 1 ? 1 : 0];
     Vector along{}, beside{};
     for (int i = 0; i < 3; ++i)
-      along[i] = star_->source[i] - star_->link[0][i], beside[i] = star_->target[i] - star_->link[0][i];
+      along[i] = star_->source[i] - point[i], beside[i] = star_->target[i] - point[i];
     const auto cross = [](const Vector& a, const Vector& b) {
       return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     };
