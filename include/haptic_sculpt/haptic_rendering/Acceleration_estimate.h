@@ -23,7 +23,7 @@ public:
   static constexpr double faithful_to = 5;         ///< Hz: how fast hands shake what they hold
   static constexpr double permitted_error = 0.009; ///< of the acceleration, there
 
-  /// \param tick s
+  /// \param tick s \param cutoff of each low-pass, Hz
   explicit Acceleration_estimate(double tick, double cutoff = default_cutoff)
       : tick_(tick), share_(-std::expm1(-2 * pi * cutoff * tick)), lag_(1 + 2 * (1 - share_) / share_) {
     const double error = (lag_ * lag_ + lag_) / 2 - (1 - share_) / (share_ * share_) - 1.0 / 12;
@@ -42,12 +42,13 @@ public:
     value_ = second_pass_ + lag_ * change_ + curvature_ * (change_ - change_before);
     return value_;
   }
-  const Eigen::Vector3d& value() const { return value_; }
+  const Eigen::Vector3d& value() const { return value_; } ///< what the last add() gave; 0 before
   /// What becomes of second differences (over the square of the tick) that turn by an angle a tick.
   std::complex<double> response(double angle) const {
     const std::complex<double> q = std::polar(1.0, -angle), pass = share_ / (1.0 - (1 - share_) * q);
     return pass * pass * (1.0 + lag_ * (1.0 - q) + curvature_ * (1.0 - q) * (1.0 - q));
   }
+  /// Forgets all steps: the next one is the first, and gives 0.
   void reset() {
     has_step_ = false;
     first_pass_.setZero(), second_pass_.setZero(), change_.setZero(), value_.setZero();

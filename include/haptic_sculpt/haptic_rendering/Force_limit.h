@@ -44,8 +44,8 @@ public:
     value_ = norm <= step ? force : Eigen::Vector3d(value_ + change * (step / norm));
     return value_;
   }
-  const Eigen::Vector3d& value() const { return value_; }
-  void reset() { value_.setZero(); }
+  const Eigen::Vector3d& value() const { return value_; } ///< the force followed last, N
+  void reset() { value_.setZero(); }                      ///< to 0 at once, whatever the rate
 
 private:
   Eigen::Vector3d value_ = Eigen::Vector3d::Zero();
@@ -61,8 +61,8 @@ public:
       share_ = 0;
     return share_;
   }
-  bool is_over() const { return share_ == 0; }
-  void reset() { share_ = 1; }
+  bool is_over() const { return share_ == 0; } ///< the share is exactly 0, until reset()
+  void reset() { share_ = 1; }                 ///< the share is 1 again
 
 private:
   /// Of the force, no unit: less is nothing but what sums of rounded steps leave.

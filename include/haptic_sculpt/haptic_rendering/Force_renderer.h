@@ -27,10 +27,11 @@ struct Rendered_force {
 /// motors. No allocation.
 class Force_renderer {
 public:
+  /// Begins at a force of 0. \param tick s
   Force_renderer(const Force_limits& limits, Gravity_compensation compensation, double tick)
       : limits_(limits), compensation_(compensation), tick_(tick), burst_(tick) {}
 
-  /// \param wanted N, in axes of the device
+  /// The force and torques of this tick; once a tick. \param wanted N, in axes of the device
   Rendered_force render(const Handle_motion& handle, const Eigen::Vector3d& wanted) {
     ramp_ = std::fmin(1.0, ramp_ + tick_ / limits_.ramp_time);
     const Eigen::Vector3d followed = slew_.follow(clamped(wanted, limits_.largest), limits_.slew * tick_);
@@ -46,7 +47,7 @@ public:
     faded.force *= share, faded.interaction_torque *= share, faded.torque *= share;
     return faded;
   }
-  bool has_faded() const { return fade_.is_over(); }
+  bool has_faded() const { return fade_.is_over(); } ///< fade_out() has come to 0
 
   /// A refused edit is felt, the less the lighter the mechanism is there. \param direction in axes of the device
   void refuse(const Handle_motion& handle, const Eigen::Vector3d& direction) {
@@ -55,8 +56,8 @@ public:
   /// Forces begin at 0 and come back slowly.
   void restart() { ramp_ = 0, fade_.reset(), slew_.reset(), last_ = Rendered_force(); }
 
-  double ramp() const { return ramp_; }
-  const Force_limits& limits() const { return limits_; }
+  double ramp() const { return ramp_; }                  ///< share of the force since the last start, 0 to 1
+  const Force_limits& limits() const { return limits_; } ///< those that were given
 
 private:
   Force_limits limits_;

@@ -32,14 +32,16 @@ public:
     return condition_;
   }
 
-  const Device_parameters<double>& parameters() const { return parameters_; }
-  const Device_pose<double>& pose() const { return pose_; }
-  const Device_jacobian<double>& jacobian() const { return jacobian_; }
-  const Eigen::Vector3d& position() const { return pose_.position; }
-  const Eigen::Vector3d& step() const { return step_; }             ///< since the last tick, m
-  const Eigen::Vector3d& joint_step() const { return joint_step_; } ///< since the last tick, rad
-  const Eigen::Vector3d& velocity() const { return velocity_.value(); }
-  double condition() const { return condition_; }
+  const Device_parameters<double>& parameters() const { return parameters_; } ///< of the device, a copy
+  const Device_pose<double>& pose() const { return pose_; } ///< the last that was found; the start before
+  const Device_jacobian<double>& jacobian() const {
+    return jacobian_;
+  }                                                                  ///< there; of no meaning before a pose was found
+  const Eigen::Vector3d& position() const { return pose_.position; } ///< of the handle, m, in axes of the device
+  const Eigen::Vector3d& step() const { return step_; }              ///< since the last tick, m
+  const Eigen::Vector3d& joint_step() const { return joint_step_; }  ///< since the last tick, rad
+  const Eigen::Vector3d& velocity() const { return velocity_.value(); } ///< of the handle, low-passed, m/s
+  double condition() const { return condition_; } ///< cond(J) of the last pose found; infinite before
   /// Whether the last angles were not the first: then the steps above are steps.
   bool has_step() const { return has_step_; }
 

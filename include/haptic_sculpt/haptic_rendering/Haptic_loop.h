@@ -14,13 +14,13 @@ namespace haptic_sculpt {
 
 /// How a loop runs.
 struct Haptic_parameters {
-  double tick = 0.001; ///< s
-  double delay = 0;    ///< from a command to its torque, ticks
-  Virtual_coupling coupling;
-  Force_limits limits;
-  Watchdog_limits watchdog;
-  Gravity_compensation gravity = Gravity_compensation::spatial;
-  Inertia_parameters inertia;
+  double tick = 0.001;       ///< s
+  double delay = 0;          ///< from a command to its torque, ticks
+  Virtual_coupling coupling; ///< between hand and tool; refused where it is not stable
+  Force_limits limits;       ///< of what reaches the hand
+  Watchdog_limits watchdog;  ///< beyond them the loop lets go
+  Gravity_compensation gravity = Gravity_compensation::spatial; ///< by the full model, unless it is changed
+  Inertia_parameters inertia;                                   ///< off by default
   double controller_damping = 0; ///< the most the passivity controller may damp, N s/m; 0: there is none
   double reach = 0.001;          ///< of a grab, m in the device
   std::size_t work = 400;        ///< pairs a drag may decide (doc/work.md)
@@ -28,11 +28,11 @@ struct Haptic_parameters {
 
 /// What a tick did; places in the scene, forces on the hand in axes of the device.
 struct Haptic_tick {
-  Tool_step tool;
+  Tool_step tool;                                     ///< what the tool did; after a fault nothing, at the last proxy
   Eigen::Vector3d coupling = Eigen::Vector3d::Zero(); ///< N, of the spring alone
-  Rendered_force rendered;
-  Loop_fault fault = Loop_fault::none;
-  bool is_new_fault = false;
+  Rendered_force rendered;                            ///< what the motors are to give; fades at a fault
+  Loop_fault fault = Loop_fault::none;                ///< why the loop has let go; stays until restart()
+  bool is_new_fault = false;                          ///< true in the one tick in which the fault was found
 };
 
 /// What stands between a device and a sculpture: at each tick joint angles in, torques out. doc/haptic_rendering.md has
@@ -43,7 +43,7 @@ struct Haptic_tick {
 template <class Sculptor>
 class Haptic_loop {
 public:
-  using Vertex_index = typename Sculptor::Vertex_index;
+  using Vertex_index = typename Sculptor::Vertex_index; ///< of the mesh that is sculpted
 
   /// \param probe an isolated vertex of the sculptor's mesh, outside of all solids \param start a pose near the first
   /// reading \throw Unstable_coupling if `limits`, of the same device and map, do not permit the
@@ -106,13 +106,13 @@ public:
 
   /// Whether a fault has let go of the hand altogether.
   bool has_stopped() const { return tick_.fault != Loop_fault::none && renderer_.has_faded(); }
-  const Tool<Sculptor>& tool() const { return tool_; }
-  Tool<Sculptor>& tool() { return tool_; }
-  const Handle_motion& handle() const { return handle_; }
-  const Passivity_observer& observer() const { return observer_; }
-  const Inertia_rendering& inertia() const { return inertia_; }
-  const Haptic_parameters& parameters() const { return parameters_; }
-  const Workspace_map& map() const { return map_; }
+  const Tool<Sculptor>& tool() const { return tool_; } ///< what the hand does in the scene
+  Tool<Sculptor>& tool() { return tool_; }             ///< for edits between two ticks, in the thread that calls tick()
+  const Handle_motion& handle() const { return handle_; }             ///< where the handle was in the last tick
+  const Passivity_observer& observer() const { return observer_; }    ///< of all ticks so far that were no fault
+  const Inertia_rendering& inertia() const { return inertia_; }       ///< of the virtual mass; tells its energies
+  const Haptic_parameters& parameters() const { return parameters_; } ///< those that were given
+  const Workspace_map& map() const { return map_; }                   ///< of the scene that is sculpted now
 
 private:
   Sculptor* sculptor_;

@@ -16,7 +16,7 @@ struct Inertia_parameters {
   double compensated = 0; ///< the share, 0 to 1, of the mechanism's own inertia that motors carry
   double cutoff = Acceleration_estimate::default_cutoff; ///< of the acceleration, Hz; lower where encoders are coarse
 
-  bool is_on() const { return mass != 0 || compensated != 0; }
+  bool is_on() const { return mass != 0 || compensated != 0; } ///< whether any force comes of it
   /// \throw Error naming what is wrong
   void check() const {
     if (!(mass >= 0 && mass <= 10))
@@ -73,6 +73,7 @@ public:
     return mass + carried;
   }
 
+  /// Forgets all steps; a mass fades in anew. The energies stay.
   void restart() {
     handle_.reset(), joints_.reset(), share_ = 0;
     mass_energy_.command(Eigen::Vector3d::Zero()), compensation_energy_.command(Eigen::Vector3d::Zero());
@@ -80,8 +81,8 @@ public:
 
   /// \name What was taken from the hand before limits, J
   ///@{
-  double mass_energy() const { return mass_energy_.port(); }
-  double compensation_energy() const { return compensation_energy_.port(); }
+  double mass_energy() const { return mass_energy_.port(); }                 ///< by the virtual mass
+  double compensation_energy() const { return compensation_energy_.port(); } ///< by what carries inertia of the mechanism
   ///@}
 
 private:

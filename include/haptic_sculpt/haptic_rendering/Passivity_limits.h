@@ -31,11 +31,11 @@ inline double stable_stiffness(double friction, double damping, double tick, dou
 
 /// Where the device gives least friction, or has least mass, at the handle, for what is rendered there.
 struct Worst_pose {
-  Device_pose<double> pose;
-  double greatest = 0;   ///< sigma_max(J), m/rad
-  double fading = 0;     ///< the share of the force that is rendered there
-  bool is_found = false; ///< false: no pose of the workspace can be used
-  double badness = -1;   ///< by which it was sought
+  Device_pose<double> pose; ///< of no meaning unless `is_found`
+  double greatest = 0;      ///< sigma_max(J), m/rad
+  double fading = 0;        ///< the share of the force that is rendered there
+  bool is_found = false;    ///< false: no pose of the workspace can be used
+  double badness = -1;      ///< by which it was sought
 
   /// b_phys at the handle, N s/m, in units of what is rendered.
   double friction(const Device_parameters<double>& parameters) const {
@@ -155,10 +155,13 @@ struct Passivity_limits {
   double largest_damping = 0;    ///< b that may be asked for, N s/m
   double largest_mass = 0;       ///< virtual mass that may be asked for, kg
   double largest_controller = 0; ///< damping of a passivity controller that may be asked for, N s/m
-  Worst_pose worst, lightest;
+  Worst_pose worst,              ///< that of least friction
+      lightest;                  ///< that of least apparent mass
 
-  double largest_stiffness() const { return std::max({passive_stiffness, stable_stiffness, 0.0}); }
+  double largest_stiffness() const { return std::max({passive_stiffness, stable_stiffness, 0.0}); } ///< N/m; never < 0
+  /// Whether the stiffness is passive or stable; check_dynamics() looks at the damping.
   bool permits(const Virtual_coupling& coupling) const { return coupling.stiffness <= largest_stiffness(); }
+  /// Whether the stiffness can give no energy to any hand. \pre the damping is the one that the limits were made for
   bool is_passive(const Virtual_coupling& coupling) const { return coupling.stiffness <= passive_stiffness; }
 };
 

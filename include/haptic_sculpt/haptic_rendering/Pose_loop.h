@@ -15,12 +15,13 @@ namespace haptic_sculpt {
 
 /// How a loop on a device of pose and force runs.
 struct Pose_loop_parameters {
-  double tick = 0.001; ///< s
-  Virtual_coupling coupling;
-  Force_limits limits; ///< of which cond(J) plays no role
-  /// What the device dissipates at the handle, N s/m, and its delay, ticks: they bound the stiffness. A device without
+  double tick = 0.001;       ///< s
+  Virtual_coupling coupling; ///< its stiffness at most passive_stiffness()
+  Force_limits limits;       ///< of which cond(J) plays no role
+  /// What the device dissipates at the handle, N s/m: with the delay it bounds the stiffness. A device without
   /// force, such as a mouse, has no bound: infinite.
-  double friction = std::numeric_limits<double>::infinity(), delay = 0;
+  double friction = std::numeric_limits<double>::infinity(),
+         delay = 0;         ///< from a command to its force, ticks
   double mass = 0.05;       ///< of the free handle, kg: a refused edit is felt the less the lighter it is
   double speed = 10;        ///< of a handle that is in order at most, m/s
   double stall_time = 0.02; ///< s between two ticks
@@ -33,11 +34,11 @@ struct Pose_loop_parameters {
 
 /// What a tick did; places in the scene, forces on the hand in axes of the device, N.
 struct Pose_tick {
-  Tool_step tool;
+  Tool_step tool;                                     ///< what the tool did; after a fault nothing, at the last proxy
   Eigen::Vector3d coupling = Eigen::Vector3d::Zero(); ///< of the spring alone
   Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< rendered
-  Loop_fault fault = Loop_fault::none;
-  bool is_new_fault = false;
+  Loop_fault fault = Loop_fault::none;                ///< why the loop has let go; stays until restart()
+  bool is_new_fault = false;                          ///< true in the one tick in which the fault was found
 };
 
 /// What stands between a device of pose and force and a sculpture: at each tick a place in, a force out. Beneath
@@ -46,10 +47,10 @@ struct Pose_tick {
 template <class Sculptor_>
 class Pose_loop {
 public:
-  using Sculptor = Sculptor_;
-  using Vertex_index = typename Sculptor::Vertex_index;
-  using Reading = Pose_reading;
-  using Tick = Pose_tick;
+  using Sculptor = Sculptor_;                           ///< whose mesh is sculpted
+  using Vertex_index = typename Sculptor::Vertex_index; ///< of that mesh
+  using Reading = Pose_reading;                         ///< what tick() takes
+  using Tick = Pose_tick;                               ///< what tick() gives
 
   /// \param probe an isolated vertex of the sculptor's mesh, outside of all solids
   /// \throw Error if the coupling is not passive on this device
@@ -109,11 +110,12 @@ public:
     restart();
   }
 
+  /// Whether a fault has let go of the hand altogether: the force is 0.
   bool has_stopped() const { return tick_.fault != Loop_fault::none && fade_.is_over(); }
-  const Tool<Sculptor>& tool() const { return tool_; }
-  Tool<Sculptor>& tool() { return tool_; }
-  const Pose_loop_parameters& parameters() const { return parameters_; }
-  const Workspace_map& map() const { return map_; }
+  const Tool<Sculptor>& tool() const { return tool_; } ///< what the hand does in the scene
+  Tool<Sculptor>& tool() { return tool_; }             ///< for edits between two ticks, in the thread that calls tick()
+  const Pose_loop_parameters& parameters() const { return parameters_; } ///< those that were given
+  const Workspace_map& map() const { return map_; }                      ///< of the scene that is sculpted now
 
 private:
   Pose_loop_parameters parameters_;

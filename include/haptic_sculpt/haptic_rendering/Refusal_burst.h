@@ -36,7 +36,7 @@ public:
     const double share = std::isfinite(mobility) ? std::fmin(1.0, farthest / (way_ * mobility)) : 0.0;
     peak_ = share * direction.normalized(), next_ = 0;
   }
-  bool is_over() const { return next_ >= samples_; }
+  bool is_over() const { return next_ >= samples_; } ///< whether none is under way
 
   /// The force of the next tick, N.
   Eigen::Vector3d next() {
@@ -45,7 +45,7 @@ public:
     return sample(next_++) * peak_;
   }
 
-  int samples() const { return samples_; }
+  int samples() const { return samples_; } ///< ticks that a burst takes, at least 6
   /// N, for the largest amplitude. \pre 0 <= k < samples()
   double sample(int k) const {
     const double pi = 3.14159265358979323846;

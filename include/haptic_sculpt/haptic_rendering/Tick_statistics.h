@@ -13,17 +13,18 @@ namespace haptic_sculpt {
 /// Durations are counted in 32 classes an octave, so a percentile is at most 3.2 % too large; the largest one is exact.
 class Tick_statistics {
 public:
+  /// Counts a duration. A few operations, no allocation.
   void add(std::uint64_t nanoseconds) {
     ++counts_[index_of(nanoseconds)];
     ++number_;
     largest_ = nanoseconds > largest_ ? nanoseconds : largest_;
   }
 
-  std::uint64_t number() const { return number_; }
-  std::uint64_t largest() const { return largest_; }
+  std::uint64_t number() const { return number_; }   ///< of durations
+  std::uint64_t largest() const { return largest_; } ///< ns, exact; 0 where there are none
 
-  /// The least bound that a share of the durations keep: 0.5 the median, 0.999 all but one in a thousand. 0 where there
-  /// are none.
+  /// The least bound, ns, that a share of the durations keep: 0.5 the median, 0.999 all but one in a thousand. 0 where
+  /// there are none.
   std::uint64_t percentile(double share) const {
     const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(number_)));
     std::uint64_t seen = 0;

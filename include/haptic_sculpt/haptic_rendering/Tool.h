@@ -18,10 +18,10 @@ namespace haptic_sculpt {
 template <class Sculptor>
 class Tool {
 public:
-  using Mesh = typename Sculptor::Mesh_type;
-  using Vertex_index = typename Mesh::Vertex_index;
-  using Point = typename Mesh::Point;
-  using Grab_type = typename Sculptor::Grab_type;
+  using Mesh = typename Sculptor::Mesh_type;        ///< the mesh of surface and probe
+  using Vertex_index = typename Mesh::Vertex_index; ///< of a vertex, or of the probe
+  using Point = typename Mesh::Point;               ///< in the scene
+  using Grab_type = typename Sculptor::Grab_type;   ///< what holds the vertex, or the probe
 
   /// Nearer to an edge than this share of the face's altitude, a vertex is created on the edge: on the face it would
   /// leave a sliver.
@@ -96,11 +96,11 @@ public:
   /// What is done from here on is told to it. nullptr: to none
   void keep_journal(Edit_journal* journal) { journal_.keep(journal); }
 
-  bool holds_vertex() const { return held_; }
+  bool holds_vertex() const { return held_; } ///< one of the surface; the probe does not count
   /// What is dragged: the vertex held, or the probe; null where there is none.
   Vertex_index vertex() const { return grab_ ? grab_->vertex() : Vertex_index(); }
-  Vertex_index probe() const { return probe_; }
-  const Tool_edits& edits() const { return edits_; }
+  Vertex_index probe() const { return probe_; }      ///< the isolated vertex that was given
+  const Tool_edits& edits() const { return edits_; } ///< of the button, in all scenes; edit() does not count
   /// The push of the last contact, of length 1 in the scene; up where nothing was touched yet.
   const Eigen::Vector3d& last_push() const { return last_push_; }
 

@@ -18,6 +18,7 @@ class Velocity_estimate {
 public:
   static constexpr double default_cutoff = 100; ///< Hz
 
+  /// \param tick s \param cutoff of the low-pass, Hz
   explicit Velocity_estimate(double tick, double cutoff = default_cutoff)
       : tick_(tick), share_(-std::expm1(-2 * 3.14159265358979323846 * cutoff * tick)) {}
 
@@ -26,10 +27,10 @@ public:
     value_ += share_ * (step / tick_ - value_);
     return value_;
   }
-  const Eigen::Vector3d& value() const { return value_; }
+  const Eigen::Vector3d& value() const { return value_; } ///< what the last add() gave, m/s; 0 before
   /// What becomes of steps (over the tick) that turn by an angle a tick.
   std::complex<double> response(double angle) const { return share_ / (1.0 - (1 - share_) * std::polar(1.0, -angle)); }
-  void reset() { value_.setZero(); }
+  void reset() { value_.setZero(); } ///< to 0 at once
 
 private:
   double tick_, share_;

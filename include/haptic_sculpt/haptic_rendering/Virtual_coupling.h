@@ -13,6 +13,7 @@ public:
   /// smooth surface would span the plane along which the hand slides, and damp that too. The sine of 3 degrees.
   static constexpr double least_new_part = 0.05;
 
+  /// Takes the normal of a contact, of any length; one that points nowhere new adds nothing.
   void add(const Eigen::Vector3d& normal) {
     Eigen::Vector3d rest = normal;
     for (int repeat = 0; repeat < 2; ++repeat) // once more, for what cancels in the first round
@@ -22,7 +23,7 @@ public:
     if (size_ < 3 && length > least_new_part * normal.norm())
       axes_[size_++] = rest / length;
   }
-  int size() const { return size_; }
+  int size() const { return size_; } ///< dimension of the span, 0 to 3
 
   /// The part of a vector in the span.
   Eigen::Vector3d part(const Eigen::Vector3d& vector) const {

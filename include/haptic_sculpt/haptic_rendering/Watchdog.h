@@ -34,10 +34,12 @@ struct Watchdog_limits {
 /// Looks at each reading before it is used. The first fault stays.
 class Watchdog {
 public:
+  /// \param tick s \param torque_limit of a motor, N m; may be infinite
   Watchdog(const Watchdog_limits& limits, double tick, double torque_limit)
       : limits_(limits), tick_(tick), torque_limit_(torque_limit) {}
 
-  Loop_fault fault() const { return fault_; }
+  Loop_fault fault() const { return fault_; } ///< the first one since the last reset()
+  /// A fault that was found elsewhere; ignored where there is one already.
   void report(Loop_fault fault) { fault_ = fault_ == Loop_fault::none ? fault : fault_; }
   /// After a fault has been seen to; the next angles are taken as they are.
   void reset() { fault_ = Loop_fault::none, has_last_ = false; }

@@ -39,15 +39,17 @@ public:
     return Workspace_map(0.5 * (upper - lower).norm() / radius, Eigen::Vector3d::Zero(), 0.5 * (lower + upper), home);
   }
 
-  double scale() const { return scale_; }
-  const Eigen::Matrix3d& rotation() const { return rotation_; }
-  const Eigen::Vector3d& rotation_vector() const { return rotation_vector_; }
-  const Eigen::Vector3d& origin() const { return origin_; }
-  const Eigen::Vector3d& home() const { return home_; }
+  double scale() const { return scale_; }                       ///< units of the scene a metre of the device
+  const Eigen::Matrix3d& rotation() const { return rotation_; } ///< R: from axes of the device to those of the scene
+  const Eigen::Vector3d& rotation_vector() const { return rotation_vector_; } ///< of R, as given, rad
+  const Eigen::Vector3d& origin() const { return origin_; }                   ///< where `home` is in the scene
+  const Eigen::Vector3d& home() const { return home_; }                       ///< in the device, m
 
+  /// Where a place of the device, m, is in the scene.
   Eigen::Vector3d to_scene(const Eigen::Vector3d& device) const {
     return origin_ + scale_ * (rotation_ * (device - home_));
   }
+  /// Where a place of the scene is in the device, m.
   Eigen::Vector3d to_device(const Eigen::Vector3d& scene) const {
     return home_ + rotation_.transpose() * (scene - origin_) / scale_;
   }

@@ -9,6 +9,7 @@ namespace haptic_sculpt {
 /// Thrown where a coupling is neither passive nor stable on a device; says what would be.
 class Unstable_coupling : public Error {
 public:
+  /// Takes the whole message.
   using Error::Error;
 };
 
