@@ -82,7 +82,7 @@ public:
   /// \name What was taken from the hand before limits, J
   ///@{
   double mass_energy() const { return mass_energy_.port(); }                 ///< by the virtual mass
-  double compensation_energy() const { return compensation_energy_.port(); } ///< by what carries inertia of the mechanism
+  double compensation_energy() const { return compensation_energy_.port(); } ///< by carrying the mechanism's inertia
   ///@}
 
 private:

@@ -15,10 +15,12 @@ namespace haptic_sculpt {
 /// one straight leg that was proven free, and a removal is the collapse that it was; so no contact, bound on work or
 /// probe plays a role in it.
 struct Journal_entry {
+  /// What was done. A move is that of the first of `vertices`, a collapse draws the first into the second; `stroke` and
+  /// `end` are about what is one step of undo; `tick` ends the entries of a tick.
   enum class Kind : std::uint8_t { move, insert_on_face, insert_on_edge, remove, collapse, undo, redo, stroke, end, tick };
-  Kind kind = Kind::tick;
+  Kind kind = Kind::tick; ///< which of the members below count
   std::array<std::uint64_t, 3> vertices{}; ///< `Sculptor::name()`s; of a tick: its number
-  std::array<double, 3> point{};
+  std::array<double, 3> point{}; ///< in the scene: where a move leads, or a vertex is created
 };
 
 /// What the loop's thread has done, on its way to the thread that writes it down. Bounded, without a lock; the entries
@@ -34,6 +36,8 @@ public:
 
   /// \name The loop's thread
   ///@{
+
+  /// Takes what was done in the tick under way; where there is no room the journal has overrun.
   void add(const Journal_entry& entry) {
     if (!has_overrun_ && !queue_.push(entry))
       has_overrun_ = true;
@@ -55,12 +59,12 @@ public:
     }
     waiting_[ended_++ % waiting_.size()] = tick;
   }
-  bool has_overrun() const { return has_overrun_; }
-  /// Entries that found no room.
+  bool has_overrun() const { return has_overrun_; } ///< nothing more is taken: the run should end
+  /// Entries that were not taken: all since the journal has overrun.
   std::uint64_t lost() const { return lost_; }
   /// Ticks with entries that are not written yet.
   std::uint64_t waiting() const { return ended_ - taken_.load(std::memory_order_acquire); }
-  std::uint64_t most_age() const { return most_age_; }
+  std::uint64_t most_age() const { return most_age_; } ///< in ticks, as given
   /// Of the oldest tick that waits, at the end of this one; 0: none does.
   std::uint64_t age(std::uint64_t tick) const {
     const std::uint64_t taken = taken_.load(std::memory_order_acquire);
@@ -70,8 +74,9 @@ public:
 
   /// \name The thread that writes
   ///@{
-  /// \return false where there is none yet. The entries of the last tick may be followed by none: they wait for its
-  /// end.
+
+  /// Takes the next entry. \return false where there is none yet. The entries of the last tick may be followed by none:
+  /// they wait for its end.
   bool take(Journal_entry& entry) { return queue_.pop(entry); }
   /// So many more ticks are written, or cannot be.
   void wrote(std::uint64_t ticks) { taken_.fetch_add(ticks, std::memory_order_release); }

@@ -14,14 +14,16 @@ namespace haptic_sculpt {
 /// to the loop's.
 template <class Mesh_>
 struct Loop_scene {
-  using Mesh = Mesh_;
+  using Mesh = Mesh_; ///< a `CGAL::Surface_mesh`
+  /// Tells viewers and copies of its edits.
   using Sculptor_type = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Scene_teller<Mesh>>;
 
-  Mesh mesh;
-  Eigen::Vector3d lower, upper; ///< the mesh's box as it came, without the probe
-  typename Mesh::Vertex_index probe;
-  Sculptor_type sculptor;
-  Workspace_map map;
+  Mesh mesh;                         ///< with the probe; to be changed through the Sculptor only
+  Eigen::Vector3d lower,             ///< of the mesh's box as it came, without the probe
+      upper;                         ///< of the same box
+  typename Mesh::Vertex_index probe; ///< an isolated vertex, at first far outside of the box
+  Sculptor_type sculptor;            ///< of `mesh`; moves of the probe are no steps of its history
+  Workspace_map map;                 ///< between the device and the scene
 
   /// \param map_of_box what gives a Workspace_map for the mesh's box: `(lower, upper)`
   /// \param edits, moves room that is made for so many (Sculptor::reserve)

@@ -10,6 +10,7 @@ namespace haptic_sculpt {
 /// What another thread asks of the loop's.
 template <class Scene>
 struct Loop_command {
+  /// What is asked for.
   enum class Kind : std::uint8_t {
     let_go, ///< what the hand holds, until the button is pressed again
     undo,   ///< a grab, from the button's press to its release, is one step
@@ -21,48 +22,54 @@ struct Loop_command {
     enter,          ///< `scene` in place of the one sculpted so far, which comes back; not where a journal is kept
     restart         ///< after a fault
   };
-  Kind kind = Kind::let_go;
+  Kind kind = Kind::let_go;                ///< says which of the members below count
   std::uint64_t ticket = 0;                ///< comes back with the answer
   std::array<std::uint64_t, 3> vertices{}; ///< `Sculptor::name()`s
-  std::array<double, 3> point{};
-  Scene_copy* copy = nullptr; ///< the asking thread's; not to be touched until the answer
-  Scene* scene = nullptr;     ///< from here on the loop's
+  std::array<double, 3> point{};           ///< in the scene
+  Scene_copy* copy = nullptr;              ///< the asking thread's; not to be touched until the answer
+  Scene* scene = nullptr;                  ///< from here on the loop's
 };
 
 /// What came of it.
 template <class Scene>
 struct Loop_answer {
-  typename Loop_command<Scene>::Kind kind{};
-  std::uint64_t ticket = 0, tick = 0; ///< the first tick after it
-  bool done = false;
-  Refusal_reason reason{};  ///< where an edit was refused
-  std::uint64_t vertex = 0; ///< of an edit: the vertex that it says, `Sculptor::name()`
-  Scene_copy* copy = nullptr;
-  Scene* left = nullptr; ///< the asking thread's again, to be destroyed there
+  typename Loop_command<Scene>::Kind kind{}; ///< of the command
+  std::uint64_t ticket = 0,                  ///< of the command
+      tick = 0;                              ///< the first tick after it
+  bool done = false;                         ///< false: refused, or a copy that had too little room
+  Refusal_reason reason{};                   ///< where an edit was refused
+  std::uint64_t vertex = 0;                  ///< of an edit: the vertex that it says, `Sculptor::name()`
+  Scene_copy* copy = nullptr;                ///< that of a command to copy: the asking thread's again
+  Scene* left = nullptr;                     ///< the asking thread's again, to be destroyed there
 };
 
 /// Between one thread that asks and the loop's: a queue of commands and one of answers. Bounded, without locks.
 template <class Scene>
 class Loop_desk {
 public:
+  /// \param room for so many commands whose answers have not been taken
   explicit Loop_desk(std::size_t room = 256) : commands_(room), answers_(2 * room), room_(room) {}
 
   /// \name The asking thread
   ///@{
-  /// \return false where the queue is full; take answers, and ask later
+
+  /// Asks for something; the answer is to be taken. \return false where the queue is full; take answers, and ask later
   bool ask(const Loop_command<Scene>& command) {
     if (asked_ - answered_ >= room_ || !commands_.push(command))
       return false;
     ++asked_;
     return true;
   }
+  /// Takes the next answer, in the order of the commands. \return false where there is none yet
   bool take(Loop_answer<Scene>& answer) { return answers_.pop(answer) && ++answered_ != 0; }
   ///@}
 
   /// \name The loop's thread
   ///@{
+
+  /// Takes the next command. \return false where there is none
   bool take(Loop_command<Scene>& command) { return commands_.pop(command); }
-  void answer(const Loop_answer<Scene>& answer) { answers_.push(answer); } // there is room: see ask()
+  void answer(const Loop_answer<Scene>& answer) { answers_.push(answer); } ///< there is room: see ask()
   ///@}
 
 private:
@@ -78,7 +85,7 @@ private:
 template <class Loop, class Scene>
 class Loop_session {
 public:
-  using Kind = typename Loop_command<Scene>::Kind;
+  using Kind = typename Loop_command<Scene>::Kind; ///< of commands
   /// Elements copied a tick, about 30 microseconds.
   static constexpr std::size_t copied_a_tick = 1000;
 
@@ -117,7 +124,7 @@ public:
       journal_->end_tick(ticks_++);
   }
 
-  std::uint64_t ticks() const { return ticks_; }
+  std::uint64_t ticks() const { return ticks_; } ///< made so far; where a journal is kept end() counts as one
   /// That is sculpted now.
   Scene& scene() { return *scene_; }
 

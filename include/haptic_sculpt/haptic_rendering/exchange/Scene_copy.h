@@ -14,8 +14,8 @@ namespace haptic_sculpt {
 /// it, too, so that in the end it is the mesh of one tick. Made, and given room, by the thread that asks for it.
 class Scene_copy {
 public:
-  static constexpr std::uint64_t absent = std::numeric_limits<std::uint64_t>::max();
-  static constexpr std::uint32_t no_corner = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint64_t absent = std::numeric_limits<std::uint64_t>::max();    ///< the name of no vertex
+  static constexpr std::uint32_t no_corner = std::numeric_limits<std::uint32_t>::max(); ///< the corner of no face
 
   /// Room for a mesh with so many descriptors (`number_of_vertices() + number_of_removed_vertices()`, and faces).
   Scene_copy(std::size_t vertices, std::size_t faces)
@@ -25,8 +25,11 @@ public:
   std::vector<std::uint64_t> names;                ///< by index of vertex, its number that lasts; or `absent`
   std::vector<std::array<std::uint32_t, 3>> faces; ///< by index of face, the corners; or `no_corner` first
   std::uint64_t number = 0; ///< the last Scene_change in it: a viewer makes those with larger numbers on it
-  std::size_t vertices_needed = 0, faces_needed = 0; ///< where larger than the room, the copy is of no use: ask anew
+  /// How many vertices there should have been room for: where there is less, the copy is of no use; ask with a new one.
+  std::size_t vertices_needed = 0,
+      faces_needed = 0; ///< the same of faces
 
+  /// Whether there was room for all so far.
   bool is_whole() const { return vertices_needed <= points.size() && faces_needed <= faces.size(); }
 
   /// Makes a change of the mesh.
@@ -60,7 +63,8 @@ public:
 
   /// \name The loop's thread
   ///@{
-  void begin() { next_vertex_ = next_face_ = 0; }
+
+  void begin() { next_vertex_ = next_face_ = 0; } ///< from the first element again; what was needed is kept
   /// Copies up to so many elements more. \return whether all are copied. Allocates nothing.
   template <class Sculptor>
   bool copy_some(const Sculptor& sculptor, typename Sculptor::Vertex_index probe, std::size_t elements) {

@@ -15,6 +15,7 @@ namespace haptic_sculpt {
 
 /// A change of the mesh, by value. Indices are those of the mesh's own descriptors, which it uses again.
 struct Scene_change {
+  /// What has changed.
   enum class Kind : std::uint8_t {
     vertex_moved,
     vertex_created,
@@ -23,8 +24,8 @@ struct Scene_change {
     face_dies,
     replaced ///< all of the scene is another: a copy of it is needed
   };
-  Kind kind = Kind::vertex_moved;
-  std::uint32_t index = 0;
+  Kind kind = Kind::vertex_moved;         ///< says which of the members below count
+  std::uint32_t index = 0;                ///< of the vertex or face
   std::array<std::uint32_t, 3> corners{}; ///< of a face, counterclockwise from outside
   std::array<double, 3> point{};          ///< of a vertex that was moved or created
   std::uint64_t name = 0;                 ///< of a vertex that was created: its number that lasts
@@ -33,32 +34,37 @@ struct Scene_change {
 
 /// A tick, as a viewer or a logger sees it. Places in the scene, forces in N on the hand in axes of the device.
 struct Tick_view {
-  std::uint64_t tick = 0;
-  std::array<double, 3> target{}, proxy{}, force{};
-  bool reached = true;
-  bool holds_vertex = false;
-  std::uint64_t vertex = 0; ///< held: its number that lasts
-  int contacts = 0;
-  Tool_event event = Tool_event::none;
-  Loop_fault fault = Loop_fault::none;
+  std::uint64_t tick = 0;              ///< its number, from 0
+  std::array<double, 3> target{},      ///< where the hand wants what it holds
+      proxy{},                         ///< where that is
+      force{};                         ///< rendered
+  bool reached = true;                 ///< the proxy is at the target
+  bool holds_vertex = false;           ///< one of the surface; else the probe is in hand, or nothing
+  std::uint64_t vertex = 0;            ///< held: its number that lasts
+  int contacts = 0;                    ///< that hold the proxy
+  Tool_event event = Tool_event::none; ///< what the button did in this tick
+  Loop_fault fault = Loop_fault::none; ///< why the loop has let go of the hand
 };
 
 /// A way from the loop's thread to one viewer or logger, which never stops the loop: what finds no room is lost, and
 /// counted. Who sees that `lost_changes()` has grown asks for a new copy of the scene (Loop_command::Kind::copy).
 class Scene_feed {
 public:
+  /// \param changes, ticks room for so many that have not been taken; allocated here
   explicit Scene_feed(std::size_t changes = std::size_t{1} << 16, std::size_t ticks = 4096)
       : changes_(changes), ticks_(ticks) {}
 
   /// \name The loop's thread
   ///@{
-  /// \return the change with its number
+
+  /// Gives the change the next number and passes it on. \return the change with its number
   Scene_change tell(Scene_change change) {
     change.number = ++number_;
     if (!changes_.push(change))
       lost_changes_.fetch_add(1, std::memory_order_relaxed);
     return change;
   }
+  /// Passes a tick on.
   void tell(const Tick_view& tick) {
     if (!ticks_.push(tick))
       lost_ticks_.fetch_add(1, std::memory_order_relaxed);
@@ -69,9 +75,12 @@ public:
 
   /// \name The viewer's thread
   ///@{
-  bool take(Scene_change& change) { return changes_.pop(change); }
-  bool take(Tick_view& tick) { return ticks_.pop(tick); }
+
+  bool take(Scene_change& change) { return changes_.pop(change); } ///< the next; false where there is none yet
+  bool take(Tick_view& tick) { return ticks_.pop(tick); }          ///< the next; false where there is none yet
+  /// Changes that found no room so far.
   std::uint64_t lost_changes() const { return lost_changes_.load(std::memory_order_relaxed); }
+  /// Ticks that found no room so far.
   std::uint64_t lost_ticks() const { return lost_ticks_.load(std::memory_order_relaxed); }
   ///@}
 

@@ -12,21 +12,28 @@ namespace haptic_sculpt {
 template <class Mesh>
 class Scene_teller : public Default_edit_visitor {
 public:
-  using Vertex_index = typename Mesh::Vertex_index;
-  using Face_index = typename Mesh::Face_index;
-  using Kind = Scene_change::Kind;
+  using Vertex_index = typename Mesh::Vertex_index; ///< of the mesh
+  using Face_index = typename Mesh::Face_index;     ///< of the mesh
+  using Kind = Scene_change::Kind;                  ///< of the changes told
 
+  /// Tells nobody at first. \param mesh refers to it; it must outlive this and its copies
   Scene_teller(const Mesh& mesh, Vertex_index probe) : mesh_(&mesh), probe_(probe) {}
 
   /// To nobody: nullptr.
   void tell_to(Scene_feed* feed) { feed_ = feed; }
-  void tell_to(Scene_copy* copy) { copy_ = copy; }
+  void tell_to(Scene_copy* copy) { copy_ = copy; } ///< beside the feed; to none: nullptr
 
-  void vertex_moved(Vertex_index v) { tell(Kind::vertex_moved, v); }
+  /// \name What the Sculptor calls
+  ///@{
+
+  void vertex_moved(Vertex_index v) { tell(Kind::vertex_moved, v); } ///< tells its new point
+  /// Tells its point and the number that lasts.
   void vertex_created(Vertex_index v, std::size_t name) { tell(Kind::vertex_created, v, name); }
-  void vertex_dies(Vertex_index v, std::size_t) { tell(Kind::vertex_dies, v); }
+  void vertex_dies(Vertex_index v, std::size_t) { tell(Kind::vertex_dies, v); } ///< tells its index
+  /// Tells the indices of its corners.
   void face_created(Face_index f) { tell(Kind::face_created, f, Scene_copy::corners_of(*mesh_, f)); }
-  void face_dies(Face_index f) { tell(Kind::face_dies, f, {}); }
+  void face_dies(Face_index f) { tell(Kind::face_dies, f, {}); } ///< tells its index
+  ///@}
 
 private:
   const Mesh* mesh_;

@@ -10,15 +10,15 @@ namespace haptic_sculpt {
 /// the probe: those of the mesh's file, and of what was created since.
 class Tool_journal {
 public:
-  using Kind = Journal_entry::Kind;
+  using Kind = Journal_entry::Kind; ///< of entries
 
   /// \param probe its `Sculptor::name()`
   explicit Tool_journal(std::uint64_t probe) : probe_(probe) {}
   /// nullptr: none
   void keep(Edit_journal* journal) { journal_ = journal; }
 
-  void begin_stroke() { add(Kind::stroke); }
-  void end_stroke() { add(Kind::end); }
+  void begin_stroke() { add(Kind::stroke); } ///< what follows is one step of undo
+  void end_stroke() { add(Kind::end); }      ///< of the stroke begun last
 
   /// An edit that was made. \param entry with names
   void add(Journal_entry entry) {

@@ -18,6 +18,7 @@ namespace haptic_sculpt {
 /// A path that cannot be read. Says line and column, both from 1.
 class Hand_path_error : public Error {
 public:
+  /// Takes the whole message.
   using Error::Error;
 };
 
@@ -32,8 +33,9 @@ public:
   };
   /// What the hand wants at one moment.
   struct Wish {
-    Eigen::Vector3d position, velocity; ///< m, m/s
-    int button;
+    Eigen::Vector3d position, ///< m
+        velocity;             ///< m/s; 0 before the first row and after the last
+    int button;               ///< of the row before, or the first
   };
 
   /// \pre the times grow
@@ -45,8 +47,8 @@ public:
   /// Reads `t,x,y,z,button` and rows of numbers. \param name how messages call it \throw Hand_path_error
   static Hand_path parse(std::string_view text, const std::string& name);
 
-  const std::vector<Row>& rows() const { return rows_; }
-  double end() const { return rows_.back().time; }
+  const std::vector<Row>& rows() const { return rows_; } ///< at least one; the times grow
+  double end() const { return rows_.back().time; }       ///< time of the last row, s
 
   /// Before the first row and after the last the hand rests there. Cost: log n.
   Wish at(double time) const {

@@ -32,6 +32,7 @@ public:
     state_.further << hand.at_rest(start.position), 0.0;
   }
 
+  /// The angles as encoders see them now, the motors' torque in force, and the button of the path. Changes nothing.
   Joint_reading read() const {
     Joint_reading reading;
     reading.theta = measured_angles(parameters_, state_.device.pose.theta);
@@ -59,8 +60,8 @@ public:
     return status;
   }
 
-  double time() const { return static_cast<double>(ticks_) * tick_; }
-  const Device_state<double>& state() const { return state_.device; }
+  double time() const { return static_cast<double>(ticks_) * tick_; } ///< s since the start
+  const Device_state<double>& state() const { return state_.device; } ///< the true one, which encoders round
   /// \name True energies, J
   ///@{
   double port() const { return port_; } ///< that the interaction torques took from the mechanism

@@ -16,7 +16,7 @@ namespace haptic_sculpt {
 /// to the next mass, the last stage's to that place. The first mass moves with the handle, and may be 0. The hand
 /// carries its own weight.
 struct Simulated_hand {
-  static constexpr int most_stages = 3;
+  static constexpr int most_stages = 3; ///< room for so many
   /// A mass, and what ties it to the next.
   struct Stage {
     double mass = 0;      ///< kg; 0 for the first stage only
@@ -24,12 +24,12 @@ struct Simulated_hand {
     double damping = 0;   ///< N s/m
   };
 
-  int stages = 0;
-  std::array<Stage, most_stages> stage{};
+  int stages = 0;                         ///< how many there are; check() wants 1 to most_stages
+  std::array<Stage, most_stages> stage{}; ///< from the handle on; those beyond `stages` do not count
 
   /// Places and velocities of the masses that do not move with the handle, in three coordinates each.
   static constexpr int most_states = 6 * (most_stages - 1);
-  using States = Eigen::Matrix<double, most_states, 1>;
+  using States = Eigen::Matrix<double, most_states, 1>; ///< of each such mass its place, m, then its velocity, m/s
 
   /// \throw Error naming the stage
   void check() const {
@@ -50,6 +50,7 @@ struct Simulated_hand {
   static Simulated_hand arm() { return {2, {{{0, 375, 7.9}, {1.46, 48.8, 4.5}}}}; }
   /// An arm that grips a handle, as measured: 0.554 kg, 135 N/m, 6.45 N s/m (doc/haptic_stability.md has the source).
   static Simulated_hand measured_arm() { return {1, {{{0.554, 135, 6.45}}}}; }
+  /// The hand "finger", "arm" or "measured_arm"; none for another name.
   static std::optional<Simulated_hand> named(std::string_view name) {
     if (name == "finger")
       return finger();
@@ -71,8 +72,8 @@ struct Simulated_hand {
   /// What the hand does to the handle, and to itself.
   struct Effect {
     Eigen::Vector3d force; ///< on the handle, N
-    States rates;
-    double dissipated; ///< by the dampers, W
+    States rates;          ///< by how much the states change a second
+    double dissipated;     ///< by the dampers, W
   };
   /// \param wish, wish_velocity where the hand wants to be, and how that moves
   Effect effect(const States& states, const Eigen::Vector3d& handle, const Eigen::Vector3d& handle_velocity,
