@@ -17,9 +17,9 @@ namespace haptic_sculpt {
 template <class Sculptor>
 class Allow_embedded_move {
 public:
-  using Mesh = typename Sculptor::Mesh_type;
-  using Point = typename Mesh::Point;
-  using Vertex_index = typename Mesh::Vertex_index;
+  using Mesh = typename Sculptor::Mesh_type;        ///< the one that is guarded
+  using Point = typename Mesh::Point;               ///< with double coordinates
+  using Vertex_index = typename Mesh::Vertex_index; ///< of the mesh
 
   /// \param mesh the one that the Sculptor guards  \throw Invalid_parameter if it is another one
   Allow_embedded_move(Sculptor& sculptor, Mesh& mesh)
@@ -46,6 +46,7 @@ private:
   std::shared_ptr<std::size_t> refused_;
 };
 
+/// Makes one. \throw Invalid_parameter for a mesh that the Sculptor does not guard
 template <class Sculptor>
 Allow_embedded_move<Sculptor> allow_embedded_move(Sculptor& sculptor, typename Sculptor::Mesh_type& mesh) {
   return Allow_embedded_move<Sculptor>(sculptor, mesh);

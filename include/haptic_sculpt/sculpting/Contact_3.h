@@ -19,11 +19,11 @@ inline const char* name_of(Contact_kind kind) {
 /// One contact of a moving vertex J.
 template <class Mesh>
 struct Contact_3 {
-  using Vertex_index = typename Mesh::Vertex_index;
-  using Point_3 = typename Mesh::Point;
-  using Vector_3 = typename CGAL::Kernel_traits<Point_3>::Kernel::Vector_3;
+  using Vertex_index = typename Mesh::Vertex_index;                         ///< of the mesh
+  using Point_3 = typename Mesh::Point;                                     ///< with double coordinates
+  using Vector_3 = typename CGAL::Kernel_traits<Point_3>::Kernel::Vector_3; ///< with double coordinates
 
-  Contact_kind kind = Contact_kind::vertex_face;
+  Contact_kind kind = Contact_kind::vertex_face; ///< says what `vertices` and `plane` are
 
   /// The vertices that stand still: A, B, C (J meets face ABC); V, A, B (edge JV meets edge AB); G, I, A (face JGI meets
   /// vertex A); for `delta` G, I and the corner whose altitude would fall below delta (J itself or G or I), whose triangle is JGI.

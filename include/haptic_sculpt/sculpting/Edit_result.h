@@ -41,8 +41,8 @@ struct Refusal {
   /// Like a std::vector; allocates nothing for so few as there are.
   using Elements = boost::container::small_vector<typename Mesh::Vertex_index, 4>;
 
-  Refusal_reason reason;
-  Elements elements; ///< the vertices that stand in the way
+  Refusal_reason reason; ///< the rule that would be broken
+  Elements elements;     ///< the vertices that stand in the way
 };
 
 /// The outcome of an edit that creates, removes, flips, places, undoes or redoes.
@@ -51,11 +51,12 @@ struct Edit_result {
   /// Created: the new one; removed: the neighbour it was drawn into; flipped: an end of the new edge; placed: the probe;
   /// undone or redone: that of the change made last.
   std::optional<typename Mesh::Vertex_index> vertex;
-  std::optional<Refusal<Mesh>> refusal;
+  std::optional<Refusal<Mesh>> refusal; ///< none: the edit was done
 
-  explicit operator bool() const { return !refusal; }
+  explicit operator bool() const { return !refusal; } ///< the edit was done
 
-  static Edit_result done(typename Mesh::Vertex_index v) { return {v, std::nullopt}; }
+  static Edit_result done(typename Mesh::Vertex_index v) { return {v, std::nullopt}; } ///< one that was done; v becomes `vertex`
+  /// One that was refused.
   static Edit_result refused(Refusal_reason reason, typename Refusal<Mesh>::Elements elements = {}) {
     return {std::nullopt, Refusal<Mesh>{reason, std::move(elements)}};
   }

@@ -17,11 +17,12 @@ namespace haptic_sculpt {
 template <class Sculptor>
 class Grab {
 public:
-  using Mesh = typename Sculptor::Mesh_type;
-  using Point = typename Mesh::Point;
-  using Vertex_index = typename Mesh::Vertex_index;
+  using Mesh = typename Sculptor::Mesh_type;        ///< the one that is guarded
+  using Point = typename Mesh::Point;               ///< of a target
+  using Vertex_index = typename Mesh::Vertex_index; ///< of the vertex in hand
 
-  Grab(Grab&& other) noexcept { take_over(other); }
+  Grab(Grab&& other) noexcept { take_over(other); } ///< has the hand in place of `other`, which is stale then
+  /// Lets go of its own vertex first; then as above.
   Grab& operator=(Grab&& other) noexcept {
     if (this != &other) {
       let_go();

@@ -9,10 +9,10 @@ namespace haptic_sculpt {
 
 /// How much is kept for undo and redo together. Where there is more, the oldest steps are forgotten, each as a whole.
 struct History_limit {
-  std::size_t steps = std::numeric_limits<std::size_t>::max();
-  std::size_t bytes = std::numeric_limits<std::size_t>::max();
+  std::size_t steps = std::numeric_limits<std::size_t>::max(); ///< at first without limit
+  std::size_t bytes = std::numeric_limits<std::size_t>::max(); ///< at first without limit; a drag alone takes 72
 
-  static History_limit none() { return {}; }
+  static History_limit none() { return {}; } ///< everything is kept
   /// Nothing is kept.
   static History_limit off() { return {0, 0}; }
 };

@@ -9,6 +9,7 @@ namespace haptic_sculpt {
 /// A parameter outside of its range, e.g. a negative clearance.
 class Invalid_parameter : public Error {
 public:
+  /// Takes the whole message.
   using Error::Error;
 };
 

@@ -10,6 +10,7 @@ namespace haptic_sculpt {
 /// Sculptor, which validates the mesh anew.
 class Mesh_changed : public Error {
 public:
+  /// \param what was changed; the message says what to do as well
   explicit Mesh_changed(const std::string& what)
     : Error("the mesh was changed behind the Sculptor's back: " + what +
             "; undo that change, or make a new Sculptor of the mesh") {}

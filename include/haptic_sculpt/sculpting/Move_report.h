@@ -34,9 +34,10 @@ struct Move_progress {
 
 /// The options of move_vertices(), named and chained: `Move_parameters().most_drags(1000000).progress(f)`.
 struct Move_parameters {
-  std::size_t drag_limit = std::numeric_limits<std::size_t>::max();
-  std::function<bool(const Move_progress&)> progress_function;
-  bool takes_steps = true, slides = true;
+  std::size_t drag_limit = std::numeric_limits<std::size_t>::max(); ///< most_drags(); at first without limit
+  std::function<bool(const Move_progress&)> progress_function;      ///< progress(); at first none
+  bool takes_steps = true, ///< steps()
+      slides = true;       ///< slide()
 
   /// So many drags are made at most; then the call ends as it would if it had been cancelled: where many stand in each other's way, with
   /// all of them on their ways.
@@ -50,7 +51,7 @@ struct Move_parameters {
     progress_function = std::move(function);
     return *this;
   }
-  static constexpr std::size_t drags_between_calls = 256;
+  static constexpr std::size_t drags_between_calls = 256; ///< of the progress function; the first call is before any drag
 
   /// Whether, where many vertices stand in each other's way, all go in smaller steps. On by default; a brush is faster
   /// without.

@@ -13,27 +13,31 @@ namespace haptic_sculpt {
 struct Remeshing_report {
   /// Of one kind of operation.
   struct Count {
-    std::size_t done = 0, refused = 0;
+    std::size_t done = 0, ///< and proven
+        refused = 0;      ///< the mesh stayed as it was
   };
-  Count splits, collapses, flips;
+  Count splits,              ///< of edges longer than 4/3 of the target length
+      collapses,             ///< of edges shorter than 4/5 of it; both ways of an edge may be tried and count
+      flips;                 ///< that bring vertices nearer to six neighbours, or slivers into shape
   Count moves;               ///< of relaxation and projection; refused: no eighth of the way was free
   std::size_t shortened = 0; ///< of the moves done, those that went only a half, a fourth or an eighth of the way
   unsigned iterations = 0;   ///< completed
-  bool cancelled = false;
+  bool cancelled = false;    ///< the progress function asked to stop
 };
 
 /// How far a remeshing has come.
 struct Remeshing_progress {
+  /// What an iteration does, in this order; projection is a part of `relax`.
   enum class Phase { split, collapse, flip, relax };
-  unsigned iteration; ///< from 0
-  Phase phase;
+  unsigned iteration;     ///< from 0
+  Phase phase;            ///< the one under way
   std::size_t operations; ///< asked for so far
 };
 
 /// The options of isotropic_remeshing() that CGAL does not have, named and chained.
 struct Remeshing_parameters {
-  double feature_angle_degrees = 180;
-  std::function<bool(const Remeshing_progress&)> progress_function;
+  double feature_angle_degrees = 180; ///< feature_angle(); 180: no edge is constrained by its angle
+  std::function<bool(const Remeshing_progress&)> progress_function; ///< progress(); at first none
 
   /// Edges whose two faces have normals that differ by more than this are constrained, as if they were in the
   /// edge_is_constrained_map. In degrees, from 0 to 180; 180, the default, is none.
@@ -47,6 +51,7 @@ struct Remeshing_parameters {
     progress_function = std::move(function);
     return *this;
   }
+  /// Of the progress function; the first call is before any operation.
   static constexpr std::size_t operations_between_calls = 256;
 };
 

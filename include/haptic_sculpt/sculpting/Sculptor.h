@@ -31,19 +31,19 @@ template <class Mesh_, class Broad_phase_ = Box_tree_broad_phase<Mesh_>, class V
           class Traits_ = Exact_sweep_traits<Mesh_>>
 class Sculptor {
 public:
-  using Mesh_type = Mesh_;
-  using Broad_phase = Broad_phase_;
-  using Visitor = Visitor_;
-  using Traits = Traits_;
-  using Point = typename Mesh_type::Point;
-  using Vertex_index = typename Mesh_type::Vertex_index;
-  using Face_index = typename Mesh_type::Face_index;
-  using Grab_type = Grab<Sculptor>;
-  using Result = Drag_result<Mesh_type>;
-  using Edge_index = typename Mesh_type::Edge_index;
-  using Halfedge_index = typename Mesh_type::Halfedge_index;
-  using Stroke_type = Stroke<Sculptor>;
-  using Edited = Edit_result<Mesh_type>;
+  using Mesh_type = Mesh_;                                   ///< the mesh that is guarded
+  using Broad_phase = Broad_phase_;                          ///< finds what is near
+  using Visitor = Visitor_;                                  ///< is told of what edits do
+  using Traits = Traits_;                                    ///< decides what a motion meets
+  using Point = typename Mesh_type::Point;                   ///< with double coordinates
+  using Vertex_index = typename Mesh_type::Vertex_index;     ///< used again by the mesh; name() lasts
+  using Face_index = typename Mesh_type::Face_index;         ///< used again by the mesh
+  using Grab_type = Grab<Sculptor>;                          ///< what grab() gives
+  using Result = Drag_result<Mesh_type>;                     ///< what a drag gives
+  using Edge_index = typename Mesh_type::Edge_index;         ///< used again by the mesh
+  using Halfedge_index = typename Mesh_type::Halfedge_index; ///< used again by the mesh
+  using Stroke_type = Stroke<Sculptor>;                      ///< what stroke() gives
+  using Edited = Edit_result<Mesh_type>;                     ///< what an edit gives
 
   static_assert(std::is_same<Mesh_type, CGAL::Surface_mesh<Point>>::value, "Sculptor: the mesh must be a CGAL::Surface_mesh");
   static_assert(std::is_same<typename CGAL::Kernel_traits<Point>::Kernel::FT, double>::value,
@@ -63,8 +63,8 @@ public:
   Sculptor(const Sculptor&) = delete;
   Sculptor& operator=(const Sculptor&) = delete;
 
-  const Mesh_type& mesh() const { return guarded_.mesh(); }
-  const Sculptor_parameters& options() const { return guarded_.parameters; }
+  const Mesh_type& mesh() const { return guarded_.mesh(); }                  ///< the one that is guarded, as it is now
+  const Sculptor_parameters& options() const { return guarded_.parameters; } ///< those given, with what was set since
 
   /// The Sculptor's own copy.
   Visitor& visitor() { return guarded_.editor().visitor(); }
@@ -82,7 +82,7 @@ public:
   /// Whether vertices are dragged once each, as a rule: then each drag looks up what is near for itself alone, with no room for
   /// further drags, and only the points of the star are compared with where they were left. Off at first. No result depends on it.
   void expect_single_drags(bool on) { guarded_.expect_single_drags(on); }
-  bool expects_single_drags() const { return guarded_.expects_single_drags(); }
+  bool expects_single_drags() const { return guarded_.expects_single_drags(); } ///< what expect_single_drags() was told last
 
   /// Moves v straight to `target` if nothing is touched on the way and the delta rule is kept; else it stays where it is. For
   /// callers that would rather try a shorter way than have the vertex stopped in front of what is in the way. A step of the history.
@@ -183,6 +183,7 @@ public:
   /// Makes the step that was taken back last again. \post The same have died as when it was first made.
   Edited redo() { return guarded_.restored([&] { return guarded_.editor().redo(); }); }
 
+  /// What undo and redo can make: number_of_undo_steps(), number_of_redo_steps(), bytes().
   const internal::Edit_history& history() const { return guarded_.editor().history(); }
 
   /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the moves of a vertex
@@ -203,12 +204,14 @@ public:
   /// \name Numbers of vertices that last
   /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo revives it.
   ///@{
-  std::size_t name(Vertex_index v) const { return guarded_.editor().names().name(v); }
+  std::size_t name(Vertex_index v) const { return guarded_.editor().names().name(v); } ///< the number of v. \pre v is in the mesh
+  /// The null index where the vertex is dead, or the number was never given.
   Vertex_index vertex(std::size_t name) const { return guarded_.editor().names().vertex(name); }
   /// One more than the largest number given.
   std::size_t number_of_names() const { return guarded_.editor().names().size(); }
-  /// The null index where there is no such face or edge.
+  /// The face of three corners, by number and in any order; the null index where there is none.
   Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return guarded_.editor().face_of(a, b, c); }
+  /// The edge between two vertices, by number; the null index where there is none.
   Edge_index edge_of(std::size_t a, std::size_t b) const {
     const auto h = guarded_.editor().halfedge_of(a, b);
     return h.is_valid() ? mesh().edge(h) : Edge_index();
@@ -250,6 +253,7 @@ public:
     guarded_.parameters = changed;
   }
 
+  /// What a vertex does from here on when its way is blocked. Lets go of the vertex in hand.
   void set_response(Response rule) {
     release();
     guarded_.parameters.response(rule);

@@ -12,7 +12,7 @@ namespace haptic_sculpt {
 struct Sculptor_parameters {
   std::optional<double> clearance_length; ///< unset: default_clearance() at each contact
   double delta_length = 0;                ///< 0: only exactly degenerate triangles are refused
-  Response response_rule = Response::slide;
+  Response response_rule = Response::slide; ///< see response()
   std::optional<std::size_t> work_bound;  ///< unset: a drag takes what it takes
   bool is_known_valid = false;            ///< whether the mesh has been validated by the caller
   bool probes_are_recorded = true; ///< whether the history keeps the moves of probes
@@ -28,6 +28,7 @@ struct Sculptor_parameters {
     delta_length = length;
     return *this;
   }
+  /// What a dragged vertex does when its way is blocked; it slides on by default.
   Sculptor_parameters& response(Response rule) {
     response_rule = rule;
     return *this;
@@ -55,11 +56,17 @@ struct Sculptor_parameters {
 
 /// Starts a chain of named parameters.
 namespace parameters {
+/// \copydoc Sculptor_parameters::clearance
 inline Sculptor_parameters clearance(double length) { return Sculptor_parameters().clearance(length); }
+/// \copydoc Sculptor_parameters::delta
 inline Sculptor_parameters delta(double length) { return Sculptor_parameters().delta(length); }
+/// \copydoc Sculptor_parameters::response
 inline Sculptor_parameters response(Response rule) { return Sculptor_parameters().response(rule); }
+/// \copydoc Sculptor_parameters::work_limit
 inline Sculptor_parameters work_limit(std::size_t pairs) { return Sculptor_parameters().work_limit(pairs); }
+/// \copydoc Sculptor_parameters::known_valid
 inline Sculptor_parameters known_valid(bool known) { return Sculptor_parameters().known_valid(known); }
+/// \copydoc Sculptor_parameters::record_probes
 inline Sculptor_parameters record_probes(bool recorded) { return Sculptor_parameters().record_probes(recorded); }
 } // namespace parameters
 

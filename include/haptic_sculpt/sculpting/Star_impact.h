@@ -20,18 +20,19 @@ using Exact_sweep_traits = Swept_collision_traits_3<typename CGAL::Kernel_traits
 template <class Mesh, class Impact = typename Exact_sweep_traits<Mesh>::Impact_3>
 class Star_impact {
 public:
-  using Vertex_index = typename Mesh::Vertex_index;
+  using Vertex_index = typename Mesh::Vertex_index; ///< of the mesh of the star
 
+  /// Made by those who decide sweeps: copies of what vertices() and impact() give.
   Star_impact(const std::array<Vertex_index, 3>& vertices, const Impact& impact) : vertices_(vertices), impact_(impact) {}
 
-  Impact_feature feature() const { return impact_.feature(); }
+  Impact_feature feature() const { return impact_.feature(); } ///< which pair meets: says what vertices() are
 
   /// The vertices that stand still, beside the moving one, J:
   /// vertex_face: the corners of the face that J meets; edge_edge: V, A, B: edge JV meets edge AB;
   /// face_vertex: G, I, A: face JGI meets vertex A.
   const std::array<Vertex_index, 3>& vertices() const { return vertices_; }
 
-  const Impact& impact() const { return impact_; }
+  const Impact& impact() const { return impact_; } ///< when and where they meet, as the traits tell
 
   /// An order that depends on nothing but the elements.
   friend bool operator<(const Star_impact& a, const Star_impact& b) {

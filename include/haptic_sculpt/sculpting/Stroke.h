@@ -16,10 +16,13 @@ namespace haptic_sculpt {
 template <class Sculptor>
 class [[nodiscard]] Stroke {
 public:
+  /// For Sculptor::stroke(), which has begun it and knows its number.
   Stroke(Sculptor& sculptor, std::size_t number) : sculptor_(&sculptor), number_(number) {}
   ~Stroke() { end(); }
 
+  /// Ends the stroke in place of `other`, which ends nothing any more.
   Stroke(Stroke&& other) noexcept : sculptor_(std::exchange(other.sculptor_, nullptr)), number_(other.number_) {}
+  /// Ends its own stroke first; then as above.
   Stroke& operator=(Stroke&& other) noexcept {
     if (this != &other) {
       end();

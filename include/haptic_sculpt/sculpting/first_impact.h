@@ -12,6 +12,7 @@ namespace haptic_sculpt {
 /// A point with a coordinate that is not a finite number was given as a target.
 class Non_finite_point : public Out_of_range {
 public:
+  /// Names the coordinates of p.
   template <class Point_3>
   explicit Non_finite_point(const Point_3& p)
     : Out_of_range("the point (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
@@ -21,6 +22,7 @@ public:
 /// A vertex descriptor that is not a vertex of the mesh was given.
 class Unknown_vertex : public Error {
 public:
+  /// Names the index of the vertex.
   explicit Unknown_vertex(std::size_t index)
     : Error("vertex " + std::to_string(index) + " is not in the mesh, or was removed: give a vertex of mesh.vertices()") {}
 };

@@ -38,19 +38,25 @@ struct Guard_counts {
 template <class Sculptor>
 class Guarded_point_map {
 public:
-  using key_type = typename Sculptor::Vertex_index;
-  using value_type = typename Sculptor::Point;
-  using reference = const value_type&;
-  using category = boost::read_write_property_map_tag;
+  /// \name What property maps tell
+  ///@{
 
+  using key_type = typename Sculptor::Vertex_index;    ///< a vertex of the mesh
+  using value_type = typename Sculptor::Point;         ///< its point
+  using reference = const value_type&;                 ///< to the point in the mesh, to be read only
+  using category = boost::read_write_property_map_tag; ///< put() is a drag
+  ///@}
+
+  /// Counts from 0. \param sculptor must outlive this and its copies
   Guarded_point_map(Sculptor& sculptor, Guard_policy policy)
       : sculptor_(&sculptor), policy_(policy), counts_(std::make_shared<Guard_counts>()) {}
 
   /// How many points were written at which their vertices are not.
   std::size_t refused() const { return counts_->refused; }
-  const Guard_counts& counts() const { return *counts_; }
-  void reset_counts() const { *counts_ = Guard_counts(); }
+  const Guard_counts& counts() const { return *counts_; }  ///< of all copies, since reset_counts()
+  void reset_counts() const { *counts_ = Guard_counts(); } ///< of all copies, to 0
 
+  /// Where v is now. \pre v is in the mesh
   friend reference get(const Guarded_point_map& map, key_type v) { return map.sculptor_->mesh().point(v); }
 
   /// Drags v towards p. A point that is not finite or out of range is refused, and counted, whatever the policy.

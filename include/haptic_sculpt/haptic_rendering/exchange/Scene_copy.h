@@ -27,7 +27,7 @@ public:
   std::uint64_t number = 0; ///< the last Scene_change in it: a viewer makes those with larger numbers on it
   /// How many vertices there should have been room for: where there is less, the copy is of no use; ask with a new one.
   std::size_t vertices_needed = 0,
-      faces_needed = 0; ///< the same of faces
+              faces_needed = 0; ///< the same of faces
 
   /// Whether there was room for all so far.
   bool is_whole() const { return vertices_needed <= points.size() && faces_needed <= faces.size(); }
