@@ -47,7 +47,7 @@ public:
 
   /// \param probe an isolated vertex of the sculptor's mesh, outside of all solids \param start a pose near the first
   /// reading \throw Unstable_coupling if `limits`, of the same device and map, do not permit the
-  /// coupling, the virtual mass or the passivity controller
+  /// coupling, the virtual mass or the passivity controller; Error for an inertia or a delay that cannot be used
   Haptic_loop(Sculptor& sculptor, Vertex_index probe, const Device_parameters<double>& device,
               const Device_pose<double>& start, const Workspace_map& map, const Haptic_parameters& parameters,
               const Passivity_limits& limits)

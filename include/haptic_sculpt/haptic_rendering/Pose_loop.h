@@ -23,7 +23,7 @@ struct Pose_loop_parameters {
   double friction = std::numeric_limits<double>::infinity(),
          delay = 0;         ///< from a command to its force, ticks
   double mass = 0.05;       ///< of the free handle, kg: a refused edit is felt the less the lighter it is
-  double speed = 10;        ///< of a handle that is in order at most, m/s
+  double speed = 10;        ///< of a handle that is in order at most, along each axis, m/s
   double stall_time = 0.02; ///< s between two ticks
   double reach = 0.001;     ///< of a grab, m in the device
   std::size_t work = 400;   ///< pairs a drag may decide (doc/work.md)

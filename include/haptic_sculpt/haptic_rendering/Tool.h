@@ -11,10 +11,10 @@ namespace haptic_sculpt {
 /// What a hand does in a scene: a probe that touches, a vertex that is grabbed, created, dragged, let go or removed.
 ///
 /// Button 1 takes the nearest vertex in reach; else creates one where the probe touches a face or, near it, an edge.
-/// Button 2 removes the vertex held, or the nearest in reach. What cannot be done is refused, and all is as it was.
-/// Targets are anchored: at each change of what is held the target is where that is, so no force begins; the offset
-/// fades where nothing is touched. A vertex held, from the press of the button to its release, creation and removal
-/// included, is one stroke: one step of undo.
+/// Button 2 removes the vertex held, which it lets go of even where that is refused, or the nearest in reach. What
+/// cannot be done is refused, and the mesh is as it was. Targets are anchored: at each change of what is held the
+/// target is where that is, so no force begins; the offset fades where nothing is touched. A vertex held, from the
+/// press of the button to its release, creation and removal included, is one stroke: one step of undo.
 template <class Sculptor>
 class Tool {
 public:

@@ -37,7 +37,7 @@ struct Drag_result {
   /// Like a std::vector.
   using Contacts = boost::container::small_vector<Contact_3<Mesh>, usual_contacts>;
 
-  /// Of a vertex that is not there any more.
+  /// Of a vertex that is not there any more, or is not in this hand.
   static Drag_result stale_at(const typename Mesh::Point& target) {
     Drag_result result;
     result.position = target;
@@ -45,7 +45,7 @@ struct Drag_result {
     return result;
   }
 
-  typename Mesh::Point position;             ///< where the vertex is now; of one that has been removed, the target
+  typename Mesh::Point position;             ///< where the vertex is now; of a stale Grab, the target
   bool reached = false;                      ///< whether that is the target
   Drag_end end = Drag_end::reached;          ///< why the drag ended
   Contacts contacts;                         ///< what holds it, in an order that depends on the elements only

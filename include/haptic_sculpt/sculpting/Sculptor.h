@@ -219,8 +219,8 @@ public:
   ///@}
 
   /// Sweeps a free point from `source` towards `target` with the response. Changes nothing. A start that is nearer than the
-  /// clearance to a face, or on it, is refused: `end` is Drag_end::refused and the contact names the face.
-  /// \throw Out_of_range, Mesh_changed
+  /// clearance to a face, or on it, is refused: `end` is Drag_end::refused and the contact names the face. Lets go of the vertex in hand.
+  /// \throw Out_of_range, Invalid_parameter, Mesh_changed
   /// \param path is written anew, as by Grab::drag_to
   Result probe(const Point& source, const Point& target, std::vector<Point>* path = nullptr) {
     return guarded_.probe(source, target, path);

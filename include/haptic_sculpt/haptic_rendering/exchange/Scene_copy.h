@@ -11,7 +11,8 @@
 namespace haptic_sculpt {
 
 /// A mesh by value, copied by the loop's thread a slice a tick while the hand goes on: changes made meanwhile go into
-/// it, too, so that in the end it is the mesh of one tick. Made, and given room, by the thread that asks for it.
+/// it, too, so that in the end it is the mesh of one tick. Made, and given room, by the thread that asks for it, for
+/// one copy: the next one needs another, for what is beyond the mesh is not cleared.
 class Scene_copy {
 public:
   static constexpr std::uint64_t absent = std::numeric_limits<std::uint64_t>::max();    ///< the name of no vertex

@@ -15,7 +15,7 @@
 
 namespace haptic_sculpt {
 
-/// A path that cannot be read. Says line and column, both from 1.
+/// A path without rows, or one that cannot be read: then it says line and column, both from 1.
 class Hand_path_error : public Error {
 public:
   /// Takes the whole message.
@@ -38,7 +38,7 @@ public:
     int button;               ///< of the row before, or the first
   };
 
-  /// \pre the times grow
+  /// \pre the times grow \throw Hand_path_error without rows
   explicit Hand_path(std::vector<Row> rows) : rows_(std::move(rows)) {
     if (rows_.empty())
       throw Hand_path_error("a path needs at least one row");

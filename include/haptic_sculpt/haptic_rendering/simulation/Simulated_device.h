@@ -17,7 +17,8 @@ namespace haptic_sculpt {
 /// then.
 class Simulated_device {
 public:
-  /// \param start where the mechanism rests first \param path of the hand; must outlive this
+  /// \param start where the mechanism rests first \param path of the hand; must outlive this \param tick s
+  /// \throw Error for a hand or a delay that cannot be used
   Simulated_device(const Device_parameters<double>& parameters, const Device_pose<double>& start,
                    const Simulated_hand& hand, const Hand_path& path, double tick, double delay_in_ticks)
       : parameters_(parameters)
