@@ -39,9 +39,11 @@ void check_vertex(const Mesh& mesh, typename Mesh::Vertex_index v) {
 /// \throw Non_finite_point, Out_of_range
 template <class Point_3>
 void check_point(const char* what, const Point_3& p) {
+  if (is_in_range(coordinates(p)))
+    return;
   if (!(std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z())))
     throw Non_finite_point(p);
-  check_range(what, coordinates(p));
+  throw_out_of_range(what, coordinates(p));
 }
 
 } // namespace internal

@@ -29,7 +29,8 @@ read_targets(const Sculptor& sculptor, const Vertex_range& vertices, const Targe
     is_given[static_cast<std::size_t>(v)] = true;
     const typename Mesh::Point& target = get(target_map, v);
     const Coordinates t = coordinates(target);
-    check_range("the target of vertex " + std::to_string(static_cast<std::size_t>(v)), t);
+    if (!is_in_range(t))
+      throw_out_of_range("the target of vertex " + std::to_string(static_cast<std::size_t>(v)), t);
     largest = std::fmax(largest, largest_magnitude(t));
     moving.push_back({v, vertex_coordinates(mesh, v), t});
   }

@@ -31,11 +31,10 @@ inline bool is_in_range(const std::array<double, 3>& p) {
   return is_in_range(p[0]) && is_in_range(p[1]) && is_in_range(p[2]);
 }
 
-/// \throw Out_of_range unless a point may be used. \param what names it, e.g. "the target"
-inline void check_range(const std::string& what, const std::array<double, 3>& p) {
-  if (!is_in_range(p))
-    throw Out_of_range(what + " (" + number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) +
-                       ") is out of range: give three coordinates of at most 2^1000, about 1.07e301");
+/// \throw Out_of_range always. \param what names the point, e.g. "the target"
+[[noreturn]] inline void throw_out_of_range(const std::string& what, const std::array<double, 3>& p) {
+  throw Out_of_range(what + " (" + number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) +
+                     ") is out of range: give three coordinates of at most 2^1000, about 1.07e301");
 }
 
 /// \throw Out_of_range unless a length may be used.

@@ -114,8 +114,8 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
       const auto& p = soup.points[v];
       const std::array<double, 3> coordinates = {p.x(), p.y(), p.z()};
       if (soup.is_finite(v) && !internal::is_in_range(coordinates)) // what is not finite is named by validate_soup()
-        internal::check_range("cannot read " + internal::quoted_path(path) + ": vertex " + std::to_string(v) + " at",
-                              coordinates);
+        internal::throw_out_of_range(
+            "cannot read " + internal::quoted_path(path) + ": vertex " + std::to_string(v) + " at", coordinates);
     }
     return soup;
   } catch (const Read_error& error) {

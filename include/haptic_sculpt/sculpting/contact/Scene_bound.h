@@ -36,8 +36,8 @@ private:
   double largest_ever_ = 0; ///< the same, with those that vertices have had
 
   void include(double coordinate) {
-    largest_ = std::fmax(largest_, coordinate);
-    largest_ever_ = std::fmax(largest_ever_, coordinate);
+    largest_ = std::max(largest_, coordinate);
+    largest_ever_ = std::max(largest_ever_, coordinate);
   }
 };
 

@@ -66,7 +66,7 @@ const Mesh& checked_scene(const Mesh& mesh, const Sculptor_parameters& parameter
     const Coordinates p = vertex_coordinates(mesh, v);
     // Of those that are no numbers the report of validate() names all.
     if (!is_in_range(p) && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
-      check_range("vertex " + std::to_string(static_cast<std::size_t>(v)) + " at", p);
+      throw_out_of_range("vertex " + std::to_string(static_cast<std::size_t>(v)) + " at", p);
   }
   if (!parameters.is_known_valid || parameters.delta_length > 0) {
     Validity_report report = validate(mesh, parameters.delta_length);

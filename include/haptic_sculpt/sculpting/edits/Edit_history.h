@@ -220,6 +220,8 @@ private:
 
   /// Of a step that is done in part the rest, too.
   void forget_redo() {
+    if (moves_done_ == moves_.end() && edits_done_ == edits_.end())
+      return;
     cut_to(moves_done_, edits_done_);
     steps_.cut(steps_done_);
     if (number_of_undo_steps() != 0)

@@ -8,6 +8,7 @@
 /// Every product-sum is an explicit fused multiply-add, so that compilers cannot choose: the same edits give the same
 /// bits in every build.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -35,7 +36,7 @@ inline Vector cross(const Vector& a, const Vector& b) {
 }
 
 inline double largest_magnitude(const Vector& a) {
-  return std::fmax(std::abs(a[0]), std::fmax(std::abs(a[1]), std::abs(a[2])));
+  return std::max(std::abs(a[0]), std::max(std::abs(a[1]), std::abs(a[2])));
 }
 
 /// Whether squares of a vector with this largest coordinate, and what is added to them, are far from both ends of the

@@ -141,10 +141,11 @@ public:
   template <class Predicate>
   bool forget(const Predicate& is_over) {
     const auto kept = std::remove_if(facets.begin(), facets.end(), is_over);
-    const bool any = kept != facets.end();
+    if (kept == facets.end())
+      return false;
     facets.erase(kept, facets.end());
     find_lengths();
-    return any;
+    return true;
   }
 
   void forget_what_was_left() { left_.clear(); }
