@@ -11,7 +11,11 @@
 namespace haptic_sculpt {
 
 /// The pair of features that meet: what moves, on what stands still.
-enum class Impact_feature : std::uint8_t { vertex_face, edge_edge, face_vertex };
+enum class Impact_feature : std::uint8_t {
+  vertex_face, ///< the moving vertex, on a face
+  edge_edge,   ///< an edge at the moving vertex, on an edge
+  face_vertex  ///< a face at the moving vertex, on a vertex
+};
 
 /// "vertex-face", "edge-edge" or "face-vertex".
 inline const char* name_of(Impact_feature feature) {

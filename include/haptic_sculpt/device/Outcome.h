@@ -6,7 +6,7 @@ namespace haptic_sculpt {
 
 /// How a question to the mechanism ended. Everything but `success` is an answer too, never an exception.
 enum class Device_status {
-  success,
+  success,      ///< there is a value; the shortfall is 0
   not_finite,   ///< an input is infinite or not a number, or so large that the answer overflows
   unreachable,  ///< no joint angles (inverse) or no apex (forward) exist; the shortfall says by how much
   no_real_mode, ///< general form: these joint angles have no real assembly mode

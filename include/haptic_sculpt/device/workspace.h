@@ -53,7 +53,7 @@ template <class S> S isotropic_force(const Device_parameters<S>& parameters, con
 template <class S> struct Workspace_sample {
   Device_pose<S> pose;       ///< in the home mode
   Workspace_verdict verdict; ///< which limits it breaks: samples need not be inside
-  S condition,               ///< of the velocity equations
+  S condition,               ///< number, of the velocity equations
       force;                 ///< isotropic force, N
 };
 
