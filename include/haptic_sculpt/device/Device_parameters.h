@@ -69,7 +69,7 @@ private:
 /// Everything that is wrong with a description, one sentence each; empty if it can be used.
 ///
 /// The kinematics forms products of four lengths squared, so eighth powers have to fit in the scalar's range, with room: no length,
-/// mass, moment or friction above 1.7e38 for double, 3.2e4 for float, and no length below 7e-39 for double, 3.7e-5 for float.
+/// mass, moment or friction above 1.7e38 for double, 3.2e4 for float, and no length in use below 7e-39, 3.7e-5 for float.
 template <class S> std::vector<std::string> violations(const Device_description<S>& d) {
   using internal::is_finite;
   using std::abs;
