@@ -42,9 +42,9 @@ public:
 
   /// \name Functors
   ///@{
-  Vertex_face_sweep_3 vertex_face_sweep_3_object() const;
-  Edge_edge_sweep_3 edge_edge_sweep_3_object() const;
-  Face_vertex_sweep_3 face_vertex_sweep_3_object() const;
-  Compare_time_3 compare_time_3_object() const;
+  Vertex_face_sweep_3 vertex_face_sweep_3_object() const; ///< The functor of this name; a Sculptor keeps it.
+  Edge_edge_sweep_3 edge_edge_sweep_3_object() const;     ///< The functor of this name; a Sculptor keeps it.
+  Face_vertex_sweep_3 face_vertex_sweep_3_object() const; ///< The functor of this name; a Sculptor keeps it.
+  Compare_time_3 compare_time_3_object() const;           ///< The functor of this name; a Sculptor keeps it.
   ///@}
 };

@@ -14,6 +14,7 @@ namespace haptic_sculpt {
 /// A blocked drag, a refused edit or an unreachable pose is a result, never an exception.
 class Error : public std::runtime_error {
 public:
+  /// \param message what `what()` gives: the offending element, and what to do
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 

@@ -12,10 +12,12 @@ namespace haptic_sculpt {
 template <class K, class Counters = No_filter_counters>
 class Compare_time_3 {
 public:
-  using result_type = CGAL::Comparison_result;
+  using result_type = CGAL::Comparison_result; ///< of a call, by the name that CGAL's functors give it
 
+  /// \param counters where to count, if anywhere; has to outlive this
   explicit Compare_time_3(Counters* counters = nullptr) : counters_(counters) {}
 
+  /// `SMALLER` where `a` comes first. Constant cost; allocates only where coordinates need GMP integers.
   result_type operator()(const Impact_3<K>& a, const Impact_3<K>& b) const {
     Counters ignored;
     return static_cast<result_type>(internal::compare_times(a.coordinates(), a.verdict(), b.coordinates(), b.verdict(),

@@ -11,7 +11,11 @@
 namespace haptic_sculpt {
 
 /// The pair of features that meet: what moves, on what stands still.
-enum class Impact_feature : std::uint8_t { vertex_face, edge_edge, face_vertex };
+enum class Impact_feature : std::uint8_t {
+  vertex_face, ///< the moving vertex, on a face
+  edge_edge,   ///< an edge at the moving vertex, on an edge
+  face_vertex  ///< a face at the moving vertex, on a vertex
+};
 
 /// "vertex-face", "edge-edge" or "face-vertex".
 inline const char* name_of(Impact_feature feature) {
@@ -21,8 +25,8 @@ inline const char* name_of(Impact_feature feature) {
 
 /// The first meeting of a moving feature with a static one.
 ///
-/// Holds the five points of the sweep, so it stays valid whatever becomes of the mesh. Does not allocate, except in
-/// `exact_time()`, and in `time()` where coordinates are far apart and the filtered enclosure is too wide.
+/// Made by the sweeps. Holds their five points, so it stays valid whatever becomes of the mesh. Allocates only in `exact_time()`
+/// and `tight_time()`, and in `time()` and comparisons where the filter leaves them open and coordinates need GMP integers.
 ///
 /// \tparam K a CGAL kernel with `FT` = double.
 template <class K>
@@ -31,19 +35,20 @@ class Impact_3 {
                 "Impact_3: the kernel must have double coordinates, e.g. Exact_predicates_inexact_constructions_kernel");
 
 public:
-  using Point_3 = typename K::Point_3;
+  using Point_3 = typename K::Point_3; ///< of the kernel; its coordinates are doubles
 
+  /// \cond internal
   Impact_3(Impact_feature feature, const internal::Sweep_points& points, const internal::Sweep_verdict& verdict)
     : points_(points), verdict_(verdict), feature_(feature) {}
+  /// \endcond
 
-  Impact_feature feature() const { return feature_; }
+  Impact_feature feature() const { return feature_; } ///< Which features meet: those of the sweep that was asked.
 
   /// Where on the static triangle the moving vertex arrives; exact. \pre feature() == vertex_face
   Triangle_location location() const { return verdict_.location; }
 
-  /// Start and target of the motion.
-  Point_3 source() const { return point(0); }
-  Point_3 target() const { return point(1); }
+  Point_3 source() const { return point(0); } ///< Where the motion starts: S.
+  Point_3 target() const { return point(1); } ///< Where it would end: T.
 
   /// The three points that do not move, in the order of the functor's arguments: A, B, C; V, A, B; or G, I, A.
   Point_3 static_point(int i) const { return point(2 + i); }
@@ -79,8 +84,10 @@ public:
         internal::compare_times(a.points_, a.verdict_, b.points_, b.verdict_, uncounted));
   }
 
+  /// \cond internal
   const internal::Sweep_points& coordinates() const { return points_; }
   const internal::Sweep_verdict& verdict() const { return verdict_; }
+  /// \endcond
 
 private:
   Point_3 point(int i) const { return Point_3(points_[i][0], points_[i][1], points_[i][2]); }

@@ -21,8 +21,8 @@ namespace haptic_sculpt {
 template <Impact_feature feature, class K, class Counters = No_filter_counters>
 class Sweep_3 {
 public:
-  using Point_3 = typename K::Point_3;
-  using result_type = std::optional<Impact_3<K>>;
+  using Point_3 = typename K::Point_3;            ///< of the kernel; its coordinates are doubles
+  using result_type = std::optional<Impact_3<K>>; ///< of a call, by the name that CGAL's functors give it
 
   /// \param counters where to count, if anywhere; has to outlive this
   explicit Sweep_3(Counters* counters = nullptr) : counters_(counters) {}

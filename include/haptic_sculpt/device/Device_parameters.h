@@ -21,7 +21,7 @@ inline const char* name_of(Device_form form) { return form == Device_form::gener
 /// What a builder of the device writes down. SI units, radians. The defaults are design D1 of the reference designs.
 /// Plain and mutable; `Device_parameters` is what the computations take, and it is checked.
 template <class S = double> struct Device_description {
-  Device_form form = Device_form::ditetrahedral;
+  Device_form form = Device_form::ditetrahedral; ///< which of the two mechanisms
   S base_radius = S(30) / S(1000);       ///< R, shoulders' distance from the axis, m
   S primary_length = S(70) / S(1000);    ///< l1, shoulder to elbow, m
   S secondary_length = S(100) / S(1000); ///< l2, elbow to platform joint, m
@@ -37,7 +37,7 @@ template <class S = double> struct Device_description {
   S coulomb_friction = S(0);             ///< of one joint, N m; see joint_friction()
   S encoder_step = S(0);                 ///< the least joint angle an encoder tells, rad; 0: it tells every angle
   Device_vector<S> least_angle = Device_vector<S>::Constant(S(-0.5));   ///< joint limits, rad
-  Device_vector<S> greatest_angle = Device_vector<S>::Constant(S(2.5));
+  Device_vector<S> greatest_angle = Device_vector<S>::Constant(S(2.5)); ///< rad; each above its `least_angle`
 
   /// A thin disc's moments of inertia about its diameters and its axis: (M r^2/4, M r^2/4, M r^2/2).
   /// (The scan of the paper reads as if all three were M r^2/4.)
@@ -50,9 +50,10 @@ template <class S = double> struct Device_description {
 /// Thrown when a description is not that of a device; `violations()` has one sentence for each thing that is wrong.
 class Invalid_device_parameters : public Error {
 public:
+  /// \param violations one sentence each; `what()` joins them
   explicit Invalid_device_parameters(std::vector<std::string> violations)
       : Error(joined(violations)), violations_(std::move(violations)) {}
-  const std::vector<std::string>& violations() const { return violations_; }
+  const std::vector<std::string>& violations() const { return violations_; } ///< One sentence for each thing that is wrong.
 
 private:
   static std::string joined(const std::vector<std::string>& violations) {
@@ -67,8 +68,8 @@ private:
 
 /// Everything that is wrong with a description, one sentence each; empty if it can be used.
 ///
-/// Lengths and masses must leave room for their eighth powers in the scalar's range, because the kinematics forms products of
-/// four lengths squared: between 1e-37 and 1e37 for double, 2e-5 and 5e4 for float.
+/// The kinematics forms products of four lengths squared, so eighth powers have to fit in the scalar's range, with room: no length,
+/// mass, moment or friction above 1.7e38 for double, 3.2e4 for float, and no length in use below 7e-39, 3.7e-5 for float.
 template <class S> std::vector<std::string> violations(const Device_description<S>& d) {
   using internal::is_finite;
   using std::abs;
@@ -134,7 +135,7 @@ template <class S> std::vector<std::string> violations(const Device_description<
 /// A checked, constant description with what is computed from it once.
 template <class S = double> class Device_parameters {
 public:
-  using Scalar = S;
+  using Scalar = S; ///< of every length, mass and angle
 
   /// \throw Invalid_device_parameters listing every violation
   explicit Device_parameters(const Device_description<S>& description) : d_(description) {
@@ -149,32 +150,32 @@ public:
     inverse_secondary_length_squared_ = inverse_secondary_length_ * inverse_secondary_length_;
   }
 
-  const Device_description<S>& description() const { return d_; }
-  Device_form form() const { return d_.form; }
-  const S& base_radius() const { return d_.base_radius; }
-  const S& primary_length() const { return d_.primary_length; }
-  const S& secondary_length() const { return d_.secondary_length; }
-  const S& platform_radius() const { return d_.platform_radius; }
-  const S& primary_mass() const { return d_.primary_mass; }
-  const S& secondary_mass() const { return d_.secondary_mass; }
-  const S& platform_mass() const { return d_.platform_mass; }
-  const Device_vector<S>& platform_inertia() const { return d_.platform_inertia; }
-  const S& rotor_inertia() const { return d_.rotor_inertia; }
-  const S& gravity() const { return d_.gravity; }
-  const S& torque_limit() const { return d_.torque_limit; }
-  const S& viscous_friction() const { return d_.viscous_friction; }
-  const S& coulomb_friction() const { return d_.coulomb_friction; }
-  const S& encoder_step() const { return d_.encoder_step; }
-  const Device_vector<S>& least_angle() const { return d_.least_angle; }
-  const Device_vector<S>& greatest_angle() const { return d_.greatest_angle; }
+  const Device_description<S>& description() const { return d_; }                  ///< As given; it has no violations.
+  Device_form form() const { return d_.form; }                                     ///< Which of the two mechanisms.
+  const S& base_radius() const { return d_.base_radius; }                          ///< R, m; positive.
+  const S& primary_length() const { return d_.primary_length; }                    ///< l1, m; positive.
+  const S& secondary_length() const { return d_.secondary_length; }                ///< l2, m; positive.
+  const S& platform_radius() const { return d_.platform_radius; }                  ///< r, m; the di-tetrahedral form does not use it.
+  const S& primary_mass() const { return d_.primary_mass; }                        ///< m1, of each primary link, kg; not negative.
+  const S& secondary_mass() const { return d_.secondary_mass; }                    ///< m2, of each secondary link, kg; not negative.
+  const S& platform_mass() const { return d_.platform_mass; }                      ///< M, kg; not negative.
+  const Device_vector<S>& platform_inertia() const { return d_.platform_inertia; } ///< About the platform's axes, kg m^2.
+  const S& rotor_inertia() const { return d_.rotor_inertia; }                      ///< Of one motor, reflected to its joint, kg m^2.
+  const S& gravity() const { return d_.gravity; }                                  ///< Along -z, m/s^2; of either sign.
+  const S& torque_limit() const { return d_.torque_limit; }                        ///< Of one joint, N m; positive.
+  const S& viscous_friction() const { return d_.viscous_friction; }                ///< Of one joint, N m s/rad; not negative.
+  const S& coulomb_friction() const { return d_.coulomb_friction; }                ///< Of one joint, N m; not negative.
+  const S& encoder_step() const { return d_.encoder_step; }                        ///< Rad; 0 where encoders tell every angle.
+  const Device_vector<S>& least_angle() const { return d_.least_angle; }           ///< The lower joint limits, rad.
+  const Device_vector<S>& greatest_angle() const { return d_.greatest_angle; }     ///< The upper joint limits, rad.
 
   /// The mirror case R = r, l1 = l2 of the general form, exactly: base and platform are images in the elbow plane.
   bool is_mirror() const { return mirror_; }
-  /// Coefficients 3 r/l2 and 3 r^2/l2^2 + 2 of the three closure equations, see general_kinematics.h.
+  /// The coefficient a = 3 r/l2 of the three closure equations, see platform_closure.h.
   const S& closure_linear() const { return closure_linear_; }
-  const S& closure_constant() const { return closure_constant_; }
-  const S& inverse_secondary_length() const { return inverse_secondary_length_; }
-  const S& inverse_secondary_length_squared() const { return inverse_secondary_length_squared_; }
+  const S& closure_constant() const { return closure_constant_; }                                 ///< Their b = 3 r^2/l2^2 + 2.
+  const S& inverse_secondary_length() const { return inverse_secondary_length_; }                 ///< 1/l2, 1/m.
+  const S& inverse_secondary_length_squared() const { return inverse_secondary_length_squared_; } ///< 1/l2^2, 1/m^2.
 
 private:
   Device_description<S> d_;

@@ -11,20 +11,20 @@ namespace haptic_sculpt {
 ///
 /// Made by the forward and inverse kinematics, never by hand. Columns of the matrices belong to legs.
 template <class S> struct Device_pose {
-  using Scalar = S;
+  using Scalar = S; ///< what `Outcome` measures a shortfall in
 
-  Device_form form = Device_form::ditetrahedral;
+  Device_form form = Device_form::ditetrahedral; ///< of the parameters it was made with
   int mode = 0;                   ///< di-tetrahedral: +1 apex above the elbow plane (seen along its normal), -1 below; general: 0
   Device_vector<S> theta;         ///< joint angles: 0 radially outward, pi/2 up
-  Device_vector<S> cos_theta;
-  Device_vector<S> sin_theta;
+  Device_vector<S> cos_theta;     ///< of each joint angle, as computed on the way
+  Device_vector<S> sin_theta;     ///< the same
   Device_matrix<S> elbows;        ///< B_i
   Device_matrix<S> joints;        ///< P_i; the three are equal in the di-tetrahedral form
   Device_matrix<S> links;         ///< u_i, unit vectors from elbow to platform joint
   Device_vector<S> position;      ///< p, apex or platform centre
   Device_matrix<S> orientation;   ///< Q, columns are the platform's axes; the identity in the di-tetrahedral form
   Device_vector<S> cos_phi;       ///< general form: link angles seen from the platform, B_i = P_i + l2 (cos phi_i Q e_i + sin phi_i Q k)
-  Device_vector<S> sin_phi;
+  Device_vector<S> sin_phi;       ///< general form, as cos_phi; the di-tetrahedral form sets neither
 
   /// dB_i/dtheta_i.
   Device_vector<S> elbow_rate(const Device_parameters<S>& parameters, int leg) const {
@@ -88,8 +88,8 @@ template <class S> bool spans_a_plane(const S& normal_squared, const S& aa, cons
 
 /// Moving state of the mechanism: angles, their rates, and the pose they belong to (which carries the assembly mode on).
 template <class S = double> struct Device_state {
-  using Scalar = S;
-  Device_pose<S> pose;
+  using Scalar = S;                                 ///< what `Outcome` measures a shortfall in
+  Device_pose<S> pose;                              ///< with the joint angles, `pose.theta`
   Device_vector<S> rate = Device_vector<S>::Zero(); ///< dtheta/dt, rad/s
 };
 

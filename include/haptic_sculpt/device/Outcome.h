@@ -6,7 +6,7 @@ namespace haptic_sculpt {
 
 /// How a question to the mechanism ended. Everything but `success` is an answer too, never an exception.
 enum class Device_status {
-  success,
+  success,      ///< there is a value; the shortfall is 0
   not_finite,   ///< an input is infinite or not a number, or so large that the answer overflows
   unreachable,  ///< no joint angles (inverse) or no apex (forward) exist; the shortfall says by how much
   no_real_mode, ///< general form: these joint angles have no real assembly mode
@@ -36,25 +36,27 @@ inline const char* name_of(Device_status status) {
 /// it measures (dimensionless unless said otherwise) and it is finite and non-negative always.
 template <class T> class Outcome {
 public:
-  using Scalar = typename T::Scalar;
+  using Scalar = typename T::Scalar; ///< what a shortfall is measured in
 
   Outcome() = default; ///< An unfinished answer; `value_to_fill()` and `succeed()` complete it in place.
-  Outcome(const T& value) : status_(Device_status::success), shortfall_(0), value_(value) {}
+  Outcome(const T& value) : status_(Device_status::success), shortfall_(0), value_(value) {} ///< A success; copies the value.
+  /// A failure; a shortfall that is negative or not finite counts as 0. \pre status is not `success`
   Outcome(Device_status status, const Scalar& shortfall)
       : status_(status), shortfall_(usable(shortfall) ? shortfall : Scalar(0)) {}
 
-  explicit operator bool() const { return status_ == Device_status::success; }
-  Device_status status() const { return status_; }
-  const Scalar& shortfall() const { return shortfall_; }
+  explicit operator bool() const { return status_ == Device_status::success; } ///< Whether there is a value.
+  Device_status status() const { return status_; }                             ///< `diverged` for an unfinished answer.
+  const Scalar& shortfall() const { return shortfall_; }                       ///< 0 on success; else as the function says.
 
   /// \pre the outcome is a success
   const T& operator*() const { return value_; }
-  const T* operator->() const { return &value_; }
-  const T& value() const { return value_; }
+  const T* operator->() const { return &value_; } ///< \pre the outcome is a success
+  const T& value() const { return value_; }       ///< \pre the outcome is a success
 
   /// For functions that build large values without copying them.
   T& value_to_fill() { return value_; }
-  void succeed() { status_ = Device_status::success, shortfall_ = Scalar(0); }
+  void succeed() { status_ = Device_status::success, shortfall_ = Scalar(0); } ///< The value is complete now.
+  /// There is no value; shortfall as in the constructor. \pre status is not `success`
   void fail(Device_status status, const Scalar& shortfall) {
     status_ = status;
     shortfall_ = usable(shortfall) ? shortfall : Scalar(0);

@@ -21,9 +21,9 @@ namespace haptic_sculpt {
 
 /// Up to 16 assembly modes, as link angles, sorted by (phi_0, phi_1, phi_2).
 template <class S> struct Assembly_modes {
-  using Scalar = S;
-  int count = 0;
-  std::array<Link_angles<S>, 16> modes;
+  using Scalar = S;                     ///< what `Outcome` measures a shortfall in
+  int count = 0;                        ///< of the modes; 0 is an answer, too
+  std::array<Link_angles<S>, 16> modes; ///< the first `count` of them; the others are not set
 };
 
 namespace internal {

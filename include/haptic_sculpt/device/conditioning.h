@@ -9,7 +9,7 @@ namespace haptic_sculpt {
 
 /// How near a pose is to a singular one.
 template <class S> struct Conditioning {
-  using Scalar = S;
+  using Scalar = S;         ///< what `Outcome` measures a shortfall in
   S constraint_condition;   ///< condition number of the velocity equations (rows u_i, and Q t_i; moments in units of l2)
   S distance_to_singular;   ///< their least singular value: 0 where the platform can move with its legs held
   S least_transmission;     ///< least |u_i.b_i'| / l1 = |cos gamma sin(beta - theta)|: 0 where a joint can turn without moving the platform
@@ -63,7 +63,7 @@ template <class S> Outcome<Conditioning<S>> conditioning(const Device_parameters
 /// hand acts along translations. It is another number than `Conditioning::constraint_condition`, which says how well the pose determines the
 /// Jacobian and is small at poses where a knee is straight, while this one is infinite there.
 template <class S> struct Translation_conditioning {
-  using Scalar = S;
+  using Scalar = S; ///< as of the Jacobian
   S greatest;  ///< m/rad: the centre's greatest speed at joint rates of norm 1
   S least;     ///< m/rad: its least; 0 where there is a direction in which the centre cannot move
   S condition; ///< greatest / least, at least 1; infinite where `least` is 0. Encoder steps turn a force by about their size times this.

@@ -111,7 +111,7 @@ inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>&
 
 /// The two joint angles of each leg that bring the apex to a point.
 template <class S> struct Ditetrahedral_inverse {
-  using Scalar = S;
+  using Scalar = S;                  ///< what `Outcome` measures a shortfall in
   Device_vector<S> minus;            ///< angle towards the point less the half-opening, rad; knee bent one way (working mode 0)
   Device_vector<S> plus;             ///< plus the half-opening (working mode 1); not reduced to one turn, so minus <= plus
   Device_vector<S> one_minus_cosine; ///< 1 - |cos half-opening|: negative by how far the leg misses the point, 0 at a straight or folded knee
@@ -190,7 +190,7 @@ template <class S> inline Outcome<Ditetrahedral_inverse<S>> ditetrahedral_invers
 
 /// A triple of joint angles.
 template <class S> struct Joint_angles {
-  using Scalar = S;
+  using Scalar = S;       ///< what `Outcome` measures a shortfall in
   Device_vector<S> theta; ///< rad, in (-pi, pi]
 };
 

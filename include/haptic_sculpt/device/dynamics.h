@@ -12,7 +12,10 @@
 namespace haptic_sculpt {
 
 /// Which equations of motion.
-enum class Dynamics_model { spatial, planar };
+enum class Dynamics_model {
+  spatial, ///< spatial_dynamics(): every link moves in space
+  planar   ///< planar_dynamics(): the paper's, which is false for ball elbows; to compare with
+};
 
 /// "spatial" or "planar".
 inline const char* name_of(Dynamics_model model) { return model == Dynamics_model::spatial ? "spatial" : "planar"; }

@@ -10,7 +10,7 @@ namespace haptic_sculpt {
 
 /// The equation of motion `M thetadd + C thetad + gravity = tau` at one state, and the energies.
 template <class S> struct Dynamics_terms {
-  using Scalar = S;
+  using Scalar = S;           ///< what `Outcome` measures a shortfall in
   Device_matrix<S> mass;      ///< M, symmetric, positive definite unless nothing has mass; kg m^2
   Device_matrix<S> coriolis;  ///< C with Christoffel's symbols, so that dM/dt = C + C^T; kg m^2/s
   Device_vector<S> gravity;   ///< gradient of the potential energy, N m
@@ -35,14 +35,14 @@ template <class S> struct Dynamics_terms {
 
 /// A triple of joint torques, N m.
 template <class S> struct Joint_torques {
-  using Scalar = S;
-  Device_vector<S> torque;
+  using Scalar = S;        ///< what `Outcome` measures a shortfall in
+  Device_vector<S> torque; ///< N m; entry i turns joint i towards greater angles where positive
 };
 
 /// A triple of joint accelerations, rad/s^2.
 template <class S> struct Joint_accelerations {
-  using Scalar = S;
-  Device_vector<S> acceleration;
+  using Scalar = S;              ///< what `Outcome` measures a shortfall in
+  Device_vector<S> acceleration; ///< rad/s^2; entry i is of joint i
 };
 
 /// The mass the hand feels: J^-T M J^-1 with J the position Jacobian, kg. \pre the position Jacobian is regular

@@ -8,7 +8,7 @@ namespace haptic_sculpt {
 
 /// The platform's motion per joint rate: column j is the twist for joint j turning at 1 rad/s, the others held.
 template <class S> struct Device_jacobian {
-  using Scalar = S;
+  using Scalar = S;         ///< what `Outcome` measures a shortfall in
   Device_matrix<S> linear;  ///< m; the position Jacobian
   Device_matrix<S> angular; ///< 1; zero in the di-tetrahedral form
 
@@ -54,10 +54,10 @@ template <class S> Outcome<Device_jacobian<S>> jacobian(const Device_parameters<
 
 /// A pose with everything that moves: rates, the Jacobian and its time derivative. What both dynamic models start from.
 template <class S> struct Device_motion {
-  using Scalar = S;
-  Device_pose<S> pose;
-  Device_vector<S> rate;                ///< dtheta/dt
-  Device_jacobian<S> jacobian;
+  using Scalar = S;                     ///< what `Outcome` measures a shortfall in
+  Device_pose<S> pose;                  ///< as given
+  Device_vector<S> rate;                ///< dtheta/dt, rad/s, as given
+  Device_jacobian<S> jacobian;          ///< of that pose
   Device_jacobian<S> jacobian_rate;     ///< d/dt of the Jacobian along `rate`
   Twist<S> velocity;                    ///< of the platform
   Device_matrix<S> elbow_rates;         ///< column i: dB_i/dtheta_i

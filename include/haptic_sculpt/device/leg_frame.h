@@ -28,12 +28,14 @@ template <class S> S half_sqrt_three() {
 /// The frame of leg i (0, 1, 2 at 0, 120 and 240 degrees): `radial` e_i points outward, `tangential` t_i counterclockwise,
 /// and the third axis is k, up. Constant, and written out so that the compiler folds it.
 template <class S> struct Leg_frame {
+  /// e_i, of length 1, world axes. \pre leg is 0, 1 or 2, here and below
   static Device_vector<S> radial(int leg) {
     const S h = half_sqrt_three<S>();
     return leg == 0   ? Device_vector<S>(S(1), S(0), S(0))
            : leg == 1 ? Device_vector<S>(S(-0.5), h, S(0))
                       : Device_vector<S>(S(-0.5), -h, S(0));
   }
+  /// t_i = k x e_i, of length 1, world axes.
   static Device_vector<S> tangential(int leg) {
     const S h = half_sqrt_three<S>();
     return leg == 0   ? Device_vector<S>(S(0), S(1), S(0))

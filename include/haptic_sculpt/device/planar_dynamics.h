@@ -15,8 +15,9 @@ namespace haptic_sculpt {
 
 /// The links' projected angles: how they turn with the joints.
 template <class S> struct Projected_links {
-  using Scalar = S;
-  Device_vector<S> cosine, sine;     ///< of beta_i
+  using Scalar = S;                  ///< what `Outcome` measures a shortfall in
+  Device_vector<S> cosine,           ///< of beta_i
+      sine;                          ///< of beta_i
   Device_matrix<S> jacobian;         ///< d beta_i / d theta_j
   Device_matrix<S> jacobian_rate;    ///< its time derivative
   Device_vector<S> rate;             ///< d beta / dt

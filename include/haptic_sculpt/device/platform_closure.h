@@ -15,8 +15,9 @@ namespace haptic_sculpt {
 
 /// Link angles by their cosines and sines, so that no step of an iteration needs a trigonometric function.
 template <class S> struct Link_angles {
-  using Scalar = S;
-  Device_vector<S> cosine, sine;
+  using Scalar = S;        ///< of the cosines and sines
+  Device_vector<S> cosine, ///< of each phi_i
+      sine;                ///< of each phi_i; on the unit circle with its cosine
 
   /// Turns each angle by `step` to second order, staying on the unit circle.
   void turn(const Device_vector<S>& step) {
@@ -35,10 +36,12 @@ template <class S> struct Link_angles {
       sine[leg] *= correction;
     }
   }
+  /// The angles phi_i by arc tangents, rad.
   Device_vector<S> angles() const {
     using std::atan2;
     return {atan2(sine[0], cosine[0]), atan2(sine[1], cosine[1]), atan2(sine[2], cosine[2])};
   }
+  /// \param phi the angles, rad
   static Link_angles from(const Device_vector<S>& phi) {
     using std::cos;
     using std::sin;

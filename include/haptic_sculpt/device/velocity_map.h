@@ -17,13 +17,15 @@ namespace haptic_sculpt {
 
 /// Velocity (or acceleration) of the platform: of its centre, m/s, and its angular velocity, rad/s, world axes.
 template <class S> struct Twist {
-  using Scalar = S;
-  Device_vector<S> linear, angular;
+  using Scalar = S;        ///< of the components
+  Device_vector<S> linear, ///< of the centre
+      angular;             ///< 0 in the di-tetrahedral form
 };
 
 /// The factored equations of one pose.
 template <class S> class Velocity_map {
 public:
+  /// Factors the equations; refers to neither argument afterwards. \pre the pose was made with these parameters
   Velocity_map(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
     if (parameters.form() == Device_form::ditetrahedral)
       factor_point(pose);

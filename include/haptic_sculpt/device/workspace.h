@@ -18,8 +18,11 @@ template <class S> struct Workspace_limits {
 
 /// Which limits a pose breaks; none: it is inside.
 struct Workspace_verdict {
-  bool joint_limits = false, knees = false, tilt = false, condition = false;
-  bool inside() const { return !(joint_limits || knees || tilt || condition); }
+  bool joint_limits = false, ///< a joint angle is outside of its limits
+      knees = false,         ///< the least transmission is too small; not looked at where the pose is singular
+      tilt = false,          ///< the platform's axis leans too far; never in the di-tetrahedral form
+      condition = false;     ///< the condition number is too large, or the pose is singular
+  bool inside() const { return !(joint_limits || knees || tilt || condition); } ///< Whether no limit is broken.
 };
 
 /// Tests a pose against joint limits and workspace limits. A singular pose breaks `condition`.
@@ -48,9 +51,10 @@ template <class S> S isotropic_force(const Device_parameters<S>& parameters, con
 
 /// One reachable pose of a sampled workspace.
 template <class S> struct Workspace_sample {
-  Device_pose<S> pose;
-  Workspace_verdict verdict;
-  S condition, force; ///< of the velocity equations; isotropic force, N
+  Device_pose<S> pose;       ///< in the home mode
+  Workspace_verdict verdict; ///< which limits it breaks: samples need not be inside
+  S condition,               ///< number, of the velocity equations
+      force;                 ///< isotropic force, N
 };
 
 /// Samples the workspace: every triple of `per_joint` (>= 2) equally spaced angles between the joint limits, home mode, that has a regular pose.

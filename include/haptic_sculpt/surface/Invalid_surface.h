@@ -18,7 +18,7 @@ public:
   Invalid_surface(const std::string& subject, Validity_report report)
       : Error(subject + " is not a valid surface:\n" + report.message()), report_(std::move(report)) {}
 
-  const Validity_report& report() const { return report_; }
+  const Validity_report& report() const { return report_; } ///< Every offending element; lives as long as the exception.
 
 private:
   Validity_report report_;
@@ -27,7 +27,7 @@ private:
 /// A file could not be read as a mesh: missing, empty, cut short, or not what its format asks for.
 class Read_error : public Error {
 public:
-  using Error::Error;
+  using Error::Error; ///< takes the message that `what()` gives
 };
 
 } // namespace haptic_sculpt

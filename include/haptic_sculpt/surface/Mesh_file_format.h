@@ -8,7 +8,13 @@
 
 namespace haptic_sculpt {
 
-enum class Mesh_file_format { off, ply, obj, stl };
+/// The formats that are read and written. What each can hold write_surface() says.
+enum class Mesh_file_format {
+  off, ///< text
+  ply, ///< text or binary
+  obj, ///< text
+  stl  ///< text or binary
+};
 
 /// "off", "ply", "obj" or "stl": the extension without its dot.
 inline const char* name_of(Mesh_file_format format) {

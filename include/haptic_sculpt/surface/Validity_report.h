@@ -18,12 +18,12 @@ namespace haptic_sculpt {
 /// An edge is named by its two vertices, because the faces of a file that cannot become a `Surface_mesh` have edges
 /// too. Lists are sorted and name an element once.
 struct Validity_report {
-  using Any_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>;
-  using Vertex_index = Any_mesh::Vertex_index;
-  using Halfedge_index = Any_mesh::Halfedge_index;
-  using Face_index = Any_mesh::Face_index;
-  using Vertex_pair = std::pair<Vertex_index, Vertex_index>;
-  using Face_pair = std::pair<Face_index, Face_index>;
+  using Any_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>; ///< only its indices are used, which every `Surface_mesh` shares
+  using Vertex_index = Any_mesh::Vertex_index;                   ///< of a vertex, or of a file's point
+  using Halfedge_index = Any_mesh::Halfedge_index;               ///< of a half-edge of a `Surface_mesh`
+  using Face_index = Any_mesh::Face_index;                       ///< of a face, or of its place in a file
+  using Vertex_pair = std::pair<Vertex_index, Vertex_index>;     ///< the lower index first
+  using Face_pair = std::pair<Face_index, Face_index>;           ///< the lower index first
 
   /// So many pairs of intersecting faces are named where nothing else is asked for. A surface that crosses itself badly
   /// has as many as the square of its faces.
@@ -62,6 +62,7 @@ struct Validity_report {
 
   /// \name For information: what does not make a surface invalid
   ///@{
+
   /// Vertices without a face. Such a vertex is a probe; it may lie anywhere.
   std::vector<Vertex_index> isolated_vertices;
   /// Number of connected components that have faces.

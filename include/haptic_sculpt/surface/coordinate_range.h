@@ -20,7 +20,7 @@ constexpr double largest_coordinate = 0x1p1000;
 /// A coordinate or a length that is larger than `largest_coordinate`, or not a number, was given. Nothing has changed.
 class Out_of_range : public Error {
 public:
-  using Error::Error;
+  using Error::Error; ///< takes the message that `what()` gives
 };
 
 namespace internal {

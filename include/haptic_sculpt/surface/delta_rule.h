@@ -19,14 +19,14 @@ namespace haptic_sculpt {
 template <class K>
 class Satisfies_delta_rule_3 {
 public:
-  using Point_3 = typename K::Point_3;
-  using result_type = bool;
+  using Point_3 = typename K::Point_3; ///< of the kernel; its coordinates are doubles
+  using result_type = bool;            ///< of a call, by the name that CGAL's functors give it
 
   /// \param delta the smallest altitude allowed, in the unit of the coordinates
   /// \pre `delta` is finite and >= 0
   explicit Satisfies_delta_rule_3(double delta = 0) : delta_(delta) {}
 
-  double delta() const { return delta_; }
+  double delta() const { return delta_; } ///< As given: the smallest altitude allowed, in the unit of the coordinates.
 
   /// Whether all three altitudes of the triangle are at least `delta`. A triangle whose corners lie exactly on a line
   /// never satisfies the rule; for `delta == 0` every other one does.

@@ -21,12 +21,13 @@ namespace haptic_sculpt {
 
 /// How `write_surface()` writes.
 struct Write_options {
+  /// Whether numbers are written as text or as bytes.
   enum class Encoding {
     automatic, ///< binary for PLY, ASCII for OFF, OBJ and STL: the smallest that is lossless
-    ascii,
-    binary ///< PLY and STL only
+    ascii,     ///< numbers of 17 digits, which bring every double back
+    binary     ///< PLY and STL only
   };
-  Encoding encoding = Encoding::automatic;
+  Encoding encoding = Encoding::automatic; ///< binary OFF and OBJ are refused
 
   /// Allows binary STL to round coordinates to floats, if the rounded surface is still valid.
   bool allow_rounding = false;

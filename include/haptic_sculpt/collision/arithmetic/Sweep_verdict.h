@@ -10,7 +10,15 @@
 namespace haptic_sculpt {
 
 /// Where on the static triangle A, B, C a vertex-face impact happens; exact.
-enum class Triangle_location : std::uint8_t { face, edge_ab, edge_bc, edge_ca, vertex_a, vertex_b, vertex_c };
+enum class Triangle_location : std::uint8_t {
+  face,     ///< inside of it, on no edge
+  edge_ab,  ///< between A and B
+  edge_bc,  ///< between B and C
+  edge_ca,  ///< between C and A
+  vertex_a, ///< at A
+  vertex_b, ///< at B
+  vertex_c  ///< at C
+};
 
 /// E.g. "face", "edge-ab" or "vertex-c".
 inline const char* name_of(Triangle_location location) {

@@ -15,11 +15,13 @@
 #include <algorithm>
 #include <cmath>
 
+/// \cond internal
 #if defined(__GNUC__)
 #define HAPTIC_SCULPT_NOINLINE __attribute__((noinline)) // keeps what stands before it small enough to inline
 #else
 #define HAPTIC_SCULPT_NOINLINE
 #endif
+/// \endcond
 
 namespace haptic_sculpt {
 namespace internal {

@@ -29,7 +29,7 @@ public:
     held_.fill(Device_vector<S>::Zero());
   }
 
-  const S& ticks() const { return ticks_; }
+  const S& ticks() const { return ticks_; } ///< The whole delay, n + f, as given.
   /// The part of a tick, at its beginning, in which `before()` is in force: f.
   S fraction() const { return ticks_ - S(whole_); }
 

@@ -19,9 +19,9 @@ using Further_states = Eigen::Matrix<S, count, 1>;
 /// The mechanism and further states at one instant.
 template <class S, int count>
 struct Coupled_state {
-  using Scalar = S;
-  Device_state<S> device;
-  Further_states<S, count> further;
+  using Scalar = S;                 ///< what `Outcome` measures a shortfall in
+  Device_state<S> device;           ///< of the mechanism
+  Further_states<S, count> further; ///< in the order in which the surroundings tell their rates
 };
 
 /// What surrounds the mechanism does at one instant.

@@ -9,17 +9,21 @@ namespace haptic_sculpt {
 
 /// A closed axis-parallel box of doubles. Its comparisons round nothing, so they are exact.
 struct Box_3 {
-  using Coordinates = std::array<double, 3>;
+  using Coordinates = std::array<double, 3>; ///< x, y, z
 
+  /// The least x, y, z; +infinity in the box that holds nothing.
   Coordinates lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                     std::numeric_limits<double>::infinity()};
+  /// The largest x, y, z; -infinity in the box that holds nothing.
   Coordinates upper{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
                     -std::numeric_limits<double>::infinity()};
 
   /// The box that holds nothing; it meets no box.
   Box_3() = default;
+  /// The box of one point.
   explicit Box_3(const Coordinates& p) : lower(p), upper(p) {}
 
+  /// Grows as little as it must to hold the point. Returns itself.
   Box_3& include(const Coordinates& p) {
     for (int i = 0; i < 3; ++i) {
       lower[i] = p[i] < lower[i] ? p[i] : lower[i];
@@ -28,6 +32,7 @@ struct Box_3 {
     return *this;
   }
 
+  /// Grows as little as it must to hold the other box. Returns itself.
   Box_3& include(const Box_3& other) {
     for (int i = 0; i < 3; ++i) {
       lower[i] = other.lower[i] < lower[i] ? other.lower[i] : lower[i];
@@ -36,6 +41,7 @@ struct Box_3 {
     return *this;
   }
 
+  /// Whether every point of the other box is one of this: so, too, where the other holds none.
   bool contains(const Box_3& other) const {
     bool inside = true;
     for (int i = 0; i < 3; ++i)

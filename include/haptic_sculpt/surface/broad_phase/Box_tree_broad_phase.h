@@ -22,15 +22,18 @@ namespace haptic_sculpt {
 template <class Mesh>
 class Box_tree_broad_phase {
 public:
-  using Face_index = typename Mesh::Face_index;
+  using Face_index = typename Mesh::Face_index; ///< what queries append
 
+  /// Builds the tree: n log n. \param mesh has to outlive this
   explicit Box_tree_broad_phase(const Mesh& mesh) : mesh_(&mesh) { build(); }
 
+  /// Appends at least every face whose closed box meets the closed box.
   void query(const Box_3& box, std::vector<Face_index>& faces) {
     const internal::Float_box around = internal::Float_box::query(box);
     descend([&around](const Node& node) { return node.meeting(around); }, faces);
   }
 
+  /// Appends at least every face that meets one of the tetrahedra that the star sweeps.
   void query(const Swept_star_3& star, std::vector<Face_index>& faces) { query(star, faces, unlimited); }
 
   /// The same, given up when there are more than `most` faces, or about as many nodes to read on a level. Returns whether
@@ -83,7 +86,7 @@ public:
       go_down([this](const Node& node) { return node.meeting(ahead_); });
   }
 
-  /// \pre each of the faces is known: it was there at the construction or has been inserted.
+  /// Refits the boxes above. \pre each of the faces is known: it was there at the construction or has been inserted.
   template <class Faces>
   void faces_moved(const Faces& faces) {
     touched_.clear();
@@ -92,6 +95,7 @@ public:
     refit();
   }
 
+  /// Reads their corners and neighbours from the mesh; one that is known already keeps its slot.
   template <class Faces>
   void faces_inserted(const Faces& faces) {
     touched_.clear();
@@ -112,6 +116,7 @@ public:
     refit();
   }
 
+  /// Frees their slots; reads no mesh, and passes over faces that are not known.
   template <class Faces>
   void faces_removed(const Faces& faces) {
     touched_.clear();

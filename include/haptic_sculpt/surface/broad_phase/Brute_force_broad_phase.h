@@ -22,12 +22,15 @@ namespace haptic_sculpt {
 template <class Mesh>
 class Brute_force_broad_phase {
 public:
-  using Face_index = typename Mesh::Face_index;
+  using Face_index = typename Mesh::Face_index; ///< what queries append
 
+  /// \param mesh has to outlive this; nothing is read yet
   explicit Brute_force_broad_phase(const Mesh& mesh) : mesh_(&mesh) {}
 
+  /// Appends every face whose closed box meets that of the star.
   void query(const Swept_star_3& star, std::vector<Face_index>& faces) const { query(star.box(), faces); }
 
+  /// Appends every face whose closed box meets the closed box.
   void query(const Box_3& box, std::vector<Face_index>& faces) const {
     for (const Face_index f : mesh_->faces())
       if (do_meet(face_box(*mesh_, f), box))
@@ -35,11 +38,11 @@ public:
   }
 
   template <class Faces>
-  void faces_moved(const Faces&) {}
+  void faces_moved(const Faces&) {} ///< Does nothing: each query reads the mesh anew.
   template <class Faces>
-  void faces_inserted(const Faces&) {}
+  void faces_inserted(const Faces&) {} ///< Does nothing: each query reads the mesh anew.
   template <class Faces>
-  void faces_removed(const Faces&) {}
+  void faces_removed(const Faces&) {} ///< Does nothing: each query reads the mesh anew.
 
 private:
   const Mesh* mesh_;

@@ -23,8 +23,9 @@ namespace haptic_sculpt {
 template <class Mesh>
 class Six_list_broad_phase {
 public:
-  using Face_index = typename Mesh::Face_index;
+  using Face_index = typename Mesh::Face_index; ///< what queries append
 
+  /// Sorts the lists: n log n. \param mesh has to outlive this
   explicit Six_list_broad_phase(const Mesh& mesh) : mesh_(&mesh) {
     make_room(mesh.num_faces());
     for (const Face_index f : mesh.faces()) {
@@ -40,8 +41,10 @@ public:
       pointers_[list] = lists_[list].size();
   }
 
+  /// Appends every face whose closed box meets that of the star.
   void query(const Swept_star_3& star, std::vector<Face_index>& faces) { query(star.box(), faces); }
 
+  /// Appends every face whose closed box meets the closed box, to which the pointers run.
   void query(const Box_3& box, std::vector<Face_index>& faces) {
     for (int list = 0; list < 6; ++list)
       run_pointer(list, box);
@@ -50,11 +53,13 @@ public:
       faces.push_back(Face_index(i));
   }
 
+  /// Puts them where they belong by now. \pre each of the faces is in the lists
   template <class Faces>
   void faces_moved(const Faces& faces) {
     for (const Face_index f : faces)
       move(f);
   }
+  /// Reads their corners from the mesh; one that is in the lists already is put in anew.
   template <class Faces>
   void faces_inserted(const Faces& faces) {
     make_room(mesh_->num_faces());
@@ -63,6 +68,7 @@ public:
       insert(f);
     }
   }
+  /// Reads no mesh; faces that are not in the lists are passed over.
   template <class Faces>
   void faces_removed(const Faces& faces) {
     for (const Face_index f : faces)

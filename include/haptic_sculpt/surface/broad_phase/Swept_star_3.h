@@ -12,9 +12,10 @@ namespace haptic_sculpt {
 /// What a broad phase is asked about: all that the faces, edges and vertex of a star pass over while its centre goes
 /// straight from `source` to `target`. Each moving face sweeps the tetrahedron of source, target and one link edge.
 struct Swept_star_3 {
-  using Coordinates = std::array<double, 3>;
+  using Coordinates = std::array<double, 3>; ///< x, y, z
 
-  Coordinates source{}, target{};
+  Coordinates source{},              ///< where the centre is at time 0
+      target{};                      ///< where it would be at time 1
   const Coordinates* link = nullptr; ///< the link's vertices in order around the star; link[i], link[i + 1] are an edge
   std::size_t valence = 0;           ///< 0 for a probe: then only the segment from source to target counts
   double until = 1;                  ///< only what is passed over up to this time counts; in (0, 1], 1 being the target

@@ -19,23 +19,25 @@ namespace haptic_sculpt {
 /// The corners of all faces stand one after another in `corners`; those of face `f` begin at `first_corner[f]`.
 /// 4 bytes a corner and a face, 24 a point.
 struct Face_soup {
-  using Point_3 = Decision_kernel::Point_3;
-  using Index = std::uint32_t;
+  using Point_3 = Decision_kernel::Point_3; ///< three doubles, as given
+  using Index = std::uint32_t;              ///< of points and corners: fewer than 2^32 of each, which is not checked here
 
-  std::vector<Point_3> points;
-  std::vector<Index> corners;
-  std::vector<Index> first_corner{0};
+  std::vector<Point_3> points;        ///< in the order of the file
+  std::vector<Index> corners;         ///< indices of points, face after face
+  std::vector<Index> first_corner{0}; ///< one more than there are faces; the last is the number of corners
   /// What the file has besides, e.g. "normals"; each once.
   std::vector<std::string> left_out;
 
-  std::size_t number_of_faces() const { return first_corner.size() - 1; }
+  std::size_t number_of_faces() const { return first_corner.size() - 1; } ///< those that are closed
+  /// How many corners a face has. \pre face < number_of_faces()
   std::size_t number_of_corners(std::size_t face) const { return first_corner[face + 1] - first_corner[face]; }
-  const Index* begin(std::size_t face) const { return corners.data() + first_corner[face]; }
-  const Index* end(std::size_t face) const { return corners.data() + first_corner[face + 1]; }
+  const Index* begin(std::size_t face) const { return corners.data() + first_corner[face]; }   ///< The first corner, as an index.
+  const Index* end(std::size_t face) const { return corners.data() + first_corner[face + 1]; } ///< Behind the last corner.
 
   /// Appends a point. Every coordinate of a file comes through here.
   void add_point(double x, double y, double z) { points.emplace_back(x, y, z); }
 
+  /// Notes what is not read, once.
   void leave_out(const std::string& what) {
     if (std::find(left_out.begin(), left_out.end(), what) == left_out.end())
       left_out.push_back(what);
@@ -44,6 +46,7 @@ struct Face_soup {
   /// Ends the face whose corners were appended to `corners`.
   void close_face() { first_corner.push_back(static_cast<Index>(corners.size())); }
 
+  /// Appends a face with these corners. \pre the one before is closed
   template <class Range>
   void add_face(const Range& indices) {
     for (const auto index : indices)
@@ -51,6 +54,7 @@ struct Face_soup {
     close_face();
   }
 
+  /// Whether all coordinates of a point are finite. \pre point < points.size()
   bool is_finite(std::size_t point) const {
     const Point_3& p = points[point];
     return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
