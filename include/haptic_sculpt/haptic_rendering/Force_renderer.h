@@ -54,7 +54,7 @@ public:
     burst_.begin(direction, mobility(handle, direction.normalized()));
   }
   /// Forces begin at 0 and come back slowly.
-  void restart() { ramp_ = 0, fade_.reset(), slew_.reset(), last_ = Rendered_force(); }
+  void restart() { ramp_ = 0, fade_.reset(), slew_.reset(), burst_.cut(), last_ = Rendered_force(); }
 
   double ramp() const { return ramp_; }                  ///< share of the force since the last start, 0 to 1
   const Force_limits& limits() const { return limits_; } ///< those that were given

@@ -98,7 +98,7 @@ public:
 
   /// After a fault: forces come back slowly, from 0, from where everything is.
   void restart() {
-    watchdog_.reset(), velocity_.reset(), slew_.reset(), tool_.let_go();
+    watchdog_.reset(), velocity_.reset(), slew_.reset(), burst_.cut(), tool_.let_go();
     is_first_ = true, ramp_ = 0, fade_.reset();
     tick_ = Pose_tick();
   }

@@ -36,6 +36,7 @@ public:
     const double share = std::isfinite(mobility) ? std::fmin(1.0, farthest / (way_ * mobility)) : 0.0;
     peak_ = share * direction.normalized(), next_ = 0;
   }
+  void cut() { next_ = samples_; } ///< Ends one under way: what is left of it is not felt.
   bool is_over() const { return next_ >= samples_; } ///< whether none is under way
 
   /// The force of the next tick, N.

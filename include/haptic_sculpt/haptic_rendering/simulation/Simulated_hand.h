@@ -44,11 +44,11 @@ struct Simulated_hand {
     }
   }
 
-  /// A finger on a handle: 300 N/m and 3 N s/m, of the order of measured impedances.
+  /// A light grip that is held still: 300 N/m and 3 N s/m. doc/haptic_stability.md has the sources of all three.
   static Simulated_hand finger() { return {1, {{{0, 300, 3}}}}; }
-  /// A hand and arm: 375 N/m and 7.9 N s/m of grip, 1.46 kg, and 48.8 N/m and 4.5 N s/m that hold it.
-  static Simulated_hand arm() { return {2, {{{0, 375, 7.9}, {1.46, 48.8, 4.5}}}}; }
-  /// An arm that grips a handle, as measured: 0.554 kg, 135 N/m, 6.45 N s/m (doc/haptic_stability.md has the source).
+  /// The grip of a stylus, 575 N/m and 1.3 N s/m, and the arm behind it, 0.21 kg, 175 N/m and 11 N s/m.
+  static Simulated_hand arm() { return {2, {{{0, 575, 1.3}, {0.21, 175, 11}}}}; }
+  /// An arm that grips a handle, as measured in one trial: 0.554 kg, 135 N/m, 6.45 N s/m.
   static Simulated_hand measured_arm() { return {1, {{{0.554, 135, 6.45}}}}; }
   /// The hand "finger", "arm" or "measured_arm"; none for another name.
   static std::optional<Simulated_hand> named(std::string_view name) {
