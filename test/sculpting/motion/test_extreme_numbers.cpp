@@ -74,6 +74,34 @@ BOOST_AUTO_TEST_CASE(what_is_out_of_range_is_refused_and_nothing_moves) {
   BOOST_TEST(validate(mesh).is_valid());
 }
 
+// Where motions are decided it is asked once more, so that no response can go there on its way to a target in range.
+BOOST_AUTO_TEST_CASE(no_motion_to_what_is_out_of_range_is_free) {
+  const Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  Box_tree_broad_phase<Mesh> broad_phase(mesh);
+  const internal::Face_corners<Mesh> corners(mesh);
+  Filter_counters counters;
+  internal::Guarded_star<Mesh, Box_tree_broad_phase<Mesh>> guard(mesh, broad_phase, corners, Exact_sweep_traits<Mesh>(&counters));
+  const double beyond = std::nextafter(largest_coordinate, std::numeric_limits<double>::infinity());
+  for (const Vertex_index v : mesh.vertices()) {
+    guard.collect(v);
+    const internal::Coordinates source = vertex_coordinates(mesh, v);
+    std::size_t free = 0;
+    for (const double x : {-1.0, 0.0, 1.0})
+      for (const double y : {-1.0, 0.0, 1.0})
+        for (const double z : {-1.0, 0.0, 1.0}) {
+          const auto target = [&](double size) { return internal::Coordinates{x * size, y * size, z * size}; };
+          free += guard.decide(source, target(largest_coordinate), 0).is_free();
+          if (x == 0 && y == 0 && z == 0)
+            continue;
+          for (const double size : {beyond, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+            BOOST_TEST(!guard.decide(source, target(size), 0).is_free());
+            BOOST_TEST(!guard.is_free(source, target(size), 0));
+          }
+        }
+    BOOST_TEST(free > 0u); // outward
+  }
+}
+
 BOOST_AUTO_TEST_CASE(targets_of_any_size_keep_the_mesh_embedded_and_lead_no_farther) {
   const std::size_t drags = count_from_environment("HAPTIC_SCULPT_EXTREME_DRAGS", 1000);
   Random random(seed_from_environment(911));
