@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file of its own: together with test_kinematics.cpp it takes the compiler more than 4 GiB under the sanitizers.
+// A file of its own: together with the kinematics it takes the compiler more than 4 GiB under the sanitizers.
 #include "Mpfr_scalar.h"
 #include "populations.h"
 #include <boost/test/unit_test.hpp>

@@ -2,24 +2,15 @@
 #ifndef HAPTIC_SCULPT_TEST_HELD_SCENES_H
 #define HAPTIC_SCULPT_TEST_HELD_SCENES_H
 
+#include "haptic_rendering/random_vector.h"
 #include "meshes/generated_meshes.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include <random>
-
 namespace haptic_rendering_tests {
 
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
-using Random = std::mt19937_64;
-
-inline Vector3d random_vector(Random& random, double length = 1) {
-  std::normal_distribution<double> number;
-  const double x = number(random), y = number(random), z = number(random);
-  return length * Vector3d(x, y, z);
-}
 
 inline meshes::Triangle_list tetrahedron_of(const std::array<Vector3d, 4>& corners) {
   meshes::Triangle_list list = meshes::tetrahedron();

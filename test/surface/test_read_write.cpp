@@ -4,48 +4,25 @@
 
 #include <meshes/generated_meshes.h>
 #include <surface/Temporary_folder.h>
+#include <surface/identical.h>
 
-#include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <chrono>
-#include <csignal>
 #include <cstring>
 #include <locale>
 #include <random>
-
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 using namespace haptic_sculpt;
 using meshes::Mesh;
 using meshes::to_mesh;
 namespace fs = std::filesystem;
 
+BOOST_AUTO_TEST_SUITE(reading_and_writing)
+
 namespace {
-
-using V = Mesh::Vertex_index;
-using F = Mesh::Face_index;
-
-std::vector<std::array<std::uint64_t, 3>> bits(const std::vector<meshes::Point_3>& points) {
-  std::vector<std::array<std::uint64_t, 3>> found;
-  for (const auto& p : points) {
-    const double x[3] = {p.x(), p.y(), p.z()};
-    std::memcpy(found.emplace_back().data(), x, sizeof x);
-  }
-  return found;
-}
-
-/// Same points to the bit and same faces, in the same order, each from the same corner on.
-bool identical(const Mesh& a, const Mesh& b) {
-  const Face_soup s = face_soup(a), t = face_soup(b);
-  return bits(s.points) == bits(t.points) && s.corners == t.corners && s.first_corner == t.first_corner;
-}
 
 /// Coordinates of nearly all exponents that are in range, subnormals and negative zero among them, in a valid surface.
 Mesh all_exponents() {
@@ -68,8 +45,6 @@ const std::vector<std::pair<std::string, Write_options::Encoding>> lossless{
     {"m.PLY", Write_options::Encoding::automatic}};
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(reading_and_writing)
 
 BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   const Temporary_folder folder;
@@ -254,124 +229,6 @@ BOOST_AUTO_TEST_CASE(other_kernels) {
     BOOST_TEST((mesh.point(v) == back.point(v)));
 }
 
-BOOST_AUTO_TEST_CASE(a_file_is_replaced_whole_or_not_at_all) {
-  const Temporary_folder folder;
-  const Mesh mesh = to_mesh(meshes::icosphere(4));
-  const auto target = folder.file("m.off", "precious");
-  fs::permissions(target, fs::perms::owner_all | fs::perms::group_read);
-
-  // The disk is full: files may not grow beyond 10,000 bytes.
-  rlimit before{};
-  BOOST_REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
-  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit small = before;
-  small.rlim_cur = 10000;
-  BOOST_REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
-  std::string message;
-  try {
-    write_surface(target, mesh);
-  } catch (const Write_error& error) {
-    message = error.what();
-  }
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, old_handler);
-  BOOST_TEST(message.find("m.off") != std::string::npos, message);
-  BOOST_TEST(bytes_of(target) == "precious");
-  BOOST_TEST(folder.number_of_files() == 1u);
-
-  write_surface(target, mesh);
-  BOOST_TEST(identical(read_surface<Mesh>(target), mesh));
-  BOOST_TEST(int(fs::status(target).permissions()) == int(fs::perms::owner_all | fs::perms::group_read));
-
-  // Through a symbolic link, whose target is replaced.
-  fs::create_symlink(target, folder / "link.off");
-  write_surface(folder / "link.off", to_mesh(meshes::cube()));
-  BOOST_TEST(fs::is_symlink(folder / "link.off"));
-  BOOST_TEST(read_surface<Mesh>(target).number_of_faces() == 12u);
-  fs::remove(folder / "link.off");
-
-  fs::create_directory(folder / "d.off");
-  for (const fs::path& path :
-       {folder / "d.off", folder / "missing" / "m.off", fs::path("/proc/m.off"), folder / "m.txt", folder / "m"})
-    BOOST_CHECK_THROW(write_surface(path, mesh), Write_error);
-  BOOST_CHECK_THROW(replace_file("/dev/full", "x"), Write_error);
-  BOOST_TEST(fs::is_character_file("/dev/full"));
-  Mesh infinite = mesh;
-  infinite.point(V(7)) = {0, 0, std::numeric_limits<double>::infinity()};
-  BOOST_CHECK_THROW(write_surface(target, infinite), Write_error);
-  BOOST_TEST(read_surface<Mesh>(target).number_of_faces() == 12u);
-  BOOST_TEST(folder.number_of_files() == 2u);
-}
-
-BOOST_AUTO_TEST_CASE(a_link_that_leads_nowhere_gets_a_file_and_a_circle_is_refused) {
-  const Temporary_folder folder;
-  const Mesh mesh = to_mesh(meshes::cube());
-  fs::create_directory(folder / "there");
-  fs::create_symlink("there/m.off", folder / "first.off"); // relative to the folder of the link
-  fs::create_symlink(folder / "first.off", folder / "second.off");
-  for (int i = 0; i < 2; ++i) {
-    BOOST_TEST(write_surface(folder / "second.off", mesh) == "");
-    BOOST_TEST(fs::is_symlink(folder / "first.off"));
-    BOOST_TEST(fs::is_symlink(folder / "second.off"));
-    BOOST_TEST(identical(read_surface<Mesh>(folder / "there" / "m.off"), mesh));
-  }
-  fs::create_symlink("b.off", folder / "a.off");
-  fs::create_symlink("a.off", folder / "b.off");
-  fs::create_symlink("missing/m.off", folder / "c.off");
-  for (const char* name : {"a.off", "b.off", "c.off"}) {
-    BOOST_CHECK_THROW(write_surface(folder / name, mesh), Write_error);
-    BOOST_TEST(fs::is_symlink(folder / name));
-  }
-  BOOST_TEST(folder.number_of_files() == 6u);
-}
-
-BOOST_AUTO_TEST_CASE(rights_that_a_file_lends_are_not_passed_on) {
-  const Temporary_folder folder;
-  const auto target = folder.file("m.off", "a program");
-  for (const mode_t mode : {04755, 02755, 06711, 0640}) {
-    BOOST_REQUIRE(::chmod(target.c_str(), mode) == 0);
-    replace_file(target, "other bytes");
-    struct stat status {};
-    BOOST_REQUIRE(::stat(target.c_str(), &status) == 0);
-    BOOST_TEST((status.st_mode & 07777) == (mode & 0777));
-  }
-  if (::geteuid() != 0)
-    return; // owners can be given by root only
-  BOOST_REQUIRE(::chown(target.c_str(), 12345, 23456) == 0);
-  BOOST_TEST(replace_file(target, "more bytes") == "");
-  struct stat status {};
-  BOOST_REQUIRE(::stat(target.c_str(), &status) == 0);
-  BOOST_TEST(status.st_uid == 12345u);
-  BOOST_TEST(status.st_gid == 23456u);
-}
-
-BOOST_AUTO_TEST_CASE(temporary_files_of_killed_processes_are_removed) {
-  const Temporary_folder folder;
-  const auto target = folder / "m.off";
-  const pid_t child = ::fork();
-  BOOST_REQUIRE(child >= 0);
-  if (child == 0) { // is killed while it writes
-    const internal::Temporary_file half(target);
-    ::kill(::getpid(), SIGKILL);
-  }
-  BOOST_REQUIRE(::waitpid(child, nullptr, 0) == child);
-  BOOST_REQUIRE(folder.number_of_files() == 1u);
-  const internal::Temporary_file living(target);
-  BOOST_REQUIRE(folder.number_of_files() == 2u);
-  const auto other = folder.file(".m.off.haptic_sculpt-new-no", "somebody's");
-  replace_file(target, "bytes");
-  BOOST_TEST(bytes_of(target) == "bytes");
-  BOOST_TEST(bytes_of(other) == "somebody's");
-  BOOST_TEST(folder.number_of_files() == 3u); // these, and the one of the living
-  struct stat status {};
-  BOOST_TEST(::fstat(living.descriptor(), &status) == 0);
-  BOOST_TEST(status.st_nlink == 1u);
-  // A name as long as names may be.
-  const fs::path longest = folder / (std::string(251, 'x') + ".off");
-  replace_file(longest, "bytes");
-  BOOST_TEST(bytes_of(longest) == "bytes");
-}
-
 BOOST_AUTO_TEST_CASE(the_global_locale_changes_nothing) {
   struct Comma : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
@@ -393,83 +250,6 @@ BOOST_AUTO_TEST_CASE(the_global_locale_changes_nothing) {
   for (std::size_t i = 0; i < 4; ++i)
     BOOST_TEST(identical(back[i], mesh));
   BOOST_TEST(back[4].number_of_faces() == mesh.number_of_faces());
-}
-
-// The readers of CGAL see the same in good files, and count the same intersections.
-BOOST_AUTO_TEST_CASE(shared_meshes) {
-  const fs::path shared = fs::path(HAPTIC_SCULPT_SHARED_DATA) / "meshes";
-  if (!fs::is_directory(shared)) {
-    BOOST_TEST_MESSAGE("skipped: no " << shared);
-    return;
-  }
-  const Temporary_folder folder;
-  std::size_t good = 0, refused = 0;
-  for (const auto& entry : fs::directory_iterator(shared)) {
-    const fs::path path = entry.path();
-    if (!mesh_file_format(path) || fs::file_size(path) > 5000000)
-      continue; // the million is read by the case below
-    std::vector<meshes::Point_3> points;
-    std::vector<std::vector<std::size_t>> polygons;
-    BOOST_REQUIRE(CGAL::IO::read_polygon_soup(path.string(), points, polygons, CGAL::parameters::verbose(false)));
-    const Face_soup soup = read_face_soup(path);
-    BOOST_TEST((bits(points) == bits(soup.points)), path);
-    BOOST_REQUIRE(polygons.size() == soup.number_of_faces());
-    for (std::size_t f = 0; f < polygons.size(); ++f)
-      BOOST_REQUIRE(std::equal(polygons[f].begin(), polygons[f].end(), soup.begin(f), soup.end(f)));
-    if (path.filename() == "cgal_elk.off") {
-      try {
-        read_surface<Mesh>(path);
-        BOOST_ERROR("the elk intersects itself");
-      } catch (const Invalid_surface& error) {
-        ++refused;
-        BOOST_TEST(error.report().intersecting_faces.size() == 7u);
-        BOOST_TEST(error.report().number_of_faults() == 7u);
-        BOOST_TEST_MESSAGE(error.what());
-      }
-      continue;
-    }
-    const Mesh mesh = read_surface<Mesh>(path);
-    const Validity_report report = validate(mesh);
-    BOOST_TEST(report.is_valid(), path.string() + " " + report.message());
-    BOOST_TEST(report.number_of_components == 1u);
-    // The tetrahedron of CGAL has its normals inside.
-    BOOST_TEST(report.inside_out_components.empty() == (path.filename() != "cgal_tetrahedron.off"), path);
-    for (const char* name : {"m.off", "m.ply", "m.obj"}) {
-      write_surface(folder / name, mesh);
-      BOOST_TEST(identical(mesh, read_surface<Mesh>(folder / name)), path.string() + " as " + name);
-    }
-    ++good;
-  }
-  BOOST_TEST_MESSAGE(good << " shared meshes valid and unchanged by OFF, PLY, OBJ; " << refused << " refused");
-  BOOST_TEST(good > 10u);
-}
-
-BOOST_AUTO_TEST_CASE(the_million) {
-  const fs::path path = fs::path(HAPTIC_SCULPT_SHARED_DATA) / "meshes" / "gen_cgal_knot_loop4.ply";
-  if (!fs::exists(path)) {
-    BOOST_TEST_MESSAGE("skipped: no " << path);
-    return;
-  }
-  using Clock = std::chrono::steady_clock;
-  const auto seconds = [](Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double>(to - from).count();
-  };
-  const auto start = Clock::now();
-  const Face_soup soup = read_face_soup(path);
-  const auto parsed = Clock::now();
-  const Validity_report report = validate_soup(soup);
-  const auto validated = Clock::now();
-  BOOST_TEST(report.is_valid());
-  const Mesh mesh = internal::mesh_of<Mesh>(soup);
-  const auto built = Clock::now();
-  const Temporary_folder folder;
-  write_surface(folder / "m.ply", mesh);
-  const auto written = Clock::now();
-  BOOST_TEST(identical(internal::mesh_of<Mesh>(read_face_soup(folder / "m.ply")), mesh));
-  BOOST_TEST_MESSAGE(soup.number_of_faces()
-                     << " triangles: parsed " << seconds(start, parsed) << " s, validated "
-                     << seconds(parsed, validated) << " s, made a mesh " << seconds(validated, built) << " s, written "
-                     << seconds(built, written) << " s");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

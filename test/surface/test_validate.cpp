@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <haptic_sculpt/surface/validate.h>
 
+#include "surface/index_lists.h"
 #include "surface/soup_of.h"
 
 #include <meshes/generated_meshes.h>
-#include <oracle/exact_triangles.h>
 
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <boost/test/unit_test.hpp>
@@ -14,32 +13,19 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <random>
 
 using haptic_sculpt::Face_soup;
 using haptic_sculpt::validate;
 using haptic_sculpt::validate_soup;
 using haptic_sculpt::Validity_report;
+using haptic_sculpt::test::soup_of;
 using meshes::Mesh;
 using meshes::to_mesh;
-using haptic_sculpt::test::soup_of;
 using meshes::Triangle_list;
 
+BOOST_AUTO_TEST_SUITE(validity)
+
 namespace {
-
-using V = Mesh::Vertex_index;
-using F = Mesh::Face_index;
-
-template <class Index>
-std::vector<std::size_t> numbers(const std::vector<Index>& list) {
-  return {list.begin(), list.end()};
-}
-template <class Index>
-std::vector<std::pair<std::size_t, std::size_t>> pairs(const std::vector<std::pair<Index, Index>>& list) {
-  return {list.begin(), list.end()};
-}
-using Numbers = std::vector<std::size_t>;
-using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 void check_clean(const Triangle_list& list, std::size_t components, double delta = 0) {
   BOOST_TEST_CONTEXT(list.points.size() << " points, " << list.points.back()) {
@@ -53,8 +39,6 @@ void check_clean(const Triangle_list& list, std::size_t components, double delta
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(validity)
 
 BOOST_AUTO_TEST_CASE(generated_meshes_are_valid) {
   check_clean(meshes::tetrahedron(), 1);
@@ -94,44 +78,6 @@ BOOST_AUTO_TEST_CASE(an_empty_mesh_and_isolated_vertices) {
   BOOST_TEST(numbers(validate(mesh).non_finite_vertices) == (Numbers{4}));
 }
 
-BOOST_AUTO_TEST_CASE(boundary_edges) {
-  Mesh mesh = to_mesh(meshes::tetrahedron());
-  CGAL::Euler::remove_face(mesh.halfedge(F(2)), mesh);
-  const auto report = validate(mesh);
-  BOOST_TEST(pairs(report.boundary_edges) == (Pairs{{1, 2}, {1, 3}, {2, 3}}));
-  BOOST_TEST(report.number_of_faults() == 3u);
-  BOOST_TEST(report.message().find("1-2, 1-3, 2-3") != std::string::npos);
-}
-
-BOOST_AUTO_TEST_CASE(removed_elements_are_skipped_and_indices_kept) {
-  auto list = meshes::tetrahedron();
-  auto far = meshes::cube();
-  list += far.scale_and_move(1, 5, 5, 5);
-  Mesh mesh = to_mesh(list);
-  for (int f = 0; f < 4; ++f)
-    CGAL::Euler::remove_face(mesh.halfedge(F(f)), mesh);
-  BOOST_TEST(mesh.has_garbage());
-  BOOST_TEST(validate(mesh).is_valid());
-  mesh.point(V(4)) = mesh.point(V(5));
-  const auto report = validate(mesh);
-  BOOST_TEST(pairs(report.coincident_vertices) == (Pairs{{4, 5}}));
-  BOOST_TEST(!report.degenerate_faces.empty());
-  for (const auto f : report.degenerate_faces)
-    BOOST_TEST(std::size_t(f) >= 4u);
-}
-
-BOOST_AUTO_TEST_CASE(faces_that_are_not_triangles) {
-  Mesh mesh = to_mesh(meshes::cube());
-  const auto h = mesh.halfedge(F(0));
-  auto diagonal = h;
-  while (mesh.face(mesh.opposite(diagonal)) != F(1))
-    diagonal = mesh.next(diagonal);
-  CGAL::Euler::join_face(diagonal, mesh);
-  const auto report = validate(mesh);
-  BOOST_TEST(report.non_triangular_faces.size() == 1u);
-  BOOST_TEST(report.number_of_faults() == 1u);
-}
-
 BOOST_AUTO_TEST_CASE(degenerate_and_low_faces) {
   Mesh mesh = to_mesh(meshes::bipyramid(4));
   mesh.point(V(0)) = {1, 0, 0};
@@ -158,59 +104,6 @@ BOOST_AUTO_TEST_CASE(coordinates_that_are_not_finite) {
   BOOST_TEST(report.number_of_faults() == 2u);
 }
 
-BOOST_AUTO_TEST_CASE(pinched_vertex_in_a_surface_mesh) {
-  // Two tetrahedra through one vertex: Surface_mesh holds them without complaint.
-  Mesh mesh = to_mesh(meshes::nearly_pinched(0));
-  for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(V(7)), mesh))
-    mesh.set_target(h, V(3));
-  mesh.remove_vertex(V(7));
-  BOOST_TEST(mesh.is_valid(false));
-  BOOST_TEST(CGAL::is_closed(mesh));
-  const auto report = validate(mesh);
-  BOOST_TEST(numbers(report.non_manifold_vertices) == (Numbers{3}));
-  BOOST_TEST(report.number_of_faults() == 1u);
-  // The same with two vertices at the point.
-  const auto twice = validate(to_mesh(meshes::nearly_pinched(0)));
-  BOOST_TEST(pairs(twice.coincident_vertices) == (Pairs{{3, 7}}));
-  BOOST_TEST(twice.intersecting_faces.size() == 9u);
-}
-
-BOOST_AUTO_TEST_CASE(doubled_edge_in_a_surface_mesh) {
-  // Four tetrahedron-like fans around one edge: two cubes that share an edge become one soup with an edge of four
-  // faces.
-  auto list = meshes::cube(), other = meshes::cube();
-  other.scale_and_move(1, 1, 1, 0);
-  auto soup = soup_of(list);
-  std::map<meshes::Point_3, std::size_t> index;
-  for (std::size_t i = 0; i < list.points.size(); ++i)
-    index.emplace(list.points[i], i);
-  for (const auto& p : other.points)
-    if (index.emplace(p, soup.points.size()).second)
-      soup.points.push_back(p);
-  for (const auto& f : other.faces)
-    soup.add_face(
-        std::array<std::size_t, 3>{index[other.points[f[0]]], index[other.points[f[1]]], index[other.points[f[2]]]});
-  const auto report = validate_soup(soup);
-  BOOST_TEST(report.non_manifold_edges.size() == 1u);
-  BOOST_TEST(report.non_manifold_vertices.empty()); // every fan at its ends hangs together through that edge
-  BOOST_TEST(report.intersecting_faces.empty());
-
-  // A Surface_mesh with two edges between the same vertices: flip an edge of the tetrahedron onto the opposite one.
-  Mesh mesh = to_mesh(meshes::tetrahedron());
-  CGAL::Euler::flip_edge(mesh.halfedge(V(0), V(1)), mesh);
-  const auto flipped = validate(mesh);
-  BOOST_TEST(pairs(flipped.non_manifold_edges) == (Pairs{{2, 3}}));
-  BOOST_TEST(!flipped.is_valid());
-}
-
-BOOST_AUTO_TEST_CASE(faces_turned_over) {
-  auto list = meshes::icosphere(1);
-  std::swap(list.faces[10][0], list.faces[10][1]);
-  const auto report = validate_soup(soup_of(list));
-  BOOST_TEST(report.inconsistently_oriented_edges.size() == 3u);
-  BOOST_TEST(report.number_of_faults() == 3u);
-}
-
 BOOST_AUTO_TEST_CASE(inside_out_components_are_told_but_valid) {
   auto list = meshes::row_of_spheres(2);
   auto third = meshes::icosphere(1);
@@ -230,20 +123,6 @@ BOOST_AUTO_TEST_CASE(inside_out_components_are_told_but_valid) {
   BOOST_TEST(validate(to_mesh(tiny.turn_inside_out().scale_and_move(1e-318, 0, 0, 0))).inside_out_components.empty());
   auto wide = meshes::ball_in_a_cavity();
   BOOST_TEST(validate(to_mesh(wide.scale_and_move(8e307, 0, 0, 0))).inside_out_components.empty());
-}
-
-BOOST_AUTO_TEST_CASE(inconsistent_connectivity) {
-  Mesh mesh = to_mesh(meshes::cube());
-  const auto h = mesh.halfedge(F(3));
-  mesh.set_next_only(h, h);
-  BOOST_TEST(!validate(mesh).inconsistent_halfedges.empty());
-  mesh = to_mesh(meshes::cube());
-  mesh.set_target(h, V(1000));
-  BOOST_TEST(!validate(mesh).inconsistent_halfedges.empty());
-  mesh = to_mesh(meshes::cube());
-  mesh.remove_vertex(V(2)); // while faces still use it
-  BOOST_TEST(!validate(mesh).inconsistent_halfedges.empty());
-  BOOST_TEST(validate(mesh).message().find("contradictory") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(all_kinds_at_once) {
@@ -292,101 +171,6 @@ BOOST_AUTO_TEST_CASE(any_kernel_on_doubles) {
   using Simple = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
   BOOST_TEST(validate(to_mesh<Simple>(meshes::c_tube(1e-12))).is_valid());
   BOOST_TEST(!validate(to_mesh<Simple>(meshes::c_tube(0))).is_valid());
-}
-
-// Random triangles on a small grid: every way to share, touch, overlap and lie flat occurs.
-BOOST_AUTO_TEST_CASE(intersections_agree_with_integers_on_degenerate_soups) {
-  constexpr unsigned seed = 31;
-  BOOST_TEST_MESSAGE("seed " << seed);
-  std::mt19937 random(seed);
-  std::size_t wrong = 0, hits = 0, asked = 0;
-  for (int round = 0; round < 6000; ++round) {
-    const int grid = 2 + round % 3, n = 5 + round % 5;
-    Face_soup soup;
-    oracle::Mesh_list list;
-    for (int i = 0; i < n; ++i) {
-      const std::array<double, 3> p{double(random() % grid), double(random() % grid),
-                                    round % 4 ? double(random() % grid) : 0.0};
-      list.points.push_back(p);
-      soup.points.emplace_back(p[0], p[1], p[2]);
-    }
-    for (int i = 0; i < 6; ++i) {
-      const int a = random() % n, b = random() % n, c = random() % n;
-      if (a == b || b == c || c == a)
-        continue;
-      list.faces.push_back({a, b, c});
-      soup.add_face(std::array<int, 3>{a, b, c});
-    }
-    const auto report = validate_soup(soup);
-    const std::vector<std::size_t> flat = numbers(report.degenerate_faces);
-    const auto is_flat = [&](std::size_t f) { return std::binary_search(flat.begin(), flat.end(), f); };
-    Pairs found, expected;
-    for (const auto& [f, g] : report.intersecting_faces)
-      if (!is_flat(f) && !is_flat(g))
-        found.emplace_back(f, g);
-    for (const auto& [f, g] : oracle::improper_pairs(list))
-      expected.emplace_back(f, g);
-    const auto points = oracle::scaled_to_integers(list.points);
-    const oracle::Still_signs<mpz_class> signs{points};
-    for (std::size_t f = 0; f < list.faces.size(); ++f) {
-      const auto& t = list.faces[f];
-      wrong += is_flat(f) != oracle::on_one_line(signs, t[0], t[1], t[2]);
-    }
-    wrong += found != expected;
-    hits += expected.size();
-    asked += list.faces.size() * (list.faces.size() - 1) / 2;
-  }
-  BOOST_TEST_MESSAGE(asked << " pairs, " << hits << " improper");
-  BOOST_TEST(wrong == 0u);
-  BOOST_TEST(hits > asked / 20);
-}
-
-BOOST_AUTO_TEST_CASE(degenerate_faces_meet_others) {
-  Face_soup soup = soup_of(meshes::cube());
-  const auto flat = [&](const std::array<double, 3>& a, const std::array<double, 3>& b,
-                        const std::array<double, 3>& c) {
-    const std::size_t n = soup.points.size();
-    for (const auto& p : {a, b, c})
-      soup.points.emplace_back(p[0], p[1], p[2]);
-    soup.add_face(std::array<std::size_t, 3>{n, n + 1, n + 2});
-  };
-  flat({.5, .3, .5}, {.5, .3, 3}, {.5, .3, 2});  // 12: out through a side
-  flat({.5, .3, 1.5}, {.5, .3, 3}, {.5, .3, 2}); // 13: outside, overlaps 12
-  flat({.5, -.3, 2}, {.5, 3, 2}, {.5, 1, 2});    // 14: crosses 12 and 13
-  flat({7, 7, 7}, {7, 7, 7}, {7, 7, 7});         // 15: a point
-  const auto report = validate_soup(soup);
-  BOOST_TEST(numbers(report.degenerate_faces) == (Numbers{12, 13, 14, 15}));
-  Pairs among, with_cube;
-  for (const auto& [f, g] : report.intersecting_faces)
-    (f >= F(12) ? among : with_cube).emplace_back(f, g);
-  BOOST_TEST(among == (Pairs{{12, 13}, {12, 14}, {13, 14}}));
-  BOOST_TEST(with_cube.size() == 1u);
-}
-
-BOOST_AUTO_TEST_CASE(agrees_with_polygon_mesh_processing) {
-  constexpr unsigned seed = 5;
-  BOOST_TEST_MESSAGE("seed " << seed);
-  std::mt19937 random(seed);
-  std::size_t hits = 0;
-  for (int round = 0; round < 30; ++round) {
-    auto list = meshes::icosphere(3);
-    list.transform([&](const meshes::Point_3& p) {
-      const auto noise = [&] { return 0.02 * round * (random() / 4294967296.0 - 0.5); };
-      return meshes::Point_3(p.x() + noise(), p.y() + noise(), p.z() + noise());
-    });
-    const Mesh mesh = to_mesh(list);
-    std::vector<std::pair<F, F>> expected;
-    CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(expected));
-    for (auto& [f, g] : expected)
-      if (g < f)
-        std::swap(f, g);
-    std::sort(expected.begin(), expected.end());
-    const auto report = validate(mesh, 0, Validity_report::all_intersections);
-    BOOST_TEST((report.intersecting_faces == expected));
-    hits += expected.size();
-  }
-  BOOST_TEST_MESSAGE(hits << " intersecting pairs");
-  BOOST_TEST(hits > 1000u);
 }
 
 BOOST_AUTO_TEST_CASE(a_large_mesh_in_reasonable_time) {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_PASSIVITY_OPTIONS_H
+#define HAPTIC_SCULPT_BENCHMARK_PASSIVITY_OPTIONS_H
+
+#include <haptic_sculpt/device/Device_parameters.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt::passivity_benchmark {
+
+using Json = nlohmann::ordered_json;
+
+/// What is asked for on the command line.
+struct Options {
+  int first = 0, runs = 10, effect_runs = 6, alarm_runs = 2, poses = 2000, prescribed = 40;
+  double seconds = 3, effect_seconds = 3, alarm_seconds = 60;
+  std::uint64_t seed = 1;
+  bool chart = false;
+  std::vector<std::string> parts{"activity", "gravity", "rate", "effects", "alarms", "dynamics", "passive"};
+  std::string json;
+  bool has(const char* part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
+};
+
+inline Device_form form_of(int run) {
+  return run % 2 == 0 ? Device_form::ditetrahedral : Device_form::general;
+}
+
+} // namespace haptic_sculpt::passivity_benchmark
+
+#endif

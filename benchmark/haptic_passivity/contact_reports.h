@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_CONTACT_REPORTS_H
+#define HAPTIC_SCULPT_BENCHMARK_CONTACT_REPORTS_H
+
+#include "haptic_passivity/Options.h"
+#include "haptic_passivity/Random_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace haptic_sculpt::passivity_benchmark {
+
+/// Of port plus physical dissipation, J: rounding of some hundred million ticks.
+constexpr double energy_bound = -1e-9;
+
+/// Runs of which the outcomes are added up.
+struct Sum {
+  int runs = 0, left = 0, faults = 0;
+  std::size_t ticks = 0;
+  double contact = 0, least = 0, least_port = 0, largest_port = 0, observer_error = 0, observer_error_whole = 0,
+         least_observed = 0, inertia_energy = 0, largest_force = 0, limited = 0;
+  int active = 0, alarms = 0, false_alarms = 0;
+
+  void add(const Contact_setup& setup, const Contact_outcome& o) {
+    ++runs, left += o.has_left, faults += o.fault != Loop_fault::none;
+    ticks += o.ticks, contact += o.contact, active += o.least < energy_bound;
+    alarms += o.least_observed < 0, false_alarms += o.least_observed < 0 && o.least >= energy_bound;
+    least = std::fmin(least, o.least), least_port = std::fmin(least_port, o.least_port);
+    largest_port = std::fmax(largest_port, o.largest_port);
+    double& error = setup.delay == std::floor(setup.delay) ? observer_error_whole : observer_error;
+    error = std::fmax(error, o.observer_error);
+    least_observed = std::fmin(least_observed, o.least_observed);
+    inertia_energy += o.inertia_energy, largest_force = std::fmax(largest_force, o.largest_force);
+    limited += o.limited;
+  }
+  Json json() const {
+    return {{"runs", runs},
+            {"left_region", left},
+            {"faults", faults},
+            {"ticks_in_contact", ticks},
+            {"seconds_in_contact", contact},
+            {"active_runs", active},
+            {"least_energy_J", least},
+            {"least_port_J", least_port},
+            {"largest_port_J", largest_port},
+            {"observer_error_whole_delays_J", observer_error_whole},
+            {"observer_error_J", observer_error},
+            {"least_observed_J", least_observed},
+            {"inertia_energy_J", inertia_energy},
+            {"largest_force_N", largest_force},
+            {"limited_share", limited / std::max(1, runs)}};
+  }
+};
+
+/// Random runs within the passive limit.
+inline Json passivity(const Options& options) {
+  Sum sum;
+  Json failures = Json::array();
+  for (int run = options.first; run < options.first + options.runs; ++run) {
+    const std::uint64_t seed = options.seed * 1000003 + run;
+    Contact_wishes wishes;
+    wishes.is_at_limit = run % 5 == 0;
+    const Contact_setup setup = random_contact(seed, form_of(run), wishes, options.seconds);
+    const Contact_outcome outcome = run_contact(setup, options.seconds);
+    sum.add(setup, outcome);
+    if (outcome.least < energy_bound)
+      failures.push_back({{"seed", seed},
+                          {"form", run % 2 == 0 ? "ditetrahedral" : "general"},
+                          {"least_J", outcome.least},
+                          {"tick_s", setup.tick},
+                          {"delay", setup.delay},
+                          {"stiffness", setup.coupling.stiffness},
+                          {"damping", setup.coupling.damping}});
+    if (run % 10 == 9)
+      std::fprintf(stderr, "passive runs: %d of %d\r", run + 1 - options.first, options.runs);
+  }
+  Json report = sum.json();
+  report["failures"] = failures;
+  std::printf("passive runs: %d of %.0f s, %zu ticks in contact; least port + dissipation %.3g J, least port alone "
+              "%.3g J, largest %.3g J; %d left their region\n"
+              "observer off by at most %.2g J at whole delays, %.2g J at others\n",
+              sum.runs, options.seconds, sum.ticks, sum.least, sum.least_port, sum.largest_port, sum.left,
+              sum.observer_error_whole, sum.observer_error);
+  return report;
+}
+
+/// The same runs, each effect alone.
+inline Json effects(const Options& options) {
+  Json rows = Json::array();
+  const auto measure = [&](const char* name, const Contact_wishes& wishes, const auto& change) {
+    Sum sum;
+    for (int run = 0; run < options.effect_runs; ++run) {
+      Contact_setup setup =
+          random_contact(options.seed * 1000003 + 500000 + run, form_of(run), wishes, options.effect_seconds);
+      change(setup);
+      sum.add(setup, run_contact(setup, options.effect_seconds));
+    }
+    Json row = {{"effect", name}};
+    row.update(sum.json());
+    rows.push_back(row);
+    std::printf("%-24s least port + dissipation %10.3g J, active runs %d of %d, port from %.3g to %.3g J, limits at "
+                "work in %.0f %% of the ticks\n",
+                name, sum.least, sum.active, sum.runs, sum.least_port, sum.largest_port, 100 * sum.limited / sum.runs);
+    std::fflush(stdout);
+  };
+  Contact_wishes plain, bad_poses, weak;
+  plain.is_at_limit = bad_poses.is_at_limit = weak.is_at_limit = true;
+  bad_poses.least_condition = 4, bad_poses.most_condition = 18;
+  weak.torque_limit = 0.12;
+  measure("none", plain, [](Contact_setup&) {});
+  measure("slew 300 N/s", plain, [](Contact_setup& s) { s.limits.slew = 300; });
+  measure("slew 30 N/s", plain, [](Contact_setup& s) { s.limits.slew = 30; });
+  measure("clamp 0.5 N", plain, [](Contact_setup& s) { s.limits.largest = 0.5; });
+  measure("saturation 0.12 N m", weak, [](Contact_setup&) {});
+  measure("fading 5 to 20", bad_poses,
+          [](Contact_setup& s) { s.limits.full_condition = 5, s.limits.no_condition = 20; });
+  measure("ramp 0.3 s", plain, [](Contact_setup& s) { s.limits.ramp_time = 0.3; });
+  measure("burst every 0.5 s", plain, [](Contact_setup& s) { s.burst_every = 0.5; });
+  measure("virtual mass 10 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.01; });
+  measure("virtual mass 30 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.03; });
+  measure("compensated inertia 0.5", plain, [](Contact_setup& s) { s.inertia.compensated = 0.5; });
+  measure("k = 2 k_p", plain, [](Contact_setup& s) { s.coupling.stiffness *= 2; });
+  measure("k = 10 k_p", plain, [](Contact_setup& s) { s.coupling.stiffness *= 10; });
+  measure("k = 10 k_p, controller", plain,
+          [](Contact_setup& s) { s.coupling.stiffness *= 10, s.controller_damping = 10; });
+  return rows;
+}
+
+/// With encoders, and limits as they come: what is reported though nothing is wrong.
+inline Json alarms(const Options& options) {
+  Sum sum;
+  Contact_wishes wishes;
+  wishes.encoder_step = 1.53e-4, wishes.fixed_tick = 0.001;
+  for (int run = 0; run < options.alarm_runs; ++run) {
+    Contact_setup setup =
+        random_contact(options.seed * 1000003 + 700000 + run, form_of(run), wishes, options.alarm_seconds);
+    setup.limits = Force_limits();
+    sum.add(setup, run_contact(setup, options.alarm_seconds));
+  }
+  std::printf(
+      "encoders of 1.53e-4 rad, %d runs of %.0f s: faults %d, observer alarms %d, false ones %d (least %.3g J), "
+      "true least %.3g J, observer off by at most %.2g J\n",
+      sum.runs, options.alarm_seconds, sum.faults, sum.alarms, sum.false_alarms, sum.least_observed, sum.least,
+      std::fmax(sum.observer_error, sum.observer_error_whole));
+  Json report = sum.json();
+  report["observer_alarms"] = sum.alarms, report["false_alarms"] = sum.false_alarms;
+  return report;
+}
+
+} // namespace haptic_sculpt::passivity_benchmark
+
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_DEVICE_KINEMATICS_OF_TESTS_H
+#define HAPTIC_SCULPT_TEST_DEVICE_KINEMATICS_OF_TESTS_H
+
+/// \file
+/// What the tests of kinematics share; in the namespace of their suite.
+
+#include "device/populations.h"
+
+namespace device_kinematics {
+
+using namespace device_populations;
+using Vector = Device_vector<double>;
+constexpr unsigned seed = 20240611;
+
+inline double residual(const Device_parameters<double>& parameters, const Device_pose<double>& pose) {
+  return nine_equation_residual(parameters, pose.elbows, pose.joints).cwiseAbs().maxCoeff();
+}
+
+} // namespace device_kinematics
+
+#endif

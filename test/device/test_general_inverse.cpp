@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "device/kinematics_of_tests.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <vector>
+
+BOOST_AUTO_TEST_SUITE(device_kinematics)
+
+BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_finds_what_a_denser_search_finds) {
+  Random random(seed + 5);
+  for (int k = 0; k < 6; ++k) {
+    const Device_parameters<double> parameters(
+        named_design<double>(k % 2 ? Named_design::D1 : Named_design::D2, Device_form::general));
+    const auto pose = general_forward(parameters, random_angles(random, 0.6, 1.2));
+    const std::vector<Device_pose<double>> all = general_inverse_all(parameters, pose->position);
+    BOOST_TEST(!all.empty());
+    int missed = 0, found = 0;
+    for (int start = 0; start < 4000; ++start) {
+      Device_pose<double> trial;
+      trial.theta = random_angles(random, -0.5, 2.5);
+      trial.orientation =
+          (Eigen::AngleAxisd(uniform(random, 0, 1.5), random_vector(random, 1).normalized())).toRotationMatrix();
+      if (!internal::inverse_newton<double>(parameters, pose->position, trial, 60))
+        continue;
+      internal::reduce_angles(trial.theta);
+      if (!within_joint_limits<double>(parameters, trial.theta) || !platform_above_elbows(trial))
+        continue;
+      ++found;
+      missed += std::none_of(all.begin(), all.end(), [&](const Device_pose<double>& other) {
+        return (other.theta - trial.theta).norm() < 1e-6 && (other.orientation - trial.orientation).norm() < 1e-6;
+      });
+    }
+    BOOST_TEST_MESSAGE(all.size() << " solutions; random starts reached " << found << " times, " << missed
+                                  << " times an unknown one");
+    BOOST_TEST(missed == 0);
+  }
+  const Device_parameters<double> parameters(named_design<double>(Named_design::D1, Device_form::general));
+  BOOST_TEST(general_inverse_all(parameters, Vector(0, 0, 0.4)).empty());
+  const auto start = general_forward(parameters, Vector(1, 1, 1));
+  const auto far = general_inverse(parameters, Vector(0, 0, 0.4), *start);
+  BOOST_TEST((far.status() == Device_status::unreachable));
+  BOOST_TEST(far.shortfall() > 0.2);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

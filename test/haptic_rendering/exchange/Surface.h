@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_EXCHANGE_SURFACE_H
+#define HAPTIC_SCULPT_TEST_EXCHANGE_SURFACE_H
+
+#include "haptic_rendering/pose_readings.h"
+#include "meshes/generated_meshes.h"
+
+#include <haptic_sculpt/haptic_rendering.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace exchange_tests {
+
+using Mesh = meshes::Mesh;
+using Scene = Loop_scene<Mesh>;
+
+inline std::unique_ptr<Scene> scene_of(int level) {
+  return std::make_unique<Scene>(meshes::to_mesh(meshes::bumpy_sphere(level, 0.12)),
+                                 [](const Vector3d&, const Vector3d&) { return map_of_tests; });
+}
+
+/// Points and faces by the vertices' numbers: what a mesh is, whatever its indices are.
+struct Surface {
+  std::map<std::uint64_t, std::array<double, 3>> points;
+  std::vector<std::array<std::uint64_t, 3>> faces;
+  bool operator==(const Surface& other) const { return points == other.points && faces == other.faces; }
+
+  void add_face(std::array<std::uint64_t, 3> face) {
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    faces.push_back(face);
+  }
+};
+
+/// \param without a probe's number, above which numbers are one less; or none
+inline Surface surface_of(const Scene& scene, bool without_probe = false) {
+  const auto name = [&](Mesh::Vertex_index v) {
+    const std::size_t n = scene.sculptor.name(v);
+    return n - (without_probe && n > scene.sculptor.name(scene.probe));
+  };
+  Surface surface;
+  for (const auto v : scene.mesh.vertices())
+    if (v != scene.probe) {
+      const auto& p = scene.mesh.point(v);
+      surface.points[name(v)] = {p.x(), p.y(), p.z()};
+    }
+  for (const auto f : scene.mesh.faces()) {
+    std::array<std::uint64_t, 3> face{};
+    int i = 0;
+    for (const auto v : scene.mesh.vertices_around_face(scene.mesh.halfedge(f)))
+      face[i++] = name(v);
+    surface.add_face(face);
+  }
+  std::sort(surface.faces.begin(), surface.faces.end());
+  return surface;
+}
+
+inline Surface surface_of(const Scene_copy& copy) {
+  Surface surface;
+  for (std::size_t v = 0; v < copy.names.size(); ++v)
+    if (copy.names[v] != Scene_copy::absent)
+      surface.points[copy.names[v]] = copy.points[v];
+  for (const auto& f : copy.faces)
+    if (f[0] != Scene_copy::no_corner)
+      surface.add_face({copy.names[f[0]], copy.names[f[1]], copy.names[f[2]]});
+  std::sort(surface.faces.begin(), surface.faces.end());
+  return surface;
+}
+
+} // namespace exchange_tests
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_EXCHANGE_MADE_AGAIN_H
+#define HAPTIC_SCULPT_TEST_EXCHANGE_MADE_AGAIN_H
+
+#include "haptic_rendering/exchange/Surface.h"
+
+#include <boost/test/unit_test.hpp>
+
+namespace exchange_tests {
+
+using Entries = std::vector<Journal_entry>;
+
+/// What a journal says, made again by other means: no probe, no tool, no slide, each leg by itself.
+inline Surface made_again(Mesh mesh, const Entries& entries) {
+  Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
+  std::vector<Sculptor<Mesh>::Stroke_type> strokes;
+  std::size_t failed = 0;
+  for (const Journal_entry& e : entries) {
+    using Kind = Journal_entry::Kind;
+    const Mesh::Point p(e.point[0], e.point[1], e.point[2]);
+    const auto& v = e.vertices;
+    switch (e.kind) {
+    case Kind::move:
+      failed += !sculptor.grab(sculptor.vertex(v[0])).drag_to(p).reached;
+      break;
+    case Kind::insert_on_face:
+      failed += !sculptor.insert_on_face(sculptor.face_of(v[0], v[1], v[2]), p);
+      break;
+    case Kind::insert_on_edge:
+      failed += !sculptor.insert_on_edge(sculptor.edge_of(v[0], v[1]), p);
+      break;
+    case Kind::collapse: {
+      auto h = mesh.halfedge(sculptor.edge_of(v[0], v[1]));
+      h = mesh.target(h) == sculptor.vertex(v[1]) ? h : mesh.opposite(h);
+      failed += !sculptor.collapse(h);
+      break;
+    }
+    case Kind::remove: // is said as a collapse
+      ++failed;
+      break;
+    case Kind::undo:
+      failed += !sculptor.undo();
+      break;
+    case Kind::redo:
+      failed += !sculptor.redo();
+      break;
+    case Kind::stroke:
+      strokes.push_back(sculptor.stroke());
+      break;
+    case Kind::end:
+      strokes.pop_back();
+      break;
+    case Kind::tick:
+      break;
+    }
+  }
+  BOOST_TEST(failed == 0u);
+  Surface surface;
+  for (const auto w : mesh.vertices())
+    surface.points[sculptor.name(w)] = {mesh.point(w).x(), mesh.point(w).y(), mesh.point(w).z()};
+  for (const auto f : mesh.faces()) {
+    std::array<std::uint64_t, 3> face{};
+    int i = 0;
+    for (const auto w : mesh.vertices_around_face(mesh.halfedge(f)))
+      face[i++] = sculptor.name(w);
+    surface.add_face(face);
+  }
+  std::sort(surface.faces.begin(), surface.faces.end());
+  return surface;
+}
+
+} // namespace exchange_tests
+
+#endif

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "haptic_rendering/exchange/made_again.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <random>
+
+using namespace haptic_sculpt;
+using namespace exchange_tests;
+
+namespace {
+
+BOOST_AUTO_TEST_CASE(a_removal_that_a_probe_has_turned_elsewhere_is_made_again_by_what_its_journal_says) {
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto random_vector = [&] {
+    const double x = number(random), y = number(random), z = number(random);
+    return Vector3d(x, y, z);
+  };
+  std::size_t removed = 0, elsewhere = 0;
+  for (int round = 0; round < 500; ++round) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
+    // A pit whose rim is no plane: which neighbour its bottom is drawn into says what is passed over near the rim.
+    const Mesh::Vertex_index bottom(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
+    Vector3d middle = Vector3d::Zero();
+    {
+      Sculptor<Mesh> sculptor(mesh);
+      for (const auto w : mesh.vertices_around_target(mesh.halfedge(bottom))) {
+        const Vector3d to = internal::vector_of(mesh.point(w)) + 0.1 * random_vector();
+        sculptor.grab(w).drag_to(internal::point_of<Mesh::Point>(to));
+        middle += internal::vector_of(mesh.point(w)) / mesh.degree(bottom);
+      }
+      sculptor.grab(bottom).drag_to(internal::point_of<Mesh::Point>(0.8 * middle));
+    }
+    Scene scene(mesh, [](const Vector3d&, const Vector3d&) { return map_of_tests; });
+    Tool<Scene::Sculptor_type> tool(scene.sculptor, scene.probe, map_of_tests, 0.01, 0.001);
+    Edit_journal journal(100);
+    tool.keep_journal(&journal);
+    const Vector3d hand = map_of_tests.to_device(middle + 0.08 * random_vector());
+    tool.move(hand, 0); // puts the probe there, if that is outside
+    if (tool.move(hand, 2).event != Tool_event::removed || tool.vertex() != scene.probe)
+      continue;
+    ++removed;
+    Entries entries(1);
+    BOOST_TEST(journal.take(entries[0]));
+    BOOST_TEST((entries[0].kind == Journal_entry::Kind::collapse));
+    Mesh without_probe = mesh;
+    Sculptor<Mesh> sculptor(without_probe);
+    const auto made = sculptor.remove(sculptor.vertex(entries[0].vertices[0]));
+    elsewhere += !made || sculptor.name(*made.vertex) != entries[0].vertices[1];
+    BOOST_TEST((made_again(mesh, entries) == surface_of(scene, true)));
+  }
+  BOOST_TEST_MESSAGE(removed << " removals, of which the probe has turned " << elsewhere << " elsewhere");
+  BOOST_TEST(removed >= 50u);
+  BOOST_TEST(elsewhere >= 5u);
+}
+
+BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_tick) {
+  Journal_entry move, taken;
+  move.kind = Journal_entry::Kind::move;
+  { // too old: a tick waits, and nothing else happens
+    Edit_journal journal(100);
+    journal.add(move);
+    journal.end_tick(5);
+    for (std::uint64_t tick = 6; tick <= 104; ++tick) {
+      journal.end_tick(tick);
+      BOOST_TEST(journal.age(tick) <= 100u);
+      BOOST_TEST(!journal.has_overrun());
+    }
+    journal.end_tick(105);
+    BOOST_TEST(journal.has_overrun());
+    journal.add(move);
+    BOOST_TEST(journal.lost() == 1u);
+  }
+  { // too many: the tick that finds no room is not ended
+    Edit_journal journal(100, 1);
+    std::uint64_t tick = 0;
+    for (; !journal.has_overrun(); ++tick) {
+      for (int k = 0; k < 10; ++k)
+        journal.add(move);
+      journal.end_tick(tick);
+    }
+    std::uint64_t whole = 0, rest = 0;
+    while (journal.take(taken)) {
+      ++rest;
+      if (taken.kind == Journal_entry::Kind::tick) {
+        BOOST_TEST(taken.vertices[0] == whole);
+        ++whole, rest = 0;
+      }
+    }
+    BOOST_TEST(whole == tick - 1);
+    BOOST_TEST(rest < 11u);
+    BOOST_TEST(journal.lost() > 0u);
+  }
+  { // in time: nothing ends
+    Edit_journal journal(100);
+    for (std::uint64_t tick = 0; tick < 5000; ++tick) {
+      journal.add(move);
+      journal.end_tick(tick);
+      while (tick % 90 == 0 && journal.take(taken))
+        journal.wrote(taken.kind == Journal_entry::Kind::tick);
+    }
+    BOOST_TEST(!journal.has_overrun());
+    BOOST_TEST(journal.lost() == 0u);
+  }
+}
+
+} // namespace

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_RANDOM_VECTOR_H
+#define HAPTIC_SCULPT_TEST_RANDOM_VECTOR_H
+
+#include <Eigen/Core>
+
+#include <random>
+
+namespace haptic_rendering_tests {
+
+using Eigen::Vector3d;
+using Random = std::mt19937_64;
+
+inline Vector3d random_vector(Random& random, double length = 1) {
+  std::normal_distribution<double> number;
+  const double x = number(random), y = number(random), z = number(random);
+  return length * Vector3d(x, y, z);
+}
+
+} // namespace haptic_rendering_tests
+
+#endif

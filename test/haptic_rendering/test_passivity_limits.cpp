@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stiffness up to which a held spring gives no energy: at the worst pose, found by prescribed motions, in runs.
+#include "haptic_rendering/devices_of_tests.h"
+
+#include <haptic_sculpt/haptic_rendering/Force_renderer.h>
+#include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
+#include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace haptic_sculpt;
+using namespace haptic_rendering_tests;
+
+namespace {
+
+BOOST_AUTO_TEST_CASE(the_worst_pose_is_at_least_as_bad_as_any_drawn) {
+  Random random(5);
+  std::uniform_real_distribution<double> angle(-0.5, 2.5);
+  const Force_limits limits;
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
+    const Device_parameters<double> parameters = device(form, 0.005);
+    const auto home = home_pose(parameters);
+    const double radius = workspace_radius(parameters, *home);
+    const Worst_pose worst =
+        worst_pose(parameters, limits, [&](const Vector3d& p) { return (p - home->position).norm() <= radius; });
+    BOOST_TEST(worst.is_found);
+    for (int i = 0; i < 30000; ++i) {
+      const double a = angle(random), b = angle(random), c = angle(random);
+      const auto pose = forward_kinematics(parameters, Vector3d(a, b, c));
+      if (!pose || (pose->position - home->position).norm() > radius ||
+          working_mode(parameters, *pose) != working_mode(parameters, *home))
+        continue;
+      const Eigen::Vector3d values =
+          Eigen::JacobiSVD<Eigen::Matrix3d>(jacobian(parameters, *pose)->linear).singularValues();
+      const double bad = values[0] * values[0] * fading_by_condition(limits, values[0] / values[2]);
+      BOOST_TEST(bad <= worst.greatest * worst.greatest * worst.fading * (1 + 1e-9));
+    }
+    BOOST_TEST_MESSAGE((form == Device_form::general ? "general" : "di-tetrahedral")
+                       << ": ball of " << radius << " m, sigma_max " << worst.greatest << " m/rad, b_phys "
+                       << worst.friction(parameters) << " N s/m, k_p at 1 kHz "
+                       << passive_stiffness(worst.friction(parameters), 0, 0.001, 0) << " N/m");
+  }
+}
+
+/// The energy that a spring of stiffness k along `direction`, held a tick, takes from a prescribed small motion, per
+/// work of friction: below -1 it is active. Analytic device: joints move along one line, at constant rate, there and
+/// back.
+double energy_over_friction(const Device_parameters<double>& parameters, const Vector3d& theta, double stiffness,
+                            double tick) {
+  const auto pose = forward_kinematics(parameters, theta);
+  const auto map = jacobian(parameters, *pose);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(map->linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vector3d normal = svd.matrixU().col(0), way = svd.matrixV().col(0);
+  const double rate = 0.01, preload = 0.002; // rad/s, m
+  const int half = 50;
+  Passivity_observer observer(0, tick, parameters.viscous_friction(), 0);
+  Vector3d now = theta, before = theta;
+  double taken = 0, dissipated = 0;
+  const Vector3d start = pose->position;
+  for (int k = 0; k <= 2 * half; ++k) {
+    now = theta + way * rate * tick * (k <= half ? k : 2 * half - k);
+    const Vector3d step = now - before;
+    observer.add_step(step, stiffness, Vector3d::Zero());
+    const auto at = forward_kinematics(parameters, now, *pose);
+    const auto here = jacobian(parameters, *at);
+    const Vector3d force = stiffness * normal * (preload - normal.dot(at->position - start));
+    observer.command(here->linear.transpose() * force);
+    before = now;
+  }
+  taken = observer.port(), dissipated = observer.dissipated();
+  return taken / dissipated;
+}
+
+BOOST_AUTO_TEST_CASE(beyond_the_passive_limit_a_prescribed_motion_finds_activity) {
+  Random random(6);
+  std::uniform_real_distribution<double> angle(0.5, 1.5), tick_of(2.5e-4, 4e-3);
+  double least = 10, largest = 0;
+  int tried = 0;
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
+    const Device_parameters<double> parameters = device(form, 0.005);
+    for (int i = 0; i < 100; ++i) {
+      const double a = angle(random), b = angle(random), c = angle(random), tick = tick_of(random);
+      const Vector3d theta(a, b, c);
+      const auto pose = forward_kinematics(parameters, theta);
+      if (!pose)
+        continue;
+      const auto conditioning = translation_conditioning(*jacobian(parameters, *pose));
+      if (!(conditioning.condition < 10))
+        continue;
+      ++tried;
+      const double limit = passive_stiffness(0.005 / (conditioning.greatest * conditioning.greatest), 0, tick, 0);
+      double low = 0.1 * limit, high = 10 * limit;
+      BOOST_TEST(energy_over_friction(parameters, theta, low, tick) > -1);
+      BOOST_TEST(energy_over_friction(parameters, theta, high, tick) < -1);
+      for (int halving = 0; halving < 30; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (energy_over_friction(parameters, theta, middle, tick) < -1 ? high : low) = middle;
+      }
+      least = std::min(least, low / limit), largest = std::max(largest, low / limit);
+    }
+  }
+  BOOST_TEST_MESSAGE(tried << " poses: stiffness at which activity begins over the formula " << least << " to "
+                           << largest);
+  BOOST_TEST(tried >= 100);
+  BOOST_TEST(least >= 0.9);
+  BOOST_TEST(largest <= 1.1);
+}
+
+BOOST_AUTO_TEST_CASE(a_device_within_the_passive_limit_gives_no_energy) {
+  Random random(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  double least = 0, largest_port = 0;
+  std::size_t ticks_in_contact = 0;
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
+    Device_description<double> description = named_design<double>(Named_design::D1, form);
+    description.viscous_friction = 0.005, description.torque_limit = 10;
+    const Device_parameters<double> parameters(description);
+    const auto home = home_pose(parameters);
+    const double radius = 0.9 * workspace_radius(parameters, *home);
+    const Worst_pose worst = worst_pose(parameters, Force_limits(),
+                                        [&](const Vector3d& p) { return (p - home->position).norm() <= 1.2 * radius; });
+    for (int run = 0; run < 16; ++run) {
+      const double tick = 2.5e-4 * std::pow(8.0, unit(random)), delay = run % 3 == 0 ? 0 : 2 * unit(random);
+      const double friction = worst.friction(parameters), damping = run % 2 == 0 ? 0 : 0.5 * friction * unit(random);
+      const Virtual_coupling coupling{passive_stiffness(friction, damping, tick, delay) * (0.2 + 0.8 * unit(random)),
+                                      damping};
+      Vector3d normal = random_vector(random).normalized();
+      std::vector<Hand_path::Row> rows;
+      for (int row = 0; row < 12; ++row)
+        rows.push_back(
+            {0.1 * row, home->position + radius * 0.5 * unit(random) * random_vector(random).normalized(), 0});
+      if (normal.dot(rows[0].position - home->position) < 0) // begins outside: no energy is stored
+        normal = -normal;
+      const Hand_path path(rows);
+      const auto start = reach_position(parameters, *home, rows[0].position);
+      BOOST_REQUIRE(start);
+      Handle_motion handle(parameters, *start, tick);
+      Simulated_device simulated(parameters, *start, run % 4 < 2 ? Simulated_hand::finger() : Simulated_hand::arm(),
+                                 path, tick, delay);
+      Force_renderer renderer(no_limits(), Gravity_compensation::spatial, tick);
+      Contact_span span;
+      span.add(normal);
+      while (simulated.time() < 1) {
+        if (!(handle.follow(simulated.read().theta) < 10))
+          break;
+        const double depth = -normal.dot(handle.position() - home->position);
+        const bool reached = depth <= 0;
+        ticks_in_contact += !reached;
+        const Vector3d wall = reached ? Vector3d(0, 0, 0) : Vector3d(coupling.stiffness * depth * normal);
+        const Rendered_force rendered =
+            renderer.render(handle, wall + coupling.damping_force(span, handle.velocity(), reached));
+        if (simulated.write(rendered.torque, rendered.interaction_torque) != Device_status::success)
+          break;
+        least = std::min(least, simulated.port() + simulated.dissipated());
+        largest_port = std::max(largest_port, std::abs(simulated.port()));
+      }
+    }
+  }
+  BOOST_TEST_MESSAGE("32 runs within the passive limit, "
+                     << ticks_in_contact << " ticks in contact: least energy of port and friction " << least
+                     << " J, port at most " << largest_port << " J");
+  BOOST_TEST(ticks_in_contact > 10000u);
+  BOOST_TEST(least >= -1e-9);
+}
+
+} // namespace

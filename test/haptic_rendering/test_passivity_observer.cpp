@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Energy at the motors: counted, and taken back by the controller.
+#include "haptic_rendering/devices_of_tests.h"
+
+#include <haptic_sculpt/haptic_rendering/Force_renderer.h>
+#include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
+#include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
+#include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace haptic_sculpt;
+using namespace haptic_rendering_tests;
+
+namespace {
+
+BOOST_AUTO_TEST_CASE(the_observer_counts_the_true_energy_of_the_port) {
+  const Hand_path path(
+      {{0, {0, 0, 0.132}, 0}, {0.2, {0.01, 0, 0.140}, 0}, {0.5, {-0.01, 0.01, 0.12}, 0}, {1, {0, 0, 0.13}, 0}});
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general})
+    for (const double delay : {0.0, 0.3, 1.0, 1.7}) {
+      const Device_parameters<double> parameters = device(form, 0.005);
+      Handle_motion handle(parameters, *home_pose(parameters), 0.001);
+      Simulated_device simulated(parameters, *home_pose(parameters), Simulated_hand::arm(), path, 0.001, delay);
+      Passivity_observer observer(delay, 0.001, 0.005, 0);
+      Force_renderer renderer(Force_limits(), Gravity_compensation::spatial, 0.001);
+      double worst = 0, turnover = 0;
+      for (int k = 0; k < 1000; ++k) {
+        handle.follow(simulated.read().theta);
+        observer.add_step(handle.joint_step(), 500, handle.step());
+        worst = std::max(worst, std::abs(observer.port() - simulated.port()));
+        turnover = std::max(turnover, std::abs(simulated.port()));
+        const Vector3d wall(0, 0, 500 * std::max(0.0, 0.13 - handle.position()[2]));
+        const Rendered_force rendered = renderer.render(handle, wall);
+        observer.command(rendered.interaction_torque);
+        BOOST_TEST((simulated.write(rendered.torque, rendered.interaction_torque) == Device_status::success));
+        BOOST_TEST(simulated.port() + simulated.dissipated() >= -1e-9);
+      }
+      BOOST_TEST_MESSAGE("delay " << delay << ": observer off by " << worst << " J of " << turnover);
+      BOOST_TEST(turnover > 1e-5);
+      BOOST_TEST(worst <= (delay == std::floor(delay) ? 1e-12 : 1e-5));
+    }
+}
+
+/// A hand presses on a plane whose stiffness is a multiple of the passive limit.
+struct Pressed {
+  double least = 0, buzz = 0, most_damping = 0; ///< J; mean |acceleration| in the second half, m/s^2; N s/m
+};
+Pressed press(double times, double most_damping) {
+  const Device_parameters<double> parameters = device(Device_form::ditetrahedral);
+  const auto home = home_pose(parameters);
+  const double tick = 0.001, sigma = translation_conditioning(*jacobian(parameters, *home)).greatest;
+  const double stiffness = times * 2 * 0.005 / (sigma * sigma) / tick;
+  const Hand_path path(
+      {{0, home->position + Vector3d(0, 0, 0.002), 0}, {0.2, home->position - Vector3d(0, 0, 0.008), 0}});
+  const auto start = reach_position(parameters, *home, path.at(0).position);
+  Simulated_device simulated(parameters, *start, Simulated_hand::finger(), path, tick, 0);
+  Handle_motion handle(parameters, *start, tick);
+  Force_renderer renderer(no_limits(), Gravity_compensation::spatial, tick);
+  Passivity_observer observer(0, tick, 0.005, 0);
+  Passivity_controller controller(most_damping, tick);
+  Pressed pressed;
+  Vector3d last_step = Vector3d::Zero();
+  for (int k = 0; k < 1000; ++k) {
+    handle.follow(simulated.read().theta);
+    observer.add_step(handle.joint_step(), stiffness, handle.step());
+    const double depth = home->position[2] - handle.position()[2];
+    const Vector3d wall(0, 0, stiffness * std::max(0.0, depth));
+    const Rendered_force rendered = renderer.render(handle, wall + controller.force(observer, handle));
+    observer.command(rendered.interaction_torque);
+    if (simulated.write(rendered.torque, rendered.interaction_torque) != Device_status::success)
+      break;
+    pressed.least = std::min(pressed.least, simulated.port() + simulated.dissipated());
+    pressed.most_damping = std::max(pressed.most_damping, controller.damping());
+    if (k >= 500)
+      pressed.buzz += (handle.step() - last_step).norm() / tick / tick / 500;
+    last_step = handle.step();
+  }
+  return pressed;
+}
+
+BOOST_AUTO_TEST_CASE(a_controller_does_nothing_within_the_limit_and_takes_energy_back_beyond_it) {
+  const Pressed passive = press(0.9, 5);
+  BOOST_TEST(passive.most_damping == 0);
+  BOOST_TEST(passive.least >= -1e-9);
+  for (const double times : {7.0, 8.0, 10.0}) {
+    const Pressed without = press(times, 0), with = press(times, 10);
+    BOOST_TEST_MESSAGE(times << " times the passive limit: least energy " << without.least << " J and " << with.least
+                             << " J with a controller; mean acceleration at rest " << without.buzz << " and "
+                             << with.buzz << " m/s^2");
+    BOOST_TEST(without.least < -1e-2); // it buzzes
+    BOOST_TEST(with.least >= 0.02 * without.least);
+    BOOST_TEST(with.buzz <= 0.02 * without.buzz);
+  }
+}
+
+} // namespace

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "haptic_rendering/random_vector.h"
+
+#include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace haptic_sculpt;
+using namespace haptic_rendering_tests;
+
+namespace {
+
+BOOST_AUTO_TEST_CASE(percentiles_against_a_sorted_list) {
+  Random random(8);
+  for (int round = 0; round < 20; ++round) {
+    Tick_statistics statistics;
+    std::vector<std::uint64_t> all;
+    for (int i = 0; i < 5000; ++i) {
+      all.push_back(random() >> (random() % 64));
+      statistics.add(all.back());
+    }
+    std::sort(all.begin(), all.end());
+    BOOST_TEST(statistics.largest() == all.back());
+    for (const double share : {0.01, 0.5, 0.99, 0.999, 0.9999, 1.0}) {
+      const std::uint64_t exact = all[static_cast<std::size_t>(std::ceil(share * 5000)) - 1],
+                          told = statistics.percentile(share);
+      BOOST_TEST(told >= exact);
+      BOOST_TEST(static_cast<double>(told) <= static_cast<double>(exact) * (1 + 1.0 / 32));
+    }
+  }
+  BOOST_TEST(Tick_statistics().percentile(0.5) == 0u);
+}
+
+} // namespace

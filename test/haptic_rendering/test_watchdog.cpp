@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <haptic_sculpt/haptic_rendering/Watchdog.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace haptic_sculpt;
+
+namespace {
+
+BOOST_AUTO_TEST_CASE(a_watchdog_sees_each_fault_and_nothing_else) {
+  Watchdog dog(Watchdog_limits(), 0.001, 0.2);
+  Joint_reading reading;
+  reading.elapsed = 0.001;
+  for (int k = 0; k < 1000; ++k) { // 50 rad/s
+    reading.theta[k % 3] += k % 2 == 0 ? 0.05 : -0.05;
+    BOOST_TEST(dog.check(reading));
+    BOOST_TEST(dog.check_condition(19));
+  }
+  const auto fault = [&](const Joint_reading& bad) {
+    Watchdog fresh(Watchdog_limits(), 0.001, 0.2);
+    fresh.check(reading);
+    BOOST_TEST(!fresh.check(bad));
+    BOOST_TEST(!fresh.check(reading)); // it stays
+    return fresh.fault();
+  };
+  Joint_reading bad = reading;
+  bad.theta[1] = NAN;
+  BOOST_TEST((fault(bad) == Loop_fault::not_finite));
+  bad = reading, bad.torque[2] = INFINITY;
+  BOOST_TEST((fault(bad) == Loop_fault::not_finite));
+  bad = reading, bad.theta[0] += 0.11;
+  BOOST_TEST((fault(bad) == Loop_fault::jump));
+  bad = reading, bad.elapsed = 0.03;
+  BOOST_TEST((fault(bad) == Loop_fault::stall));
+  bad = reading, bad.torque[0] = -0.22;
+  BOOST_TEST((fault(bad) == Loop_fault::torque));
+  BOOST_TEST(!dog.check_condition(std::numeric_limits<double>::infinity()));
+  BOOST_TEST((dog.fault() == Loop_fault::singular));
+  dog.reset();
+  reading.theta[0] += 1;
+  BOOST_TEST(dog.check(reading));
+}
+
+} // namespace

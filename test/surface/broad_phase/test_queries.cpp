@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Broad phases against brute force and exact sweeps, while the mesh moves, grows and shrinks.
+#include "surface/broad_phase/Checked_mesh.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cfenv>
+
+using namespace haptic_sculpt;
+using namespace broad_phase_tests;
+
+namespace {
+
+const std::vector<Frame> frames = {{1, 0},      {1, 1e6},  {1e-3, 1e9},    {1e-7, 1},  {1e-42, 0},
+                                   {1e-310, 0}, {3e38, 0}, {5e37, 2.5e38}, {1e150, 0}, {1e300, 0}};
+
+std::vector<Mesh> scenes() {
+  return {meshes::to_mesh(meshes::icosphere(1)), meshes::to_mesh(meshes::box(3)), meshes::to_mesh(meshes::torus(9, 6)),
+          meshes::to_mesh(meshes::tetrahedron())};
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(queries_answer_as_brute_force_does_while_the_mesh_changes) {
+  Random random(seed());
+  std::size_t inserted = 0, removed = 0, parts = 0, given_up = 0;
+  for (const Mesh& scene : scenes())
+    for (const Frame& frame : frames) {
+      Checked_mesh changing(scene, frame);
+      changing.check_everything();
+      for (int round = 0; round < 60; ++round) {
+        const unsigned growth = round < 30 ? 4 : 1; // grows far beyond what it was built for, then shrinks
+        for (int k = 0; k < 4; ++k)
+          changing.change(random, growth);
+        changing.check(random);
+      }
+      changing.check_everything();
+      parts += changing.parts;
+      given_up += changing.given_up;
+      inserted += changing.inserted;
+      removed += changing.removed;
+      Checked_mesh anew(changing.mesh, {1, 0}); // with garbage among its faces
+      anew.check_everything();
+      anew.check(random);
+      BOOST_TEST(anew.mesh.has_garbage());
+    }
+  BOOST_TEST(inserted > 1000u);
+  BOOST_TEST(parts > 100u);
+  BOOST_TEST(given_up > 1000u);
+  BOOST_TEST(removed > 1000u);
+}
+
+BOOST_AUTO_TEST_CASE(rounding_modes_lose_nothing) {
+  Random random(seed());
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
+    for (const Frame& frame : {frames[0], frames[1], frames[3]}) {
+      Changing_mesh changing(scenes()[1], frame);
+      for (int k = 0; k < 30; ++k) {
+        changing.change(random, 3);
+        internal::Star<Mesh> star;
+        const Vertex_index v = changing.random_vertex(random);
+        star.collect(changing.mesh, v);
+        const Swept_star_3 swept = star.swept(vertex_coordinates(changing.mesh, v), frame(random_point(random, 6)));
+        const std::vector<Face_index> expected = swept_faces(changing.mesh, swept);
+        std::vector<Face_index> found;
+        std::fesetround(mode);
+        Box_tree_broad_phase<Mesh> tree(changing.mesh);
+        tree.query(swept, found);
+        changing.tree.query(swept, found);
+        std::fesetround(FE_TONEAREST);
+        found = sorted(found);
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        BOOST_TEST(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
+      }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_mesh_may_come_from_nothing_and_go) {
+  Mesh mesh;
+  Six_list_broad_phase<Mesh> six_lists(mesh);
+  Box_tree_broad_phase<Mesh> tree(mesh);
+  const Box_3 everything = Box_3({-9, -9, -9}).include({9, 9, 9});
+  std::vector<Vertex_index> corner;
+  for (const auto& p : meshes::box(4).points)
+    corner.push_back(mesh.add_vertex(p));
+  const auto count = [&](auto& model) {
+    std::vector<Face_index> found;
+    model.query(everything, found);
+    return found.size();
+  };
+  for (int again = 0; again < 3; ++again) {
+    BOOST_TEST(count(six_lists) == 0u);
+    BOOST_TEST(count(tree) == 0u);
+    std::size_t expected = 0;
+    for (const auto& f : meshes::box(4).faces) {
+      const std::array<Face_index, 1> face = {mesh.add_face(corner[f[0]], corner[f[1]], corner[f[2]])};
+      six_lists.faces_inserted(face), tree.faces_inserted(face);
+      ++expected;
+      BOOST_TEST(count(six_lists) == expected);
+      BOOST_TEST(count(tree) == expected);
+    }
+    while (mesh.number_of_faces() != 0) {
+      const std::array<Face_index, 1> face = {*mesh.faces().begin()};
+      six_lists.faces_removed(face), tree.faces_removed(face);
+      CGAL::Euler::remove_face(mesh.halfedge(face[0]), mesh);
+      BOOST_TEST(count(tree) == --expected);
+    }
+    mesh = Mesh(); // remove_face() has taken the vertices too
+    corner.clear();
+    for (const auto& p : meshes::box(4).points)
+      corner.push_back(mesh.add_vertex(p));
+  }
+}
