@@ -94,4 +94,28 @@ BOOST_AUTO_TEST_CASE(a_refused_edit_moves_the_handle_by_less_than_a_tenth_of_a_m
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_burst_under_way_is_not_felt_after_a_restart) {
+  const Device_parameters<double> parameters = device(Device_form::general, 0.005);
+  const auto pose = forward_kinematics(parameters, Vector3d(1, 1, 1));
+  BOOST_REQUIRE(static_cast<bool>(pose));
+  Handle_motion handle(parameters, *pose, 0.001);
+  Force_renderer renderer(Force_limits(), Gravity_compensation::spatial, 0.001);
+  for (int k = 0; k < 500; ++k)
+    handle.follow(pose->theta), renderer.render(handle, Vector3d::Zero()); // the ramp is over
+  for (const bool restarts : {false, true}) {
+    renderer.refuse(handle, Vector3d::UnitZ());
+    double most = 0;
+    for (int k = 0; k < 500; ++k) {
+      if (k == 20) {
+        BOOST_TEST(most > 0.01);
+        most = 0;
+        if (restarts)
+          renderer.restart();
+      }
+      most = std::max(most, renderer.render(handle, Vector3d::Zero()).force.norm());
+    }
+    BOOST_TEST((most == 0) == restarts);
+  }
+}
+
 } // namespace
