@@ -34,9 +34,8 @@ public:
 
   const Device_parameters<double>& parameters() const { return parameters_; } ///< of the device, a copy
   const Device_pose<double>& pose() const { return pose_; } ///< the last that was found; the start before
-  const Device_jacobian<double>& jacobian() const {
-    return jacobian_;
-  }                                                                  ///< there; of no meaning before a pose was found
+  /// At pose(); of no meaning before a pose was found.
+  const Device_jacobian<double>& jacobian() const { return jacobian_; }
   const Eigen::Vector3d& position() const { return pose_.position; } ///< of the handle, m, in axes of the device
   const Eigen::Vector3d& step() const { return step_; }              ///< since the last tick, m
   const Eigen::Vector3d& joint_step() const { return joint_step_; }  ///< since the last tick, rad
