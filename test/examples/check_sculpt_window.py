@@ -330,7 +330,7 @@ for script, part in (("fly 1 2 3\n", "line 1: 'fly'"), ("\nkey f99\n", "line 2: 
     check(part in err, f"{script!r}: {err}")
 _, err = window(at("nowhere.off"), "--no-log", script="quit\n", code=3, what="no mesh")
 check("nowhere.off" in err, f"no mesh: {err}")
-_, err = window(cube, "--log", at("work.log"), script="quit\n", code=6, what="the log of another mesh")
+_, err = window(write(at("other.off"), box(5)), "--log", at("work.log"), script="quit\n", code=6, what="the log of another mesh")
 _, err = window(BALL, "--no-log", script="quit\n", code=7, display=None, what="no display")
 check("DISPLAY" in err, f"no display: {err}")
 check(window(BALL, "--no-log", "--samples", 0, "--screenshot", at("last.png"))[1] == "" and len(read_png(at("last.png"))[1]) == 900, "--screenshot")
