@@ -93,9 +93,12 @@ void Log_file::begin(const Settings& settings) {
   const bool is_made = file_ < 0;
   if (is_made) {
     file_ = ::open(target_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const auto begun_by_another = [&] {
+      return Write_error(in_words(path_) +
+                         " has just been begun by another process; wait until it has ended, or give another log");
+    };
     if (file_ < 0 && errno == EEXIST)
-      throw Write_error(in_words(path_) +
-                        " has just been begun by another process; wait until it has ended, or give another log");
+      throw begun_by_another();
     if (file_ < 0 && (errno == ENOSPC || errno == EDQUOT)) {
       fail(system_says());
       return;
@@ -103,6 +106,9 @@ void Log_file::begin(const Settings& settings) {
     if (file_ < 0)
       throw Write_error("cannot make " + in_words(path_) + ": " + system_says());
     lock();
+    // Another process may have found the file empty before it was locked here, begun it, and ended already.
+    if (struct stat status {}; ::fstat(file_, &status) != 0 || status.st_size != 0)
+      throw begun_by_another();
   }
   append(writer_.head(mesh_, settings)); // in one write: whoever finds a log finds a whole head
   if (is_made && !failure_.empty())
