@@ -31,7 +31,8 @@ std::vector<std::string> broken_bounds(const Json& report) {
     if (!row["mass_is_calm_below"] || !row["mass_swings_above"])
       broken.push_back("a free handle does not begin to swing within 20 % of the critical mass");
     if (!row["damping_is_calm_below"] || !row["damping_swings_above"])
-      broken.push_back("a damped handle does not begin to swing between 0.6 and twice the critical damping");
+      broken.push_back("a damped handle does not begin to swing between 0.6 (or twice what may be asked for) and twice the "
+                       "critical damping");
   }
   for (const Json& row : report.value("gravity", Json::array()))
     if (row["source"] == "encoders and holding" && row["largest_N"] > 0.06)

@@ -12,6 +12,7 @@
 #include <complex>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace haptic_sculpt;
@@ -39,20 +40,26 @@ BOOST_AUTO_TEST_CASE(estimates_respond_to_sinusoids_as_they_say) {
       }
 }
 
-/// A free mass of 1 kg, pushed once, under a force that follows its steps and is held from tick to tick, `delay` late.
+/// A mass of 1 kg with viscous friction (N s/m), pushed once, under a force that follows its steps and its place and is
+/// held from tick to tick, `delay` late.
 /// \return by how much the force is larger in the end than soon after the push
 template <class Force>
-double growth(double tick, double delay, const Force& force) {
+double growth(double tick, double delay, double friction, const Force& force) {
   const int whole = static_cast<int>(delay), ticks = 6000;
   const double late = delay - whole;
   std::vector<double> commands(static_cast<std::size_t>(whole) + 2, 0.0); // the latest first
   double place = 0, last = 0, velocity = 0, earlier = 0, later = 0;
   const auto go = [&](double newtons, double time) {
-    place += velocity * time + newtons * time * time / 2, velocity += newtons * time;
+    if (friction == 0) {
+      place += velocity * time + newtons * time * time / 2, velocity += newtons * time;
+      return;
+    }
+    const double limit = newtons / friction, rest = (velocity - limit) * std::exp(-friction * time);
+    place += limit * time + (velocity - limit - rest) / friction, velocity = limit + rest;
   };
   for (int k = 0; k < ticks; ++k) {
     std::rotate(commands.begin(), commands.end() - 1, commands.end());
-    commands[0] = force(place - last) + (k == 0 ? 1 : 0);
+    commands[0] = force(place - last, place) + (k == 0 ? 1 : 0);
     last = place;
     go(commands[static_cast<std::size_t>(whole) + 1], late * tick);
     go(commands[static_cast<std::size_t>(whole)], (1 - late) * tick);
@@ -75,15 +82,87 @@ BOOST_AUTO_TEST_CASE(a_free_mass_swings_by_itself_beyond_the_critical_gains_and_
       Acceleration_estimate acceleration(tick);
       Velocity_estimate velocity(tick);
       const double mass =
-          growth(tick, delay, [&](double step) { return -share * ratio * acceleration.add(Vector3d(step, 0, 0))[0]; });
+          growth(tick, delay, 0, [&](double step, double) { return -share * ratio * acceleration.add(Vector3d(step, 0, 0))[0]; });
       const double damper =
-          growth(tick, delay, [&](double step) { return -share * rate * velocity.add(Vector3d(step, 0, 0))[0]; });
-      const double raw_damper = growth(tick, delay, [&](double step) { return -share * raw * step / tick; });
+          growth(tick, delay, 0, [&](double step, double) { return -share * rate * velocity.add(Vector3d(step, 0, 0))[0]; });
+      const double raw_damper = growth(tick, delay, 0, [&](double step, double) { return -share * raw * step / tick; });
       for (const double grown : {mass, damper, raw_damper})
         BOOST_TEST((grown < 1) == (share < 1),
                    "a share of " << share << " at T = " << tick << " s, d = " << delay << " grows by " << grown);
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_sprung_mass_swings_by_itself_beyond_the_critical_stiffness_and_not_below) {
+  Random random(6);
+  std::uniform_real_distribution<double> delays(0, 3), exponents(-4, -2.4), lost(-2.3, -1), dampings(0.02, 0.9);
+  for (int round = 0; round < 60; ++round) {
+    const double tick = std::pow(10, exponents(random)), delay = round % 2 == 0 ? round / 2 % 4 : delays(random);
+    const double friction = round % 5 == 0 ? 0 : std::pow(10, lost(random)) / tick;
+    const double damping =
+        round % 3 == 1 && friction > 0 ? 0 : dampings(random) * critical_damping_rate(tick, delay);
+    const double stiffness = critical_stiffness(1, friction, damping, tick, delay);
+    BOOST_TEST(critical_stiffness(0.03, 0.03 * friction, 0.03 * damping, tick, delay) == 0.03 * stiffness,
+               boost::test_tools::tolerance(1e-9));
+    for (const double share : {0.5, 0.9, 1.1}) {
+      Velocity_estimate velocity(tick);
+      const double grown = growth(tick, delay, friction, [&](double step, double place) {
+        return -share * stiffness * place - damping * velocity.add(Vector3d(step, 0, 0))[0];
+      });
+      BOOST_TEST((grown < 1) == (share < 1), "a share of " << share << " of " << stiffness << " at T = " << tick
+                                                           << " s, d = " << delay << ", friction " << friction
+                                                           << ", damping " << damping << " grows by " << grown);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(of_a_spring_alone_the_critical_stiffness_is_that_of_the_passive_limit_where_friction_is_small) {
+  for (const double tick : {0.0001, 0.001, 0.004})
+    for (const double delay : {0.0, 0.3, 1.0, 2.5})
+      for (const double lost : {1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 0.99e-4, 1.01e-4, 1e-3}) {
+        const double friction = lost * 0.03 / tick;
+        BOOST_TEST(critical_stiffness(0.03, friction, 0, tick, delay) == passive_stiffness(friction, 0, tick, delay),
+                   boost::test_tools::tolerance(0.002));
+      }
+}
+
+/// A mass of 1 kg that meets a wall with a damper in it. \param phase of the tick in which it meets it
+/// \return its speed when it has left, over that with which it came; 0 if it stays
+double thrown_off(double tick, double delay, double damping, double phase) {
+  const int whole = static_cast<int>(delay);
+  const double late = delay - whole;
+  std::vector<double> commands(static_cast<std::size_t>(whole) + 2, 0.0); // the latest first
+  Velocity_estimate velocity(tick);
+  constexpr int before = 2000; // ticks, until the estimate has settled
+  const double speed = 1;
+  double depth = -(before + phase) * speed * tick, last = depth - speed * tick, now = speed;
+  for (int k = 0; k < before + 20000; ++k) {
+    const double told = velocity.add(Vector3d(depth - last, 0, 0))[0];
+    std::rotate(commands.begin(), commands.end() - 1, commands.end());
+    commands[0] = depth > 0 ? -damping * told : 0;
+    last = depth;
+    for (const auto& [newtons, time] : {std::pair(commands[static_cast<std::size_t>(whole) + 1], late * tick),
+                                        std::pair(commands[static_cast<std::size_t>(whole)], (1 - late) * tick)})
+      depth += now * time + newtons * time * time / 2, now += newtons * time;
+    if (now < 0 && depth < 0 && std::all_of(commands.begin(), commands.end(), [](double f) { return f == 0; }))
+      return -now / speed;
+  }
+  return 0;
+}
+
+BOOST_AUTO_TEST_CASE(the_largest_damping_throws_nothing_off_faster_than_it_came) {
+  Random random(7);
+  std::uniform_real_distribution<double> delays(0, 2), exponents(-4, -2.4), phases(0, 1);
+  double fastest = 0, fastest_of_thrice = 0;
+  for (int round = 0; round < 300; ++round) {
+    const double tick = std::pow(10, exponents(random)), delay = round % 2 == 0 ? round / 2 % 3 : delays(random);
+    const double largest = largest_damping_rate(tick, delay), phase = phases(random);
+    fastest = std::max(fastest, thrown_off(tick, delay, largest, phase));
+    fastest_of_thrice = std::max(fastest_of_thrice, thrown_off(tick, delay, 3 * largest, phase));
+  }
+  BOOST_TEST_MESSAGE("thrown off at " << fastest << " of the speed, at thrice the damping " << fastest_of_thrice);
+  BOOST_TEST(fastest <= 0.7);
+  BOOST_TEST(fastest_of_thrice > 1);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_larger_than_stable_is_refused_with_what_serves) {

@@ -24,9 +24,10 @@ inline double passive_stiffness(double friction, double damping, double tick, do
   return 2 * (friction - std::abs(damping)) / (tick * (1 + 2 * delay));
 }
 
-/// The largest stiffness, N/m, that was found stable in all hands: 0.6 of 2 (b_phys + b) / (T (1 + 2 d)).
-inline double stable_stiffness(double friction, double damping, double tick, double delay) {
-  return 0.6 * 2 * (friction + damping) / (tick * (1 + 2 * delay));
+/// The largest stiffness, N/m, that was found stable in all hands: 0.6 of what makes the free mechanism swing, which is
+/// 2 b_phys / (T (1 + 2 d)) without a damper. \param mass least apparent mass at the handle, kg
+inline double stable_stiffness(double mass, double friction, double damping, double tick, double delay) {
+  return friction + damping > 0 ? 0.6 * critical_stiffness(mass, friction, damping, tick, delay) : 0;
 }
 
 /// Where the device gives least friction, or has least mass, at the handle, for what is rendered there.
@@ -165,12 +166,6 @@ struct Passivity_limits {
   bool is_passive(const Virtual_coupling& coupling) const { return coupling.stiffness <= passive_stiffness; }
 };
 
-/// Of what makes a free mass swing by itself, the share that may be asked for: a wall, a hand and its grip take from
-/// the rest. A gain margin of three, 9.5 dB.
-constexpr double stable_share = 1.0 / 3;
-/// k_s was found to hold up to so many times b_phys.
-constexpr double most_damping = 4;
-
 /// The limits over the device's places whose scene is in a box. \param delay ticks
 /// \param cutoff of the acceleration that a virtual mass follows, Hz
 inline Passivity_limits passivity_limits(const Device_parameters<double>& parameters, const Force_limits& limits,
@@ -185,13 +180,14 @@ inline Passivity_limits passivity_limits(const Device_parameters<double>& parame
   found.worst = worst_pose(parameters, limits, is_in_scene);
   found.friction = found.worst.friction(parameters);
   found.passive_stiffness = passive_stiffness(found.friction, damping, tick, delay);
-  found.stable_stiffness = stable_stiffness(found.friction, damping, tick, delay);
   found.lightest = lightest_pose(parameters, limits, is_in_scene);
   found.apparent_mass = found.lightest.apparent_mass(parameters);
-  const double mass = stable_share * found.apparent_mass;
-  found.largest_mass = mass * critical_mass_ratio(tick, delay, cutoff);
-  found.largest_damping = std::fmin(most_damping * found.friction, mass * critical_damping_rate(tick, delay));
-  found.largest_controller = mass * critical_damping_rate(tick, delay, std::numeric_limits<double>::infinity());
+  found.largest_mass = stable_share * found.apparent_mass * critical_mass_ratio(tick, delay, cutoff);
+  found.largest_damping = found.apparent_mass * largest_damping_rate(tick, delay);
+  found.largest_controller =
+      found.apparent_mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity());
+  if (found.lightest.is_found && damping <= found.largest_damping) // above it check_dynamics() refuses
+    found.stable_stiffness = stable_stiffness(found.apparent_mass, found.friction, damping, tick, delay);
   return found;
 }
 

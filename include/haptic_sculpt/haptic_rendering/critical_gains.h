@@ -6,19 +6,27 @@
 #include <haptic_sculpt/haptic_rendering/Velocity_estimate.h>
 
 /// \file
-/// Where a free mass that is told its own acceleration or velocity begins to swing by itself
-/// (doc/haptic_stability.md, "Virtual mass and inertia").
+/// Where a free mass that is told its own acceleration, velocity or place begins to swing by itself
+/// (doc/haptic_stability.md, "What a free mass carries").
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// The response of a free mass of 1 kg to a force that is held from tick to tick and late by `delay` ticks: second
-/// differences of its place over the square of the tick, at q = exp(-i angle), angle being that of one tick.
-inline std::complex<double> held_force_response(double delay, double angle) {
-  const double whole = std::floor(delay), late = delay - whole; // a step of the force acts on three differences
-  const std::complex<double> q = std::polar(1.0, -angle);
-  return std::polar(1.0, -angle * whole) *
-         ((1 - late) * (1 - late) / 2 * q + (0.5 + late - late * late) * q * q + late * late / 2 * q * q * q);
+/// (exp(-x) - 1 + x) / x^2, also near 0.
+inline double lack_of_speed(double x) {
+  return x < 1e-4 ? 0.5 - x / 6 : (std::expm1(-x) + x) / (x * x); // the series is off by 4e-10, the quotient by 1e-12
+}
+
+/// The response of a mass (kg) with viscous friction (N s/m) to a force that is held from tick to tick and late by
+/// `delay` ticks: its place over the force, m/N, at q = exp(-i angle), angle being that of one tick.
+inline std::complex<double> held_force_response(double mass, double friction, double tick, double delay, double angle) {
+  const double whole = std::floor(delay), early = 1 - (delay - whole); // what the first tick sees of the force
+  const double lost = friction * tick / mass;                         // share of the speed that a tick takes
+  const double kept = -std::expm1(-lost), first = early * early * lack_of_speed(early * lost);
+  const std::complex<double> q = std::polar(1.0, -angle), u = 1.0 - q;
+  const double mean = lost > 0 ? kept / lost : 1;
+  return std::polar(1.0, -angle * whole) * (tick * tick / mass) * q *
+         (first * u * u + lack_of_speed(lost) * q * u + mean * q * (early * u + q)) / (u * (u + kept * q));
 }
 
 /// The largest gain below which a loop of this response is stable, as Nyquist tells it: the response is that of a
@@ -28,10 +36,10 @@ template <class Response>
 double critical_gain(const Response& response) {
   constexpr int angles = 20000; // between two of them a crossing is found by halving
   constexpr double pi = 3.14159265358979323846;
-  double farthest = 0, last_angle = 0.1 * pi / angles;
+  double farthest = 0, last_angle = 0.1 * pi / angles / angles;
   std::complex<double> last = response(last_angle);
   for (int k = 1; k <= angles; ++k) {
-    const double angle = k * pi / angles;
+    const double angle = pi * k / angles * k / angles; // closer to each other where they are small
     const std::complex<double> here = response(angle);
     if (k == angles) // real there, but for rounding
       farthest = std::fmin(farthest, here.real());
@@ -54,8 +62,11 @@ double critical_gain(const Response& response) {
 /// \param tick s \param delay from a command to its torque, ticks \param cutoff of the acceleration, Hz
 inline double critical_mass_ratio(double tick, double delay, double cutoff) {
   const Acceleration_estimate estimate(tick, cutoff);
-  return internal::critical_gain(
-      [&](double angle) { return estimate.response(angle) * internal::held_force_response(delay, angle); });
+  return internal::critical_gain([&](double angle) {
+    const std::complex<double> step = 1.0 - std::polar(1.0, -angle);
+    return estimate.response(angle) * step * step / (tick * tick) *
+           internal::held_force_response(1, 0, tick, delay, angle);
+  });
 }
 
 /// The damping beyond which a free mass swings in no hand at all, N s/m for each kg of it.
@@ -63,10 +74,31 @@ inline double critical_mass_ratio(double tick, double delay, double cutoff) {
 inline double critical_damping_rate(double tick, double delay, double cutoff = Velocity_estimate::default_cutoff) {
   const Velocity_estimate estimate(tick, cutoff);
   return internal::critical_gain([&](double angle) {
-           return estimate.response(angle) * internal::held_force_response(delay, angle) /
-                  (1.0 - std::polar(1.0, -angle));
-         }) /
-         tick;
+    return estimate.response(angle) * (1.0 - std::polar(1.0, -angle)) / tick *
+           internal::held_force_response(1, 0, tick, delay, angle);
+  });
+}
+
+/// Of what makes a free mass swing by itself, the share that may be asked for: a wall, a hand and its grip take from
+/// the rest. A gain margin of three, 9.5 dB.
+constexpr double stable_share = 1.0 / 3;
+
+/// The damping that may be asked for, N s/m for each kg that it stops: that share of critical, and at most one over the
+/// time by which the velocity lags. A stronger one stops the mass sooner, pushes on, and throws it off a wall faster than
+/// it came.
+inline double largest_damping_rate(double tick, double delay, double cutoff = Velocity_estimate::default_cutoff) {
+  return std::fmin(stable_share * critical_damping_rate(tick, delay, cutoff), 2 * 3.14159265358979323846 * cutoff);
+}
+
+/// The stiffness, N/m, at which a free mass (kg) with viscous friction (N s/m), held by that spring and a damper, begins
+/// to swing by itself. \pre the damping is less than critical, mass > 0, and friction + damping > 0
+inline double critical_stiffness(double mass, double friction, double damping, double tick, double delay,
+                                 double cutoff = Velocity_estimate::default_cutoff) {
+  const Velocity_estimate estimate(tick, cutoff);
+  return internal::critical_gain([&](double angle) {
+    const std::complex<double> place = internal::held_force_response(mass, friction, tick, delay, angle);
+    return place / (1.0 + damping * estimate.response(angle) * (1.0 - std::polar(1.0, -angle)) / tick * place);
+  });
 }
 
 } // namespace haptic_sculpt
