@@ -66,6 +66,9 @@ private:
 
   /// So few of n do not stand in each other's way as a whole: what blocks them is local.
   static std::size_t few(std::size_t n) { return 8 + n / 32; }
+  /// So few of n may stay behind in a step where a shorter one may bring more along: those that do slide off their ways,
+  /// and of a right angle that could arrive some never find back (doc/many_vertices.md).
+  static std::size_t hardly_any(std::size_t n) { return n / 4096; }
 
   Sculptor& sculptor_;
   const std::vector<Moving>& vertices_;
@@ -167,12 +170,15 @@ private:
       drag(log_.back().position, log_.back().before);
   }
 
-  /// All go on together, in steps that halve where many stay behind and double after two in which few did. At the
-  /// shortest those that stay behind are given up.
+  /// All go on together, in steps that halve where some stay behind and double after two in which hardly any did. Few
+  /// who stay behind in a step half as long too, or in the shortest, are left to slide; where those are many they are
+  /// given up.
   void walk_in_steps() {
     Positions going = all_behind();
     const double shortest = shortest_step();
     double way = 0, step = 0.5;
+    std::size_t stuck = 0; // so many stay behind in any step
+    std::size_t before = 0; // so many stayed behind in the step twice as long; 0: there was none
     for (int successes = 0; way < 1 && !going.empty();) {
       const double next = std::fmin(1, way + step);
       const bool is_shortest = step <= shortest;
@@ -181,16 +187,19 @@ private:
       stop_passes(behind, next, !is_shortest);
       if (!goes_on_)
         return;
-      if (behind.size() <= few(going.size())) {
+      const bool is_hopeless = is_shortest || (before > 0 && 2 * behind.size() > before);
+      if (is_hopeless && behind.size() <= few(going.size()))
+        stuck = std::max(stuck, behind.size());
+      if (behind.size() <= std::max(stuck, hardly_any(going.size()))) {
         slide_few(behind, next);
-        way = next;
+        way = next, before = 0;
         if (++successes % 2 == 0)
           step *= 2;
         continue;
       }
-      successes = 0;
+      successes = 0, before = behind.size();
       if (is_shortest) {
-        way = next;
+        way = next, before = 0;
         give_up(going, behind);
       } else {
         take_back();
