@@ -76,6 +76,11 @@ public:
   Vertex_index probe() const { return probe_; }
   const Mesh& mesh() const { return mesh_; }
 
+  /// Puts the probe where a hand comes from: outside of the object, over its place.
+  void bring_probe_to(const Point_3& hand) {
+    if (!sculptor_.place(probe_, CGAL::ORIGIN + 1.25 * (hand - CGAL::ORIGIN)))
+      throw Error("the probe has no room over the hand");
+  }
   void take(Vertex_index v) {
     stroke_.emplace(sculptor_.stroke());
     held_.emplace(sculptor_.grab(v));
@@ -141,8 +146,11 @@ Measured measure(const Mesh& mesh, const Options& options, const std::string& wh
   for (std::size_t done = 0; done < options.drags; done += options.ticks_per_grab) {
     const Point_3 start = hand.next();
     const Vertex_index v = what == "probe" ? free.probe() : nearest_vertex(free.mesh(), start, free.probe());
-    for (Bench* bench : {&free, &bounded})
+    for (Bench* bench : {&free, &bounded}) {
+      if (what == "probe")
+        bench->bring_probe_to(start);
       bench->take(v);
+    }
     std::vector<bool> was_limited;
     for (std::size_t tick = 0; tick < options.ticks_per_grab; ++tick) {
       const Point_3 target = hand.next();

@@ -203,23 +203,18 @@ private:
     const Vector pull = walk_.pull_to(target), up = walk_.mean_normal();
     const double distance = length(pull);
     const Walk start = walk_;
-    double most = walk_.lengths().lifted();
+    const double least = walk_.lengths().lifted();
     for (const Vector& way : {advanced(pull, -dot(pull, up), up), minus(start.x, before)})
       for (const double part : {1.0, 0x1p-2, 0x1p-4, 0x1p-6, 0x1p-8})
         for (const double slope : {1.0, 0x1p-2, 0x1p-4, 0.0}) {
           if (start.legs() + 2 > most_legs || guard.is_spent())
             return false;
           trial_.begin_at(start);
-          const Vector end = advanced(advanced(start.x, part * distance, normalized(way)), slope * part * distance, up);
-          for (const Vector& aim : {end, target}) {
-            trial_.forget_progress();
-            trial_.go(guard, aim, trial_.legs() + 1);
-          }
-          const double gained = nearer_by(target, start.x, trial_.x);
-          if (gained > most) {
-            most = gained;
-            walk_ = trial_;
-          }
+          trial_.forget_progress();
+          trial_.go(guard, advanced(advanced(start.x, part * distance, normalized(way)), slope * part * distance, up),
+                    trial_.legs() + 1);
+          trial_.forget_progress();
+          trial_.go_instead_of(walk_, guard, target, trial_.legs() + 1, walk_.x == start.x ? least : 0);
         }
     return walk_.x != start.x;
   }
