@@ -55,8 +55,12 @@ struct Comparison {
   std::size_t drags = 0; ///< of targets
   bool out_of_work = false;
   bool undone_to_the_bit = false, redone_to_the_bit = false;
+  bool has_to_arrive = false; ///< all vertices, to the bit: the motion is rigid, and its end exact
 
-  bool is_kept() const { return guarded.pairs == 0 && guarded.is_valid && undone_to_the_bit && redone_to_the_bit; }
+  bool is_kept() const {
+    return guarded.pairs == 0 && guarded.is_valid && undone_to_the_bit && redone_to_the_bit &&
+           (!has_to_arrive || refused == 0 || out_of_work);
+  }
 };
 
 struct Settings {

@@ -143,7 +143,8 @@ int main(int argc, char** argv) try {
   }
   write(report, options.json);
   if (!kept)
-    std::cerr << "a guarded run ended with a mesh that is not valid, or was not undone or redone to the bit\n";
+    std::cerr << "a guarded run ended with a mesh that is not valid, was not undone or redone to the bit, or a right angle did not "
+                 "arrive\n";
   return kept ? 0 : 1;
 } catch (const std::runtime_error& error) {
   std::cerr << error.what() << '\n';

@@ -61,8 +61,8 @@ public:
       , observer_(parameters.delay, parameters.tick, device.viscous_friction(), device.encoder_step())
       , controller_(parameters.controller_damping, parameters.tick)
       , inertia_(parameters.inertia, device, parameters.tick, parameters.delay) {
-    check_coupling(parameters.coupling, limits);
     check_dynamics(parameters.coupling.damping, parameters.inertia, parameters.controller_damping, limits);
+    check_coupling(parameters.coupling, limits);
     sculptor.set_work_limit(parameters.work);
   }
 

@@ -151,7 +151,7 @@ Worst_pose lightest_pose(const Device_parameters<double>& parameters, const Forc
 struct Passivity_limits {
   double friction = 0;           ///< b_phys at the worst pose, N s/m
   double passive_stiffness = 0;  ///< k_p at the damping asked for, N/m
-  double stable_stiffness = 0;   ///< k_s
+  double stable_stiffness = 0;   ///< k_s; 0 where the damping is more than may be asked for
   double apparent_mass = 0;      ///< the least in the workspace, kg
   double largest_damping = 0;    ///< b that may be asked for, N s/m
   double largest_mass = 0;       ///< virtual mass that may be asked for, kg
@@ -186,7 +186,7 @@ inline Passivity_limits passivity_limits(const Device_parameters<double>& parame
   found.largest_damping = found.apparent_mass * largest_damping_rate(tick, delay);
   found.largest_controller =
       found.apparent_mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity());
-  if (found.lightest.is_found && damping <= found.largest_damping) // above it check_dynamics() refuses
+  if (found.lightest.is_found && damping <= found.largest_damping)
     found.stable_stiffness = stable_stiffness(found.apparent_mass, found.friction, damping, tick, delay);
   return found;
 }
