@@ -14,7 +14,8 @@ namespace internal {
 
 /// (exp(-x) - 1 + x) / x^2, also near 0.
 inline double lack_of_speed(double x) {
-  return x < 1e-4 ? 0.5 - x / 6 : (std::expm1(-x) + x) / (x * x); // the series is off by 4e-10, the quotient by 1e-12
+  constexpr double near = 1e-4; // no unit; below it the series is off by 4e-10 at most, above it rounding by 1e-12
+  return x < near ? 0.5 - x / 6 : (std::expm1(-x) + x) / (x * x);
 }
 
 /// The response of a mass (kg) with viscous friction (N s/m) to a force that is held from tick to tick and late by
