@@ -83,11 +83,10 @@ Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, cons
   {
     auto moving = asked;
     internal::order_in_space(moving);
-    const bool are_short = internal::are_ways_short(sculptor.mesh(), moving);
-    if (!are_short)
-      internal::order_leaders_first(sculptor.mesh(), moving);
     const auto stroke = sculptor.stroke();
-    internal::Vertices_mover<Sculptor>(sculptor, moving, parameters, are_short).run(report);
+    internal::Vertices_mover<Sculptor>(sculptor, moving, parameters,
+                                       internal::are_ways_short(sculptor.mesh(), moving))
+        .run(report);
   }
   internal::measure_distances(sculptor.mesh(), asked, report.left_l2, report.left_max);
   // Each distance is exactly no longer than it was; its root may be rounded up.

@@ -97,6 +97,21 @@ BOOST_AUTO_TEST_CASE(turns_by_a_right_angle_arrive_to_the_bit) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(turns_take_few_drags_where_edges_are_short_beside_the_way) {
+  // All vertices of a ring go in a circle, so that each is in the way of the next: in straight steps that takes some
+  // hundred drags a vertex, one coordinate after the other it takes a dozen.
+  const Mesh mesh = meshes::to_mesh(meshes::torus(160, 40));
+  for (const Vector_3& axis : {Vector_3(0, 0, 1), Vector_3(0.48, 0.6, 0.64)}) {
+    const auto turned = [&](const Mesh& m, Vertex_index v) {
+      const Vector_3 p = m.point(v) - CGAL::ORIGIN;
+      return CGAL::ORIGIN + (axis * (axis * p) + CGAL::cross_product(axis, p));
+    };
+    const Move_report report = checked_run("turn of a fine torus", mesh, turned);
+    BOOST_TEST(report.reached == report.asked);
+    BOOST_TEST(report.drags < 40 * report.asked);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_arrive_stays_embedded_and_comes_nearer) {
   std::mt19937 random(7);
   BOOST_TEST_MESSAGE("seed 7");

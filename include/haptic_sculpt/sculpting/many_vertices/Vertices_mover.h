@@ -20,9 +20,9 @@ public:
   using Mesh = typename Sculptor::Mesh_type;
   using Moving = Moving_vertex<Mesh>;
 
-  /// \param vertices in the order in which they are to go; all targets are in range
+  /// \param vertices successive ones near each other in space; all targets are in range
   /// \param are_short whether the ways are so short that few vertices stand in each other's way: then the first drags
-  /// are made in a way that costs less where there is nothing in the way, and more where there is
+  /// are made in a way that costs less where there is nothing in the way, and more where there is, and in any order
   Vertices_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
                  bool are_short)
       : sculptor_(sculptor), vertices_(vertices), parameters_(parameters), tries_whole_(are_short) {}
@@ -34,7 +34,7 @@ public:
     Positions behind = all_behind();
     // To be taken back if too many stay behind; else the log is of no use.
     log_.reserve(parameters_.takes_steps ? behind.size() : 0);
-    stop_passes(behind, 1, parameters_.takes_steps);
+    stop_passes(behind, {1}, parameters_.takes_steps);
     tries_whole_ = false;
     if (behind.size() > few(vertices_.size()) && parameters_.takes_steps && goes_on_) {
       take_back();
@@ -47,6 +47,11 @@ public:
 private:
   using Position = std::uint32_t; ///< in vertices_
   using Positions = std::vector<Position>;
+  /// Where vertices go: to a share of their ways, all at once or one coordinate after the other.
+  struct Aim {
+    double share;
+    int axis = -1; ///< 0, 1 or 2: only that coordinate; -1: all
+  };
   /// A motion that was made.
   struct Made {
     Position position;
@@ -60,6 +65,8 @@ private:
   /// A slide decides at most so many pairs: few need more, where parts lie close about each other, and these would take
   /// most of the time (doc/many_vertices.md).
   static constexpr std::size_t slide_work = 10000;
+  /// One coordinate after the other is worth its three drags a vertex where it leaves no more than this share behind.
+  static constexpr double axes_gain = 0.75;
   /// Another pass is made at the end while the last has gained more than this share of what was left, as a sum of
   /// distances.
   static constexpr double least_gain = 0.01;
@@ -115,13 +122,16 @@ private:
     return true;
   }
 
-  /// Where a vertex is to be when a share of the way has been made; where it is, unless that is nearer to the target.
-  Coordinates waypoint(Position k, double share) const {
+  /// Where a vertex is to go; where it is, unless that is nearer to the target.
+  Coordinates aimed_at(Position k, const Aim& aim) const {
     const Moving& v = vertices_[k];
-    if (share == 1)
-      return v.target;
-    const Coordinates p = point_of_path(v.source, v.target, share);
-    return is_farther(v.target, place(k), p) ? p : place(k);
+    const Coordinates from = place(k), p = aim.share == 1 ? v.target : point_of_path(v.source, v.target, aim.share);
+    if (aim.axis < 0)
+      return aim.share == 1 || is_farther(v.target, from, p) ? p : from;
+    Coordinates to = from;
+    if (std::abs(p[aim.axis] - v.target[aim.axis]) < std::abs(from[aim.axis] - v.target[aim.axis]))
+      to[aim.axis] = p[aim.axis];
+    return to;
   }
 
   /// Whether `from` is farther from the target than `to`. Rounded; so by more than rounding can do.
@@ -129,25 +139,63 @@ private:
     return distance(from, target) * (1 - 0x1p-48) > distance(to, target);
   }
 
-  /// Drags those that are behind to a share of the way, again while they at least halve. Leaves in `behind` those that
-  /// stay behind.
-  void stop_passes(Positions& behind, double share, bool logs) {
-    way_ = share;
+  /// Those that are not where they are to go, in an order in which they are least in each other's way: leaders first,
+  /// and where the faces leave it open the foremost, along the axis or the sum of all ways.
+  Positions ordered(const Positions& given, const Aim& aim) const {
+    struct Motion {
+      double advance;
+      Position position;
+      Moving moving;
+    };
+    std::vector<Motion> motions;
+    motions.reserve(given.size());
+    Vector whole{};
+    for (const Position k : given)
+      if (const Coordinates from = place(k), to = aimed_at(k, aim); from != to) {
+        motions.push_back({0, k, {vertices_[k].vertex, from, to}});
+        whole = plus(whole, minus(to, from));
+      }
+    for (Motion& motion : motions) {
+      const Coordinates &from = motion.moving.source, &to = motion.moving.target;
+      motion.advance = aim.axis < 0                      ? quick_dot(whole, minus(from, Coordinates{}))
+                       : to[aim.axis] > from[aim.axis] ? from[aim.axis]
+                                                       : -from[aim.axis];
+    }
+    std::sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) {
+      return std::make_pair(b.advance, a.position) < std::make_pair(a.advance, b.position);
+    });
+    std::vector<Moving> sorted;
+    sorted.reserve(motions.size());
+    for (const Motion& motion : motions)
+      sorted.push_back(motion.moving);
+    Positions order = leaders_first(sculptor_.mesh(), sorted);
+    for (Position& k : order)
+      k = motions[k].position;
+    return order;
+  }
+
+  /// Drags those that are behind to where they aim, again while they at least halve, few while a tenth comes along.
+  /// Leaves in `behind` those that stay behind.
+  void stop_passes(Positions& behind, const Aim& aim, bool logs) {
+    way_ = aim.share;
+    if (!tries_whole_)
+      behind = ordered(behind, aim);
     for (;;) {
       const std::size_t before = behind.size();
-      pass(behind, share, logs);
-      if (!goes_on_ || behind.empty() || 2 * behind.size() > before)
+      pass(behind, aim, logs);
+      const std::size_t gained = before - behind.size(), share = behind.size() <= few(vertices_.size()) ? 10 : 2;
+      if (!goes_on_ || behind.empty() || gained == 0 || share * gained < before)
         return;
     }
   }
 
   /// Drags each once.
-  void pass(Positions& behind, double share, bool logs) {
+  void pass(Positions& behind, const Aim& aim, bool logs) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < behind.size(); ++i) {
       const Position k = behind[i];
       behind_ = behind.size() - i + kept;
-      const Coordinates from = place(k), to = waypoint(k, share);
+      const Coordinates from = place(k), to = aimed_at(k, aim);
       if (from == to)
         continue;
       if (!may_drag()) {
@@ -170,21 +218,40 @@ private:
       drag(log_.back().position, log_.back().before);
   }
 
+  /// Brings all together to a share of their ways, by axes one coordinate after the other. \return those that stay
+  /// behind, in their order
+  Positions step_to(const Positions& going, double share, bool by_axes, bool logs) {
+    Positions behind;
+    for (int axis = by_axes ? 0 : 3; axis <= 3; ++axis) {
+      behind = going;
+      stop_passes(behind, {share, axis < 3 ? axis : -1}, logs); // at last all coordinates, for those that stay behind
+    }
+    std::sort(behind.begin(), behind.end());
+    return behind;
+  }
+
   /// All go on together, in steps that halve where some stay behind and double after two in which hardly any did. Few
   /// who stay behind in a step half as long too, or in the shortest, are left to slide; where those are many they are
-  /// given up.
+  /// given up. The first step is tried both ways, straight and by axes, and the better one is kept to, but for the
+  /// shortest steps: these are straight.
   void walk_in_steps() {
     Positions going = all_behind();
     const double shortest = shortest_step();
     double way = 0, step = 0.5;
+    bool by_axes = false, is_first = true;
     std::size_t stuck = 0; // so many stay behind in any step
     std::size_t before = 0; // so many stayed behind in the step twice as long; 0: there was none
     for (int successes = 0; way < 1 && !going.empty();) {
       const double next = std::fmin(1, way + step);
       const bool is_shortest = step <= shortest;
-      Positions behind = going;
       log_.clear();
-      stop_passes(behind, next, !is_shortest);
+      Positions behind = step_to(going, next, by_axes && !is_shortest, !is_shortest);
+      if (std::exchange(is_first, false) && behind.size() > hardly_any(going.size())) {
+        take_back();
+        const std::size_t straight = behind.size();
+        behind = step_to(going, next, true, !is_shortest);
+        by_axes = static_cast<double>(behind.size()) < axes_gain * static_cast<double>(straight);
+      }
       if (!goes_on_)
         return;
       const bool is_hopeless = is_shortest || (before > 0 && 2 * behind.size() > before);
@@ -216,7 +283,7 @@ private:
       return;
     const Response_scope scope(sculptor_, Response::slide, false, slide_work);
     for (int i = 0; i < slide_passes_of_few && goes_on_ && !behind.empty(); ++i)
-      pass(behind, share, false);
+      pass(behind, {share}, false);
   }
 
   /// Takes away from `going` what is in `behind`, which has the same order.
@@ -261,7 +328,7 @@ private:
     for (int i = 0; i < most_passes && goes_on_ && left > 0; ++i) {
       Positions behind = all_behind();
       way_ = 1;
-      pass(behind, 1, false);
+      pass(behind, {1}, false);
       const double before = std::exchange(left, sum_left());
       if (!(before - left > least_gain * before))
         return;
