@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   Loop_desk<Scene> desk;
   Scene_feed feed;
   Loop_session session(loop, scene, &desk, &feed, nullptr); // nullptr: no log
-  Scene_copy shown(scene.mesh.num_vertices() + 16, scene.mesh.num_faces() + 32);
+  Copy_task<Scene> copying(scene.mesh.num_vertices() + 16, scene.mesh.num_faces() + 32);
 
   std::atomic<bool> ends{false};
   std::thread loop_thread([&] {
@@ -54,12 +54,13 @@ int main(int argc, char** argv) {
 
   // From here on this is the window's thread.
   Loop_command<Scene> copy;
-  copy.kind = Loop_command<Scene>::Kind::copy, copy.copy = &shown;
+  copy.kind = Loop_command<Scene>::Kind::task, copy.task = &copying;
   desk.ask(copy);
   Loop_answer<Scene> answer;
   while (!desk.take(answer)) // the hand goes on meanwhile
     std::this_thread::yield();
-  bool is_good = answer.done, has_moved = false;
+  Scene_copy& shown = copying.copy;
+  bool is_good = shown.is_whole(), has_moved = false;
   const auto follow = [&] { // what has changed since
     for (Scene_change change; feed.take(change);) // the window's thread
       if (change.number > shown.number)
