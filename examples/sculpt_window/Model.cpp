@@ -17,7 +17,7 @@ Model::Model(const std::string& path_given, const std::string& log_given)
     : Scene(
           read_surface<Mesh>(path_given),
           [](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
-            return Mouse::map_for((upper - lower).norm());
+            return Mouse::map_for((upper - lower).stableNorm());
           },
           edits, moves, parameters::known_valid(true))
     , path(path_given)

@@ -114,7 +114,7 @@ struct Model : Scene {
     return change;
   }
 
-  double extent() const { return (upper - lower).norm(); }
+  double extent() const { return (upper - lower).stableNorm(); }
 };
 
 } // namespace haptic_sculpt::window_program

@@ -141,12 +141,12 @@ private:
   }
 
   /// In front of the surface, nearer to it than the eye.
-  bool take_probe(const Scene& scene, Tool_type& tool, const Hit& hit) {
+  bool take_probe(Scene& scene, Tool_type& tool, const Hit& hit) {
     if (!hit)
       return refuse("there is nothing to touch: point at the surface");
     const Eigen::Vector3d aim = internal::vector_of(hit->point), back = vector(pointer_.from) - aim;
     const Eigen::Vector3d front =
-        aim + std::fmin(0.1 * (scene.upper - scene.lower).norm(), 0.5 * back.norm()) * back.normalized();
+        aim + std::fmin(0.1 * static_cast<Model&>(scene).extent(), 0.5 * back.norm()) * back.normalized();
     if (!tool.take_probe(front))
       return refuse("there is no room for the probe in front of the surface");
     held.hold = Status::Hold::probe;

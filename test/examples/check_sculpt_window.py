@@ -5,6 +5,7 @@ import colorsys
 import json
 import math
 import os
+import resource
 import shutil
 import signal
 import struct
@@ -26,7 +27,7 @@ at = lambda name: os.path.join(folder, name)
 display = Display()
 
 
-def start(*arguments, script="", display=display.name):
+def start(*arguments, script="", display=display.name, disk=None):
     environment = dict(os.environ, LP_NUM_THREADS="1")
     environment.pop("DISPLAY", None)
     environment.pop("WAYLAND_DISPLAY", None)
@@ -34,11 +35,11 @@ def start(*arguments, script="", display=display.name):
         environment["DISPLAY"] = display
     path = write(at("script.txt"), script)
     return subprocess.Popen([WINDOW, *map(str, arguments), "--script", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env=environment, cwd=folder)
+                            env=environment, cwd=folder, preexec_fn=disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk))))
 
 
-def window(*arguments, script="", code=0, what="window", display=display.name):
-    process = start(*arguments, script=script, display=display)
+def window(*arguments, script="", code=0, what="window", display=display.name, disk=None):
+    process = start(*arguments, script=script, display=display, disk=disk)
     try:
         out, err = process.communicate(timeout=120)
     except subprocess.TimeoutExpired:
@@ -326,6 +327,17 @@ check(not os.path.exists(mesh + ".log"), "a log that was not asked for is gone o
 asked, unasked = read_png(at("asks.png"))[1], read_png(at("asks_not.png"))[1]
 changed = [(x, y) for y in range(900) for x in range(0, 3600, 3) if asked[y][x:x + 3] != unasked[y][x:x + 3]]
 check(len(changed) > 5000 and all(300 < x / 3 < 900 and 300 < y < 600 for x, y in changed), "unsaved work is asked about, in the middle")
+
+# A log that the disk does not take whole is told of; what there is of it is good.
+lines, err = window(BALL, "--log", at("full.log"), "--samples", 0, "--size", 300, 225, code=5, what="a full disk", disk=2500, script="""
+settle
+drag 150 110 170 90 60
+print
+quit
+""")
+check("full.log" in err and lines and lines[0]["edits"] > 0, f"a full disk: {err} {lines}")
+done = run(BALL, "--log", at("full.log"), "-o", at("again.off"))
+check(done.returncode == 0 and "blocked 0, " in done.stdout, f"the log on a full disk: {done.stderr}")
 
 # Refusals, errors, recordings.
 lines, _ = window(BALL, "--no-log", "--samples", 0, "--record", at("recorded.actions"), script=f"""

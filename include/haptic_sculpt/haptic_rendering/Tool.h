@@ -307,7 +307,7 @@ private:
     grab_.reset();
     touched_.reset();
     if (is_probe_placed_)
-      internal::put_probe(*sculptor_, probe_, place_of(probe_) + 4 * map_.scale() * away);
+      internal::put_probe(*sculptor_, probe_, internal::in_range(place_of(probe_) + 4 * map_.scale() * away));
     is_probe_placed_ = false;
   }
 

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/haptic_rendering/Workspace_map.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_teller.h>
+#include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
 #include <haptic_sculpt/sculpting.h>
 
 #include <limits>
@@ -66,7 +67,7 @@ private:
   }
   /// Far outside, so that it comes to the surface from outside wherever the hand begins.
   typename Mesh::Vertex_index add_probe() {
-    const Eigen::Vector3d far = upper + 8 * (upper - lower);
+    const Eigen::Vector3d far = internal::in_range(upper + 8 * (upper - lower));
     return mesh.add_vertex({far[0], far[1], far[2]});
   }
 };
