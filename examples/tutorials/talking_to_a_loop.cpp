@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One thread runs the haptic loop; another shows what it sculpts, asks it to undo, and has a copy to save.
+// One thread runs the haptic loop; another shows what it sculpts, looks, asks it to undo, and has a copy to save.
 #include <haptic_sculpt/haptic_rendering.h>
 #include <haptic_sculpt/surface.h>
 
@@ -25,6 +25,16 @@ struct Mouse {
     return reading;
   }
   void write_force(const Eigen::Vector3d&) {}
+};
+
+/// What the loop's thread is to do for another one: here it looks from above.
+struct Look : Loop_task<Scene> {
+  std::optional<Surface_hit<Mesh>> seen;
+  bool go_on(Scene& scene, Tool_type&) override {
+    const Eigen::Vector3d middle = 0.5 * (scene.lower + scene.upper), above = 2 * scene.upper - scene.lower;
+    seen = scene.sculptor.first_hit({middle[0], middle[1], above[2]}, {middle[0], middle[1], scene.lower[2]});
+    return true; // done; false: once more before the next tick
+  }
 };
 
 int main(int argc, char** argv) {
@@ -72,6 +82,15 @@ int main(int argc, char** argv) {
   const Mesh sculpted = shown.mesh<Mesh>(); // to be drawn, or saved
   std::cout << "the hand has " << (has_moved ? "sculpted" : "done nothing") << "; " << sculpted.number_of_faces()
             << " faces\n";
+
+  Look look;
+  Loop_command<Scene> looking;
+  looking.kind = Loop_command<Scene>::Kind::task, looking.task = &look;
+  desk.ask(looking);
+  while (!desk.take(answer)) // from here on `look` is this thread's again
+    std::this_thread::yield();
+  if (look.seen)
+    std::cout << "seen from above: a " << name_of(look.seen->feature) << " at " << look.seen->point << '\n';
 
   Loop_command<Scene> undo;
   undo.kind = Loop_command<Scene>::Kind::undo;
