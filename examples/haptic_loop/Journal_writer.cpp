@@ -29,6 +29,8 @@ Command command_of(const Journal_entry& entry) {
     return of_kind(Command::Kind::remove, 1, false);
   case Journal_entry::Kind::collapse:
     return of_kind(Command::Kind::collapse, 2, false);
+  case Journal_entry::Kind::flip:
+    return of_kind(Command::Kind::flip, 2, false);
   case Journal_entry::Kind::undo:
     return of_kind(Command::Kind::undo, 0, false);
   case Journal_entry::Kind::redo:

@@ -12,9 +12,6 @@ namespace haptic_sculpt::loop_program {
 /// The log of a run, if it is to have one: made again where it was left, then gone on with by a thread of its own.
 class Run_log {
 public:
-  /// What a kill may cost at most, s.
-  static constexpr double most_age = 0.1;
-
   /// Changes nothing yet. \param path empty: none \throw Foreign_log, Script_error, Write_error
   Run_log(const std::string& path, const std::string& mesh) {
     if (path.empty())
@@ -24,6 +21,14 @@ public:
   }
 
   bool has_edits() const { return file_ && file_->contents() && !file_->contents()->passes.empty(); }
+  /// How many were in it, directives not counted.
+  std::size_t number_of_edits() const {
+    std::size_t edits = 0;
+    if (file_ && file_->contents())
+      for (const sculpt_program::Command& command : file_->contents()->commands)
+        edits += command.kind < sculpt_program::Command::Kind::response;
+    return edits;
+  }
 
   /// Makes again what is in it. \return what people should know, or nothing
   template <class Scene>
@@ -34,8 +39,8 @@ public:
     return file_->contents()->unfinished.empty() ? "" : "the end of the log, of a tick that is not whole, was dropped";
   }
 
-  /// \param run what tells this run from others \param tick s
-  void begin(const std::string& run, double tick) {
+  /// \param run what tells this run from others \param most_age, entries_a_tick as of the Edit_journal
+  void begin(const std::string& run, std::uint64_t most_age, std::size_t entries_a_tick = 36) {
     if (!file_)
       return;
     run_ = sculpt_program::Sha256().add(run).digest();
@@ -45,7 +50,7 @@ public:
     file_->begin(settings);
     file_->begin_pass(run_, 0);
     file_->append_tick(file_->contents() ? settings.directives() : std::vector<sculpt_program::Command>(), 0);
-    journal_.emplace(static_cast<std::uint64_t>(std::fmax(2, most_age / tick)));
+    journal_.emplace(most_age, entries_a_tick);
     writer_.emplace(*file_, *journal_);
   }
 

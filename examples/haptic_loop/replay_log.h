@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_REPLAY_LOG_H
 
 #include "../sculpt/Log_text.h"
+#include "../sculpt/many_vertices_lines.h"
 
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
 
@@ -83,6 +84,12 @@ private:
       break;
     case Kind::delta:
       delta(c);
+      break;
+    case Kind::brush:
+      sculpt_program::carry_out_brush(sculptor_, c);
+      break;
+    case Kind::remesh:
+      sculpt_program::carry_out_remesh(sculptor_, c);
       break;
     default:
       sculptor_.release();

@@ -79,7 +79,8 @@ public:
     const Passivity_limits limits = limits_of(parameters, scene);
     const Device_pose<double> start = start_pose();
     Loop loop(scene.sculptor, scene.probe, device_, start, scene.map, parameters, limits);
-    log_->begin(recording_head(hash, settings_), tick_);
+    const double most_lost = 0.1; // by a kill, s
+    log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
     Session session(loop, scene, nullptr, nullptr, log_->journal());
     session_ = &session;
     Happenings happenings(scene.sculptor, scene.map.scale());

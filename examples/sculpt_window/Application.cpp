@@ -38,12 +38,14 @@ void Application::enter(Opened opened) {
   ++scene_;
   ask(request);
   say("opened " + path_);
-  if (resumed_ > 4) // the head of a log has four lines
+  if (resumed_ > 0)
     say("made " + std::to_string(resumed_) + " lines of " + log_ + " again");
+  if (!opened.note.empty())
+    say(opened.note);
 }
 
 bool Application::is_unsaved() const {
-  return is_saved_ ? status_.edits != saved_edits_ : status_.edits > 0 || resumed_ > 4;
+  return is_saved_ ? status_.edits != saved_edits_ : status_.edits > 0 || resumed_ > 0;
 }
 
 bool Application::keeps_log() const {
@@ -63,26 +65,35 @@ void Application::fail_to_write(const std::string& what) {
   has_failed_to_write_ = true;
 }
 
-void Application::ask(Request request) {
+void Application::ask(const Request& request) {
   waiting_.push_back(request);
-  ++last_asked_;
-  while (!waiting_.empty() && thread_.ask(waiting_.front()) != 0)
-    waiting_.pop_front();
+  ask_waiting();
   frames_due_ = 3;
+}
+
+void Application::ask_waiting() {
+  while (!waiting_.empty() && thread_.ask(waiting_.front()))
+    waiting_.pop_front();
+}
+
+Pointer Application::pointer_here() const {
+  Pointer pointer = view_.pointer_at(mouse_);
+  pointer.along_normal = is_along_normal_;
+  return pointer;
 }
 
 Request Application::request_here(Kind kind) const {
   Request request;
   request.kind = kind;
-  request.pointer = view_.pointer_at(mouse_);
-  request.pointer.along_normal = is_along_normal_;
-  request.tool = choices_.tool, request.brush = choices_.brush, request.depth = choices_.depth;
+  request.pointer = pointer_here();
+  request.tool = choices_.tool, request.brush = choices_.brush;
   request.response = choices_.response;
   return request;
 }
 
 void Application::point() {
-  ask(request_here(Kind::point));
+  thread_.point(pointer_here(), choices_.depth);
+  frames_due_ = 3;
 }
 
 void Application::on_move(double x, double y) {
@@ -115,8 +126,8 @@ void Application::on_press(int button, bool shift, bool ctrl, bool alt) {
   if (button == 0) {
     last_refusal_.clear();
     ask(request_here(Kind::press));
-  } else if (status_.pointed[0] != '\0') {
-    pivot_ = view_.camera().scaled(vector(status_.pointed_at));
+  } else if (status_.pointed.size > 0) {
+    pivot_ = view_.camera().scaled(vector(status_.pointed.at));
   }
 }
 
@@ -165,17 +176,19 @@ void Application::on_resize(int width, int height) {
   frames_due_ = 3;
 }
 
+void Application::leave(Model* model, bool keeps_log) {
+  if (const std::string failure = destroy(model, keeps_log); keeps_log && !failure.empty())
+    fail_to_write(failure);
+}
+
 void Application::take_reports() {
   for (Face_change change; thread_.take(change);)
     if (change.scene == scene_)
       view_.change(change), frames_due_ = 3;
   for (Report report; thread_.take(report);) {
     switch (report.kind) {
-    case Report::Kind::said:
-      say(report.text.data());
-      break;
     case Report::Kind::refused:
-      last_refusal_ = report.text.data();
+      last_refusal_ = report.text;
       say("refused: " + last_refusal_);
       break;
     case Report::Kind::left:
@@ -190,7 +203,7 @@ void Application::take_reports() {
     }
   }
   for (Model* const model : std::exchange(left_, {}))
-    destroy(model, keeps_log_); // another was opened
+    leave(model, keeps_log_); // another was opened
   try {
     if (auto opened = background_.take_opened())
       enter(std::move(*opened));
@@ -214,12 +227,13 @@ void Application::take_reports() {
 }
 
 void Application::step() {
-  while (!waiting_.empty() && thread_.ask(waiting_.front()) != 0)
-    waiting_.pop_front();
-  const Status::Hold before = status_.hold;
+  ask_waiting();
+  const Status before = status_;
   status_ = thread_.status();
-  if (status_.hold != Hold::nothing || before != Hold::nothing)
+  if (status_.hold != Hold::nothing || before.hold != Hold::nothing)
     frames_due_ = std::max(frames_due_, 2);
+  if (status_.waits_for_disk && !before.waits_for_disk)
+    say("the disk is behind with the log: the hand waits for it");
   take_reports();
   play();
 }

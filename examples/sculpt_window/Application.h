@@ -93,7 +93,6 @@ private:
   bool is_saved_ = false;                 ///< at least once
   std::deque<std::string> names_to_save_; ///< of copies that were asked for
   std::deque<Request> waiting_;           ///< requests that found the queue full
-  std::uint64_t last_asked_ = 0;
   std::vector<Model*> left_;
   bool keeps_log_ = true; ///< that of the mesh shown before
 
@@ -125,11 +124,14 @@ private:
   bool is_unsaved() const;
   /// Of the mesh that is shown: one that was asked for, or that has what nothing else has.
   bool keeps_log() const;
-  void ask(Request request);
+  void ask(const Request& request);
+  void ask_waiting();
+  Pointer pointer_here() const;
   Request request_here(Request::Kind kind) const;
   void point();
   void enter(Opened opened);
   void take_reports();
+  void leave(Model* model, bool keeps_log);
   void save(const std::string& path);
   void open(const std::string& path);
   void quit();

@@ -11,7 +11,6 @@
 
 #include <cstdarg>
 #include <iostream>
-#include <thread>
 
 namespace haptic_sculpt::window_program {
 namespace {
@@ -35,9 +34,8 @@ Eigen::Vector2d Application::pixel_of(const Spot& spot) const {
 }
 
 bool Application::is_settled() const {
-  return waiting_.empty() && status_.answered == last_asked_ && status_.dirty_faces == 0 &&
-         (status_.brush_left == 0 || status_.hold == Status::Hold::brush) && // in the hand it makes dab after dab
-         names_to_save_.empty() && !background_.is_opening() && !background_.is_saving();
+  return waiting_.empty() && thread_.is_idle() && status_.dirty_faces == 0 && names_to_save_.empty() &&
+         !background_.is_opening() && !background_.is_saving();
 }
 
 /// A drag that has not come to its end in a tick goes on in the next.
@@ -191,8 +189,8 @@ void Application::print_status() const {
                {"reached", s.reached},
                {"end", s.end},
                {"contacts", contacts},
-               {"pointed", s.pointed},
-               {"pointed_at", s.pointed_at},
+               {"pointed", s.pointed.feature},
+               {"pointed_at", s.pointed.at},
                {"vertices", s.vertices},
                {"faces", s.faces},
                {"undo", s.undo_steps},
@@ -241,17 +239,12 @@ void Application::note(const char* format, ...) {
 int Application::finish() {
   const Status last = status_;
   const bool keeps = keeps_log();
-  Request leave;
-  leave.kind = Request::Kind::enter;
-  ask(leave);
-  for (bool has_left = false; !has_left;) { // a tick or two
-    while (!waiting_.empty() && thread_.ask(waiting_.front()) != 0)
-      waiting_.pop_front();
-    for (Report report; thread_.take(report);)
-      if (report.kind == Report::Kind::left)
-        destroy(report.model, keeps), has_left = true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  for (const Request& request : waiting_)
+    if (request.model != nullptr)
+      destroy(request.model, keeps);
+  const std::vector<Model*> models = thread_.end();
+  for (Model* const model : models)
+    leave(model, model == models.back() ? keeps : keeps_log_);
   const Percentiles frames = summary_of(frames_), of_process = summary_of(frames_of_process_);
   const auto ms = [](std::uint64_t ns) { return double(ns) / 1e6; };
   std::printf("%llu frames: median %.2f ms, 99 %% within %.2f ms, longest %.2f ms (%.2f, %.2f, %.2f ms of all "

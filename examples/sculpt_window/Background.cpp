@@ -23,11 +23,11 @@ std::optional<Opened> Background::take_opened() {
   return opening_.get();
 }
 
-void Background::save(Scene_copy* copy, const std::string& path, std::uint64_t edits) {
+void Background::save(const Saved_copy& copy, const std::string& path, std::uint64_t edits) {
   saving_.push_back(std::async(std::launch::async, [=] {
     Saved saved{path, edits, {}, nullptr};
     try {
-      saved.lost = write_and_destroy(copy, path);
+      saved.lost = write_copy(*copy, path);
     } catch (...) { // handed on to the window's thread, which tells it
       saved.error = std::current_exception();
     }

@@ -24,7 +24,7 @@ public:
     std::string lost;        ///< what of an old file could not be kept
     std::exception_ptr error;
   };
-  void save(Scene_copy* copy, const std::string& path, std::uint64_t edits);
+  void save(const Saved_copy& copy, const std::string& path, std::uint64_t edits);
   bool is_saving() const { return !saving_.empty(); }
   /// What has been written by now, in order.
   std::optional<Saved> take_saved();

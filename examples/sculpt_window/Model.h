@@ -2,12 +2,11 @@
 #ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_MODEL_H
 #define HAPTIC_SCULPT_EXAMPLES_WINDOW_MODEL_H
 
-#include "Log_thread.h"
-#include "exchange.h"
+#include "Mouse.h"
 
-#include <haptic_sculpt/haptic_rendering/exchange/Scene_teller.h>
-#include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
-#include <haptic_sculpt/sculpting.h>
+#include "../haptic_loop/Run_log.h"
+
+#include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -38,6 +37,7 @@ public:
     if (next_ == waiting_.size())
       waiting_.clear(), next_ = 0;
   }
+  void clear() { is_dirty_.clear(), waiting_.clear(), next_ = 0; }
 
 private:
   std::vector<bool> is_dirty_;
@@ -45,50 +45,58 @@ private:
   std::size_t next_ = 0;
 };
 
-/// What the Sculptor tells: faces become dirty, moves are listed where a caller asks for them, and a copy under way
-/// (Scene_teller) follows.
+/// What the Sculptor tells besides what copies need: faces become dirty, ticks that change something are counted.
 struct Face_watch : Scene_teller<Mesh> {
-  struct Move {
-    Vertex_index vertex;
-    Kernel::Point_3 point;
-  };
-  const Mesh* mesh;
-  Dirty_faces* dirty;
-  std::vector<Move>* moves = nullptr;
+  Dirty_faces dirty;
+  std::uint64_t edits = 0; ///< ticks that changed the mesh
 
-  Face_watch(const Mesh& mesh, Dirty_faces& dirty)
-      : Scene_teller<Mesh>(mesh, Vertex_index()), mesh(&mesh), dirty(&dirty) {} // no vertex is a probe
+  Face_watch(const Mesh& mesh, Vertex_index probe) : Scene_teller<Mesh>(mesh, probe), mesh_(&mesh) {}
+
+  void end_tick() { edits += std::exchange(has_changed_, false); }
+  /// What was changed so far is known.
+  void forget() { dirty.clear(), edits = 0, has_changed_ = false; }
 
   void vertex_moved(Vertex_index v) {
     Scene_teller<Mesh>::vertex_moved(v);
-    for (const Face_index f : mesh->faces_around_target(mesh->halfedge(v)))
-      if (f.is_valid())
-        dirty->mark(f);
-    if (moves != nullptr)
-      moves->push_back({v, mesh->point(v)});
+    if (!is_probe(v))
+      for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
+        mark(f);
   }
   void face_dies(Face_index f) {
     Scene_teller<Mesh>::face_dies(f);
-    dirty->mark(f);
+    mark(f);
   }
   void face_created(Face_index f) {
     Scene_teller<Mesh>::face_created(f);
-    dirty->mark(f);
+    mark(f);
+  }
+
+private:
+  const Mesh* mesh_;
+  bool has_changed_ = false;
+
+  void mark(Face_index f) {
+    dirty.mark(f);
+    has_changed_ = true;
   }
 };
 
+using Scene = Loop_scene<Mesh, Face_watch>;
+
 /// A mesh, its Sculptor and its log. Made by a thread that may take its time, then the loop's alone.
-struct Model {
-  using Sculptor_type = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Face_watch>;
+struct Model : Scene {
+  /// Where a brush wants the vertices of a dab.
+  using Targets = Mesh::Property_map<Vertex_index, Kernel::Point_3>;
 
   std::string path;
-  Mesh mesh;
-  Eigen::Vector3d lower, upper; ///< the box of the mesh as it was opened
-  Dirty_faces dirty;
-  std::unique_ptr<Sculptor_type> sculptor;
-  std::unique_ptr<Log_thread> log; ///< none: not logged
-  std::uint64_t edits = 0;         ///< that changed the mesh
-  std::size_t resumed = 0;         ///< lines of the log that were there
+  std::string log_path; ///< empty: there is none
+  loop_program::Run_log log;
+  std::size_t resumed = 0; ///< edits of the log that were there
+  std::string note;        ///< for people: what of the log was not made again
+  Targets targets = mesh.add_property_map<Vertex_index, Kernel::Point_3>("v:target_of_brush").first;
+
+  /// \throw what reading meshes and logs throws
+  Model(const std::string& path, const std::string& log);
 
   Face_change face(std::uint32_t index) const {
     Face_change change;
@@ -106,15 +114,8 @@ struct Model {
     return change;
   }
 
-  double extent() const { return (upper - lower).norm(); }
+  double extent() const { return (upper - lower).stableNorm(); }
 };
-
-/// Reads, checks, and makes again what a log has of it. \param log its path; empty: none
-/// \throw what reading meshes and logs throws
-std::unique_ptr<Model> open_model(const std::string& path, const std::string& log);
-
-/// Writes by the rules of `sculpt -o`. \return what of an old file could not be kept \throw Write_error
-std::string write_copy(const Scene_copy& copy, const std::string& path);
 
 } // namespace haptic_sculpt::window_program
 

@@ -1,246 +1,261 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Sculpting_thread.h"
 
-#include "Hand.h"
+#include "Brush_task.h"
+#include "Loop_thread.h"
 
-#include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
+#include <haptic_sculpt/surface/write_surface.h>
 
-#include <cerrno>
-#include <cstring>
-#include <ctime>
+#include <functional>
 
 namespace haptic_sculpt::window_program {
-namespace {
 
-constexpr std::uint64_t tick_time = 1000000; // ns
-
-std::uint64_t now() {
-  timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<std::uint64_t>(time.tv_sec) * 1000000000u + static_cast<std::uint64_t>(time.tv_nsec);
-}
-void wait_until(std::uint64_t due) {
-  const timespec until{static_cast<std::time_t>(due / 1000000000u), static_cast<long>(due % 1000000000u)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR)
-    ;
-}
-
-Percentiles percentiles_of(const Tick_statistics& times) {
-  return {times.percentile(0.5), times.percentile(0.99), times.percentile(0.999), times.largest()};
-}
-
-} // namespace
+using Hold = Status::Hold;
 
 struct Sculpting_thread::Parts {
-  static constexpr std::size_t faces_a_tick = 1000;
-  static constexpr std::size_t copied_a_tick = 1000; ///< elements, about 30 microseconds
+  using Command = Loop_command<Scene>;
+  /// What is asked for, until it is answered.
+  struct Asked {
+    std::shared_ptr<Loop_task<Scene>> task;
+    std::function<bool(Report&)> tell; ///< what came of it; false: nothing that the window has to know
+  };
 
-  boost::lockfree::spsc_queue<Request> requests{1024};
-  boost::lockfree::spsc_queue<Face_change> changes{std::size_t(1) << 16};
-  boost::lockfree::spsc_queue<Report> reports{256};
-  Latest<Status> latest;
-  std::atomic<bool> ends{false};
-  // The window's:
-  std::uint64_t asked = 0;
-  std::uint32_t entered = 0;                           ///< models
-  std::size_t entered_vertices = 0, entered_faces = 0; ///< slots of the last of them
-
-  // The loop's:
-  Model* model = nullptr;
-  std::optional<Hand> hand;
-  Scene_copy* copying = nullptr; ///< under way
+  std::optional<Loop_thread> loop;
+  Mouse mouse;
+  std::vector<Asked> asked;
+  std::uint64_t answered = 0; ///< ticks before the last answer
   Status status;
-  Tick_statistics work, lateness;
-  std::thread thread;
+  Pointed pointed;
+  bool is_picking = false, is_pick_due = false; ///< another place, or maybe another face there
+  Brush_task* brush = nullptr;                  ///< in the hand
+  const Press* pressing = nullptr;              ///< asked for, and the button still down
+  std::size_t vertices = 0, faces = 0;          ///< slots of the model entered last
+  std::uint64_t failures = 0;                   ///< that were told
+  std::vector<Model*> models;                   ///< the loop's, in the order in which they are entered
 
-  void say(Report::Kind kind, const std::string& text) {
-    Report report;
-    report.kind = kind;
-    std::strncpy(report.text.data(), text.c_str(), report.text.size() - 1);
-    const std::size_t spare = 16; // for what must not be lost
-    if (reports.write_available() > spare)
-      reports.push(report); // else the window has 240 messages to show already
+  bool ask(Command::Kind kind) {
+    Command command;
+    command.kind = kind;
+    return loop->desk.ask(command);
+  }
+  template <class Task, class Tell>
+  bool ask(std::shared_ptr<Task> task, const Tell& tell) {
+    Command command;
+    command.kind = Command::Kind::task, command.task = task.get();
+    if (!loop->desk.ask(command))
+      return false;
+    Task* const raw = task.get();
+    asked.push_back({std::move(task), [raw, tell](Report& report) { return tell(*raw, report); }});
+    return true;
   }
 
-  void answer(const Request& request) {
-    if (request.kind == Request::Kind::enter)
-      enter(request.model);
-    else if (hand)
-      carry_out(request);
-    status.answered = request.number;
+  static bool tell_refusal(const Window_task& task, Report& report) {
+    report.text = task.refusal;
+    return !task.refusal.empty();
   }
 
-  void enter(Model* next) {
-    if (hand)
-      hand->let_go();
-    while (copying != nullptr) // what was asked for comes: nobody's hand is there to wait for the tick
-      copy_on();
-    hand.reset();
-    if (model != nullptr) {
-      Report report;
-      report.kind = Report::Kind::left, report.model = model;
-      reports.push(report);
+  bool enter(Model* model) {
+    vertices = model->mesh.num_vertices(), faces = model->mesh.num_faces();
+    const Workspace_map map = model->map; // from here on the model is the loop's
+    if (!loop) {
+      loop.emplace(model);
+    } else {
+      Command command;
+      command.kind = Command::Kind::enter, command.scene = model, command.journal = model->log.journal();
+      if (!loop->desk.ask(command))
+        return false;
     }
-    model = next;
-    status = Status();
-    status.scene = ++scenes;
-    if (model != nullptr)
-      hand.emplace(*model);
+    models.push_back(model);
+    let_go();
+    mouse.enter(map);
+    return true;
   }
-  std::uint32_t scenes = 0;
 
-  void carry_out(const Request& request) {
-    std::string refused;
-    switch (request.kind) {
-    case Request::Kind::point:
-      hand->point(request);
-      break;
-    case Request::Kind::press:
-      refused = hand->press(request);
-      break;
-    case Request::Kind::let_go:
-      hand->let_go();
-      break;
-    case Request::Kind::flip:
-      refused = hand->flip(request);
-      break;
-    case Request::Kind::collapse:
-      refused = hand->collapse(request);
-      break;
-    case Request::Kind::undo:
-      refused = hand->undo();
-      break;
-    case Request::Kind::redo:
-      refused = hand->redo();
-      break;
-    case Request::Kind::response:
-      model->sculptor->set_response(request.response == 0 ? Response::slide : Response::stop);
-      break;
-    case Request::Kind::copy:
-      copying = request.copy;
-      copying->begin();
-      model->sculptor->visitor().tell_to(copying);
-      break;
-    default:
-      break;
+  /// What the hand holds is the loop's to let go of; here nothing follows the mouse from now on.
+  void let_go() {
+    if (brush != nullptr)
+      brush->end();
+    brush = nullptr, pressing = nullptr;
+    mouse.let_go();
+    is_pick_due = true;
+  }
+
+  bool press(const Request& request) {
+    mouse.point(request.pointer);
+    mouse.press();
+    const Mouse_reading reading = mouse.reading(); // the handle is at home before anything is anchored to it
+    loop->mouse.put(reading);
+    if (request.tool == Tool::brush) {
+      const auto task = std::make_shared<Brush_task>(reading, request.brush, pointed.at, loop->reading());
+      if (!ask(task, [this](const Brush_task& done, Report& report) {
+            if (brush == &done)
+              brush = nullptr;
+            return tell_refusal(done, report);
+          }))
+        return false;
+      brush = task.get();
+      return true;
     }
-    if (!refused.empty())
-      say(Report::Kind::refused, refused);
+    const auto task = std::make_shared<Press>(reading, request.tool, loop->reading());
+    if (!ask(task, [this](const Press& done, Report& report) {
+          if (pressing == &done) {
+            pressing = nullptr;
+            mouse.take(done.held);
+            loop->mouse.put(mouse.reading());
+          }
+          return tell_refusal(done, report);
+        }))
+      return false;
+    pressing = task.get();
+    return true;
   }
 
-  /// A part of the copy under way. The hand goes on meanwhile, and what it changes is in the copy, too.
-  void copy_on() {
-    if (copying == nullptr || !copying->copy_some(*model->sculptor, Vertex_index(), copied_a_tick))
+  bool may_pick() const { return loop && brush == nullptr && pressing == nullptr && mouse.hold() != Hold::vertex; }
+  void pick() {
+    if (!is_pick_due || is_picking || !may_pick())
       return;
-    model->sculptor->visitor().tell_to(static_cast<Scene_copy*>(nullptr));
-    Report report;
-    report.kind = Report::Kind::copied, report.copy = std::exchange(copying, nullptr), report.edits = model->edits;
-    reports.push(report);
-  }
-
-  void tell_faces() {
-    for (std::size_t i = 0; i < faces_a_tick && model->dirty.size() > 0; ++i) {
-      Face_change change = model->face(model->dirty.front());
-      change.scene = status.scene;
-      if (!changes.push(change))
-        return; // told later, as it is then
-      model->dirty.pop();
-    }
-  }
-
-  void tick() {
-    for (Request request; requests.pop(request);) {
-      answer(request);
-      if (request.kind != Request::Kind::point)
-        break; // one edit a tick; of motions the last counts
-    }
-    if (!hand)
-      return;
-    hand->move();
-    copy_on();
-    tell_faces();
-    hand->tell(status);
-  }
-
-  void run() {
-    std::uint64_t due = now();
-    while (!ends) {
-      const std::uint64_t begin = now();
-      lateness.add(begin > due ? begin - due : 0);
-      try {
-        tick();
-      } catch (const Error& error) { // such as a target out of range: the mesh is as it was
-        say(Report::Kind::refused, error.what());
-        if (hand)
-          hand->let_go();
+    is_picking = ask(std::make_shared<Pick>(mouse.pointer()), [this](const Pick& done, Report&) {
+      is_picking = false;
+      pointed = done.pointed;
+      if (mouse.hold() == Hold::probe && pointed.size > 0) {
+        mouse.aim(pointed.at);
+        loop->mouse.put(mouse.reading());
       }
-      const std::uint64_t end = now();
-      work.add(end - begin);
-      ++status.ticks;
-      status.missed_by_work += end - begin > tick_time;
-      status.woken_late += begin > due + tick_time;
-      if (status.ticks % 256 == 1)
-        status.work = percentiles_of(work), status.lateness = percentiles_of(lateness);
-      latest.put(status);
-      due += tick_time;
-      if (due + 20 * tick_time < end)
-        due = end; // what was missed is not made up for
-      wait_until(due);
+      return false;
+    });
+    is_pick_due = !is_picking;
+  }
+
+  bool save() {
+    // While it is filled, and while this request waits, each tick may create a vertex, and two faces with it.
+    const std::size_t v = std::max(vertices, status.vertex_slots), f = std::max(faces, status.face_slots);
+    const std::size_t ticks = (v + f) / Save::copied_a_tick + 2048;
+    auto task = std::make_shared<Save>(v + ticks, f + 2 * ticks);
+    return ask(task, [weak = std::weak_ptr<Save>(task)](const Save& done, Report& report) {
+      report.kind = Report::Kind::copied, report.edits = done.edits;
+      report.copy = Saved_copy(weak.lock(), &done.copy);
+      return true;
+    });
+  }
+
+  /// \return whether the report has something to tell
+  bool take(const Loop_answer<Scene>& answer, Report& report) {
+    report = Report();
+    answered = answer.tick;
+    if (answer.task != nullptr) {
+      const auto found =
+          std::find_if(asked.begin(), asked.end(), [&](const Asked& a) { return a.task.get() == answer.task; });
+      const Asked done = std::move(*found);
+      asked.erase(found);
+      return done.tell(report);
     }
-    if (hand)
-      hand->let_go();
+    if (answer.left != nullptr) {
+      report.kind = Report::Kind::left, report.model = &static_cast<Model&>(*answer.left);
+      models.erase(std::find(models.begin(), models.end(), report.model));
+      return true;
+    }
+    if (answer.done)
+      return false;
+    report.text = (answer.kind == Command::Kind::undo ? "nothing is undone: " : "nothing is redone: ") +
+                  std::string(name_of(answer.reason));
+    return true;
   }
 };
 
-Sculpting_thread::Sculpting_thread() : parts_(std::make_unique<Parts>()) {
-  parts_->thread = std::thread([this] { parts_->run(); });
-}
+Sculpting_thread::Sculpting_thread() : parts_(std::make_unique<Parts>()) {}
 
 Sculpting_thread::~Sculpting_thread() {
-  parts_->ends = true;
-  parts_->thread.join();
-  delete parts_->copying;
-  parts_->hand.reset();
-  destroy(parts_->model, true);
+  for (Model* const model : end())
+    destroy(model, true);
 }
 
-std::uint64_t Sculpting_thread::ask(Request request) {
-  request.number = parts_->asked + 1;
-  std::unique_ptr<Scene_copy> copy;
-  if (request.kind == Request::Kind::copy) {
-    // While it is filled, and while this request waits, each tick may create a vertex, and two faces with it.
-    std::size_t vertices = parts_->entered_vertices, faces = parts_->entered_faces;
-    if (const Status& now = status(); now.scene == parts_->entered)
-      vertices = std::max(vertices, now.vertex_slots), faces = std::max(faces, now.face_slots);
-    const std::size_t ticks = (vertices + faces) / Parts::copied_a_tick + 2048;
-    copy = std::make_unique<Scene_copy>(vertices + ticks, faces + 2 * ticks);
-    request.copy = copy.get();
+bool Sculpting_thread::ask(const Request& request) {
+  using Kind = Request::Kind;
+  using Asked_kind = Parts::Command::Kind;
+  Parts& p = *parts_;
+  if (request.kind == Kind::enter)
+    return p.enter(request.model);
+  if (request.kind == Kind::copy)
+    return p.save();
+  p.let_go();
+  switch (request.kind) {
+  case Kind::press:
+    return p.press(request);
+  case Kind::flip:
+  case Kind::collapse:
+    return p.ask(std::make_shared<Edge_edit>(request.pointer, request.kind == Kind::flip), Parts::tell_refusal);
+  case Kind::response:
+    return p.ask(std::make_shared<Choose_response>(request.response == 0 ? Response::slide : Response::stop),
+                 Parts::tell_refusal);
+  case Kind::undo:
+    return p.ask(Asked_kind::undo);
+  case Kind::redo:
+    return p.ask(Asked_kind::redo);
+  default:
+    return p.ask(Asked_kind::let_go);
   }
-  Mesh::size_type vertices = 0, faces = 0; // of a model: once it is handed over it is the loop's
-  if (request.kind == Request::Kind::enter && request.model != nullptr)
-    vertices = request.model->mesh.num_vertices(), faces = request.model->mesh.num_faces();
-  if (!parts_->requests.push(request))
-    return 0;
-  copy.release();
-  if (request.kind == Request::Kind::enter)
-    ++parts_->entered, parts_->entered_vertices = vertices, parts_->entered_faces = faces;
-  return ++parts_->asked;
 }
+
+void Sculpting_thread::point(const Pointer& pointer, double depth) {
+  Parts& p = *parts_;
+  p.is_pick_due = true;
+  p.mouse.point(pointer), p.mouse.set_depth(depth);
+  if (p.loop)
+    p.loop->mouse.put(p.mouse.reading());
+  p.pick();
+}
+
 const Status& Sculpting_thread::status() {
-  return parts_->latest.get();
+  Parts& p = *parts_;
+  if (!p.loop)
+    return p.status;
+  p.status = p.loop->latest.get();
+  if (p.brush != nullptr) {
+    p.status.hold = Hold::brush, p.status.brush_left = p.brush->left();
+    p.status.pointed.at = p.brush->centre();
+  } else if (p.status.hold == Hold::nothing) {
+    p.status.pointed = p.pointed;
+  }
+  return p.status;
 }
+
 bool Sculpting_thread::take(Face_change& change) {
-  return parts_->changes.pop(change);
+  return parts_->loop && parts_->loop->changes.pop(change);
 }
+
 bool Sculpting_thread::take(Report& report) {
-  return parts_->reports.pop(report);
+  Parts& p = *parts_;
+  if (!p.loop)
+    return false;
+  for (Loop_answer<Scene> answer; p.loop->desk.take(answer);)
+    if (p.take(answer, report))
+      return true;
+  p.pick();
+  if (p.failures == p.status.failures)
+    return false;
+  p.failures = p.status.failures;
+  p.let_go();
+  report = Report();
+  report.text = p.status.failure.data();
+  return true;
+}
+
+bool Sculpting_thread::is_idle() const {
+  const Parts& p = *parts_;
+  return p.loop && p.loop->desk.waiting() == (p.brush != nullptr) && !(p.is_pick_due && p.may_pick()) &&
+         p.status.mouse == p.mouse.number() && p.status.made > p.answered;
+}
+
+std::vector<Model*> Sculpting_thread::end() {
+  parts_->loop.reset();
+  return std::exchange(parts_->models, {});
 }
 
 Opened open(const std::string& path, const std::string& log) {
-  std::unique_ptr<Model> model = open_model(path, log);
+  auto model = std::make_unique<Model>(path, log);
   Opened opened;
   opened.path = path, opened.log = log;
-  opened.resumed = model->resumed;
+  opened.resumed = model->resumed, opened.note = model->note;
   opened.faces.reserve(model->mesh.num_faces());
   for (std::uint32_t f = 0; f < model->mesh.num_faces(); ++f)
     opened.faces.push_back(model->face(f));
@@ -248,21 +263,19 @@ Opened open(const std::string& path, const std::string& log) {
   return opened;
 }
 
-void destroy(Model* model, bool keeps_log) {
-  if (model == nullptr)
-    return;
-  std::string log;
-  if (model->log) {
-    model->log->close();
-    log = keeps_log ? "" : model->log->path();
-  }
+std::string destroy(Model* model, bool keeps_log) {
+  model->log.finish();
+  const std::string failure = model->log.failure(), log = keeps_log ? "" : model->log_path;
   delete model;
   if (!log.empty())
     std::remove(log.c_str());
+  return failure;
 }
 
-std::string write_and_destroy(Scene_copy* copy, const std::string& path) {
-  return write_copy(*std::unique_ptr<Scene_copy>(copy), path);
+std::string write_copy(const Scene_copy& copy, const std::string& path) {
+  if (!copy.is_whole())
+    throw Error("the copy of the mesh, which was to be saved as '" + path + "', has no room for all of it; save again");
+  return write_surface(path, copy.mesh<Mesh>());
 }
 
 } // namespace haptic_sculpt::window_program

@@ -8,27 +8,46 @@
 #include <string>
 #include <vector>
 
+namespace haptic_sculpt {
+class Scene_copy;
+}
+
 namespace haptic_sculpt::window_program {
 
-/// The haptic loop: a thread of its own, a thousand ticks a second, the only one that touches the mesh it was given.
-///
-/// It never waits for the window: requests come through a bounded queue and are done at the begin of a tick; changed
-/// faces go back through a bounded ring, and what finds no room there stays dirty and is told later, as it is then; of
-/// the Status the newest counts. All functions but `run()` are the window's thread's.
+/// A copy of the mesh, to be written by any thread.
+using Saved_copy = std::shared_ptr<const Scene_copy>;
+
+/// What came of a request, where there is something to tell.
+struct Report {
+  enum class Kind : std::uint8_t { refused, left, copied };
+  Kind kind = Kind::refused;
+  std::string text;
+  Model* model = nullptr;
+  Saved_copy copy;
+  std::uint64_t edits = 0; ///< copied: Status::edits of that moment
+};
+
+/// The window's side of the haptic loop, which is a thread of its own, a thousand ticks a second, and the only one that
+/// touches the mesh it was given: the mouse, what is asked of the loop through its Loop_desk, and what comes back.
+/// Waits for nothing but the end.
 class Sculpting_thread {
 public:
   Sculpting_thread();
-  /// Ends the thread, and waits until the log is written.
   ~Sculpting_thread();
   Sculpting_thread(const Sculpting_thread&) = delete;
   Sculpting_thread& operator=(const Sculpting_thread&) = delete;
 
-  /// A copy is asked for once the one before has come. \return the number of the request; 0 if the queue is full: then
-  /// ask later
-  std::uint64_t ask(Request request);
+  /// The loop begins with the first model that is entered. \return false where the desk is full: then ask later
+  bool ask(const Request& request);
+  /// Where the mouse is, and by how much a probe is pressed in.
+  void point(const Pointer& pointer, double depth);
   const Status& status();
   bool take(Face_change& change);
   bool take(Report& report);
+  /// Whether all that was asked for is done and in status(); a brush in the hand makes dab after dab.
+  bool is_idle() const;
+  /// Ends the loop. \return all models that have not come back, the one that was asked for last at the end
+  std::vector<Model*> end();
 
 private:
   struct Parts;
@@ -39,7 +58,8 @@ private:
 struct Opened {
   Model* model = nullptr; ///< to be entered, or destroyed
   std::string path, log;
-  std::size_t resumed = 0;        ///< lines of the log that were made again
+  std::size_t resumed = 0;        ///< edits of the log that were made again
+  std::string note;               ///< for people: what of the log was not
   std::vector<Face_change> faces; ///< all, by index
 };
 
@@ -47,10 +67,11 @@ struct Opened {
 /// \throw what reading meshes and logs throws
 Opened open(const std::string& path, const std::string& log);
 /// Ends the log of a model, too. \param keeps_log false: the log is removed
-void destroy(Model* model, bool keeps_log);
+/// \return why the log does not hold all; empty if it does
+std::string destroy(Model* model, bool keeps_log);
 
-/// Writes a Report's copy and destroys it. \return what of an old file could not be kept \throw Write_error
-std::string write_and_destroy(Scene_copy* copy, const std::string& path);
+/// Writes by the rules of `sculpt -o`. \return what of an old file could not be kept \throw Write_error
+std::string write_copy(const Scene_copy& copy, const std::string& path);
 
 } // namespace haptic_sculpt::window_program
 

@@ -103,10 +103,10 @@ void Sculpture_view::draw(const Status& status, const Hand_marks& marks) {
 drawing::Scene Sculpture_view::marks_of(const Status& status, const Hand_marks& marks) const {
   using Hold = Status::Hold;
   drawing::Scene scene;
-  if (status.pointed[0] != '\0')
-    scene.balls.push_back({vector(status.pointed_at),
-                           status.pointed_size == 1 ? drawing::colors::orange : drawing::colors::blue,
-                           status.pointed_size == 1 ? 6. : 3.5});
+  if (status.pointed.size > 0)
+    scene.balls.push_back({vector(status.pointed.at),
+                           status.pointed.size == 1 ? drawing::colors::orange : drawing::colors::blue,
+                           status.pointed.size == 1 ? 6. : 3.5});
   const Eigen::Vector3d target = vector(status.target), proxy = vector(status.proxy), force = vector(status.force);
   if (status.hold == Hold::vertex || status.hold == Hold::probe) {
     if (!status.reached) {
@@ -132,9 +132,9 @@ drawing::Scene Sculpture_view::marks_of(const Status& status, const Hand_marks& 
       scene.arrows.push_back(
           {proxy, force, mark_colors::force, std::min(150.0, 70 + 80 * force.norm() / Force_limits().largest)});
   }
-  if (marks.shows_brush && (status.pointed[0] != '\0' || status.hold == Hold::brush)) {
+  if (marks.shows_brush && (status.pointed.size > 0 || status.hold == Hold::brush)) {
     // A circle across the view about where the mouse points, of the brush's size.
-    const Eigen::Vector3d centre = vector(status.pointed_at);
+    const Eigen::Vector3d centre = vector(status.pointed.at);
     const Eigen::Matrix3d axes = camera_->rotation();
     const int sides = 40;
     const auto at = [&](int i) -> Eigen::Vector3d {

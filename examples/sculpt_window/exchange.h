@@ -4,16 +4,15 @@
 
 /// \file
 /// What the window's thread and the loop's thread tell each other, all of it by value. Lengths are in the mesh's unit.
+/// Numbers of vertices are those of files and logs, where there is no probe.
+
+#include <haptic_sculpt/haptic_rendering/Pose_reading.h>
 
 #include <Eigen/Core>
 
 #include <array>
 #include <atomic>
 #include <cstdint>
-
-namespace haptic_sculpt {
-class Scene_copy;
-}
 
 namespace haptic_sculpt::window_program {
 
@@ -38,34 +37,36 @@ struct Pointer {
   bool along_normal = false; ///< a drag goes along the vertex's normal instead
 };
 
+/// Where the mouse's line meets the plane through p across the view.
+inline Eigen::Vector3d on_plane(const Pointer& pointer, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d from = vector(pointer.from), way = vector(pointer.to) - from, across = vector(pointer.view);
+  const double slope = way.dot(across);
+  return slope > 0 ? Eigen::Vector3d(from + (p - from).dot(across) / slope * way) : p;
+}
+
 struct Brush {
   Brush_kind kind = Brush_kind::inflate;
   double radius = 0;
   double strength = 0.5; ///< of what the brush can do in a dab, from -1 (the other way) to 1
 };
 
+/// What the device says: on its way to the loop the newest counts.
+struct Mouse_reading {
+  Pose_reading pose;
+  Pointer pointer;          ///< where a brush goes
+  std::uint64_t number = 0; ///< from 1
+  std::uint64_t press = 0;  ///< of the button, that it belongs to: the handle begins anew with each
+};
+
 /// What the window asks of the loop.
 struct Request {
-  enum class Kind : std::uint8_t { point, press, let_go, flip, collapse, undo, redo, response, copy, enter };
-  Kind kind = Kind::point;
-  std::uint64_t number = 0; ///< Status::answered tells when it was done
+  enum class Kind : std::uint8_t { press, let_go, flip, collapse, undo, redo, response, copy, enter };
+  Kind kind = Kind::press;
   Pointer pointer;
   Tool tool = Tool::drag;
   Brush brush;
-  double depth = 0;           ///< by how much a probe is pressed into what it points at
-  int response = 0;           ///< 0: slide, 1: stop
-  Model* model = nullptr;     ///< enter: it is the loop's until it comes back as Report::Kind::left
-  Scene_copy* copy = nullptr; ///< copy: the loop's until it comes back, filled, as Report::Kind::copied
-};
-
-/// What the loop tells besides its Status.
-struct Report {
-  enum class Kind : std::uint8_t { said, refused, left, copied };
-  Kind kind = Kind::said;
-  std::array<char, 200> text{};
-  Model* model = nullptr;
-  Scene_copy* copy = nullptr;
-  std::uint64_t edits = 0; ///< copied: Status::edits of that moment
+  int response = 0;       ///< 0: slide, 1: stop
+  Model* model = nullptr; ///< enter: it is the loop's until it comes back as Report::Kind::left
 };
 
 /// A face as it is now, or none at its index any more.
@@ -88,14 +89,24 @@ struct Percentiles {
   std::uint64_t p50 = 0, p99 = 0, p999 = 0, largest = 0; ///< ns
 };
 
+/// What the mouse points at.
+struct Pointed {
+  const char* feature = ""; ///< vertex, edge or face; empty: nothing
+  Place at{};
+  std::array<std::size_t, 3> names{};
+  int size = 0; ///< so many names
+};
+
 /// What there is to see, as of one tick.
 struct Status {
   enum class Hold : std::uint8_t { nothing, vertex, probe, brush };
   static constexpr int most_contacts = 8;
 
   std::uint32_t scene = 0;
-  std::uint64_t answered = 0; ///< the number of the last request that was done
   std::uint64_t ticks = 0, missed_by_work = 0, woken_late = 0;
+  std::uint64_t made = 0;      ///< ticks by the session: fewer where the disk stays behind
+  std::uint64_t mouse = 0;     ///< the number of the Mouse_reading that the last of them had
+  bool waits_for_disk = false; ///< until the log is written
   Percentiles work, lateness;
 
   Hold hold = Hold::nothing;
@@ -106,18 +117,17 @@ struct Status {
   const char* end = "";
   int contacts = 0; ///< shown: at most most_contacts
   std::array<Contact_view, most_contacts> contact{};
-
-  const char* pointed = ""; ///< vertex, edge or face; empty: nothing
-  Place pointed_at{};
-  std::array<std::size_t, 3> pointed_names{};
-  int pointed_size = 0;
+  Pointed pointed; ///< while nothing is held; else where a brush is
 
   std::size_t vertices = 0, faces = 0;
-  std::size_t vertex_slots = 0, face_slots = 0; ///< removed ones included
+  std::size_t vertex_slots = 0, face_slots = 0; ///< removed ones and the probe included
   std::size_t undo_steps = 0, redo_steps = 0;
-  std::uint64_t edits = 0;     ///< that changed the mesh, since it was entered; undo and redo count
+  std::uint64_t edits = 0;     ///< ticks that changed the mesh, since it was entered; undo and redo count
   std::size_t dirty_faces = 0; ///< not told yet
   std::size_t brush_left = 0;  ///< vertices of the dab under way
+
+  std::uint64_t failures = 0;      ///< ticks that ended by an error, and let go
+  std::array<char, 200> failure{}; ///< the last of them, for people
 };
 
 /// The newest value that one thread has given to another. Neither waits (a triple buffer).

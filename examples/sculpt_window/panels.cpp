@@ -95,11 +95,11 @@ void Application::draw_state() {
     }
   } else if (s.hold == Status::Hold::brush) {
     ImGui::Text("brush: %zu vertices to go", s.brush_left);
-  } else if (s.pointed[0] != '\0') {
+  } else if (s.pointed.size > 0) {
     std::string names;
-    for (int i = 0; i < s.pointed_size; ++i)
-      names += ' ' + std::to_string(s.pointed_names[std::size_t(i)]);
-    ImGui::Text("points at %s%s", s.pointed, names.c_str());
+    for (int i = 0; i < s.pointed.size; ++i)
+      names += ' ' + std::to_string(s.pointed.names[std::size_t(i)]);
+    ImGui::Text("points at %s%s", s.pointed.feature, names.c_str());
   } else {
     ImGui::TextUnformatted("points at nothing");
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One thread runs the haptic loop; another shows what it sculpts, asks it to undo, and has a copy to save.
+// One thread runs the haptic loop; another shows what it sculpts, looks, asks it to undo, and has a copy to save.
 #include <haptic_sculpt/haptic_rendering.h>
 #include <haptic_sculpt/surface.h>
 
@@ -27,6 +27,16 @@ struct Mouse {
   void write_force(const Eigen::Vector3d&) {}
 };
 
+/// What the loop's thread is to do for another one: here it looks from above.
+struct Look : Loop_task<Scene> {
+  std::optional<Surface_hit<Mesh>> seen;
+  bool go_on(Scene& scene, Tool_type&) override {
+    const Eigen::Vector3d middle = 0.5 * (scene.lower + scene.upper), above = 2 * scene.upper - scene.lower;
+    seen = scene.sculptor.first_hit({middle[0], middle[1], above[2]}, {middle[0], middle[1], scene.lower[2]});
+    return true; // done; false: once more before the next tick
+  }
+};
+
 int main(int argc, char** argv) {
   if (argc != 2)
     return std::cerr << "usage: talking_to_a_loop MESH\n", 2;
@@ -41,7 +51,7 @@ int main(int argc, char** argv) {
   Loop_desk<Scene> desk;
   Scene_feed feed;
   Loop_session session(loop, scene, &desk, &feed, nullptr); // nullptr: no log
-  Scene_copy shown(scene.mesh.num_vertices() + 16, scene.mesh.num_faces() + 32);
+  Copy_task<Scene> copying(scene.mesh.num_vertices() + 16, scene.mesh.num_faces() + 32);
 
   std::atomic<bool> ends{false};
   std::thread loop_thread([&] {
@@ -54,12 +64,13 @@ int main(int argc, char** argv) {
 
   // From here on this is the window's thread.
   Loop_command<Scene> copy;
-  copy.kind = Loop_command<Scene>::Kind::copy, copy.copy = &shown;
+  copy.kind = Loop_command<Scene>::Kind::task, copy.task = &copying;
   desk.ask(copy);
   Loop_answer<Scene> answer;
   while (!desk.take(answer)) // the hand goes on meanwhile
     std::this_thread::yield();
-  bool is_good = answer.done, has_moved = false;
+  Scene_copy& shown = copying.copy;
+  bool is_good = shown.is_whole(), has_moved = false;
   const auto follow = [&] { // what has changed since
     for (Scene_change change; feed.take(change);) // the window's thread
       if (change.number > shown.number)
@@ -71,6 +82,15 @@ int main(int argc, char** argv) {
   const Mesh sculpted = shown.mesh<Mesh>(); // to be drawn, or saved
   std::cout << "the hand has " << (has_moved ? "sculpted" : "done nothing") << "; " << sculpted.number_of_faces()
             << " faces\n";
+
+  Look look;
+  Loop_command<Scene> looking;
+  looking.kind = Loop_command<Scene>::Kind::task, looking.task = &look;
+  desk.ask(looking);
+  while (!desk.take(answer)) // from here on `look` is this thread's again
+    std::this_thread::yield();
+  if (look.seen)
+    std::cout << "seen from above: a " << name_of(look.seen->feature) << " at " << look.seen->point << '\n';
 
   Loop_command<Scene> undo;
   undo.kind = Loop_command<Scene>::Kind::undo;

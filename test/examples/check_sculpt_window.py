@@ -5,6 +5,7 @@ import colorsys
 import json
 import math
 import os
+import resource
 import shutil
 import signal
 import struct
@@ -26,7 +27,7 @@ at = lambda name: os.path.join(folder, name)
 display = Display()
 
 
-def start(*arguments, script="", display=display.name):
+def start(*arguments, script="", display=display.name, disk=None):
     environment = dict(os.environ, LP_NUM_THREADS="1")
     environment.pop("DISPLAY", None)
     environment.pop("WAYLAND_DISPLAY", None)
@@ -34,11 +35,11 @@ def start(*arguments, script="", display=display.name):
         environment["DISPLAY"] = display
     path = write(at("script.txt"), script)
     return subprocess.Popen([WINDOW, *map(str, arguments), "--script", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env=environment, cwd=folder)
+                            env=environment, cwd=folder, preexec_fn=disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk))))
 
 
-def window(*arguments, script="", code=0, what="window", display=display.name):
-    process = start(*arguments, script=script, display=display)
+def window(*arguments, script="", code=0, what="window", display=display.name, disk=None):
+    process = start(*arguments, script=script, display=display, disk=disk)
     try:
         out, err = process.communicate(timeout=120)
     except subprocess.TimeoutExpired:
@@ -243,8 +244,38 @@ for name, mesh in MESHES:
         check(report["uploaded"]["faces"] > 0 and report["uploaded"]["bytes"] < 108 * (report["uploaded"]["faces"] + 1100 + lines[0]["faces"] // 8),
               f"{name}: uploads: {report['uploaded']}")
 
-missing = {"drag", "insert_face", "remove", "flip", "collapse", "undo", "redo", "stroke", "end"} - made
+missing = {"drag", "insert_face", "flip", "collapse", "undo", "redo", "stroke", "end"} - made
 check(not missing, f"the logs have no line {missing}: {made}")
+
+# A removal is logged as the collapse that it was, whatever a probe near by has barred.
+lines, _ = window(cube, "--log", at("remove.log"), "--samples", 0, "--size", 300, 225, script=f"""
+view 0 1 -0.5
+tool remove
+click @0,0,1
+settle
+print
+tool probe
+move @0.5,0.5,1
+press left
+settle
+print
+release
+tool create
+drag @0.3,0.1,1 @0.3,0.1,1.5
+tool remove
+click @0.5,0.5,1
+settle
+print
+save {at("removed.off")}
+settle
+quit
+""", what="removals")
+check([(s["hold"], s["faces"], s["edits"] > 0, s["refused"]) for s in lines] ==
+      [("nothing", 190, True, ""), ("probe", 190, True, ""), ("nothing", 190, True, "")], f"what is removed is gone: {lines}")
+check([s["vertices"] for s in lines] == [97, 97, 97], f"a probe is not counted: {lines}")
+edits = [line.split()[0] for line in open(at("remove.log")) if line[0] != "#"]
+check(edits.count("collapse") == 2 and "remove" not in edits, f"the log of removals: {edits}")
+replayed(cube, at("remove.log"), at("removed.off"), "removals")
 
 # A log that sculpt has begun, also by remeshing, is gone on with.
 remeshed = at("remeshed.log")
@@ -296,6 +327,17 @@ check(not os.path.exists(mesh + ".log"), "a log that was not asked for is gone o
 asked, unasked = read_png(at("asks.png"))[1], read_png(at("asks_not.png"))[1]
 changed = [(x, y) for y in range(900) for x in range(0, 3600, 3) if asked[y][x:x + 3] != unasked[y][x:x + 3]]
 check(len(changed) > 5000 and all(300 < x / 3 < 900 and 300 < y < 600 for x, y in changed), "unsaved work is asked about, in the middle")
+
+# A log that the disk does not take whole is told of; what there is of it is good.
+lines, err = window(BALL, "--log", at("full.log"), "--samples", 0, "--size", 300, 225, code=5, what="a full disk", disk=2500, script="""
+settle
+drag 150 110 170 90 60
+print
+quit
+""")
+check("full.log" in err and lines and lines[0]["edits"] > 0, f"a full disk: {err} {lines}")
+done = run(BALL, "--log", at("full.log"), "-o", at("again.off"))
+check(done.returncode == 0 and "blocked 0, " in done.stdout, f"the log on a full disk: {done.stderr}")
 
 # Refusals, errors, recordings.
 lines, _ = window(BALL, "--no-log", "--samples", 0, "--record", at("recorded.actions"), script=f"""

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/haptic_rendering/Tool_step.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Tool_journal.h>
 #include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
+#include <haptic_sculpt/haptic_rendering/making_edits.h>
 
 namespace haptic_sculpt {
 
@@ -15,6 +16,8 @@ namespace haptic_sculpt {
 /// cannot be done is refused, and the mesh is as it was. Targets are anchored: at each change of what is held the
 /// target is where that is, so no force begins; the offset fades where nothing is touched. A vertex held, from the
 /// press of the button to its release, creation and removal included, is one stroke: one step of undo.
+///
+/// Beside the button, who has the loop's thread may hand it a vertex or the probe, begin a stroke, and make edits.
 template <class Sculptor>
 class Tool {
 public:
@@ -22,10 +25,9 @@ public:
   using Vertex_index = typename Mesh::Vertex_index; ///< of a vertex, or of the probe
   using Point = typename Mesh::Point;               ///< in the scene
   using Grab_type = typename Sculptor::Grab_type;   ///< what holds the vertex, or the probe
+  using Edited = typename Sculptor::Edited;         ///< what an edit gives
+  using Result = typename Sculptor::Result;         ///< what a drag gives
 
-  /// Nearer to an edge than this share of the face's altitude, a vertex is created on the edge: on the face it would
-  /// leave a sliver.
-  static constexpr double edge_share = 0.05;
   /// In free motion the offset of the target fades with this time, s.
   static constexpr double offset_time = 0.2;
 
@@ -48,16 +50,17 @@ public:
     if (!is_started_)
       start(hand);
     step.event = press(hand, button);
-    step.target = hand + offset_;
-    step.proxy = step.target;
-    if (!grab_) {
-      take_probe(hand);
-      step.target = step.proxy = hand + offset_;
-      if (!grab_)
-        return step;
-    }
-    take(drag_to(internal::point_of<Point>(step.target)), step);
-    if (step.reached && !held_)
+    if (grab_ && !is_anchored_)
+      anchor(grab_->vertex(), hand);
+    if (!grab_ && carries_probe_)
+      bring_probe(hand);
+    step.target = step.proxy = hand + offset_;
+    last_drag_.reset();
+    if (!grab_)
+      return step;
+    last_drag_ = drag_to(internal::point_of<Point>(step.target));
+    tell(*last_drag_, step);
+    if (step.reached && !held_ && carries_probe_)
       offset_ *= offset_share_;
     return step;
   }
@@ -68,20 +71,74 @@ public:
     grab_.reset();
     end_stroke();
     held_ = false, is_anchored_ = false;
+    last_drag_.reset();
+    if (!carries_probe_)
+      park_probe(last_push_);
   }
 
-  /// Lets go and does an edit that somebody else asks for: an undo or redo, a creation or removal. The probe is out of
-  /// its way meanwhile. \param wanted with `Sculptor::name()`s \pre its kind is one of these
-  typename Sculptor::Edited edit(const Journal_entry& wanted) {
+  /// \name Between two ticks
+  /// In the thread that calls move(). Each lets go first; what is taken is anchored at the next move(), and held until
+  /// the button is released or something lets go.
+  ///@{
+
+  /// Takes a vertex of the surface, as a press of the button would the nearest.
+  void take(Vertex_index v) {
+    let_go();
+    open_stroke();
+    hold(v, internal::vertex_normal(sculptor_->mesh(), v));
+  }
+  /// Makes a creation and takes the vertex, both in one stroke. \pre its kind is one of the creations
+  Edited create_and_take(const Journal_entry& wanted) {
+    let_go();
+    const Eigen::Vector3d probe = place_of(probe_), away = last_push_;
+    const bool was_placed = is_probe_placed_;
+    park_probe(away);
+    auto made = create(wanted);
+    if (made)
+      hold(*made.vertex, away);
+    else
+      is_probe_placed_ = was_placed && internal::put_probe(*sculptor_, probe_, probe);
+    return made;
+  }
+  /// Puts the probe somewhere, whatever is on the way, and takes it. \return false where that is not outside
+  bool take_probe(const Eigen::Vector3d& place) {
+    let_go();
+    is_started_ = true;
+    is_probe_placed_ = internal::put_probe(*sculptor_, probe_, place);
+    if (is_probe_placed_)
+      grab_.emplace(sculptor_->grab(probe_));
+    return is_probe_placed_;
+  }
+  /// Does an edit: an undo or redo, a creation, removal, collapse or flip. The probe is out of its way meanwhile.
+  /// \param wanted with `Sculptor::name()`s \pre its kind is one of these
+  Edited edit(const Journal_entry& wanted) {
+    let_go();
     const Eigen::Vector3d probe = place_of(probe_);
     const bool was_placed = is_probe_placed_;
-    let_go();
     park_probe(last_push_);
-    auto made = make(wanted);
+    auto made = internal::make_edit(*sculptor_, wanted);
     note(wanted, made);
     is_probe_placed_ = was_placed && internal::put_probe(*sculptor_, probe_, probe);
     return made;
   }
+  /// What move_many() does from here on is one step of undo, until something lets go.
+  void begin_stroke() {
+    let_go();
+    open_stroke();
+  }
+  /// Moves many vertices as near to their targets as straight ways lead (move_vertices()). A stroke under way goes on.
+  /// The Sculptor's visitor has to be a Scene_teller. \throw what move_vertices() throws
+  template <class Vertex_range, class Target_map>
+  Move_report move_many(const Vertex_range& vertices, const Target_map& targets) {
+    grab_.reset();
+    held_ = false, is_anchored_ = is_anchored_ && carries_probe_;
+    const internal::Journal_of_moves<Sculptor> moves(*sculptor_, journal_, moves_);
+    return move_vertices(*sculptor_, vertices, targets, Move_parameters().steps(false).slide(false));
+  }
+  /// At first the probe is in hand wherever no vertex is. false: only from take_probe() until something lets go, and
+  /// far away else.
+  void carry_probe(bool does) { carries_probe_ = does; }
+  ///@}
 
   /// Lets go, and begins anew in another scene.
   void enter(Sculptor& sculptor, Vertex_index probe, const Workspace_map& map) {
@@ -96,11 +153,14 @@ public:
   /// What is done from here on is told to it. nullptr: to none
   void keep_journal(Edit_journal* journal) { journal_.keep(journal); }
 
-  bool holds_vertex() const { return held_; } ///< one of the surface; the probe does not count
+  bool holds_vertex() const { return held_; }          ///< one of the surface; the probe does not count
+  bool holds_probe() const { return grab_ && !held_; } ///< the probe is what is dragged
   /// What is dragged: the vertex held, or the probe; null where there is none.
   Vertex_index vertex() const { return grab_ ? grab_->vertex() : Vertex_index(); }
   Vertex_index probe() const { return probe_; }      ///< the isolated vertex that was given
   const Tool_edits& edits() const { return edits_; } ///< of the button, in all scenes; edit() does not count
+  /// What the drag of the last move() came to; none where it made none.
+  const std::optional<Result>& last_drag() const { return last_drag_; }
   /// The push of the last contact, of length 1 in the scene; up where nothing was touched yet.
   const Eigen::Vector3d& last_push() const { return last_push_; }
 
@@ -110,7 +170,7 @@ private:
   Workspace_map map_;
   double reach_, offset_share_;
   std::optional<Grab_type> grab_;
-  bool held_ = false, is_started_ = false, is_anchored_ = false, is_probe_placed_ = false;
+  bool held_ = false, is_started_ = false, is_anchored_ = false, is_probe_placed_ = false, carries_probe_ = true;
   int button_ = 0;
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(), last_push_ = Eigen::Vector3d::UnitZ();
   std::optional<std::array<Vertex_index, 3>> touched_; ///< the face that the probe touches
@@ -119,8 +179,10 @@ private:
   std::optional<typename Sculptor::Stroke_type> stroke_;
   Tool_journal journal_;
   std::vector<Point> legs_;
+  std::vector<std::pair<Vertex_index, Point>> moves_; ///< of the last move_many()
+  std::optional<Result> last_drag_;
 
-  typename Sculptor::Result drag_to(const Point& target) {
+  Result drag_to(const Point& target) {
     if (!held_)
       return grab_->drag_to(target);
     const auto result = grab_->drag_to(target, legs_);
@@ -128,6 +190,10 @@ private:
     return result;
   }
 
+  void open_stroke() {
+    stroke_.emplace(sculptor_->stroke());
+    journal_.begin_stroke();
+  }
   void end_stroke() {
     if (stroke_)
       journal_.end_stroke();
@@ -135,7 +201,7 @@ private:
   }
 
   /// Where a probe is near, a removal may have taken another neighbour than it would without: that is said.
-  void note(Journal_entry wanted, const typename Sculptor::Edited& made) {
+  void note(Journal_entry wanted, const Edited& made) {
     if (!made)
       return;
     if (wanted.kind == Journal_entry::Kind::remove) {
@@ -145,34 +211,16 @@ private:
     journal_.add(wanted);
   }
 
-  typename Sculptor::Edited make(const Journal_entry& wanted) {
-    using Kind = Journal_entry::Kind;
-    const auto& v = wanted.vertices;
-    const Point p(wanted.point[0], wanted.point[1], wanted.point[2]);
-    switch (wanted.kind) {
-    case Kind::undo:
-      return sculptor_->undo();
-    case Kind::redo:
-      return sculptor_->redo();
-    case Kind::insert_on_face:
-      return sculptor_->insert_on_face(sculptor_->face_of(v[0], v[1], v[2]), p);
-    case Kind::insert_on_edge:
-      return sculptor_->insert_on_edge(sculptor_->edge_of(v[0], v[1]), p);
-    default:
-      return sculptor_->remove(sculptor_->vertex(v[0]));
-    }
-  }
-
   Eigen::Vector3d place_of(Vertex_index v) const { return internal::vector_of(sculptor_->mesh().point(v)); }
   void anchor(Vertex_index v, const Eigen::Vector3d& hand) { offset_ = place_of(v) - hand, is_anchored_ = true; }
 
   void start(const Eigen::Vector3d& hand) {
     is_started_ = true;
-    is_probe_placed_ = internal::put_probe(*sculptor_, probe_, hand);
+    is_probe_placed_ = carries_probe_ && internal::put_probe(*sculptor_, probe_, hand);
   }
 
   /// Without a vertex the probe is in hand, if it is anywhere.
-  void take_probe(const Eigen::Vector3d& hand) {
+  void bring_probe(const Eigen::Vector3d& hand) {
     if (!is_probe_placed_) {
       offset_.setZero();
       is_probe_placed_ = internal::put_probe(*sculptor_, probe_, hand);
@@ -184,8 +232,7 @@ private:
     grab_.emplace(sculptor_->grab(probe_));
   }
 
-  template <class Result>
-  void take(const Result& result, Tool_step& step) {
+  void tell(const Result& result, Tool_step& step) {
     step.proxy = internal::vector_of(result.position);
     step.reached = result.reached;
     step.end = result.end;
@@ -228,9 +275,8 @@ private:
     const Eigen::Vector3d probe = place_of(probe_);
     const Vertex_index nearest = internal::nearest_vertex(*sculptor_, is_probe_placed_ ? probe : hand, reach_);
     if (nearest.is_valid()) {
-      stroke_.emplace(sculptor_->stroke());
-      journal_.begin_stroke();
-      hold(nearest, hand, internal::vertex_normal(sculptor_->mesh(), nearest));
+      open_stroke();
+      hold(nearest, internal::vertex_normal(sculptor_->mesh(), nearest));
       return Tool_event::grabbed;
     }
     if (!touched_)
@@ -238,24 +284,22 @@ private:
     const auto face = *touched_;
     const Eigen::Vector3d away = last_push_;
     park_probe(away); // or it would stand where the new vertex is to be
-    Tool_event event = Tool_event::refused;
-    stroke_.emplace(sculptor_->stroke());
-    const auto made = create(face, probe, event);
-    if (made) {
-      hold(*made.vertex, hand, away);
-      return event;
+    const Journal_entry wanted = internal::creation_at(*sculptor_, face, probe);
+    if (const auto made = create(wanted)) {
+      hold(*made.vertex, away);
+      return wanted.kind == Journal_entry::Kind::insert_on_edge ? Tool_event::created_on_edge
+                                                                : Tool_event::created_on_face;
     }
-    stroke_.reset(); // nothing is in it
     is_probe_placed_ = internal::put_probe(*sculptor_, probe_, probe);
     touched_ = face;
     return Tool_event::refused;
   }
 
-  void hold(Vertex_index v, const Eigen::Vector3d& hand, const Eigen::Vector3d& away) {
+  /// From the next move() on.
+  void hold(Vertex_index v, const Eigen::Vector3d& away) {
     park_probe(away);
     grab_.emplace(sculptor_->grab(v));
-    held_ = true;
-    anchor(v, hand);
+    held_ = true, is_anchored_ = false;
   }
 
   /// Out of the way of what will be dragged.
@@ -263,32 +307,19 @@ private:
     grab_.reset();
     touched_.reset();
     if (is_probe_placed_)
-      internal::put_probe(*sculptor_, probe_, place_of(probe_) + 4 * map_.scale() * away);
+      internal::put_probe(*sculptor_, probe_, internal::in_range(place_of(probe_) + 4 * map_.scale() * away));
     is_probe_placed_ = false;
   }
 
-  /// On the face, or on the edge that is nearer than edge_share of the altitude over it.
-  typename Sculptor::Edited create(const std::array<Vertex_index, 3>& face, const Eigen::Vector3d& p,
-                                   Tool_event& event) {
-    Journal_entry wanted;
-    wanted.kind = Journal_entry::Kind::insert_on_face;
-    wanted.vertices = {sculptor_->name(face[0]), sculptor_->name(face[1]), sculptor_->name(face[2])};
-    wanted.point = {p[0], p[1], p[2]};
-    event = Tool_event::created_on_face;
-    const Eigen::Vector3d corners[3] = {place_of(face[0]), place_of(face[1]), place_of(face[2])};
-    const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    for (int i = 0; i < 3 && event == Tool_event::created_on_face; ++i) {
-      const Eigen::Vector3d &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
-      if ((b - a).cross(p - a).dot(normal) < edge_share * normal.squaredNorm()) {
-        event = Tool_event::created_on_edge;
-        wanted.kind = Journal_entry::Kind::insert_on_edge;
-        wanted.vertices = {wanted.vertices[(i + 1) % 3], wanted.vertices[(i + 2) % 3], 0};
-      }
-    }
-    auto made = make(wanted);
+  /// In a stroke that goes on, if it was made.
+  Edited create(const Journal_entry& wanted) {
+    stroke_.emplace(sculptor_->stroke());
+    auto made = internal::make_edit(*sculptor_, wanted);
     if (made) {
       journal_.begin_stroke();
       note(wanted, made);
+    } else {
+      stroke_.reset(); // nothing is in it
     }
     return made;
   }
@@ -327,7 +358,7 @@ private:
     Journal_entry wanted;
     wanted.kind = Journal_entry::Kind::remove;
     wanted.vertices = {sculptor_->name(v), 0, 0};
-    const auto made = make(wanted);
+    const auto made = internal::make_edit(*sculptor_, wanted);
     note(wanted, made);
     end_stroke();
     if (was_held)

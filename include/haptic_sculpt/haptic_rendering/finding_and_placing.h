@@ -21,6 +21,11 @@ Point point_of(const Eigen::Vector3d& v) {
   return Point(v[0], v[1], v[2]);
 }
 
+/// A place that is far away, no farther than coordinates go.
+inline Eigen::Vector3d in_range(const Eigen::Vector3d& p) {
+  return p.cwiseMax(-largest_coordinate).cwiseMin(largest_coordinate);
+}
+
 /// The vertex with faces that is nearest to p, not farther than `within`; the null index where there is none.
 template <class Sculptor>
 typename Sculptor::Vertex_index nearest_vertex(Sculptor& sculptor, const Eigen::Vector3d& p, double within) {

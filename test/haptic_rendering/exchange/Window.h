@@ -18,15 +18,15 @@ public:
   Window(Loop_desk<Scene>& desk, Scene_feed& feed, std::uint64_t seed) : desk_(desk), feed_(feed), random_(seed) {}
 
   std::size_t done = 0, refused = 0, copies = 0, left = 0;
-  std::unique_ptr<Scene_copy> shown;
-  bool is_current = false; ///< nothing was lost since the copy
+  Scene_copy* shown = nullptr; ///< of copy_
+  bool is_current = false;     ///< nothing was lost since the copy
 
   void ask_for_copy() {
     if (asked_)
       return;
-    asked_ = std::make_unique<Scene_copy>(4000, 8000);
+    asked_ = std::make_unique<Copy_task<Scene>>(4000, 8000);
     Command command;
-    command.kind = Command::Kind::copy, command.copy = asked_.get();
+    command.kind = Command::Kind::task, command.task = asked_.get();
     lost_at_copy_ = feed_.lost_changes();
     if (!desk_.ask(command))
       asked_.reset();
@@ -37,9 +37,15 @@ public:
     Command command;
     const auto vertex = random_() % 160;
     using Kind = Command::Kind;
-    constexpr Kind kinds[] = {Kind::undo, Kind::redo, Kind::remove, Kind::insert_on_face, Kind::let_go, Kind::undo};
-    command.kind = kinds[random_() % 6];
+    constexpr Kind kinds[] = {Kind::undo,   Kind::redo, Kind::remove, Kind::insert_on_face,
+                              Kind::let_go, Kind::undo, Kind::flip,   Kind::collapse};
+    command.kind = kinds[random_() % 8];
     command.vertices = {vertex, vertex + 1, vertex + 2};
+    if ((command.kind == Kind::flip || command.kind == Kind::collapse) && shown) {
+      const auto& f = shown->faces[random_() % 200];
+      if (f[0] != Scene_copy::no_corner)
+        command.vertices = {shown->names[f[0]], shown->names[f[1]], 0};
+    }
     if (command.kind == Kind::insert_on_face && shown) { // on a face that is seen; maybe it is gone by then
       const auto& f = shown->faces[random_() % 200];
       if (f[0] == Scene_copy::no_corner)
@@ -69,11 +75,13 @@ public:
     while (desk_.take(answer)) {
       ++(answer.done ? done : refused);
       left += answer.left != nullptr;
-      if (answer.copy == nullptr)
+      if (answer.task == nullptr)
         continue;
       ++copies;
-      BOOST_TEST(answer.done);
-      shown = std::move(asked_);
+      BOOST_TEST(answer.task == asked_.get());
+      copy_ = std::move(asked_);
+      shown = &copy_->copy;
+      BOOST_TEST(shown->is_whole());
       // What was lost before the last change in the copy does not matter; that of later ones is not known here.
       is_current = true;
       for (const Scene_change& c : later_) {
@@ -93,7 +101,7 @@ private:
   Loop_desk<Scene>& desk_;
   Scene_feed& feed_;
   std::mt19937_64 random_;
-  std::unique_ptr<Scene_copy> asked_;
+  std::unique_ptr<Copy_task<Scene>> asked_, copy_;
   std::vector<Scene_change> later_; ///< while a copy is on its way
   std::uint64_t lost_at_copy_ = 0;
 };

@@ -35,6 +35,9 @@ inline Surface made_again(Mesh mesh, const Entries& entries) {
       failed += !sculptor.collapse(h);
       break;
     }
+    case Kind::flip:
+      failed += !sculptor.flip(sculptor.edge_of(v[0], v[1]));
+      break;
     case Kind::remove: // is said as a collapse
       ++failed;
       break;

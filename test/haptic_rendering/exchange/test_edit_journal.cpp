@@ -74,12 +74,14 @@ BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_
   }
   { // too many: the tick that finds no room is not ended
     Edit_journal journal(100, 1);
+    BOOST_TEST(journal.room() == 102u);
     std::uint64_t tick = 0;
     for (; !journal.has_overrun(); ++tick) {
       for (int k = 0; k < 10; ++k)
         journal.add(move);
       journal.end_tick(tick);
     }
+    BOOST_TEST(journal.room() == 0u);
     std::uint64_t whole = 0, rest = 0;
     while (journal.take(taken)) {
       ++rest;

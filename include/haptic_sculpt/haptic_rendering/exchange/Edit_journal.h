@@ -15,12 +15,24 @@ namespace haptic_sculpt {
 /// one straight leg that was proven free, and a removal is the collapse that it was; so no contact, bound on work or
 /// probe plays a role in it.
 struct Journal_entry {
-  /// What was done. A move is that of the first of `vertices`, a collapse draws the first into the second; `stroke` and
-  /// `end` are about what is one step of undo; `tick` ends the entries of a tick.
-  enum class Kind : std::uint8_t { move, insert_on_face, insert_on_edge, remove, collapse, undo, redo, stroke, end, tick };
-  Kind kind = Kind::tick; ///< which of the members below count
+  /// What was done. A move is that of the first of `vertices`, a collapse draws the first into the second, a flip is of
+  /// the edge between them; `stroke` and `end` are about what is one step of undo; `tick` ends the entries of a tick.
+  enum class Kind : std::uint8_t {
+    move,
+    insert_on_face,
+    insert_on_edge,
+    remove,
+    collapse,
+    flip,
+    undo,
+    redo,
+    stroke,
+    end,
+    tick
+  };
+  Kind kind = Kind::tick;                  ///< which of the members below count
   std::array<std::uint64_t, 3> vertices{}; ///< `Sculptor::name()`s; of a tick: its number
-  std::array<double, 3> point{}; ///< in the scene: where a move leads, or a vertex is created
+  std::array<double, 3> point{};           ///< in the scene: where a move leads, or a vertex is created
 };
 
 /// What the loop's thread has done, on its way to the thread that writes it down. Bounded, without a lock; the entries
@@ -62,6 +74,8 @@ public:
   bool has_overrun() const { return has_overrun_; } ///< nothing more is taken: the run should end
   /// Entries that were not taken: all since the journal has overrun.
   std::uint64_t lost() const { return lost_; }
+  /// So many entries more find room: who would rather wait than overrun asks before a tick.
+  std::size_t room() const { return queue_.write_available(); }
   /// Ticks with entries that are not written yet.
   std::uint64_t waiting() const { return ended_ - taken_.load(std::memory_order_acquire); }
   std::uint64_t most_age() const { return most_age_; } ///< in ticks, as given

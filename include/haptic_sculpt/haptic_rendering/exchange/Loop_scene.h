@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/haptic_rendering/Workspace_map.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_teller.h>
+#include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
 #include <haptic_sculpt/sculpting.h>
 
 #include <limits>
@@ -12,11 +13,13 @@ namespace haptic_sculpt {
 
 /// A mesh with a probe, its Sculptor, and where it is for the hand: what a loop sculpts. Made by any thread, then given
 /// to the loop's.
-template <class Mesh_>
+///
+/// \tparam Visitor_ a Scene_teller, or derived from one and made from the same: what else is to be told of edits
+template <class Mesh_, class Visitor_ = Scene_teller<Mesh_>>
 struct Loop_scene {
   using Mesh = Mesh_; ///< a `CGAL::Surface_mesh`
   /// Tells viewers and copies of its edits.
-  using Sculptor_type = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Scene_teller<Mesh>>;
+  using Sculptor_type = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Visitor_>;
 
   Mesh mesh;                         ///< with the probe; to be changed through the Sculptor only
   Eigen::Vector3d lower,             ///< of the mesh's box as it came, without the probe
@@ -27,21 +30,30 @@ struct Loop_scene {
 
   /// \param map_of_box what gives a Workspace_map for the mesh's box: `(lower, upper)`
   /// \param edits, moves room that is made for so many (Sculptor::reserve)
+  /// \param options of the Sculptor; whether probes are recorded does not count
   /// \throw Invalid_surface and what else the Sculptor throws. Cost: that of validate()
   template <class Map_of_box>
-  Loop_scene(Mesh given, const Map_of_box& map_of_box, std::size_t edits = 1000, std::size_t moves = 100000)
+  Loop_scene(Mesh given, const Map_of_box& map_of_box, std::size_t edits = 1000, std::size_t moves = 100000,
+             const Sculptor_parameters& options = Sculptor_parameters())
       : mesh(std::move(given))
       , lower(corner_of_box(-1))
       , upper(corner_of_box(1))
       , probe(add_probe())
       // A hand moves the probe a thousand times a second: undo is for what it sculpts.
-      , sculptor(mesh, parameters::record_probes(false), Scene_teller<Mesh>(mesh, probe))
+      , sculptor(mesh, Sculptor_parameters(options).record_probes(false), Visitor_(mesh, probe))
       , map(map_of_box(lower, upper)) {
     sculptor.reserve(edits, moves);
   }
 
   /// Without the probe.
   std::size_t number_of_faces() const { return mesh.number_of_faces(); }
+  /// Without the probe.
+  std::size_t number_of_vertices() const { return mesh.number_of_vertices() - 1; }
+  /// The number that lasts of a vertex as files and logs have it, where there is no probe.
+  std::size_t number(typename Mesh::Vertex_index v) const {
+    const std::size_t name = sculptor.name(v);
+    return name - (name > sculptor.name(probe));
+  }
 
 private:
   Eigen::Vector3d corner_of_box(int sign) const {
@@ -55,7 +67,7 @@ private:
   }
   /// Far outside, so that it comes to the surface from outside wherever the hand begins.
   typename Mesh::Vertex_index add_probe() {
-    const Eigen::Vector3d far = upper + 8 * (upper - lower);
+    const Eigen::Vector3d far = internal::in_range(upper + 8 * (upper - lower));
     return mesh.add_vertex({far[0], far[1], far[2]});
   }
 };

@@ -47,7 +47,7 @@ struct Tick_view {
 };
 
 /// A way from the loop's thread to one viewer or logger, which never stops the loop: what finds no room is lost, and
-/// counted. Who sees that `lost_changes()` has grown asks for a new copy of the scene (Loop_command::Kind::copy).
+/// counted. Who sees that `lost_changes()` has grown asks for a new copy of the scene (Copy_task).
 class Scene_feed {
 public:
   /// \param changes, ticks room for so many that have not been taken; allocated here

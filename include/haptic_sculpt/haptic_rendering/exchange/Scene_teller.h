@@ -15,6 +15,8 @@ public:
   using Vertex_index = typename Mesh::Vertex_index; ///< of the mesh
   using Face_index = typename Mesh::Face_index;     ///< of the mesh
   using Kind = Scene_change::Kind;                  ///< of the changes told
+  /// Vertices and where they were moved to, one after the other.
+  using Moves = std::vector<std::pair<Vertex_index, typename Mesh::Point>>;
 
   /// Tells nobody at first. \param mesh refers to it; it must outlive this and its copies
   Scene_teller(const Mesh& mesh, Vertex_index probe) : mesh_(&mesh), probe_(probe) {}
@@ -22,11 +24,21 @@ public:
   /// To nobody: nullptr.
   void tell_to(Scene_feed* feed) { feed_ = feed; }
   void tell_to(Scene_copy* copy) { copy_ = copy; } ///< beside the feed; to none: nullptr
+  void tell_to(Moves* moves) { moves_ = moves; }   ///< moves are listed there, too; nowhere: nullptr
+
+  const Scene_feed* feed() const { return feed_; }            ///< that is told; none: nullptr
+  const Scene_copy* copy() const { return copy_; }            ///< that is told; none: nullptr
+  bool is_probe(Vertex_index v) const { return v == probe_; } ///< of which nothing is told
 
   /// \name What the Sculptor calls
   ///@{
 
-  void vertex_moved(Vertex_index v) { tell(Kind::vertex_moved, v); } ///< tells its new point
+  /// Tells its new point.
+  void vertex_moved(Vertex_index v) {
+    tell(Kind::vertex_moved, v);
+    if (moves_ != nullptr && v != probe_)
+      moves_->emplace_back(v, mesh_->point(v));
+  }
   /// Tells its point and the number that lasts.
   void vertex_created(Vertex_index v, std::size_t name) { tell(Kind::vertex_created, v, name); }
   void vertex_dies(Vertex_index v, std::size_t) { tell(Kind::vertex_dies, v); } ///< tells its index
@@ -40,6 +52,7 @@ private:
   Vertex_index probe_;
   Scene_feed* feed_ = nullptr;
   Scene_copy* copy_ = nullptr;
+  Moves* moves_ = nullptr;
 
   void tell(Kind kind, Vertex_index v, std::size_t name = 0) {
     if (v == probe_ || (feed_ == nullptr && copy_ == nullptr))

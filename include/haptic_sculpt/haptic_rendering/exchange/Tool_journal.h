@@ -32,14 +32,18 @@ public:
   /// A drag. \param path where the vertex was, and where after each leg
   template <class Points>
   void add_legs(std::uint64_t name, const Points& path) {
+    for (std::size_t k = 1; k < path.size(); ++k)
+      if (path[k] != path[k - 1])
+        add_move(name, path[k]);
+  }
+  /// One straight motion of a vertex.
+  template <class Point>
+  void add_move(std::uint64_t name, const Point& to) {
     Journal_entry entry;
     entry.kind = Kind::move;
-    for (std::size_t k = 1; k < path.size(); ++k)
-      if (path[k] != path[k - 1]) {
-        entry.vertices = {name, 0, 0};
-        entry.point = {path[k].x(), path[k].y(), path[k].z()};
-        add(entry);
-      }
+    entry.vertices = {name, 0, 0};
+    entry.point = {to.x(), to.y(), to.z()};
+    add(entry);
   }
 
 private:
@@ -53,6 +57,35 @@ private:
   }
 };
 
+namespace internal {
+
+/// Puts each move that a Sculptor makes as long as this lives into a journal. Its visitor is a Scene_teller.
+template <class Sculptor>
+class Journal_of_moves {
+public:
+  using Moves = std::vector<std::pair<typename Sculptor::Vertex_index, typename Sculptor::Point>>;
+
+  /// \param moves where they are listed meanwhile
+  Journal_of_moves(Sculptor& sculptor, Tool_journal& journal, Moves& moves)
+      : sculptor_(sculptor), journal_(journal), moves_(moves) {
+    moves.clear();
+    sculptor.visitor().tell_to(&moves);
+  }
+  ~Journal_of_moves() { // also where something was thrown half way
+    sculptor_.visitor().tell_to(static_cast<Moves*>(nullptr));
+    for (const auto& [v, p] : moves_)
+      journal_.add_move(sculptor_.name(v), p);
+  }
+  Journal_of_moves(const Journal_of_moves&) = delete;
+  Journal_of_moves& operator=(const Journal_of_moves&) = delete;
+
+private:
+  Sculptor& sculptor_;
+  Tool_journal& journal_;
+  Moves& moves_;
+};
+
+} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_LOOP_THREAD_H
+#define HAPTIC_SCULPT_EXAMPLES_WINDOW_LOOP_THREAD_H
+
+#include "Tasks.h"
+
+#include <haptic_sculpt/haptic_rendering/Pose_loop.h>
+#include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <thread>
+
+namespace haptic_sculpt::window_program {
+
+/// A thousand ticks a second of a Loop_session, and what it tells the window: changed faces through a bounded ring,
+/// where what finds no room stays dirty and is told later, as it is then; of the Status the newest counts.
+class Loop_thread {
+public:
+  /// \name For the window's thread
+  ///@{
+  Loop_desk<Scene> desk;
+  Latest<Mouse_reading> mouse;
+  Latest<Status> latest;
+  boost::lockfree::spsc_queue<Face_change> changes{std::size_t(1) << 16};
+
+  /// For tasks: what the mouse says in the tick under way.
+  const Mouse_reading& reading() const { return reading_; }
+
+  explicit Loop_thread(Model* first) : model_(first), thread_([this] { run(); }) {}
+  /// Lets go, and ends.
+  ~Loop_thread() {
+    ends_ = true;
+    thread_.join();
+  }
+  ///@}
+
+private:
+  using Loop = Pose_loop<Scene::Sculptor_type>;
+  using Session = Loop_session<Loop, Scene>;
+  static constexpr std::uint64_t tick_time = 1000000; // ns
+  static constexpr std::size_t faces_a_tick = 1000;
+  static constexpr std::size_t entries_a_tick = 4096; // of a journal: more than a tick makes
+
+  Model* model_;
+  std::atomic<bool> ends_{false};
+  Status status_;
+  Mouse_reading reading_;
+  Tick_statistics work_, lateness_;
+  std::thread thread_; ///< last: it uses the others
+
+  /// A mouse may jump, and dissipates nothing: it has no force.
+  static Pose_loop_parameters parameters() {
+    Pose_loop_parameters parameters;
+    parameters.speed = std::numeric_limits<double>::infinity();
+    return parameters;
+  }
+
+  static std::uint64_t now() {
+    timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return static_cast<std::uint64_t>(time.tv_sec) * 1000000000u + static_cast<std::uint64_t>(time.tv_nsec);
+  }
+  static void wait_until(std::uint64_t due) {
+    const timespec until{static_cast<std::time_t>(due / 1000000000u), static_cast<long>(due % 1000000000u)};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR)
+      ;
+  }
+  static Percentiles percentiles_of(const Tick_statistics& times) {
+    return {times.percentile(0.5), times.percentile(0.99), times.percentile(0.999), times.largest()};
+  }
+
+  void run() {
+    Loop loop(model_->sculptor, model_->probe, model_->map, parameters());
+    loop.tool().carry_probe(false);
+    Session session(loop, *model_, &desk, nullptr, model_->log.journal());
+    status_.scene = 1;
+    std::uint64_t due = now();
+    while (!ends_) {
+      const std::uint64_t begin = now();
+      lateness_.add(begin > due ? begin - due : 0);
+      try {
+        tick(session, loop);
+      } catch (const Error& error) { // such as a target out of range: the mesh is as it was
+        loop.tool().let_go();
+        ++status_.failures;
+        std::strncpy(status_.failure.data(), error.what(), status_.failure.size() - 1);
+      }
+      const std::uint64_t end = now();
+      work_.add(end - begin);
+      ++status_.ticks;
+      status_.missed_by_work += end - begin > tick_time;
+      status_.woken_late += begin > due + tick_time;
+      if (status_.ticks % 256 == 1)
+        status_.work = percentiles_of(work_), status_.lateness = percentiles_of(lateness_);
+      latest.put(status_);
+      due += tick_time;
+      if (due + 20 * tick_time < end)
+        due = end; // what was missed is not made up for
+      wait_until(due);
+    }
+    session.end();
+  }
+
+  void tick(Session& session, const Loop& loop) {
+    status_.waits_for_disk = !has_room(session);
+    if (status_.waits_for_disk)
+      return tell_faces(); // all stands still until the log is written
+    const Mouse_reading& newest = mouse.get();
+    if (newest.press == reading_.press || !loop.tool().vertex().is_valid())
+      reading_ = newest; // else what is held is yet to be let go of, and stays where it is
+    const Pose_tick& made = session.tick(reading_.pose);
+    if (&session.scene() != model_)
+      model_ = &static_cast<Model&>(session.scene()), ++status_.scene;
+    model_->sculptor.visitor().end_tick();
+    tell_faces();
+    tell(made, loop.tool());
+    status_.made = session.ticks(), status_.mouse = reading_.number;
+  }
+
+  static bool has_room(Session& session) {
+    const Edit_journal* const journal = session.journal();
+    return journal == nullptr ||
+           (journal->room() >= entries_a_tick && journal->age(session.ticks()) <= journal->most_age() / 2);
+  }
+
+  void tell_faces() {
+    Dirty_faces& dirty = model_->sculptor.visitor().dirty;
+    for (std::size_t i = 0; i < faces_a_tick && dirty.size() > 0; ++i) {
+      Face_change change = model_->face(dirty.front());
+      change.scene = status_.scene;
+      if (!changes.push(change))
+        return; // told later, as it is then
+      dirty.pop();
+    }
+  }
+
+  void tell(const Pose_tick& made, const Loop_task<Scene>::Tool_type& tool) {
+    const Model& model = *model_;
+    using Hold = Status::Hold;
+    status_.hold = tool.holds_vertex() ? Hold::vertex : tool.holds_probe() ? Hold::probe : Hold::nothing;
+    const bool pulls = status_.hold != Hold::nothing;
+    status_.vertex = tool.holds_vertex() ? model.number(tool.vertex()) : 0;
+    status_.target = place(made.tool.target), status_.proxy = place(made.tool.proxy);
+    status_.force = pulls ? place(made.force) : Place{}; // what fades after that is not felt
+    status_.reached = made.tool.reached;
+    status_.end = made.tool.end ? name_of(*made.tool.end) : "";
+    status_.contacts = 0;
+    if (tool.last_drag())
+      for (const auto& contact : tool.last_drag()->contacts) {
+        if (status_.contacts == Status::most_contacts || contact.kind == Contact_kind::delta)
+          break;
+        status_.contact[static_cast<std::size_t>(status_.contacts++)] = view_of(contact);
+      }
+    const auto& history = model.sculptor.history();
+    status_.undo_steps = history.number_of_undo_steps(), status_.redo_steps = history.number_of_redo_steps();
+    status_.vertices = model.number_of_vertices(), status_.faces = model.number_of_faces();
+    status_.vertex_slots = model.mesh.num_vertices(), status_.face_slots = model.mesh.num_faces();
+    status_.edits = model_->sculptor.visitor().edits;
+    status_.dirty_faces = model_->sculptor.visitor().dirty.size();
+  }
+
+  template <class Contact>
+  Contact_view view_of(const Contact& contact) const {
+    Contact_view view;
+    view.kind = name_of(contact.kind);
+    // Of the three vertices those that are the feature which is met: all, the edge's two, or the one.
+    const int first = contact.kind == Contact_kind::vertex_face ? 0 : contact.kind == Contact_kind::edge_edge ? 1 : 2;
+    view.still = 3 - first;
+    for (int i = 0; i < view.still; ++i) {
+      const Vertex_index v = contact.vertices[static_cast<std::size_t>(first + i)];
+      view.points[static_cast<std::size_t>(i)] = place(internal::vector_of(model_->mesh.point(v)));
+      view.names[static_cast<std::size_t>(i)] = model_->number(v);
+    }
+    view.normal = {contact.normal.x(), contact.normal.y(), contact.normal.z()};
+    return view;
+  }
+};
+
+} // namespace haptic_sculpt::window_program
+
+#endif

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_TASKS_H
+#define HAPTIC_SCULPT_EXAMPLES_WINDOW_TASKS_H
+
+#include "Model.h"
+
+#include <haptic_sculpt/haptic_rendering/exchange/Loop_session.h>
+
+#include <optional>
+#include <string>
+
+/// \file
+/// What the window has the loop's thread do between two ticks.
+
+namespace haptic_sculpt::window_program {
+
+using Hit = std::optional<Surface_hit<Mesh>>;
+
+/// A task of which people are told if it was refused.
+class Window_task : public Loop_task<Scene> {
+public:
+  std::string refusal; ///< why nothing was done; empty: it was
+
+  bool go_on(Scene& scene, Tool_type& tool) final {
+    try {
+      return work(scene, tool);
+    } catch (const Error& error) { // such as a target out of range: the mesh is as it was
+      refusal = error.what();
+      tool.let_go();
+      return true;
+    }
+  }
+
+protected:
+  virtual bool work(Scene& scene, Tool_type& tool) = 0;
+
+  static Kernel::Point_3 point(const Place& p) { return {p[0], p[1], p[2]}; }
+  static Hit hit_of(Scene& scene, const Pointer& pointer) {
+    if (pointer.from == pointer.to)
+      return std::nullopt;
+    return scene.sculptor.first_hit(point(pointer.from), point(pointer.to));
+  }
+  /// \return always true: it is done
+  bool refuse(const std::string& why) {
+    refusal = why;
+    return true;
+  }
+  bool refuse_unless(const Edit_result<Mesh>& made, const Scene& scene, const std::string& text) {
+    if (made)
+      return true;
+    refusal = text + name_of(made.refusal->reason);
+    for (const Vertex_index v : made.refusal->elements)
+      refusal += ' ' + std::to_string(scene.number(v));
+    return true;
+  }
+  static Journal_entry entry(const Scene& scene, Journal_entry::Kind kind, Vertex_index a, Vertex_index b) {
+    Journal_entry wanted;
+    wanted.kind = kind, wanted.vertices = {scene.sculptor.name(a), scene.sculptor.name(b), 0};
+    return wanted;
+  }
+};
+
+/// What a press of the button begins.
+class Press_task : public Window_task {
+protected:
+  /// \param press what the mouse said when the button was pressed \param now what it says in the tick, the loop's
+  Press_task(const Mouse_reading& press, const Mouse_reading& now)
+      : pointer_(press.pointer), press_(press.press), now_(&now) {}
+
+  Pointer pointer_; ///< of the press
+  /// Else the tick has begun before the handle was at home: what is taken now would be anchored elsewhere.
+  bool is_at_home() const { return now_->press >= press_; }
+  const Pointer& pointer_now() const { return now_->pointer; }
+
+private:
+  std::uint64_t press_;
+  const Mouse_reading* now_;
+};
+
+/// What of the surface the mouse points at.
+class Pick : public Window_task {
+public:
+  explicit Pick(const Pointer& pointer) : pointer_(pointer) {}
+  Pointed pointed;
+
+private:
+  Pointer pointer_;
+
+  bool work(Scene& scene, Tool_type&) override {
+    const Hit hit = hit_of(scene, pointer_);
+    if (!hit)
+      return true;
+    pointed.feature = name_of(hit->feature);
+    pointed.at = place(internal::vector_of(hit->point));
+    const auto add = [&](Vertex_index v) { pointed.names[static_cast<std::size_t>(pointed.size++)] = scene.number(v); };
+    if (hit->feature == Surface_feature::vertex)
+      add(hit->vertex);
+    else if (hit->feature == Surface_feature::edge)
+      add(scene.mesh.vertex(hit->edge, 0)), add(scene.mesh.vertex(hit->edge, 1));
+    else
+      for (const Vertex_index v : scene.mesh.vertices_around_face(scene.mesh.halfedge(hit->face)))
+        add(v);
+    return true;
+  }
+};
+
+/// The button is pressed with a tool other than a brush: takes, creates, removes.
+class Press : public Press_task {
+public:
+  Press(const Mouse_reading& press, Tool which, const Mouse_reading& now) : Press_task(press, now), which_(which) {}
+  Held held;
+
+private:
+  Tool which_;
+
+  bool work(Scene& scene, Tool_type& tool) override {
+    if (!is_at_home())
+      return false;
+    tool.let_go();
+    const Hit hit = hit_of(scene, pointer_);
+    if (which_ == Tool::probe)
+      return take_probe(scene, tool, hit);
+    if (!hit)
+      return refuse("there is nothing to take hold of: point at the surface");
+    const Vertex_index nearest = nearest_corner(scene.mesh, *hit);
+    if (which_ == Tool::remove)
+      return refuse_unless(tool.edit(entry(scene, Journal_entry::Kind::remove, nearest, nearest)), scene,
+                           "the vertex cannot be removed: ");
+    if (which_ == Tool::drag) {
+      tool.take(nearest);
+    } else {
+      if (hit->feature == Surface_feature::vertex)
+        return refuse("a vertex stands here already");
+      if (const auto made = tool.create_and_take(creation(scene, *hit)); !made)
+        return refuse_unless(made, scene, "no vertex can be created here: ");
+    }
+    held.hold = Status::Hold::vertex;
+    held.home = place(internal::vector_of(scene.mesh.point(tool.vertex())));
+    held.normal = place(internal::vertex_normal(scene.mesh, tool.vertex()));
+    return true;
+  }
+
+  /// In front of the surface, nearer to it than the eye.
+  bool take_probe(Scene& scene, Tool_type& tool, const Hit& hit) {
+    if (!hit)
+      return refuse("there is nothing to touch: point at the surface");
+    const Eigen::Vector3d aim = internal::vector_of(hit->point), back = vector(pointer_.from) - aim;
+    const Eigen::Vector3d front =
+        aim + std::fmin(0.1 * static_cast<Model&>(scene).extent(), 0.5 * back.norm()) * back.normalized();
+    if (!tool.take_probe(front))
+      return refuse("there is no room for the probe in front of the surface");
+    held.hold = Status::Hold::probe;
+    held.home = place(front), held.pressed = place(aim);
+    return true;
+  }
+
+  static Vertex_index nearest_corner(const Mesh& mesh, const Surface_hit<Mesh>& hit) {
+    if (hit.feature == Surface_feature::vertex)
+      return hit.vertex;
+    Vertex_index best;
+    for (const Vertex_index v : mesh.vertices_around_face(mesh.halfedge(hit.face)))
+      if (!best.is_valid() ||
+          CGAL::squared_distance(mesh.point(v), hit.point) < CGAL::squared_distance(mesh.point(best), hit.point))
+        best = v;
+    return best;
+  }
+
+  static Journal_entry creation(const Scene& scene, const Surface_hit<Mesh>& hit) {
+    const Mesh& mesh = scene.mesh;
+    const auto h = mesh.halfedge(hit.face);
+    Journal_entry wanted = internal::creation_at(
+        scene.sculptor, {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))}, internal::vector_of(hit.point));
+    if (hit.feature == Surface_feature::edge)
+      wanted.vertices = entry(scene, wanted.kind = Journal_entry::Kind::insert_on_edge, mesh.vertex(hit.edge, 0),
+                              mesh.vertex(hit.edge, 1))
+                            .vertices;
+    return wanted;
+  }
+};
+
+/// Flips the edge that the mouse points at, or collapses it, its nearer end into the other.
+class Edge_edit : public Window_task {
+public:
+  Edge_edit(const Pointer& pointer, bool flips) : pointer_(pointer), flips_(flips) {}
+
+private:
+  Pointer pointer_;
+  bool flips_;
+
+  bool work(Scene& scene, Tool_type& tool) override {
+    tool.let_go();
+    const auto h = pointed_edge(scene);
+    if (!h.is_valid())
+      return refuse("there is no edge here: point at one, on the surface");
+    const auto kind = flips_ ? Journal_entry::Kind::flip : Journal_entry::Kind::collapse;
+    return refuse_unless(tool.edit(entry(scene, kind, scene.mesh.source(h), scene.mesh.target(h))), scene,
+                         flips_ ? "the edge cannot be flipped: " : "the edge cannot be collapsed: ");
+  }
+
+  /// From the end that is nearer to where the mouse points. \return the null index where it points at none
+  Mesh::Halfedge_index pointed_edge(Scene& scene) const {
+    const Hit hit = hit_of(scene, pointer_);
+    if (!hit || hit->feature == Surface_feature::vertex)
+      return {};
+    const Mesh& mesh = scene.mesh;
+    const auto h = hit->feature == Surface_feature::edge ? mesh.halfedge(hit->edge) : nearest_edge(mesh, *hit);
+    return CGAL::squared_distance(mesh.point(mesh.target(h)), hit->point) <
+                   CGAL::squared_distance(mesh.point(mesh.source(h)), hit->point)
+               ? mesh.opposite(h)
+               : h;
+  }
+
+  /// Of the face that is met, in parts of the face's altitude on it.
+  static Mesh::Halfedge_index nearest_edge(const Mesh& mesh, const Surface_hit<Mesh>& hit) {
+    auto h = mesh.halfedge(hit.face), best = h;
+    double least = std::numeric_limits<double>::infinity();
+    const Eigen::Vector3d p = internal::vector_of(hit.point);
+    for (int i = 0; i < 3; ++i, h = mesh.next(h)) {
+      const Eigen::Vector3d a = internal::vector_of(mesh.point(mesh.source(h))),
+                            b = internal::vector_of(mesh.point(mesh.target(h))),
+                            c = internal::vector_of(mesh.point(mesh.target(mesh.next(h))));
+      const double height = (b - a).cross(p - a).norm() / (b - a).cross(c - a).norm();
+      if (height < least)
+        least = height, best = h;
+    }
+    return best;
+  }
+};
+
+/// Lets go, and what is blocked slides or stops from here on.
+class Choose_response : public Window_task {
+public:
+  explicit Choose_response(Response response) : response_(response) {}
+
+private:
+  Response response_;
+
+  bool work(Scene& scene, Tool_type& tool) override {
+    tool.let_go();
+    scene.sculptor.set_response(response_);
+    return true;
+  }
+};
+
+/// The mesh, to be saved.
+class Save : public Copy_task<Scene> {
+public:
+  using Copy_task<Scene>::Copy_task;
+  std::uint64_t edits = 0; ///< that are in it
+
+  bool go_on(Scene& scene, Tool_type& tool) override {
+    edits = scene.sculptor.visitor().edits;
+    return Copy_task<Scene>::go_on(scene, tool);
+  }
+};
+
+} // namespace haptic_sculpt::window_program
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COPY_TASK_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COPY_TASK_H
+
+#include <haptic_sculpt/haptic_rendering/exchange/Loop_desk.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_copy.h>
+
+namespace haptic_sculpt {
+
+/// Copies the mesh, to save it or to show it, some elements a tick, while the hand goes on. For one copy: the next one
+/// is another task.
+template <class Scene>
+class Copy_task : public Loop_task<Scene> {
+public:
+  using typename Loop_task<Scene>::Tool_type;
+  /// Elements, about 30 microseconds.
+  static constexpr std::size_t copied_a_tick = 1000;
+
+  /// Room as in Scene_copy: for what comes while it is under way, too.
+  Copy_task(std::size_t vertices, std::size_t faces) : copy(vertices, faces) {}
+
+  Scene_copy copy; ///< whole when the task is done, if there was room
+
+  /// A slice; where another copy is under way, none yet. Allocates nothing.
+  bool go_on(Scene& scene, Tool_type&) override {
+    auto& visitor = scene.sculptor.visitor();
+    if (visitor.copy() == nullptr) {
+      copy.begin();
+      visitor.tell_to(&copy);
+    }
+    if (visitor.copy() != &copy || !copy.copy_some(scene.sculptor, scene.probe, copied_a_tick))
+      return false;
+    visitor.tell_to(static_cast<Scene_copy*>(nullptr));
+    copy.number = visitor.feed() != nullptr ? visitor.feed()->number() : 0;
+    return true;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_DESK_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_DESK_H
+
+#include <haptic_sculpt/haptic_rendering/Tool.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
+
+namespace haptic_sculpt {
+
+/// Work of another thread that the loop's does between two ticks: to look at the mesh, to make several edits as one, or
+/// to do a slice of something a tick. Made and destroyed by the asking thread, which leaves it alone from the command
+/// to the answer, and finds in it then what came of it.
+template <class Scene>
+class Loop_task {
+public:
+  using Tool_type = Tool<typename Scene::Sculptor_type>; ///< what the hand does in the scene
+
+  virtual ~Loop_task() = default;
+  /// Called before each tick, until it says that it is done. The mesh is changed through the tool only, so that strokes
+  /// and journal stay right; a setting of the Sculptor may be changed while nothing is held. What it throws goes on to
+  /// the caller of the tick, and it is called again before the next. \return whether it is done
+  virtual bool go_on(Scene& scene, Tool_type& tool) = 0;
+};
+
+/// What another thread asks of the loop's.
+template <class Scene>
+struct Loop_command {
+  /// What is asked for.
+  enum class Kind : std::uint8_t {
+    let_go, ///< what the hand holds, until the button is pressed again
+    undo,   ///< a grab, from the button's press to its release, is one step
+    redo,
+    insert_on_face, ///< a vertex at `point` on the face of three `vertices`
+    insert_on_edge, ///< a vertex at `point` on the edge of the first two
+    remove,         ///< the first of `vertices`
+    collapse,       ///< of the edge between the first two: the first is drawn into the second
+    flip,           ///< of the edge between the first two
+    task,           ///< `task`; what is asked for later is done beside it
+    enter,          ///< `scene` in place of the one sculpted so far, which comes back, once no task is under way
+    restart         ///< after a fault
+  };
+  Kind kind = Kind::let_go;                ///< says which of the members below count
+  std::uint64_t ticket = 0;                ///< comes back with the answer
+  std::array<std::uint64_t, 3> vertices{}; ///< `Sculptor::name()`s
+  std::array<double, 3> point{};           ///< in the scene
+  Loop_task<Scene>* task = nullptr;        ///< the asking thread's; not to be touched until the answer
+  Scene* scene = nullptr;                  ///< from here on the loop's
+  Edit_journal* journal = nullptr; ///< of `scene`: a log is of one mesh. None is refused where one is kept so far
+};
+
+/// What came of it.
+template <class Scene>
+struct Loop_answer {
+  typename Loop_command<Scene>::Kind kind{}; ///< of the command
+  std::uint64_t ticket = 0,                  ///< of the command
+      tick = 0;                              ///< the first tick after it
+  bool done = false;                         ///< false: refused
+  Refusal_reason reason{};                   ///< where an edit was refused
+  std::uint64_t vertex = 0;                  ///< of an edit: the vertex that it says, `Sculptor::name()`
+  Loop_task<Scene>* task = nullptr;          ///< the asking thread's again
+  Scene* left = nullptr;                     ///< the asking thread's again, to be destroyed there
+};
+
+/// Between one thread that asks and the loop's: a queue of commands and one of answers. Bounded, without locks.
+template <class Scene>
+class Loop_desk {
+public:
+  /// \param room for so many commands whose answers have not been taken
+  explicit Loop_desk(std::size_t room = 256) : commands_(room), answers_(2 * room), room_(room) {}
+
+  /// \name The asking thread
+  ///@{
+
+  /// Asks for something; the answer is to be taken. \return false where the queue is full; take answers, and ask later
+  bool ask(const Loop_command<Scene>& command) {
+    if (asked_ - answered_ >= room_ || !commands_.push(command))
+      return false;
+    ++asked_;
+    return true;
+  }
+  /// Takes the next answer: in the order of the commands, but for tasks that take several ticks.
+  /// \return false where there is none yet
+  bool take(Loop_answer<Scene>& answer) { return answers_.pop(answer) && ++answered_ != 0; }
+  /// Commands whose answers have not been taken.
+  std::size_t waiting() const { return asked_ - answered_; }
+  ///@}
+
+  /// \name The loop's thread
+  ///@{
+
+  /// Takes the next command. \return false where there is none
+  bool take(Loop_command<Scene>& command) { return commands_.pop(command); }
+  void answer(const Loop_answer<Scene>& answer) { answers_.push(answer); } ///< there is room: see ask()
+  ///@}
+
+private:
+  boost::lockfree::spsc_queue<Loop_command<Scene>> commands_;
+  boost::lockfree::spsc_queue<Loop_answer<Scene>> answers_;
+  std::size_t room_, asked_ = 0, answered_ = 0; ///< of the asking thread
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a tool is asked for between two ticks, and that its journal makes all of it again.
+#include "haptic_rendering/exchange/made_again.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <random>
+
+using namespace haptic_sculpt;
+using namespace exchange_tests;
+
+namespace {
+
+const Mesh ball = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
+
+/// A tool without a button, and what it has done.
+struct Bench {
+  std::unique_ptr<Scene> scene = scene_of(2);
+  Tool<Scene::Sculptor_type> tool{scene->sculptor, scene->probe, map_of_tests, 0.01, 0.001};
+  Edit_journal journal{100000};
+  Bench() { tool.keep_journal(&journal); }
+
+  Vector3d place(Mesh::Vertex_index v) const { return internal::vector_of(scene->mesh.point(v)); }
+  Tool_step move(const Vector3d& hand) { return tool.move(map_of_tests.to_device(hand), 0); }
+  bool is_made_again() {
+    Entries entries;
+    for (Journal_entry entry; journal.take(entry);)
+      entries.push_back(entry);
+    return made_again(ball, entries) == surface_of(*scene, true);
+  }
+  Journal_entry entry(Journal_entry::Kind kind, std::size_t a, std::size_t b = 0) const {
+    Journal_entry wanted;
+    wanted.kind = kind, wanted.vertices = {a, b, 0};
+    return wanted;
+  }
+};
+
+BOOST_AUTO_TEST_CASE(a_vertex_that_is_taken_is_anchored_where_it_is_and_held_in_one_stroke) {
+  Bench bench;
+  const Mesh::Vertex_index v(17);
+  const Vector3d before = bench.place(v), hand(3, 1, 2);
+  bench.tool.carry_probe(false);
+  BOOST_TEST(bench.move(hand).reached);
+  BOOST_TEST(!bench.tool.vertex().is_valid());
+  bench.tool.take(v);
+  const Tool_step step = bench.move(hand);
+  BOOST_TEST(bench.tool.holds_vertex());
+  BOOST_TEST((step.target - before).norm() <= 1e-15);
+  for (int k = 1; k <= 100; ++k)
+    bench.move(hand + 0.004 * k * before);
+  BOOST_TEST((bench.place(v) - 1.4 * before).norm() <= 1e-12);
+  BOOST_TEST((bench.tool.last_drag() && bench.tool.last_drag()->reached));
+  const Tool_step blocked = bench.move(hand - 3 * before); // through all of the ball, and out on the other side
+  BOOST_TEST(!blocked.reached);
+  BOOST_TEST((bench.tool.last_drag() && !bench.tool.last_drag()->reached));
+  BOOST_TEST((internal::vector_of(bench.tool.last_drag()->position) == bench.place(v)));
+  bench.tool.let_go();
+  BOOST_TEST(!bench.tool.last_drag());
+  BOOST_TEST(!bench.tool.holds_vertex());
+  BOOST_TEST(bench.scene->sculptor.history().number_of_undo_steps() == 1u);
+  BOOST_TEST(bench.is_made_again());
+  BOOST_TEST(static_cast<bool>(bench.tool.edit(bench.entry(Journal_entry::Kind::undo, 0))));
+  BOOST_TEST((bench.place(v) == before));
+}
+
+BOOST_AUTO_TEST_CASE(a_probe_that_is_not_carried_is_in_hand_from_when_it_is_taken_until_something_lets_go) {
+  Bench bench;
+  bench.tool.carry_probe(false);
+  const Vector3d far = bench.place(bench.scene->probe), hand(0.3, 0, 0);
+  bench.move(hand);
+  BOOST_TEST((bench.place(bench.scene->probe) == far));
+  BOOST_TEST(!bench.tool.take_probe({0.1, 0, 0})); // inside
+  BOOST_TEST(!bench.move(hand).end);
+  BOOST_TEST(bench.tool.take_probe({0, 0, 1.5}));
+  for (int k = 0; k < 1000; ++k) // the offset does not fade
+    bench.move(hand);
+  BOOST_TEST(bench.tool.holds_probe());
+  BOOST_TEST((bench.place(bench.scene->probe) - Vector3d(0, 0, 1.5)).norm() <= 1e-15);
+  const Tool_step pressed = bench.move(hand - Vector3d(0, 0, 1));
+  BOOST_TEST(!pressed.reached);
+  BOOST_TEST(pressed.contacts > 0);
+  BOOST_TEST(bench.place(bench.scene->probe)[2] > 0.8);
+  bench.tool.let_go();
+  BOOST_TEST(!bench.tool.holds_probe());
+  BOOST_TEST(bench.place(bench.scene->probe).norm() > 50); // far away
+  bench.tool.carry_probe(true);
+  BOOST_TEST(bench.move({0, 0, 1.6}).reached);
+  BOOST_TEST((bench.place(bench.scene->probe) == Vector3d(0, 0, 1.6)));
+  BOOST_TEST(bench.scene->sculptor.history().number_of_undo_steps() == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_says) {
+  std::mt19937_64 random(5);
+  for (const bool carries : {true, false}) {
+    Bench bench;
+    bench.tool.carry_probe(carries);
+    const auto& sculptor = bench.scene->sculptor;
+    std::size_t done[4] = {};
+    for (int round = 0; round < 200; ++round) {
+      bench.move({0.4 * (round % 5), 1.3, 0.2});
+      const Mesh& mesh = bench.scene->mesh;
+      const Mesh::Face_index f(static_cast<Mesh::size_type>(random() % mesh.num_faces()));
+      if (mesh.is_removed(f))
+        continue;
+      const auto h = mesh.halfedge(f);
+      const std::size_t a = sculptor.name(mesh.source(h)), b = sculptor.name(mesh.target(h));
+      switch (random() % 4) {
+      case 0:
+        done[0] += static_cast<bool>(bench.tool.edit(bench.entry(Journal_entry::Kind::flip, a, b)));
+        break;
+      case 1:
+        done[1] += static_cast<bool>(bench.tool.edit(bench.entry(Journal_entry::Kind::collapse, a, b)));
+        break;
+      case 2: {
+        Journal_entry wanted = internal::creation_at(
+            sculptor, {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))},
+            (bench.place(mesh.source(h)) + bench.place(mesh.target(h)) + bench.place(mesh.target(mesh.next(h)))) / 3);
+        const auto made = bench.tool.create_and_take(wanted);
+        done[2] += static_cast<bool>(made);
+        BOOST_TEST(bench.tool.holds_vertex() == static_cast<bool>(made));
+        for (int k = 0; made && k < 5; ++k)
+          bench.move({0.4 * (round % 5), 1.3 + 0.01 * k, 0.2});
+        break;
+      }
+      default: { // two parts of a dab in one stroke, with a vertex in the middle that others hold back
+        std::map<Mesh::Vertex_index, Mesh::Point> places;
+        const boost::associative_property_map<decltype(places)> targets(places);
+        std::vector<Mesh::Vertex_index> vertices;
+        for (const auto v : mesh.vertices_around_target(h)) {
+          vertices.push_back(v);
+          places[v] = internal::point_of<Mesh::Point>((round % 3 == 0 ? -0.5 : 0.97) * bench.place(v));
+        }
+        const std::size_t steps = sculptor.history().number_of_undo_steps();
+        bench.tool.begin_stroke();
+        const Move_report first = bench.tool.move_many(std::vector(vertices.begin(), vertices.begin() + 2), targets);
+        const Move_report second = bench.tool.move_many(std::vector(vertices.begin() + 2, vertices.end()), targets);
+        bench.tool.let_go();
+        BOOST_TEST(sculptor.history().number_of_undo_steps() <= steps + 1);
+        done[3] += first.reached + second.reached;
+      }
+      }
+    }
+    bench.tool.let_go();
+    for (const std::size_t n : done)
+      BOOST_TEST(n >= 10u);
+    BOOST_TEST(bench.is_made_again());
+  }
+}
+
+} // namespace
