@@ -3,9 +3,8 @@
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_H
 
 #include <haptic_sculpt/haptic_rendering/Tool_step.h>
-#include <haptic_sculpt/haptic_rendering/exchange/Tool_journal.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Journaled_edits.h>
 #include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
-#include <haptic_sculpt/haptic_rendering/making_edits.h>
 
 namespace haptic_sculpt {
 
@@ -38,9 +37,7 @@ public:
       , map_(map)
       , reach_(reach * map.scale())
       , offset_share_(std::exp(-tick / offset_time))
-      , journal_(sculptor.name(probe)) {
-    legs_.reserve(most_legs);
-  }
+      , mesh_edits_(sculptor, probe) {}
 
   /// One tick: the button first, then the drag. Allocates nothing but what edits do; its work is that of the drag,
   /// bounded by the Sculptor. \throw what drags throw
@@ -58,7 +55,8 @@ public:
     last_drag_.reset();
     if (!grab_)
       return step;
-    last_drag_ = drag_to(internal::point_of<Point>(step.target));
+    const Point target = internal::point_of<Point>(step.target);
+    last_drag_ = held_ ? mesh_edits_.drag(*grab_, target) : grab_->drag_to(target);
     tell(*last_drag_, step);
     if (step.reached && !held_ && carries_probe_)
       offset_ *= offset_share_;
@@ -69,7 +67,7 @@ public:
   /// does nothing until it is pressed again.
   void let_go() {
     grab_.reset();
-    end_stroke();
+    mesh_edits_.end_stroke();
     held_ = false, is_anchored_ = false;
     last_drag_.reset();
     if (!carries_probe_)
@@ -83,8 +81,7 @@ public:
 
   /// Takes a vertex of the surface, as a press of the button would the nearest.
   void take(Vertex_index v) {
-    let_go();
-    open_stroke();
+    begin_stroke();
     hold(v, internal::vertex_normal(sculptor_->mesh(), v));
   }
   /// Makes a creation and takes the vertex, both in one stroke. \pre its kind is one of the creations
@@ -93,7 +90,7 @@ public:
     const Eigen::Vector3d probe = place_of(probe_), away = last_push_;
     const bool was_placed = is_probe_placed_;
     park_probe(away);
-    auto made = create(wanted);
+    auto made = mesh_edits_.make_in_stroke(wanted);
     if (made)
       hold(*made.vertex, away);
     else
@@ -116,15 +113,14 @@ public:
     const Eigen::Vector3d probe = place_of(probe_);
     const bool was_placed = is_probe_placed_;
     park_probe(last_push_);
-    auto made = internal::make_edit(*sculptor_, wanted);
-    note(wanted, made);
+    auto made = mesh_edits_.make(wanted);
     is_probe_placed_ = was_placed && internal::put_probe(*sculptor_, probe_, probe);
     return made;
   }
   /// What move_many() does from here on is one step of undo, until something lets go.
   void begin_stroke() {
     let_go();
-    open_stroke();
+    mesh_edits_.begin_stroke();
   }
   /// Moves many vertices as near to their targets as straight ways lead (move_vertices()). A stroke under way goes on.
   /// The Sculptor's visitor has to be a Scene_teller. \throw what move_vertices() throws
@@ -132,8 +128,7 @@ public:
   Move_report move_many(const Vertex_range& vertices, const Target_map& targets) {
     grab_.reset();
     held_ = false, is_anchored_ = is_anchored_ && carries_probe_;
-    const internal::Journal_of_moves<Sculptor> moves(*sculptor_, journal_, moves_);
-    return move_vertices(*sculptor_, vertices, targets, Move_parameters().steps(false).slide(false));
+    return mesh_edits_.move_many(vertices, targets);
   }
   /// At first the probe is in hand wherever no vertex is. false: only from take_probe() until something lets go, and
   /// far away else.
@@ -145,13 +140,13 @@ public:
     let_go();
     reach_ *= map.scale() / map_.scale();
     sculptor_ = &sculptor, probe_ = probe, map_ = map;
-    journal_ = Tool_journal(sculptor.name(probe));
+    mesh_edits_.enter(sculptor, probe);
     offset_.setZero(), last_push_ = Eigen::Vector3d::UnitZ(), touched_.reset();
     is_started_ = is_probe_placed_ = false;
   }
 
   /// What is done from here on is told to it. nullptr: to none
-  void keep_journal(Edit_journal* journal) { journal_.keep(journal); }
+  void keep_journal(Edit_journal* journal) { mesh_edits_.keep_journal(journal); }
 
   bool holds_vertex() const { return held_; }          ///< one of the surface; the probe does not count
   bool holds_probe() const { return grab_ && !held_; } ///< the probe is what is dragged
@@ -175,41 +170,8 @@ private:
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(), last_push_ = Eigen::Vector3d::UnitZ();
   std::optional<std::array<Vertex_index, 3>> touched_; ///< the face that the probe touches
   Tool_edits edits_;
-  static constexpr std::size_t most_legs = 64; ///< of a drag, and more: room that is made for them
-  std::optional<typename Sculptor::Stroke_type> stroke_;
-  Tool_journal journal_;
-  std::vector<Point> legs_;
-  std::vector<std::pair<Vertex_index, Point>> moves_; ///< of the last move_many()
+  Journaled_edits<Sculptor> mesh_edits_;
   std::optional<Result> last_drag_;
-
-  Result drag_to(const Point& target) {
-    if (!held_)
-      return grab_->drag_to(target);
-    const auto result = grab_->drag_to(target, legs_);
-    journal_.add_legs(sculptor_->name(grab_->vertex()), legs_);
-    return result;
-  }
-
-  void open_stroke() {
-    stroke_.emplace(sculptor_->stroke());
-    journal_.begin_stroke();
-  }
-  void end_stroke() {
-    if (stroke_)
-      journal_.end_stroke();
-    stroke_.reset();
-  }
-
-  /// Where a probe is near, a removal may have taken another neighbour than it would without: that is said.
-  void note(Journal_entry wanted, const Edited& made) {
-    if (!made)
-      return;
-    if (wanted.kind == Journal_entry::Kind::remove) {
-      wanted.kind = Journal_entry::Kind::collapse;
-      wanted.vertices[1] = sculptor_->name(*made.vertex);
-    }
-    journal_.add(wanted);
-  }
 
   Eigen::Vector3d place_of(Vertex_index v) const { return internal::vector_of(sculptor_->mesh().point(v)); }
   void anchor(Vertex_index v, const Eigen::Vector3d& hand) { offset_ = place_of(v) - hand, is_anchored_ = true; }
@@ -275,7 +237,7 @@ private:
     const Eigen::Vector3d probe = place_of(probe_);
     const Vertex_index nearest = internal::nearest_vertex(*sculptor_, is_probe_placed_ ? probe : hand, reach_);
     if (nearest.is_valid()) {
-      open_stroke();
+      mesh_edits_.begin_stroke();
       hold(nearest, internal::vertex_normal(sculptor_->mesh(), nearest));
       return Tool_event::grabbed;
     }
@@ -285,7 +247,7 @@ private:
     const Eigen::Vector3d away = last_push_;
     park_probe(away); // or it would stand where the new vertex is to be
     const Journal_entry wanted = internal::creation_at(*sculptor_, face, probe);
-    if (const auto made = create(wanted)) {
+    if (const auto made = mesh_edits_.make_in_stroke(wanted)) {
       hold(*made.vertex, away);
       return wanted.kind == Journal_entry::Kind::insert_on_edge ? Tool_event::created_on_edge
                                                                 : Tool_event::created_on_face;
@@ -311,25 +273,12 @@ private:
     is_probe_placed_ = false;
   }
 
-  /// In a stroke that goes on, if it was made.
-  Edited create(const Journal_entry& wanted) {
-    stroke_.emplace(sculptor_->stroke());
-    auto made = internal::make_edit(*sculptor_, wanted);
-    if (made) {
-      journal_.begin_stroke();
-      note(wanted, made);
-    } else {
-      stroke_.reset(); // nothing is in it
-    }
-    return made;
-  }
-
   Tool_event release(const Eigen::Vector3d& hand) {
     const Vertex_index v = grab_->vertex();
     const Eigen::Vector3d place = place_of(v), away = internal::vertex_normal(sculptor_->mesh(), v);
     grab_.reset();
     held_ = false;
-    end_stroke();
+    mesh_edits_.end_stroke();
     put_probe_near(place, away, hand);
     return Tool_event::released;
   }
@@ -358,9 +307,8 @@ private:
     Journal_entry wanted;
     wanted.kind = Journal_entry::Kind::remove;
     wanted.vertices = {sculptor_->name(v), 0, 0};
-    const auto made = internal::make_edit(*sculptor_, wanted);
-    note(wanted, made);
-    end_stroke();
+    const auto made = mesh_edits_.make(wanted);
+    mesh_edits_.end_stroke();
     if (was_held)
       put_probe_near(place, away, hand);
     return made ? Tool_event::removed : Tool_event::refused;

@@ -2,12 +2,13 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_FINDING_AND_PLACING_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_FINDING_AND_PLACING_H
 
+#include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
 #include <haptic_sculpt/sculpting.h>
 
 #include <Eigen/Core>
 
 /// \file
-/// How the tool finds vertices and puts its probe somewhere, in the vectors of the device.
+/// How the tool finds vertices, puts its probe somewhere and says where it creates, in the vectors of the device.
 
 namespace haptic_sculpt {
 namespace internal {
@@ -66,6 +67,32 @@ Eigen::Vector3d vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
   for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(v), mesh))
     sum += (vector_of(mesh.point(mesh.target(mesh.next(h)))) - p).cross(vector_of(mesh.point(mesh.source(h))) - p);
   return sum.stableNormalized();
+}
+
+/// Nearer to an edge than this share of the face's altitude, a vertex is created on the edge: on the face it would
+/// leave a sliver.
+constexpr double edge_share = 0.05;
+
+/// A creation at p on the face of three corners, or on an edge of it that is near.
+template <class Sculptor>
+Journal_entry creation_at(const Sculptor& sculptor, const std::array<typename Sculptor::Vertex_index, 3>& face,
+                          const Eigen::Vector3d& p) {
+  Journal_entry wanted;
+  wanted.kind = Journal_entry::Kind::insert_on_face;
+  wanted.vertices = {sculptor.name(face[0]), sculptor.name(face[1]), sculptor.name(face[2])};
+  wanted.point = {p[0], p[1], p[2]};
+  const auto place_of = [&](int i) { return vector_of(sculptor.mesh().point(face[i])); };
+  const Eigen::Vector3d corners[3] = {place_of(0), place_of(1), place_of(2)};
+  const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
+    if ((b - a).cross(p - a).dot(normal) < edge_share * normal.squaredNorm()) {
+      wanted.kind = Journal_entry::Kind::insert_on_edge;
+      wanted.vertices = {wanted.vertices[(i + 1) % 3], wanted.vertices[(i + 2) % 3], 0};
+      break;
+    }
+  }
+  return wanted;
 }
 
 } // namespace internal

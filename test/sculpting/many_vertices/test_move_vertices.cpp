@@ -112,6 +112,26 @@ BOOST_AUTO_TEST_CASE(turns_take_few_drags_where_edges_are_short_beside_the_way) 
   }
 }
 
+BOOST_AUTO_TEST_CASE(small_meshes_of_long_faces_turn_about_axes_far_away) {
+  // Half of such a mesh is a few vertices, and a share of a hundredth of the way is many edges.
+  meshes::Triangle_list nested = meshes::box(1), inner = meshes::box(1);
+  inner.scale_and_move(0.8, 0.1, 0.1, 0.1);
+  inner.turn_inside_out();
+  nested += inner;
+  const Vector_3 axis(0.48, 0.6, 0.64);
+  for (const auto& [name, list] : {std::make_pair("torus of 9 vertices", meshes::torus(3, 3)), std::make_pair("cube in a cube", nested)})
+    for (const Point_3& centre : {Point_3(0, 0, 0), Point_3(3, -2, 1), Point_3(100, 30, -50)})
+      for (const double angle : {0.5, 1.3, 1.5707}) {
+        const auto turned = [&](const Mesh& m, Vertex_index v) {
+          const Vector_3 p = m.point(v) - centre;
+          return centre + (std::cos(angle) * p + std::sin(angle) * CGAL::cross_product(axis, p) +
+                           (1 - std::cos(angle)) * (axis * p) * axis);
+        };
+        const Move_report report = checked_run(name, meshes::to_mesh(list), turned);
+        BOOST_TEST(report.reached == report.asked, name << " by " << angle << " about " << centre);
+      }
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_arrive_stays_embedded_and_comes_nearer) {
   std::mt19937 random(7);
   BOOST_TEST_MESSAGE("seed 7");

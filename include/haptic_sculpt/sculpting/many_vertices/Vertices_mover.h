@@ -30,6 +30,7 @@ public:
   /// Fills in what the report tells of drags, `cancelled` and `out_of_work`.
   void run(Move_report& report) {
     report_ = &report;
+    asked_ = sum_left();
     const Response_scope scope(sculptor_, Response::stop, true);
     Positions behind = all_behind();
     // To be taken back if too many stay behind; else the log is of no use.
@@ -58,8 +59,9 @@ private:
     Coordinates before;
   };
 
-  /// Steps are not made shorter than this share of the way, nor than half the shortest edge of a vertex that moves.
-  static constexpr double least_step = 1.0 / 128;
+  /// Steps are not made shorter than this share of the way, nor than half the shortest edge of a vertex that moves,
+  /// unless all can be made with so many drags: small meshes, whose faces are long.
+  static constexpr double least_step = 1.0 / 128, affordable_drags = 50000;
   /// So many passes of slides are made when few are left.
   static constexpr int slide_passes_of_few = 3;
   /// A slide decides at most so many pairs: few need more, where parts lie close about each other, and these would take
@@ -68,11 +70,11 @@ private:
   /// One coordinate after the other is worth its three drags a vertex where it leaves no more than this share behind.
   static constexpr double axes_gain = 0.75;
   /// Another pass is made at the end while the last has gained more than this share of what was left, as a sum of
-  /// distances.
-  static constexpr double least_gain = 0.01;
+  /// distances, and more than this share of what was asked is left: to the origin there is no end of coming nearer.
+  static constexpr double least_gain = 0.01, least_left = 0x1p-100;
 
   /// So few of n do not stand in each other's way as a whole: what blocks them is local.
-  static std::size_t few(std::size_t n) { return 8 + n / 32; }
+  static std::size_t few(std::size_t n) { return 1 + n / 32; }
   /// So few of n may stay behind in a step where a shorter one may bring more along: those that do slide off their ways,
   /// and of a right angle that could arrive some never find back (doc/many_vertices.md).
   static std::size_t hardly_any(std::size_t n) { return n / 4096; }
@@ -85,7 +87,7 @@ private:
   bool tries_whole_;
   bool goes_on_ = true; ///< neither cancelled nor out of work
   std::size_t behind_ = 0;
-  double way_ = 1;
+  double way_ = 1, asked_ = 0; ///< a share; a sum of distances
 
   Coordinates place(Position k) const { return vertex_coordinates(sculptor_.mesh(), vertices_[k].vertex); }
   double distance_left(Position k) const { return distance(place(k), vertices_[k].target); }
@@ -243,13 +245,13 @@ private:
     std::size_t before = 0; // so many stayed behind in the step twice as long; 0: there was none
     for (int successes = 0; way < 1 && !going.empty();) {
       const double next = std::fmin(1, way + step);
-      const bool is_shortest = step <= shortest;
+      const bool is_shortest = step <= shortest, logs = is_first || !is_shortest;
       log_.clear();
-      Positions behind = step_to(going, next, by_axes && !is_shortest, !is_shortest);
+      Positions behind = step_to(going, next, by_axes && !is_shortest, logs);
       if (std::exchange(is_first, false) && behind.size() > hardly_any(going.size())) {
         take_back();
         const std::size_t straight = behind.size();
-        behind = step_to(going, next, true, !is_shortest);
+        behind = step_to(going, next, true, logs);
         by_axes = static_cast<double>(behind.size()) < axes_gain * static_cast<double>(straight);
       }
       if (!goes_on_)
@@ -303,7 +305,8 @@ private:
         for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v.vertex)))
           edge = std::fmin(edge, distance(vertex_coordinates(mesh, mesh.source(h)), v.source));
     }
-    return std::fmax(least_step, 0.5 * edge / way);
+    const double affordable = static_cast<double>(vertices_.size()) / affordable_drags;
+    return std::fmin(std::fmax(least_step, 0.5 * edge / way), affordable);
   }
 
   double sum_left() const {
@@ -325,7 +328,7 @@ private:
 
   void passes_to_the_end(int most_passes) {
     double left = sum_left();
-    for (int i = 0; i < most_passes && goes_on_ && left > 0; ++i) {
+    for (int i = 0; i < most_passes && goes_on_ && left > least_left * asked_; ++i) {
       Positions behind = all_behind();
       way_ = 1;
       pass(behind, {1}, false);
