@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#define CGAL_EIGEN3_ENABLED // CGAL asks for it before it solves by Eigen
+
 #include "guard_for_cgal/Comparison.h"
 
 #include <haptic_sculpt/sculpting/Allow_embedded_move.h>

@@ -76,6 +76,9 @@ std::optional<Timed_impact> check(const Traits& traits, const Sweep_query& query
   if (mpq_class(impact->exact_time()) != u)
     show("time " + mpq_class(impact->exact_time()).get_str() + ", oracle says " + u.get_str() + ": " +
            hexadecimal(query.kind, query.x), ++tally.wrong_times);
+  if (impact->is_at_start() != (u == 0))
+    show("whether it is at the start, oracle says " + u.get_str() + ": " + hexadecimal(query.kind, query.x),
+         ++tally.wrong_times);
   const std::pair<double, double> enclosure = impact->time();
   // an enclosure that is not much tighter than [0, 1] would be right and useless
   if (!(enclosure.first <= u && u <= enclosure.second && enclosure.second - enclosure.first <= 0x1p-40))

@@ -2,12 +2,11 @@
 // The coupling force against what geometry says: of a grabbed vertex whose edge or face is held, on convex edges and
 // facets, and in motion.
 #include "haptic_rendering/led_motion.h"
+#include "haptic_rendering/map_of_tests.h"
 
 using namespace haptic_rendering_tests;
 
 namespace {
-
-const Workspace_map map_of_tests(20, Vector3d(0.3, -0.2, 0.9), Vector3d(0.5, 0.5, 0.5), Vector3d(0, 0, 0.132));
 
 Vector3d force_of(const Tool_step& step) {
   return Virtual_coupling{stiffness, 0}.force(map_of_tests, step.proxy, step.target, step.reached);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The tool and the tick of the loop on meshes whose forces are known.
+#include "haptic_rendering/map_of_tests.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/haptic_rendering.h>
@@ -12,6 +13,7 @@
 #include <random>
 
 using namespace haptic_sculpt;
+using haptic_rendering_tests::map_of_tests;
 using Eigen::Vector3d;
 using Mesh = meshes::Mesh;
 
@@ -32,8 +34,6 @@ struct Cavity {
     probe = mesh.add_vertex(Mesh::Point(0.5, 0.5, 0.5));
   }
 };
-
-const Workspace_map map_of_tests(20, Vector3d(0.3, -0.2, 0.9), Vector3d(0.5, 0.5, 0.5), Vector3d(0, 0, 0.132));
 
 BOOST_AUTO_TEST_CASE(the_static_force_is_that_of_planes_concave_edges_and_corners) {
   Random random(1);

@@ -9,7 +9,7 @@ endfunction()
 function(configure consumer prefix)
   file(COPY ${CONSUMER_FOLDER}/${consumer} DESTINATION ${WORK_FOLDER})
   run(${CMAKE_COMMAND} -S ${WORK_FOLDER}/${consumer} -B ${WORK_FOLDER}/${consumer}/build -G ${GENERATOR}
-      -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} ${ARGN})
+      -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O0 -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} ${ARGN})
 endfunction()
 function(build_and_run consumer)
   run(${CMAKE_COMMAND} --build ${WORK_FOLDER}/${consumer}/build)

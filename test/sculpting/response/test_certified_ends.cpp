@@ -11,16 +11,16 @@ using namespace haptic_sculpt::test;
 
 namespace {
 
-struct Ends {
+struct End_counts {
   std::size_t drags = 0, certified = 0, missed = 0;
 };
 
 /// Grabs of two drags each, all kept, so that the scene is deformed more and more.
-Ends drag_and_certify(const Part_scene& scene, std::size_t drags, Random& random, Response response) {
+End_counts drag_and_certify(const Part_scene& scene, std::size_t drags, Random& random, Response response) {
   Mesh mesh = scene.mesh;
   Sculptor<Mesh> sculptor(mesh, parameters::response(response));
   End_certifier certifier(mesh);
-  Ends ends;
+  End_counts ends;
   while (ends.drags < drags) {
     const Vertex_index v = part_vertex(scene, mesh, random);
     auto grab = sculptor.grab(v);
@@ -43,12 +43,12 @@ Ends drag_and_certify(const Part_scene& scene, std::size_t drags, Random& random
   return ends;
 }
 
-Ends drag_in_all_families(Response response, std::size_t first, std::size_t last, std::size_t drags, Random& random) {
+End_counts drag_in_all_families(Response response, std::size_t first, std::size_t last, std::size_t drags, Random& random) {
   constexpr std::size_t per_scene = 20;
-  Ends all;
+  End_counts all;
   for (std::size_t done = 0; done < drags; done += per_scene)
     for (std::size_t family = first; family < last; ++family) {
-      const Ends ends = drag_and_certify(part_scene(family, random), per_scene, random, response);
+      const End_counts ends = drag_and_certify(part_scene(family, random), per_scene, random, response);
       all.drags += ends.drags, all.certified += ends.certified, all.missed += ends.missed;
     }
   BOOST_TEST_MESSAGE(all.drags << " drags, " << all.certified << " ends certified, " << all.missed << " missed");
@@ -59,7 +59,7 @@ Ends drag_in_all_families(Response response, std::size_t first, std::size_t last
 
 BOOST_AUTO_TEST_CASE(no_end_on_a_part_is_too_early) {
   Random random(seed_from_environment(801));
-  const Ends ends = drag_in_all_families(Response::slide, 0, first_near_degenerate_family,
+  const End_counts ends = drag_in_all_families(Response::slide, 0, first_near_degenerate_family,
                                          count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
   BOOST_TEST(ends.certified > 500u);
   BOOST_TEST(ends.missed <= 1 + ends.drags / 250); // doc/slide.md, "Measured"
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(no_end_on_a_part_is_too_early) {
 
 BOOST_AUTO_TEST_CASE(few_ends_on_near_degenerate_solids_are_too_early) {
   Random random(seed_from_environment(802));
-  const Ends ends = drag_in_all_families(Response::slide, first_near_degenerate_family, part_families().size(),
+  const End_counts ends = drag_in_all_families(Response::slide, first_near_degenerate_family, part_families().size(),
                                          count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
   BOOST_TEST(ends.certified > 250u);
   BOOST_TEST(ends.missed <= 1 + ends.drags / 50);
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(few_ends_on_near_degenerate_solids_are_too_early) {
 BOOST_AUTO_TEST_CASE(the_certificate_knows_an_end_that_is_too_early) {
   // A stop is hardly ever a minimum.
   Random random(seed_from_environment(803));
-  const Ends ends = drag_in_all_families(Response::stop, 0, first_near_degenerate_family, 20, random);
+  const End_counts ends = drag_in_all_families(Response::stop, 0, first_near_degenerate_family, 20, random);
   BOOST_TEST(3 * ends.missed > ends.certified);
 }
 
