@@ -23,13 +23,15 @@ public:
     for (int i = 0; i < 3; ++i) {
       extent = std::fmax(extent, std::fmax(a.upper[i] - a.lower[i], b.upper[i] - b.lower[i]));
       way = std::fmax(way, std::fmax(std::abs(b.lower[i] - a.lower[i]), std::abs(b.upper[i] - a.upper[i])));
+    }
+    is_long_ = way * until > extent;
+    for (int i = 0; i < 3 && is_long_; ++i) {
       restrict_time(i + 3, float_below(a.lower[i]), b.lower[i] - a.lower[i], true);
       restrict_time(i, float_above(a.upper[i]), b.upper[i] - a.upper[i], false);
     }
-    is_long_ = way * until > extent;
   }
 
-  /// Whether it is longer than the boxes are wide: else it is no thinner than a box around both.
+  /// Whether it is longer than the boxes are wide: else it is no thinner than a box around both, and everything here.
   bool is_long() const { return is_long_; }
 
   /// Bit j is 0 only if no box of the cone meets box j of the node.
