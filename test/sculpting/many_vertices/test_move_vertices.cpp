@@ -4,7 +4,7 @@
 
 #include <haptic_sculpt/sculpting/move_vertices.h>
 
-#include <numeric>
+#include <limits>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -43,7 +43,6 @@ Move_report checked_run(const std::string& name, Mesh mesh,
     const Move_report report = move_vertices(sculptor, mesh.vertices(), map, parameters, std::back_inserter(behind));
     BOOST_TEST(validate(mesh).is_valid());
     sculptor.check_unchanged();
-
     long double asked = 0, left = 0, asked_max = 0, left_max = 0;
     std::vector<Vertex_index> not_there;
     for (const Vertex_index v : mesh.vertices()) {
