@@ -43,7 +43,8 @@ End_counts drag_and_certify(const Part_scene& scene, std::size_t drags, Random& 
   return ends;
 }
 
-End_counts drag_in_all_families(Response response, std::size_t first, std::size_t last, std::size_t drags, Random& random) {
+End_counts drag_in_all_families(Response response, std::size_t first, std::size_t last, std::size_t drags,
+                                Random& random) {
   constexpr std::size_t per_scene = 20;
   End_counts all;
   for (std::size_t done = 0; done < drags; done += per_scene)
@@ -60,7 +61,7 @@ End_counts drag_in_all_families(Response response, std::size_t first, std::size_
 BOOST_AUTO_TEST_CASE(no_end_on_a_part_is_too_early) {
   Random random(seed_from_environment(801));
   const End_counts ends = drag_in_all_families(Response::slide, 0, first_near_degenerate_family,
-                                         count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
+                                               count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
   BOOST_TEST(ends.certified > 500u);
   BOOST_TEST(ends.missed <= 1 + ends.drags / 250); // doc/slide.md, "Measured"
 }
@@ -68,7 +69,7 @@ BOOST_AUTO_TEST_CASE(no_end_on_a_part_is_too_early) {
 BOOST_AUTO_TEST_CASE(few_ends_on_near_degenerate_solids_are_too_early) {
   Random random(seed_from_environment(802));
   const End_counts ends = drag_in_all_families(Response::slide, first_near_degenerate_family, part_families().size(),
-                                         count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
+                                               count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
   BOOST_TEST(ends.certified > 250u);
   BOOST_TEST(ends.missed <= 1 + ends.drags / 50);
 }
