@@ -47,6 +47,7 @@ int main() {
   if (!sculptor.undo())
     return 1;
   const bool is_back = std::all_of(mesh.faces().begin(), mesh.faces().end(), has_patch) && mesh.number_of_faces() == 20;
-  std::cout << "after undo " << mesh.number_of_faces() << " faces, all with their patch: " << (is_back ? "yes" : "no") << '\n';
+  std::cout << "after undo " << mesh.number_of_faces() << " faces, all with their patch: " << (is_back ? "yes" : "no")
+            << '\n';
   return is_back && heat[sculptor.vertex(0)] == before ? 0 : 1;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values of kept property maps: back after undo and redo, carried on by edits; compared with copies by number of vertex.
+// Values of kept property maps: back after undo and redo, carried on by edits; compared with copies by number of
+// vertex.
 #include "sculpting/Mesh_snapshot.h"
 #include "sculpting/edits/random_edits.h"
 
@@ -82,12 +83,14 @@ struct Numbered_mesh {
 };
 
 /// For edits by hand, and at random.
-meshes::Triangle_list lumpy_ball() { return meshes::bumpy_sphere(1, 0.1, 0.05); }
+meshes::Triangle_list lumpy_ball() {
+  return meshes::bumpy_sphere(1, 0.1, 0.05);
+}
 
 } // namespace
 
-// Values of what is new are overwritten after each edit by ones never used, so that what undo and redo bring back cannot come from
-// anywhere else.
+// Values of what is new are overwritten after each edit by ones never used, so that what undo and redo bring back
+// cannot come from anywhere else.
 BOOST_AUTO_TEST_CASE(kept_values_are_back_after_undo_and_redo) {
   const auto seed = seed_from_environment(20);
   Random random(seed);
@@ -134,7 +137,8 @@ BOOST_AUTO_TEST_CASE(kept_values_are_back_after_undo_and_redo) {
           numbered.of_faces[f] = numbered.next++;
       }
       for (const auto h : numbered.mesh.halfedges())
-        if (values_before.count({1, {sculptor.name(numbered.mesh.source(h)), sculptor.name(numbered.mesh.target(h)), 0}}) == 0)
+        if (values_before.count(
+                {1, {sculptor.name(numbered.mesh.source(h)), sculptor.name(numbered.mesh.target(h)), 0}}) == 0)
           numbered.of_halfedges[h] = numbered.of_edges[numbered.mesh.edge(h)] = numbered.next++;
       states.resize(++at);
       states.push_back(all_values(sculptor, numbered));
@@ -191,7 +195,8 @@ BOOST_AUTO_TEST_CASE(what_is_new_has_the_value_of_what_it_comes_from) {
   numbered.renumber();
   { // on an edge: its halves have its value, the faces theirs
     const auto h = *mesh.halfedges().begin();
-    const auto a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h)), d = mesh.target(mesh.next(mesh.opposite(h)));
+    const auto a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h)),
+               d = mesh.target(mesh.next(mesh.opposite(h)));
     const int edge = numbered(mesh.edge(h)), forth = numbered(h), back = numbered(mesh.opposite(h)),
               left = numbered(mesh.face(h)), right = numbered(mesh.face(mesh.opposite(h)));
     const auto done = sculptor.insert_on_edge(mesh.edge(h), CGAL::midpoint(mesh.point(a), mesh.point(b)));
@@ -246,7 +251,8 @@ BOOST_AUTO_TEST_CASE(what_is_new_has_the_value_of_what_it_comes_from) {
     std::size_t done = 0;
     for (const auto e : mesh.edges()) {
       const int value = numbered(e);
-      const std::set<int> both = {numbered(mesh.face(mesh.halfedge(e))), numbered(mesh.face(mesh.opposite(mesh.halfedge(e))))};
+      const std::set<int> both = {numbered(mesh.face(mesh.halfedge(e))),
+                                  numbered(mesh.face(mesh.opposite(mesh.halfedge(e))))};
       if (!sculptor.flip(e))
         continue;
       BOOST_TEST(numbered(e) == value);
@@ -285,7 +291,8 @@ BOOST_AUTO_TEST_CASE(a_visitor_hears_what_comes_from_what) {
     attribute[f] = static_cast<std::size_t>(numbered(f));
   for (int k = 0; k < 2000; ++k) {
     const auto edit = random_edit(sculptor, random);
-    if (edit.kind == Random_edit::undo || edit.kind == Random_edit::redo) { // two faces of a revived star come from none
+    if (edit.kind == Random_edit::undo ||
+        edit.kind == Random_edit::redo) { // two faces of a revived star come from none
       for (const auto f : numbered.mesh.faces())
         attribute[f] = static_cast<std::size_t>(numbered(f));
       continue;

@@ -211,7 +211,8 @@ private:
     return records_probes_ ? std::nullopt : restoration_.refuse(edit, names(), is_back);
   }
   Vertex_index take_back() {
-    return changes_.take_back(*history_.to_undo(), place(history_.number_to_undo(), false), [this](Vertex_index changed) {
+    const auto at = place(history_.number_to_undo(), false);
+    return changes_.take_back(*history_.to_undo(), at, [this](Vertex_index changed) {
       watch(changed);
       history_.undone();
     });

@@ -12,7 +12,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// An element by the numbers of its vertices, which last: of a face and an edge in ascending order, of a halfedge its source first.
+/// An element by the numbers of its vertices, which last: of a face and an edge in ascending order, of a halfedge its
+/// source first.
 using Element_names = std::array<std::size_t, 3>;
 
 inline constexpr std::size_t no_name = static_cast<std::size_t>(-1);
@@ -40,7 +41,8 @@ Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typena
   return sorted({names.name(mesh.source(h)), names.name(mesh.target(h)), names.name(mesh.target(mesh.next(h)))});
 }
 
-/// Which of the elements that an edit takes away one of those it makes comes from, by names. What comes from none is not in the table.
+/// Which of the elements that an edit takes away one of those it makes comes from, by names. What comes from none is
+/// not in the table.
 ///
 /// | edit | new | comes from |
 /// |---|---|---|
@@ -53,7 +55,8 @@ Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typena
 class Edit_lineage {
 public:
   /// \param is_directed whether the names are those of halfedges
-  Edit_lineage(const Edit& edit, bool is_back, bool is_directed) : edit_(&edit), is_back_(is_back), is_directed_(is_directed) {}
+  Edit_lineage(const Edit& edit, bool is_back, bool is_directed)
+      : edit_(&edit), is_back_(is_back), is_directed_(is_directed) {}
 
   /// Of a collapse, what `created` comes from, if there was one such; of other edits none is said.
   std::optional<Element_names> only_origin(Element_names created) const {

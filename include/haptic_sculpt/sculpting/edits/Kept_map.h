@@ -17,7 +17,7 @@ namespace internal {
 /// An edit that is under way, as property maps see it.
 struct Edit_under_way {
   const Edit* edit;
-  bool is_back;               ///< whether it is taken back
+  bool is_back;                  ///< whether it is taken back
   std::array<double, 3> weights; ///< of edit->around, for a vertex that is created in the middle of these
 };
 
@@ -51,8 +51,8 @@ public:
   ///@}
 };
 
-/// One of these. \tparam Carry makes a value of a Property_origin \tparam is_recorded whether undo and redo give the values
-/// back; else what they revive is carried on as what is new
+/// One of these. \tparam Carry makes a value of a Property_origin \tparam is_recorded whether undo and redo give the
+/// values back; else what they revive is carried on as what is new
 template <class Mesh, class Map, class Carry, bool is_recorded = true>
 class Kept_map_of : public Kept_map<Mesh> {
   using Key = typename boost::property_traits<Map>::key_type;
@@ -75,7 +75,8 @@ public:
     alive_again_ = &store_[number];
   }
 
-  void created(Key key, const Element_names& names, const Edit_under_way& under_way, const Vertex_names<Mesh>& vertices) override {
+  void created(Key key, const Element_names& names, const Edit_under_way& under_way,
+               const Vertex_names<Mesh>& vertices) override {
     if (const Entry* saved = alive_again_ ? find(*alive_again_, names) : nullptr) {
       put(map_, key, saved->value);
       return;
@@ -126,9 +127,10 @@ private:
 
   Map map_;
   Carry carry_;
-  Entries dead_;                         ///< by the edit under way
-  std::map<std::size_t, Entries> store_; ///< by number of edit: what it killed, or, while it is taken back, what it had made
-  Entries* alive_again_ = nullptr;       ///< that of the edit under way
+  Entries dead_; ///< by the edit under way
+  std::map<std::size_t, Entries>
+      store_;                      ///< by number of edit: what it killed, or, while it is taken back, what it had made
+  Entries* alive_again_ = nullptr; ///< that of the edit under way
 
   static const Entry* find(const Entries& entries, const Element_names& names) {
     const auto at = std::lower_bound(entries.begin(), entries.end(), names,

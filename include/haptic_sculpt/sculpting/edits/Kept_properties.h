@@ -25,20 +25,21 @@ public:
   void add(Map map, Carry carry) {
     maps_.push_back(std::make_unique<Kept_map_of<Mesh, Map, Carry>>(map, std::move(carry)));
   }
-  /// The visitor hears of what comes from what, if it has the functions for that. \param visitor is told as long as this lives
+  /// The visitor hears of what comes from what, if it has the functions for that. \param visitor is told as long as
+  /// this lives
   template <class Visitor>
   void tell_lineage(Visitor& visitor) {
     if constexpr (Hears_of_faces<Visitor, Face_index>::value)
       maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_teller<Visitor, Face_index>, Copy_property, false>>(
-        Lineage_teller<Visitor, Face_index>{&visitor}, Copy_property()));
+          Lineage_teller<Visitor, Face_index>{&visitor}, Copy_property()));
     if constexpr (Hears_of_edges<Visitor, Edge_index>::value)
       maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_teller<Visitor, Edge_index>, Copy_property, false>>(
-        Lineage_teller<Visitor, Edge_index>{&visitor}, Copy_property()));
+          Lineage_teller<Visitor, Edge_index>{&visitor}, Copy_property()));
   }
   bool is_empty() const { return maps_.empty(); }
 
-  /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_name` where it is
-  /// not recorded; whether it is made for the first time.
+  /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_name` where
+  /// it is not recorded; whether it is made for the first time.
   struct Place {
     std::size_t first, number;
     bool is_new;
@@ -55,7 +56,8 @@ public:
   /// \param v the null index where no vertex dies
   template <class Faces, class Halfedges>
   void die(const Vertex_names<Mesh>& names, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
-    for_each_element(names, v, faces, halfedges, [](auto& map, auto element, const Element_names& of) { map.dies(element, of); });
+    for_each_element(names, v, faces, halfedges,
+                     [](auto& map, auto element, const Element_names& of) { map.dies(element, of); });
     for (const auto& map : maps_)
       map->prepare(place_.first, place_.number, place_.is_new);
   }

@@ -15,15 +15,17 @@ template <class Visitor, class Face_index, class = void>
 struct Hears_of_faces : std::false_type {};
 template <class Visitor, class Face_index>
 struct Hears_of_faces<Visitor, Face_index,
-                      std::void_t<decltype(std::declval<Visitor&>().face_replaces(Face_index(), Face_index()))>> : std::true_type {};
+                      std::void_t<decltype(std::declval<Visitor&>().face_replaces(Face_index(), Face_index()))>>
+    : std::true_type {};
 template <class Visitor, class Edge_index, class = void>
 struct Hears_of_edges : std::false_type {};
 template <class Visitor, class Edge_index>
 struct Hears_of_edges<Visitor, Edge_index,
-                      std::void_t<decltype(std::declval<Visitor&>().edge_replaces(Edge_index(), Edge_index()))>> : std::true_type {};
+                      std::void_t<decltype(std::declval<Visitor&>().edge_replaces(Edge_index(), Edge_index()))>>
+    : std::true_type {};
 
-/// As a property map: the value of an element is its descriptor, so what a new element is given is what it comes from, and the
-/// visitor hears of it.
+/// As a property map: the value of an element is its descriptor, so what a new element is given is what it comes from,
+/// and the visitor hears of it.
 template <class Visitor, class Key>
 struct Lineage_teller {
   using key_type = Key;
