@@ -38,7 +38,7 @@ public:
     const Axis_motion<3> motion(axis, {coordinates(a), coordinates(b), coordinates(c)}, heights);
     CGAL_precondition(0 <= axis && axis < 3 && are_finite(motion.start) && are_finite(motion.end));
     Counters ignored;
-    return Axis_sweep<3, Counters>(motion, counters_ != nullptr ? *counters_ : ignored).is_face_degenerate();
+    return Axis_sweep<3, Counters>(motion, counters_ != nullptr ? *counters_ : ignored).is_face_degenerate(0, 1, 2);
   }
 
 private:

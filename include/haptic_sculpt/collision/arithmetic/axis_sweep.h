@@ -10,6 +10,8 @@
 
 #include <haptic_sculpt/collision/arithmetic/orientation_filter.h>
 
+#include <initializer_list>
+
 namespace haptic_sculpt {
 namespace internal {
 
@@ -44,54 +46,58 @@ private:
   bool is_broken_ = false, is_empty_ = true;
 };
 
-/// The decisions about the points of one motion, by index.
+/// The decisions about points of one motion, by index. Those of one decision need not differ.
 template <std::size_t points, class Counters>
 class Axis_sweep {
 public:
   Axis_sweep(const Axis_motion<points>& motion, Counters& counters) : m_(motion), counters_(counters) {}
 
-  /// Whether point 0 lies in the closed triangle 1, 2, 3 at some time.
-  bool do_vertex_and_face_meet() const {
-    static_assert(points == 4, "a vertex and a face have four corners");
-    const int side = seen(1, 2, 3), at_12 = seen(1, 2, 0), at_23 = seen(2, 3, 0), at_31 = seen(3, 1, 0);
+  /// Whether point v lies in the closed triangle a, b, c at some time.
+  bool do_vertex_and_face_meet(int v, int a, int b, int c) const {
+    const int side = seen(a, b, c), at_ab = seen(a, b, v), at_bc = seen(b, c, v), at_ca = seen(c, a, v);
     if (side != 0)
-      return at_12 * side >= 0 && at_23 * side >= 0 && at_31 * side >= 0 && !keep_their_side();
-    if (at_12 != 0 || at_23 != 0 || at_31 != 0)
+      return at_ab * side >= 0 && at_bc * side >= 0 && at_ca * side >= 0 && !keep_their_side(a, b, c, v);
+    if (at_ab != 0 || at_bc != 0 || at_ca != 0)
       return false;
-    const Plane plane = plane_of_all();
+    const Plane plane = plane_of(v, {a, b, c});
     Equal_signs signs;
-    for (const auto& [p, q] : {std::pair<int, int>(1, 2), {2, 3}, {3, 1}})
-      add_heights(plane, 0, p, q, 1, signs);
+    add_heights(plane, v, a, b, 1, signs);
+    add_heights(plane, v, b, c, 1, signs);
+    add_heights(plane, v, c, a, 1, signs);
     return signs.do_meet();
   }
 
-  /// Whether the closed segments 0, 1 and 2, 3 have a common point at some time.
-  bool do_edges_meet() const {
-    static_assert(points == 4, "two edges have four ends");
-    const int at_2 = seen(0, 1, 2), at_3 = seen(0, 1, 3);
-    if (at_2 * at_3 > 0)
+  /// Whether the closed segments a, b and c, d have a common point at some time.
+  bool do_edges_meet(int a, int b, int c, int d) const {
+    const int at_c = seen(a, b, c), at_d = seen(a, b, d);
+    if (at_c * at_d > 0)
       return false;
-    const int at_0 = seen(2, 3, 0), at_1 = seen(2, 3, 1);
-    if (at_0 * at_1 > 0)
+    const int at_a = seen(c, d, a), at_b = seen(c, d, b);
+    if (at_a * at_b > 0)
       return false;
-    if ((at_2 != 0 || at_3 != 0) && (at_0 != 0 || at_1 != 0)) // they are not parallel: one point is over one
-      return !keep_their_side();
-    const Plane plane = plane_of_all(); // all four signs are 0
+    if ((at_c != 0 || at_d != 0) && (at_a != 0 || at_b != 0)) // they are not parallel: one point is over one
+      return !keep_their_side(a, b, c, d);
+    const Plane plane = plane_of(a, {b, c, d}); // all four signs are 0
     Equal_signs signs;
-    for (int end = 0; end < 2; ++end) {
-      add_heights(plane, end, 2, 3, 1, signs);
-      add_heights(plane, 2 + end, 0, 1, -1, signs);
-    }
+    add_heights(plane, a, c, d, 1, signs);
+    add_heights(plane, b, c, d, 1, signs);
+    add_heights(plane, c, a, b, -1, signs);
+    add_heights(plane, d, a, b, -1, signs);
     return signs.do_meet();
   }
 
-  /// Whether points 0, 1, 2 lie on one line at some time.
-  bool is_face_degenerate() const {
-    if (seen(0, 1, 2) != 0)
+  /// Whether points a, b, c lie on one line at some time.
+  bool is_face_degenerate(int a, int b, int c) const {
+    if (seen(a, b, c) != 0)
       return false;
-    const Plane plane = plane_of_all();
-    const int at_start = orientation_2(m_.start[0], m_.start[1], m_.start[2], plane.dropped, counters_);
-    return at_start == 0 || orientation_2(m_.end[0], m_.end[1], m_.end[2], plane.dropped, counters_) != at_start;
+    const Plane plane = plane_of(a, {b, c});
+    const int at_start = orientation_2(m_.start[a], m_.start[b], m_.start[c], plane.dropped, counters_);
+    return at_start == 0 || orientation_2(m_.end[a], m_.end[b], m_.end[c], plane.dropped, counters_) != at_start;
+  }
+
+  /// The orientation of a, b, c in the projection along the axis, where nothing moves.
+  int seen(int a, int b, int c) const {
+    return orientation_2(m_.start[a], m_.start[b], m_.start[c], m_.axis, counters_);
   }
 
 private:
@@ -104,22 +110,17 @@ private:
   const Axis_motion<points>& m_;
   Counters& counters_;
 
-  /// In the projection along the axis, where nothing moves.
-  int seen(int a, int b, int c) const {
-    return orientation_2(m_.start[a], m_.start[b], m_.start[c], m_.axis, counters_);
-  }
-
   /// Whether the volume of all four has one sign at both ends, and so between.
-  bool keep_their_side() const {
-    const int sign = orientation_3(m_.start[0], m_.start[1], m_.start[2], m_.start[3], counters_);
-    return sign != 0 && orientation_3(m_.end[0], m_.end[1], m_.end[2], m_.end[3], counters_) == sign;
+  bool keep_their_side(int a, int b, int c, int d) const {
+    const int sign = orientation_3(m_.start[a], m_.start[b], m_.start[c], m_.start[d], counters_);
+    return sign != 0 && orientation_3(m_.end[a], m_.end[b], m_.end[c], m_.end[d], counters_) == sign;
   }
 
-  /// \pre all points are seen on one line
-  Plane plane_of_all() const {
+  /// \pre all points given are seen on one line
+  Plane plane_of(int first, std::initializer_list<int> others) const {
     const int i = (m_.axis + 1) % 3, j = (m_.axis + 2) % 3;
-    for (std::size_t k = 1; k < points; ++k)
-      if (m_.start[k][i] != m_.start[0][i])
+    for (const int k : others)
+      if (m_.start[k][i] != m_.start[first][i])
         return {i, j, -1}; // orientation_2 without j looks at (axis, i)
     return {j, i, 1};      // without i at (j, axis)
   }
