@@ -201,6 +201,25 @@ public:
   void reserve(std::size_t edits, std::size_t moves) { guarded_.reserve(edits, moves); }
   ///@}
 
+  /// Keeps the values of a property map from now on: what undo and redo revive has its values again, and what edits
+  /// create gets a value made of those of the elements it comes from (doc/properties.md); where it comes from none, the
+  /// mesh's default.
+  ///
+  /// \param map a model of `ReadWritePropertyMap`, copied; its keys are vertices, halfedges, edges or faces of the mesh
+  /// \param carry `value carry(const Property_origin<value>&)`: Copy_property, Interpolate_property, or your own
+  ///
+  /// What the functions of the map and `carry` throw goes on to the caller of the edit, which stands; where a value
+  /// cannot be copied before the edit, the edit is not made. Cost: while a map is kept, an edit looks up its names, n log
+  /// n in the valence; the history keeps the values of what dies, which `history().bytes()` does not count.
+  template <class Map, class Carry = Copy_property>
+  void keep(Map map, Carry carry = Carry()) {
+    using Key = typename boost::property_traits<Map>::key_type;
+    static_assert(std::is_same<Key, Vertex_index>::value || std::is_same<Key, Halfedge_index>::value ||
+                    std::is_same<Key, Edge_index>::value || std::is_same<Key, Face_index>::value,
+                  "Sculptor::keep: the keys of the map must be vertices, halfedges, edges or faces of the mesh");
+    guarded_.editor().kept().add(map, std::move(carry));
+  }
+
   /// \name Numbers of vertices that last
   /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo revives it.
   ///@{
