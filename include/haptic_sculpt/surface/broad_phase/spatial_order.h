@@ -43,12 +43,12 @@ inline void order_in_space(Face_middle* begin, Face_middle* end, std::size_t cap
   order_in_space(middle, end, capacity);
 }
 
-/// The faces of a mesh in such an order. Cost: n log n.
-template <class Mesh>
-std::vector<Face_middle> faces_in_spatial_order(const Mesh& mesh) {
+/// Some faces of a mesh in such an order. Cost: n log n.
+template <class Mesh, class Faces>
+std::vector<Face_middle> faces_in_spatial_order(const Mesh& mesh, const Faces& given) {
   std::vector<Face_middle> faces;
-  faces.reserve(mesh.number_of_faces());
-  for (const auto f : mesh.faces()) {
+  faces.reserve(given.size());
+  for (const auto f : given) {
     const Box_3 box = face_box(mesh, f);
     Face_middle entry;
     for (int i = 0; i < 3; ++i)
@@ -61,6 +61,12 @@ std::vector<Face_middle> faces_in_spatial_order(const Mesh& mesh) {
     capacity *= Box_node::width;
   order_in_space(faces.data(), faces.data() + faces.size(), capacity);
   return faces;
+}
+
+/// All of them.
+template <class Mesh>
+std::vector<Face_middle> faces_in_spatial_order(const Mesh& mesh) {
+  return faces_in_spatial_order(mesh, mesh.faces());
 }
 
 } // namespace internal
