@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_BOX_SCALE_H
 #define HAPTIC_SCULPT_SURFACE_BOX_SCALE_H
 
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
 #include <haptic_sculpt/surface/broad_phase/outward_float.h>
 
 #include <algorithm>
@@ -39,6 +40,15 @@ public:
     exponent = std::max(-most, std::min(most, -exponent));
     factor_ = std::ldexp(1.0, exponent);
     inverse_ = std::ldexp(1.0, -exponent);
+  }
+
+  /// That of the vertices of a mesh.
+  template <class Mesh>
+  static Box_scale of(const Mesh& mesh) {
+    return Box_scale([&mesh](const auto& visit) {
+      for (const auto v : mesh.vertices())
+        visit(vertex_coordinates(mesh, v));
+    });
   }
 
   double factor() const { return factor_; }

@@ -193,10 +193,7 @@ private:
 
   void build() {
     slot_of_face_.assign(mesh_->num_faces(), no_slot);
-    scale_ = internal::Box_scale([this](const auto& visit) {
-      for (const auto v : mesh_->vertices())
-        visit(vertex_coordinates(*mesh_, v));
-    });
+    scale_ = internal::Box_scale::of(*mesh_);
     const std::vector<internal::Face_middle> order = internal::faces_in_spatial_order(*mesh_, scale_);
     if (order.empty())
       return;
