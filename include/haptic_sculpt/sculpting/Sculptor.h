@@ -75,6 +75,7 @@ public:
 
   /// Takes a vertex in hand. \throw Unknown_vertex, Mesh_changed
   Grab_type grab(Vertex_index v) {
+    const internal::Rounding_to_nearest rounding;
     release();
     guarded_.hold(v);
     return Grab_type(*this, name(v));

@@ -44,18 +44,23 @@ public:
   auto& editor() { return editor_; }
   const auto& editor() const { return editor_; }
 
-  void release() { hand_.release(); }
+  void release() {
+    const Rounding_to_nearest rounding; // the broad phase is told where a vertex is
+    hand_.release();
+  }
 
-  /// \throw Unknown_vertex, Mesh_changed
+  /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed
   void hold(Vertex_index v) {
-    const Rounding_to_nearest rounding;
     check_vertex(*mesh_, v);
     if (!hand_.holds(v))
       hand_.take(v, [this] { editor_.prepare_for_moves(); });
   }
 
   bool expects_single_drags() const { return hand_.expects_single_drags(); }
-  void expect_single_drags(bool on) { hand_.expect_single_drags(on); }
+  void expect_single_drags(bool on) {
+    const Rounding_to_nearest rounding;
+    hand_.expect_single_drags(on);
+  }
 
   Result drag(Vertex_index v, const Point& target, std::vector<Point>* path) {
     const Rounding_to_nearest rounding;
@@ -196,7 +201,10 @@ public:
     hand_.reserve(editor_.usual_valence, editor_.usual_candidates);
   }
 
-  void check_unchanged() const { watch_.check_all(corners_); }
+  void check_unchanged() const {
+    const Rounding_to_nearest rounding; // points that differ by a subnormal number differ
+    watch_.check_all(corners_);
+  }
   std::size_t memory() const {
     return broad_phase_.memory() + corners_.memory() + watch_.memory() + isolated_.memory() + editor_.names().memory();
   }
