@@ -9,8 +9,12 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Which boxes of a node may meet what a star sweeps: those in the box around it, in the cone from its start to the
-/// target, in that from the end back to the start, in the cone from its link to where its centre is, and, where many
-/// nodes are asked about, in two slabs around all; where these are thin.
+/// target, in that from the end back to the start, in the cone from its link to where its centre is, and in two slabs
+/// around all; where these are thin.
+///
+/// Whether a box passes depends on that box and the star alone, and a box that contains one that passes passes too, as
+/// rounded: what is asked is made of operations that round monotonically. So which boxes pass does not depend on what
+/// tree they are in (doc/broad_phase.md, "Which faces count").
 class Star_filter {
 public:
   /// \pre the star stays as it is while it is asked
@@ -24,11 +28,12 @@ public:
       from_start_ = Cone_of_boxes(Box_3(link).include(star.source), Box_3(star.target), star.until);
       from_end_ = Cone_of_boxes(Box_3(link).include(star.target), Box_3(star.source), 1);
     }
+    make_slabs();
     has_cones_ = from_start_.is_long() || from_end_.is_long() || from_link_.is_long();
     around_ = Float_box::query(around.include(link));
   }
 
-  unsigned meeting(const Box_node& node) {
+  unsigned meeting(const Box_node& node) const {
     unsigned mask = node.meeting(around_);
     if (mask != 0 && has_cones_) { // a box costs less to ask
       if (from_start_.is_long())
@@ -38,27 +43,29 @@ public:
       if (mask != 0 && from_link_.is_long())
         mask &= from_link_.meeting(node);
     }
-    return mask != 0 && ++nodes_ >= many_nodes ? meeting_slabs(node, mask) : mask;
-  }
-
-private:
-  static constexpr std::size_t many_nodes = 32; ///< in the box and the cones; of fewer, slabs cost more than they save
-
-  const Swept_star_3* star_;
-  Cone_of_boxes from_start_, from_end_, from_link_;
-  std::array<Slab_of_points, 2> slabs_;
-  Float_box around_;
-  bool has_cones_ = false;
-  std::size_t nodes_ = 0;
-
-  unsigned meeting_slabs(const Box_node& node, unsigned mask) {
-    if (nodes_ == many_nodes)
-      make_slabs();
     for (const Slab_of_points& slab : slabs_)
       if (mask != 0 && slab.is_thin())
         mask &= slab.meeting(node);
     return mask;
   }
+
+  /// Boxes of doubles which, rounded outward to floats, pass meet this closed box: to ask a broad phase that knows doubles.
+  Box_3 holding_what_passes() const {
+    constexpr float largest = std::numeric_limits<float>::max();
+    Box_3 result;
+    for (int i = 0; i < 3; ++i) { // a float more on each side is what rounding takes, and all where floats end
+      result.lower[i] = around_.lower[i] <= -largest ? std::numeric_limits<double>::lowest() : next_down(around_.lower[i]);
+      result.upper[i] = around_.upper[i] >= largest ? std::numeric_limits<double>::max() : -next_down(-around_.upper[i]);
+    }
+    return result;
+  }
+
+private:
+  const Swept_star_3* star_;
+  Cone_of_boxes from_start_, from_end_, from_link_;
+  std::array<Slab_of_points, 2> slabs_;
+  Float_box around_;
+  bool has_cones_ = false;
 
   /// One about the plane of the source, the target and a point of the link, the other across it and along the line of
   /// the source and that point.
