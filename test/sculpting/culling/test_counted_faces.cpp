@@ -47,9 +47,9 @@ struct Drawn_star {
 };
 
 template <class Broad_phase>
-Faces answer(const Mesh& mesh, Broad_phase& broad_phase, const Swept_star_3& star, std::size_t most, bool& is_whole) {
+Faces answer(const Mesh& mesh, const internal::Box_scale& scale, Broad_phase& broad_phase, const Swept_star_3& star, std::size_t most, bool& is_whole) {
   Faces faces;
-  is_whole = internal::query_up_to(mesh, broad_phase, star, most, faces);
+  is_whole = internal::query_up_to(mesh, scale, broad_phase, star, most, faces);
   std::sort(faces.begin(), faces.end());
   return faces;
 }
@@ -69,6 +69,7 @@ BOOST_AUTO_TEST_CASE(every_broad_phase_answers_with_the_faces_that_pass) {
       };
       for (const Vertex_index v : mesh.vertices())
         put(v, mesh.point(v));
+      const auto scale = internal::Box_scale::of(mesh);
       Box_tree_broad_phase<Mesh> tree(mesh);
       Six_list_broad_phase<Mesh> six_lists(mesh);
       Brute_force_broad_phase<Mesh> brute_force(mesh);
@@ -87,16 +88,16 @@ BOOST_AUTO_TEST_CASE(every_broad_phase_answers_with_the_faces_that_pass) {
           p[0] += shift * unit;
         drawn.star.source[0] += shift * unit, drawn.star.target[0] += shift * unit;
         bool is_whole = false;
-        const Faces expected = answer(mesh, brute_force, drawn.star, mesh.num_faces(), is_whole);
+        const Faces expected = answer(mesh, scale, brute_force, drawn.star, mesh.num_faces(), is_whole);
         BOOST_REQUIRE(is_whole);
-        BOOST_REQUIRE((answer(mesh, tree, drawn.star, mesh.num_faces(), is_whole) == expected));
-        BOOST_REQUIRE((answer(mesh, six_lists, drawn.star, mesh.num_faces(), is_whole) == expected));
+        BOOST_REQUIRE((answer(mesh, scale, tree, drawn.star, mesh.num_faces(), is_whole) == expected));
+        BOOST_REQUIRE((answer(mesh, scale, six_lists, drawn.star, mesh.num_faces(), is_whole) == expected));
         // It is given up for the same reason: one face too many.
         if (!expected.empty()) {
-          answer(mesh, tree, drawn.star, expected.size() - 1, is_whole);
+          answer(mesh, scale, tree, drawn.star, expected.size() - 1, is_whole);
           BOOST_REQUIRE(!is_whole);
         }
-        answer(mesh, tree, drawn.star, expected.size(), is_whole);
+        answer(mesh, scale, tree, drawn.star, expected.size(), is_whole);
         BOOST_REQUIRE(is_whole);
         Faces in_box;
         brute_force.query(drawn.star, in_box);

@@ -27,7 +27,10 @@ public:
   Star_candidates(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
                   Isolated_vertices<Mesh>* isolated, Star_runs<Mesh>& runs, Work& work, Fetch fetch)
     : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(isolated), runs_(&runs), work_(&work)
-    , fetch_(std::move(fetch)) {}
+    , fetch_(std::move(fetch)) {
+    if (!Answers_are_filtered<Broad_phase>::value)
+      scale_ = Box_scale::of(mesh);
+  }
 
   Star<Mesh>& star() { return star_; }
   const Star<Mesh>& star() const { return star_; }
@@ -157,6 +160,7 @@ private:
   Star_runs<Mesh>* runs_;
   Work* work_;
   Fetch fetch_;
+  Box_scale scale_; ///< of the boxes by which faces are told to be near
   Star<Mesh> star_;
   Candidate_list<Mesh> list_;
   Near_pairs<Mesh> pairs_;
@@ -236,7 +240,7 @@ private:
     anywhere.is_box = true;
     candidates_.clear();
     // Of a drag's work no more than a quarter: what is left has to do for the motions.
-    if (!query_up_to(*mesh_, *broad_phase_, anywhere, std::min(few_about_probe, work_->left() / 4), candidates_)) {
+    if (!query_up_to(*mesh_, scale_, *broad_phase_, anywhere, std::min(few_about_probe, work_->left() / 4), candidates_)) {
       crowded_way_ = way / 2;
       return false;
     }
@@ -267,7 +271,7 @@ private:
   void look_at(const Swept_star_3& part) {
     candidates_.clear();
     const std::size_t left = work_->left(), most = left < Work::unbounded - star_.valence() ? left + star_.valence() : left;
-    if (query_up_to(*mesh_, *broad_phase_, part, most, candidates_)) {
+    if (query_up_to(*mesh_, scale_, *broad_phase_, part, most, candidates_)) {
       leave_own_faces_out();
       if (candidates_.size() <= left)
         return work_->spend(candidates_.size());

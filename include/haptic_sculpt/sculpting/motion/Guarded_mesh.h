@@ -25,9 +25,10 @@ public:
   using Result = Drag_result<Mesh>;
   using Edited = Edit_result<Mesh>;
 
-  /// \param make_traits is called with the counters, which the traits may refer to
+  /// \param make_traits is called with the counters, which the traits may refer to; the last argument lives as long as this takes
   template <class Make_traits>
-  Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Make_traits& make_traits)
+  Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Make_traits& make_traits,
+               const Rounding_to_nearest& /*rounding*/)
     : parameters(parameters), mesh_(&mesh), watch_(mesh), broad_phase_(checked_scene(mesh, parameters)), corners_(mesh), isolated_(mesh)
     , editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, parameters.probes_are_recorded, std::move(visitor))
     , hand_(mesh, broad_phase_, corners_, isolated_, make_traits(counters_), watch_)
@@ -47,6 +48,7 @@ public:
 
   /// \throw Unknown_vertex, Mesh_changed
   void hold(Vertex_index v) {
+    const Rounding_to_nearest rounding;
     check_vertex(*mesh_, v);
     if (!hand_.holds(v))
       hand_.take(v, [this] { editor_.prepare_for_moves(); });
@@ -158,6 +160,7 @@ public:
   }
 
   Edited place(Vertex_index probe, const Point& p) {
+    const Rounding_to_nearest rounding;
     check_point("the place", p);
     scene_.check_clearance_serves(parameters);
     return edited([&] {

@@ -39,6 +39,14 @@ inline double largest_magnitude(const Vector& a) {
   return std::max(std::abs(a[0]), std::max(std::abs(a[1]), std::abs(a[2])));
 }
 
+/// The power of two that brings a length to about 1, where products of lengths stay in the range of doubles; it and its
+/// inverse are normal numbers. 1 for 0, and for what is not finite.
+inline double unit_of(double length) {
+  if (!(length > 0) || !std::isfinite(length))
+    return 1;
+  return std::ldexp(1.0, std::max(-1000, std::min(1000, -std::ilogb(length))));
+}
+
 /// Whether squares of a vector with this largest coordinate, and what is added to them, are far from both ends of the
 /// range. Scaling by a power of two would change no bit of a length then, and costs more than the rest.
 inline bool has_plain_squares(double largest) { return largest > 0x1p-400 && largest < 0x1p400; }
