@@ -24,6 +24,7 @@ struct Property_origin {
 
 /// Gives a new element the value that has the largest weight, the first of equal ones.
 struct Copy_property {
+  /// \pre origin.size > 0
   template <class Value>
   Value operator()(const Property_origin<Value>& origin) const {
     std::size_t best = 0;
@@ -36,6 +37,7 @@ struct Copy_property {
 
 /// Gives a new element the weighted sum of the values: for numbers and vectors, of which integers are none.
 struct Interpolate_property {
+  /// \pre origin.size > 0
   template <class Value>
   Value operator()(const Property_origin<Value>& origin) const {
     static_assert(!std::is_integral<Value>::value, "Interpolate_property: a weighted sum of integers would be cut off");

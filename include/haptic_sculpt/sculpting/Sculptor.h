@@ -54,11 +54,12 @@ public:
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
   /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
-    : guarded_(mesh, options, std::move(visitor), [](Filter_counters& counters) { return traits_that_count(counters); }) {}
+    : guarded_(mesh, options, std::move(visitor), [](Filter_counters& counters) { return traits_that_count(counters); },
+               internal::Rounding_to_nearest()) {}
 
   /// The same with traits of its own, which are copied. \throw as above
   Sculptor(Mesh_type& mesh, const Sculptor_parameters& options, Visitor visitor, const Traits& traits)
-    : guarded_(mesh, options, std::move(visitor), [&traits](Filter_counters&) { return traits; }) {}
+    : guarded_(mesh, options, std::move(visitor), [&traits](Filter_counters&) { return traits; }, internal::Rounding_to_nearest()) {}
   ~Sculptor() { set_hand(nullptr); }
 
   Sculptor(const Sculptor&) = delete;
@@ -75,6 +76,7 @@ public:
 
   /// Takes a vertex in hand. \throw Unknown_vertex, Mesh_changed
   Grab_type grab(Vertex_index v) {
+    const internal::Rounding_to_nearest rounding;
     release();
     guarded_.hold(v);
     return Grab_type(*this, name(v));
@@ -126,6 +128,7 @@ public:
   /// Creates a vertex at `p` and joins it to the corners of f, whose place the three new faces take.
   /// \post f has died; its edges and corners have not. \throw Out_of_range
   Edited insert_on_face(Face_index f, const Point& p) {
+    const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
     if (!f.is_valid() || static_cast<std::size_t>(f) >= mesh().num_faces() || mesh().is_removed(f))
       return Edited::refused(Refusal_reason::unknown_element);
@@ -135,6 +138,7 @@ public:
   /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of two.
   /// \post e and its two faces have died, no vertex has. \throw Out_of_range
   Edited insert_on_edge(Edge_index e, const Point& p) {
+    const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
     if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh().num_edges() || mesh().is_removed(e))
       return Edited::refused(Refusal_reason::unknown_element);
@@ -258,12 +262,14 @@ public:
   /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length set, or
   /// the default.
   double clearance(const Point& p) const {
+    const internal::Rounding_to_nearest rounding;
     return internal::Clearance_rule(options().clearance_length).at(internal::largest_magnitude(internal::coordinates(p)));
   }
 
   /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene as it is (Sculptor_parameters), and
   /// nothing changes. Cost: reads every point.
   void set_clearance(double length) {
+    const internal::Rounding_to_nearest rounding;
     const Sculptor_parameters changed = Sculptor_parameters(options()).clearance(length);
     internal::check_parameters(changed);
     internal::check_clearance(mesh(), changed);
@@ -276,6 +282,7 @@ public:
   /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
   /// of validate().
   void set_delta(double length) {
+    const internal::Rounding_to_nearest rounding;
     const Sculptor_parameters changed = Sculptor_parameters(options()).delta(length);
     release();
     internal::checked_scene(mesh(), changed);

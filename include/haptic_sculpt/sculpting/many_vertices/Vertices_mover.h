@@ -118,6 +118,7 @@ private:
         motions.push_back({0, k, {vertices_[k].vertex, from, to}});
         whole = plus(whole, minus(to, from));
       }
+    whole = scaled(whole, unit_of(quick_magnitude(whole))); // its products with places stay in range
     for (Motion& motion : motions)
       motion.advance = quick_dot(whole, minus(motion.moving.source, Coordinates{}));
     std::sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) {
