@@ -35,9 +35,10 @@ public:
   template <class Faces>
   void take(const Faces& faces, const std::vector<Vertex_index>& isolated, bool are_all) {
     are_all_ = are_all;
+    scale_ = Box_scale::of(*mesh_);
     items_.clear();
     slot_of_face_.assign(mesh_->num_faces(), no_slot);
-    for (const Face_middle& f : faces_in_spatial_order(*mesh_, faces)) {
+    for (const Face_middle& f : faces_in_spatial_order(*mesh_, faces, scale_)) {
       slot_of_face_[f.face] = static_cast<std::uint32_t>(items_.size());
       items_.push_back(item_of(Face_index(f.face)));
     }
@@ -120,6 +121,7 @@ private:
   Filter_counters* counters_;
   double delta_;
   int axis_ = 0;
+  Box_scale scale_;
   bool are_all_ = false;
   std::size_t held_ = 0; ///< vertices that have been pulled
   std::vector<Item> items_; ///< by slot; faces in the order of space, then vertices without
@@ -172,7 +174,7 @@ private:
     std::array<double, 3> ends;
     for (int k = 0; k < 3; ++k)
       ends[k] = motion.end[k][axis_];
-    tree_.set(slot, Axis_box(axis_, motion.start, ends), is_active);
+    tree_.set(slot, Axis_box(scale_, axis_, motion.start, ends), is_active);
     if (is_active)
       active_.push_back(slot);
   }
