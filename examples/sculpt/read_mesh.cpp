@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "read_mesh.h"
+#include "repair_json.h"
 
+#include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/surface/read_surface.h>
+#include <haptic_sculpt/surface/repair.h>
 
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 
@@ -39,7 +42,25 @@ Mesh triangulated(const Face_soup& soup, const std::string& path) {
 
 } // namespace
 
-Mesh read_triangulated(const std::string& path, double delta, std::vector<std::string>& left_out) {
+Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_out, std::string& told) {
+  Face_soup soup = read_face_soup(arguments.mesh);
+  Repair_parameters parameters;
+  parameters.delta(arguments.delta.value_or(0));
+  if (arguments.repair.gap)
+    parameters.gap(*arguments.repair.gap);
+  if (arguments.repair.largest_hole)
+    parameters.largest_hole(*arguments.repair.largest_hole);
+  const Repair_report report = repair(soup, parameters);
+  if (!arguments.repair.report.empty())
+    replace_file(arguments.repair.report, json_of(report));
+  told = report.message(Validity_report::Reader::user);
+  if (!report.is_repaired())
+    throw Read_error("cannot repair '" + arguments.mesh + "':\n" + told);
+  left_out = std::move(soup.left_out);
+  return triangulated(soup, arguments.mesh);
+}
+
+Mesh read_triangulated(const std::string& path, double delta, std::vector<std::string>& left_out, Validity_report& found) {
   Face_soup soup = read_face_soup(path);
   left_out = std::move(soup.left_out);
   Validity_report report = validate_soup(soup, delta);
@@ -55,6 +76,7 @@ Mesh read_triangulated(const std::string& path, double delta, std::vector<std::s
   report = validate(mesh, delta);
   if (!report.is_valid())
     throw Invalid_surface("'" + path + "', its faces divided into triangles,", std::move(report));
+  found = std::move(report);
   return mesh;
 }
 

@@ -13,6 +13,7 @@
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
+#include <haptic_sculpt/surface/orient_components.h>
 #include <haptic_sculpt/surface/read_surface.h>
 
 #include <cerrno>
@@ -63,18 +64,18 @@ void check_targets(const Arguments& arguments) {
       throw Usage_error("a picture is written as PNG: give a name that ends in .png instead of '" + path + "'");
   // The result may take the place of the mesh that was read: that is what one asks of an editor.
   std::vector<std::string> taken = {arguments.script, arguments.out, arguments.report, arguments.picture, arguments.comparison,
-                                    arguments.log};
+                                    arguments.log, arguments.repair.report};
   for (std::size_t i = 0; i < taken.size(); ++i)
     for (std::size_t j = i + 1; j < taken.size(); ++j)
       if (!taken[i].empty() && !taken[j].empty() && are_one_file(taken[i], taken[j]))
         throw Usage_error("'" + taken[i] + "' and '" + taken[j] + "' are one file; give each its own");
-  for (const std::string& path : {arguments.report, arguments.picture, arguments.comparison, arguments.log})
+  for (const std::string& path : {arguments.report, arguments.picture, arguments.comparison, arguments.log, arguments.repair.report})
     if (!path.empty() && are_one_file(path, arguments.mesh))
       throw Usage_error("'" + path + "' is the mesh to be read; give another name");
   if (!arguments.log.empty() && !arguments.out.empty() && are_one_file(arguments.out, arguments.mesh))
     throw Usage_error("'" + arguments.out + "' is the mesh that the log '" + arguments.log +
                       "' begins with; sculpted, it could not be resumed from the log. Give the result another name");
-  for (const std::string& path : {arguments.out, arguments.report, arguments.picture, arguments.comparison})
+  for (const std::string& path : {arguments.out, arguments.report, arguments.picture, arguments.comparison, arguments.repair.report})
     if (!path.empty())
       check_target(path);
 }
@@ -113,6 +114,8 @@ void check_lengths(const Arguments& arguments) {
     throw Usage_error("--clearance must be a length > 0 and at most 2^1000, about 1.07e301");
   if (arguments.delta && !(*arguments.delta >= 0 && internal::is_in_range(*arguments.delta)))
     throw Usage_error("--delta must be a length >= 0 and at most 2^1000, about 1.07e301");
+  if (arguments.repair.gap && !(*arguments.repair.gap >= 0 && internal::is_in_range(*arguments.repair.gap)))
+    throw Usage_error("--repair-gap must be a length >= 0 and at most 2^1000, about 1.07e301");
   for (const double x : arguments.nearest.value_or(std::array<double, 3>{}))
     if (!internal::is_in_range(x))
       throw Usage_error("--nearest takes coordinates of at most 2^1000, about 1.07e301");
@@ -182,8 +185,16 @@ Exit sculpt(const Arguments& arguments) {
     log.emplace(arguments.log, sha256_of_file(arguments.mesh));
   const Plan plan = plan_of(script, log ? &*log : nullptr, arguments);
   std::vector<std::string> left_out;
-  Mesh mesh = arguments.triangulate ? read_triangulated(arguments.mesh, arguments.delta.value_or(0), left_out)
-                                    : read_surface<Mesh>(arguments.mesh, arguments.delta.value_or(0), &left_out);
+  std::string repair_told;
+  Validity_report found;
+  Mesh mesh = arguments.repair.is_asked ? read_repaired(arguments, left_out, repair_told)
+              : arguments.triangulate   ? read_triangulated(arguments.mesh, arguments.delta.value_or(0), left_out, found)
+                                        : read_surface<Mesh>(arguments.mesh, arguments.delta.value_or(0), &left_out, &found);
+  std::cout << repair_told;
+  if (arguments.orient && !found.inside_out_components.empty()) {
+    std::cout << "components turned over: " << orient_components(mesh) << '\n';
+    found.inside_out_components.clear();
+  }
   check_mesh_directives(script.commands, arguments);
   const drawing::Scene before = needs_before(arguments.shown) ? drawing::scene_of(mesh) : drawing::Scene();
 
@@ -192,6 +203,9 @@ Exit sculpt(const Arguments& arguments) {
     std::cerr << "sculpt: " << text << '\n';
     notes.push_back(text);
   };
+  if (const std::string remarks = found.remarks(); !remarks.empty())
+    note("'" + arguments.mesh + "' has " + remarks + "These are sculpted as they are; --orient turns components that are inside out, "
+         "--repair also leaves out vertices without faces");
   if (!arguments.out.empty() && !left_out.empty())
     note("'" + arguments.out + "' will be without what '" + arguments.mesh + "' has besides its faces: " + listed(left_out));
   bool is_told = false;
@@ -243,6 +257,8 @@ std::string in_words_of_a_user(const Invalid_surface& error, bool is_triangulate
   std::string text = said.substr(0, said.find('\n') + 1) + error.report().message(8, Validity_report::Reader::user);
   if (!is_triangulated && !error.report().non_triangular_faces.empty())
     text += "--triangulate divides faces into triangles.\n";
+  if (error.report().is_repairable())
+    text += "Or let --repair do what it can: sculpt MESH --repair -o REPAIRED.\n";
   return text;
 }
 

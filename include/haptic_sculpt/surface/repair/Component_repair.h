@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_COMPONENT_REPAIR_H
+#define HAPTIC_SCULPT_SURFACE_COMPONENT_REPAIR_H
+
+#include <haptic_sculpt/surface/repair/separate_vertices.h>
+
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Resolves what intersects in a soup of triangles, component by component: those that meet themselves, and then those that
+/// meet others, which are united. Components that meet nothing are not touched.
+class Component_repair {
+  using Index = Face_soup::Index;
+
+public:
+  /// \pre the soup is a 2-manifold of triangles, with or without boundary
+  Component_repair(const Face_soup& soup, Trail& trail) : soup_(soup), trail_(trail) {}
+
+  /// Appends two steps. \return the soup afterwards
+  Face_soup run(std::vector<Repair_step>& steps) {
+    collect();
+    if (meeting_.empty() && crossed_.empty())
+      return soup_;
+    std::vector<Trail::Move> moves;
+    steps.push_back(resolve(moves));
+    steps.back().moved = trail_.follow(std::move(moves));
+    steps.push_back(unite());
+    Face_soup result;
+    for (const Work_mesh& mesh : meshes_)
+      append(face_soup(mesh), result);
+    trail_.keep(result.points); // the union only takes points away, and adds
+    return result;
+  }
+
+private:
+  void collect() {
+    Disjoint_sets sets = Soup_connectivity(soup_).components();
+    std::map<Index, std::size_t> number;
+    std::vector<Index> triangles(soup_.number_of_faces());
+    std::vector<bool> flat(triangles.size());
+    const Meet_improperly meet_improperly(soup_);
+    component_of_.resize(triangles.size());
+    for (Index f = 0; f < triangles.size(); ++f) {
+      component_of_[f] = number.emplace(sets.find(*soup_.begin(f)), number.size()).first->second;
+      triangles[f] = f;
+      flat[f] = meet_improperly.is_flat(f);
+    }
+    number_of_components_ = number.size();
+    for (const auto& [f, g] : improper_intersections(soup_, triangles, flat, Vertex_separation::most_pairs).pairs) {
+      const auto pair = std::minmax(component_of_[f], component_of_[g]);
+      ++(pair.first == pair.second ? crossed_[pair.first] : meeting_[{pair.first, pair.second}]);
+    }
+  }
+
+  static void append(const Face_soup& part, Face_soup& soup) {
+    std::vector<Index> number(part.points.size(), static_cast<Index>(-1));
+    for (std::size_t f = 0; f < part.number_of_faces(); ++f) {
+      for (const Index* corner = part.begin(f); corner != part.end(f); ++corner) {
+        if (number[*corner] == static_cast<Index>(-1)) {
+          number[*corner] = static_cast<Index>(soup.points.size());
+          soup.points.push_back(part.points[*corner]);
+        }
+        soup.corners.push_back(number[*corner]);
+      }
+      soup.close_face();
+    }
+  }
+
+  // The mesh of each component.
+  void split() {
+    std::vector<Polygon_soup> parts(number_of_components_, Polygon_soup(Face_soup()));
+    std::vector<std::size_t> number(soup_.points.size(), static_cast<std::size_t>(-1));
+    for (Index f = 0; f < soup_.number_of_faces(); ++f) {
+      Polygon_soup& part = parts[component_of_[f]];
+      part.faces.emplace_back();
+      for (const Index* corner = soup_.begin(f); corner != soup_.end(f); ++corner) {
+        if (number[*corner] == static_cast<std::size_t>(-1)) {
+          number[*corner] = part.points.size();
+          part.points.push_back(soup_.points[*corner]);
+        }
+        part.faces.back().push_back(number[*corner]);
+      }
+    }
+    for (const Polygon_soup& part : parts)
+      meshes_.push_back(work_mesh(part));
+  }
+
+  Repair_step resolve(std::vector<Trail::Move>& moves) {
+    split();
+    std::size_t crossed = 0, removed = 0, added = 0, left = 0;
+    std::string failure;
+    for (std::size_t c = 0; c < meshes_.size(); ++c) {
+      Work_mesh& mesh = meshes_[c];
+      const auto found = crossed_.find(c);
+      if (found == crossed_.end()) {
+        for (const auto v : mesh.vertices())
+          moves.emplace_back(mesh.point(v), mesh.point(v));
+        continue;
+      }
+      crossed += found->second;
+      Work_mesh copy = mesh;
+      const Vertex_marks marks(copy);
+      try {
+        left += !resolve_self_intersections(copy);
+      } catch (const CGAL::Failure_exception& error) {
+        failure = error.what();
+        continue;
+      }
+      marks.append_moves(moves);
+      removed += mesh.number_of_faces();
+      added += copy.number_of_faces();
+      mesh = copy;
+      mesh.collect_garbage();
+    }
+    return {Repair_kind::resolve_self_intersections,
+            {{"pairs of faces of a component that met", crossed}, {"components where some are left", left},
+             {"faces before", removed}, {"faces after", added}}, 0, failure};
+  }
+
+  // With its normals outwards. \pre closed
+  static void turn_outwards(Work_mesh& mesh) {
+    const Face_soup soup = face_soup(mesh);
+    if (!Component_orientation(soup).inside_out().empty())
+      CGAL::Polygon_mesh_processing::reverse_face_orientations(mesh);
+  }
+
+  Repair_step unite() {
+    namespace PMP = CGAL::Polygon_mesh_processing;
+    std::size_t united = 0, failed = 0;
+    std::string failure;
+    std::vector<std::size_t> now(meshes_.size()); // the mesh that a component has become part of
+    for (std::size_t c = 0; c < now.size(); ++c)
+      now[c] = c;
+    for (const auto& meeting : meeting_) {
+      const std::size_t a = now[meeting.first.first], b = now[meeting.first.second];
+      if (a == b)
+        continue;
+      if (!CGAL::is_closed(meshes_[a]) || !CGAL::is_closed(meshes_[b])) {
+        ++failed;
+        continue;
+      }
+      Work_mesh one = meshes_[a], other = meshes_[b], sum;
+      try {
+        if (a == meeting.first.first && !is_united(a, now))
+          turn_outwards(one);
+        if (b == meeting.first.second && !is_united(b, now))
+          turn_outwards(other);
+        if (!PMP::corefine_and_compute_union(one, other, sum, CGAL::parameters::throw_on_self_intersection(true))) {
+          ++failed;
+          continue;
+        }
+      } catch (const PMP::Corefinement::Self_intersection_exception&) {
+        failure = "a component still meets itself";
+        continue;
+      } catch (const CGAL::Failure_exception& error) {
+        failure = error.what();
+        continue;
+      }
+      ++united;
+      meshes_[a] = std::move(sum);
+      meshes_[b].clear();
+      for (std::size_t& c : now)
+        if (c == b)
+          c = a;
+    }
+    return {Repair_kind::unite_solids,
+            {{"times two solids were united", united}, {"pairs that could not be united", failed}}, 0, failure};
+  }
+  static bool is_united(std::size_t a, const std::vector<std::size_t>& now) {
+    return std::count(now.begin(), now.end(), a) > 1;
+  }
+
+  const Face_soup& soup_;
+  Trail& trail_;
+  std::size_t number_of_components_ = 0;
+  std::vector<std::size_t> component_of_; // of each face
+  std::map<std::size_t, std::size_t> crossed_;                         // pairs of faces within a component
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> meeting_; // pairs of faces of two components
+  std::vector<Work_mesh> meshes_;
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
