@@ -57,7 +57,7 @@ Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_ou
   if (!report.is_repaired())
     throw Read_error("cannot repair '" + arguments.mesh + "':\n" + told);
   left_out = std::move(soup.left_out);
-  return triangulated(soup, arguments.mesh);
+  return make_surface<Mesh>(soup, arguments.delta.value_or(0));
 }
 
 Mesh read_triangulated(const std::string& path, double delta, std::vector<std::string>& left_out, Validity_report& found) {

@@ -117,6 +117,28 @@ inline Triangle_list boxes_side_on_side() {
   return list += other.scale_and_move(1, 2, -0.5, -0.25);
 }
 
+/// A box with a wall in it, from side to side.
+inline Triangle_list box_with_a_wall() {
+  Triangle_list list = box(2, 2);
+  const std::size_t middle = list.add_point(1, 1, 1);
+  const int ring[9][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}, {0, 0}};
+  const auto at = [&](int i) {
+    const Point_3 p(ring[i][0], ring[i][1], 1);
+    return static_cast<std::size_t>(std::find(list.points.begin(), list.points.end(), p) - list.points.begin());
+  };
+  for (int i = 0; i < 8; ++i)
+    list.add_face(at(i), at(i + 1), middle);
+  return list;
+}
+
+/// A ball and a loose triangle.
+inline Triangle_list loose_triangle() {
+  Triangle_list list = icosphere(2);
+  const std::size_t a = list.add_point(0, 0, 0), b = list.add_point(0.25, 0, 0), c = list.add_point(0, 0.25, 0.125);
+  list.add_face(a, b, c);
+  return list;
+}
+
 /// A torus whose tube is thicker than its radius, so that it passes through itself.
 inline Triangle_list torus_through_itself() {
   return torus(24, 12, 1.2);
@@ -136,7 +158,9 @@ inline std::vector<std::pair<std::string, Triangle_list>> broken_meshes() {
           {"faces turned over", turned_faces()},
           {"soup without gaps", soup_with_gaps(torus(12, 8), 0)},
           {"cubes on an edge", cubes_on_an_edge()},
-          {"boxes side on side", boxes_side_on_side()}};
+          {"boxes side on side", boxes_side_on_side()},
+          {"box with a wall inside", box_with_a_wall()},
+          {"ball and a loose triangle", loose_triangle()}};
 }
 
 } // namespace meshes

@@ -156,6 +156,20 @@ Mesh read_surface(const std::filesystem::path& path, double delta = 0, std::vect
     return internal::mesh_of<Mesh>(soup);
 }
 
+/// The mesh of a valid list of faces, e.g. of one that repair() has repaired. Vertices and faces keep their numbers.
+/// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
+/// \param delta the delta rule's length, >= 0
+/// \throw Invalid_surface if `validate_soup()` finds fault with it
+template <class Mesh>
+Mesh make_surface(const Face_soup& soup, double delta = 0) {
+  static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
+                "make_surface<Mesh>: Mesh must be a CGAL::Surface_mesh whose points have double coordinates");
+  Validity_report report = validate_soup(soup, delta);
+  if (!report.is_valid())
+    throw Invalid_surface("the list of faces", std::move(report));
+  return internal::mesh_of<Mesh>(soup);
+}
+
 } // namespace haptic_sculpt
 
 #endif

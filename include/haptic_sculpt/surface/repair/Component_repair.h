@@ -6,7 +6,12 @@
 
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 
+#include <CGAL/determinant.h>
+
+#include <array>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -22,11 +27,15 @@ public:
   /// \pre the soup is a 2-manifold of triangles, with or without boundary
   Component_repair(const Face_soup& soup, Trail& trail) : soup_(soup), trail_(trail) {}
 
-  /// Appends two steps. \return the soup afterwards
+  /// Appends steps. \return the soup afterwards
   Face_soup run(std::vector<Repair_step>& steps) {
     collect();
     if (meeting_.empty() && crossed_.empty())
       return soup_;
+    find_sheets();
+    if (sheets_.size() == number_of_components_)
+      return soup_; // it holds nothing
+    steps.push_back({Repair_kind::drop_sheets, {{"components without volume dropped", sheets_.size()}}, 0, {}});
     std::vector<Trail::Move> moves;
     steps.push_back(resolve(moves));
     steps.back().moved = trail_.follow(std::move(moves));
@@ -58,6 +67,32 @@ private:
     }
   }
 
+  // Loose faces and walls in the inside: closed by faces upon themselves, they enclose nothing, and so meet themselves.
+  void find_sheets() {
+    std::map<std::size_t, Exact_ring_number> volume; // six times
+    std::map<std::size_t, Index> apex;
+    for (Index f = 0; f < soup_.number_of_faces(); ++f) {
+      const std::size_t c = component_of_[f];
+      if (crossed_.count(c) == 0)
+        continue;
+      const auto& o = soup_.points[apex.emplace(c, *soup_.begin(f)).first->second];
+      std::array<std::array<Exact_ring_number, 3>, 3> d;
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+          d[i][k] = Exact_ring_number(soup_.points[soup_.begin(f)[i]][k]) - Exact_ring_number(o[k]);
+      Exact_ring_number& sum = volume.emplace(c, Exact_ring_number(0)).first->second;
+      sum = sum + CGAL::determinant(d[0][0], d[0][1], d[0][2], d[1][0], d[1][1], d[1][2], d[2][0], d[2][1], d[2][2]);
+    }
+    for (const auto& [c, sum] : volume)
+      if (CGAL::sign(sum) == CGAL::ZERO)
+        sheets_.insert(c);
+    for (const std::size_t c : sheets_)
+      crossed_.erase(c);
+    for (auto meeting = meeting_.begin(); meeting != meeting_.end();)
+      meeting = sheets_.count(meeting->first.first) + sheets_.count(meeting->first.second) > 0 ? meeting_.erase(meeting)
+                                                                                           : std::next(meeting);
+  }
+
   static void append(const Face_soup& part, Face_soup& soup) {
     std::vector<Index> number(part.points.size(), static_cast<Index>(-1));
     for (std::size_t f = 0; f < part.number_of_faces(); ++f) {
@@ -87,8 +122,8 @@ private:
         part.faces.back().push_back(number[*corner]);
       }
     }
-    for (const Polygon_soup& part : parts)
-      meshes_.push_back(work_mesh(part));
+    for (std::size_t c = 0; c < parts.size(); ++c)
+      meshes_.push_back(sheets_.count(c) == 0 ? work_mesh(parts[c]) : Work_mesh());
   }
 
   Repair_step resolve(std::vector<Trail::Move>& moves) {
@@ -182,6 +217,7 @@ private:
   std::vector<std::size_t> component_of_; // of each face
   std::map<std::size_t, std::size_t> crossed_;                         // pairs of faces within a component
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> meeting_; // pairs of faces of two components
+  std::set<std::size_t> sheets_;                                       // components without volume
   std::vector<Work_mesh> meshes_;
 };
 

@@ -24,6 +24,7 @@ enum class Repair_kind {
   remove_degenerate_faces,   ///< triangles whose corners lie on a line
   close_holes,               ///< with triangles between the vertices of the boundary
   separate_vertices,         ///< that were split, and so are at one point
+  drop_sheets,               ///< components that enclose no volume go, unless none encloses one
   resolve_self_intersections, ///< of a component with itself
   unite_solids,              ///< components that overlap
   orient_solids              ///< components bound a volume: their normals point out of the solid
@@ -32,7 +33,7 @@ enum class Repair_kind {
 /// E.g. "close holes".
 inline const char* name_of(Repair_kind kind) {
   constexpr const char* names[] = {"merge points", "drop faces", "drop points", "close gaps", "orient faces", "divide faces",
-                                   "stitch edges", "remove degenerate faces", "close holes", "separate vertices",
+                                   "stitch edges", "remove degenerate faces", "close holes", "separate vertices", "drop sheets",
                                    "resolve self-intersections", "unite solids", "orient solids"};
   return names[static_cast<int>(kind)];
 }
