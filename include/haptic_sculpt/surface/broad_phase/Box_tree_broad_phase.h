@@ -25,6 +25,9 @@ class Box_tree_broad_phase {
 public:
   using Face_index = typename Mesh::Face_index; ///< what queries append
 
+  /// Answers for a star name the faces that pass its filter, no others (doc/broad_phase.md, "Which faces count").
+  static constexpr bool answers_are_filtered = true;
+
   /// Builds the tree: n log n. \param mesh has to outlive this
   explicit Box_tree_broad_phase(const Mesh& mesh) : mesh_(&mesh) { build(); }
 
@@ -37,10 +40,9 @@ public:
   /// Appends at least every face that meets one of the tetrahedra that the star sweeps.
   void query(const Swept_star_3& star, std::vector<Face_index>& faces) { query(star, faces, unlimited); }
 
-  /// The same, given up when there are more than `most` faces, or about as many nodes to read on a level. Returns whether
-  /// the answer is whole.
+  /// The same, given up when there are more than `most` faces. Returns whether the answer is whole.
   bool query(const Swept_star_3& star, std::vector<Face_index>& faces, std::size_t most) {
-    internal::Star_filter filter(star, scale_);
+    const internal::Star_filter filter(star, scale_);
     return descend([&filter](const Node& node) { return filter.meeting(node); }, faces, most);
   }
 
@@ -172,7 +174,6 @@ private:
   static constexpr std::size_t usual_touched = 256, usual_queue = 8192; ///< room is made for so many
 
   static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  static constexpr std::size_t few_nodes = 64; ///< of a level are read, whatever the limit of an answer
 
   const Mesh* mesh_;
   internal::Box_scale scale_;
@@ -282,15 +283,11 @@ private:
   /// false where it was given up.
   template <class Passing>
   bool descend(const Passing& passing, std::vector<Face_index>& faces, std::size_t most = unlimited) {
-    const std::size_t most_nodes = most < unlimited - few_nodes ? most + few_nodes : unlimited,
-                      first = faces.size();
+    const std::size_t first = faces.size();
     const auto found = [&faces](std::uint32_t f) { faces.push_back(Face_index(f)); };
     to_root();
-    while (level_ > 0) {
+    while (level_ > 0)
       go_down(passing);
-      if (end_ - begin_ > most_nodes)
-        return false;
-    }
     for (; begin_ != end_; ++begin_) {
       for (unsigned mask = passing(nodes_[level_begin_[0] + queue_[begin_]]); mask != 0; mask &= mask - 1)
         found(face_of_slot_[std::size_t{queue_[begin_]} * width + internal::lowest_bit(mask)]);

@@ -62,11 +62,11 @@ public:
                     b = (node.bounds[i + 3][j] - origin_[i]) * normal_[i];
         const float small = a < b ? a : b, large = a < b ? b : a;
         least[j] += small, most[j] += large;
-        size[j] += std::abs(a) + std::abs(b);
+        size[j] += std::abs(a) > std::abs(b) ? std::abs(a) : std::abs(b); // grows with the box
       }
     int mask = 0;
     for (int j = 0; j < 8; ++j) {
-      const float error = 0x1p-19f * size[j] + least_error;
+      const float error = 0x1p-18f * size[j] + least_error;
       mask |= ((least[j] - error > high_) | (most[j] + error < low_)) ? 0 : bits[j];
     }
     return static_cast<unsigned>(mask);
