@@ -2,11 +2,13 @@
 // Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/sculpt.md.
 #include "../common/contents_of.h"
 #include "../common/mesh_program.h"
+#include "../common/numbers.h"
 #include "../common/output_targets.h"
 #include "Log_file.h"
 #include "nearest_vertices.h"
 #include "printable.h"
 #include "read_mesh.h"
+#include "read_repaired.h"
 #include "resume.h"
 #include "sha256_of_file.h"
 #include "write_results.h"
@@ -14,6 +16,7 @@
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
+#include <haptic_sculpt/surface/orient_components.h>
 #include <haptic_sculpt/surface/read_surface.h>
 
 #include <cmath>
@@ -47,15 +50,20 @@ void check_files(const Arguments& a) {
   examples::check_mesh_name({"-o", a.out});
   examples::check_picture_name({"--picture", a.picture}), examples::check_picture_name({"--compare", a.comparison});
   examples::Run_files files;
-  files.outputs = {{"--log", a.log}, {"-o", a.out}, {"--report", a.report}, {"--picture", a.picture}, {"--compare", a.comparison}};
-  files.inputs = {{"MESH", a.mesh}, {"--script", a.script}};
+  files.outputs = {{"--log", a.log},
+                   {"-o", a.out},
+                   {"--report", a.report},
+                   {"--picture", a.picture},
+                   {"--compare", a.comparison},
+                   {"--repair-report", a.repair.report}};
+  files.inputs = {{examples::input_mesh, a.mesh}, {"--script", a.script}};
   if (a.log.empty()) // the result may take the place of the mesh that was read
-    files.replaced_by = "-o", files.replaced = "MESH";
+    files.replaced_by = "-o", files.replaced = examples::input_mesh;
   else if (!a.out.empty() && examples::are_one_file(a.out, a.mesh))
     throw Usage_error("'" + a.out + "' is the mesh that the log '" + a.log +
                       "' begins with; sculpted, it could not be resumed from the log. Give the result another name");
   files.check_apart();
-  for (const std::string& path : {a.out, a.report, a.picture, a.comparison}) // a log looks for itself
+  for (const std::string& path : {a.out, a.report, a.picture, a.comparison, a.repair.report}) // a log looks for itself
     if (!path.empty())
       examples::check_target(path);
 }
@@ -94,9 +102,11 @@ void check_lengths(const Arguments& arguments) {
     throw Usage_error("--clearance must be a length > 0 and at most 2^1000, about 1.07e301");
   if (arguments.delta && !(*arguments.delta >= 0 && internal::is_in_range(*arguments.delta)))
     throw Usage_error("--delta must be a length >= 0 and at most 2^1000, about 1.07e301");
+  if (arguments.repair.gap && !(*arguments.repair.gap >= 0 && internal::is_in_range(*arguments.repair.gap)))
+    throw Usage_error("--repair-gap must be a length >= 0 and at most 2^1000, about 1.07e301");
   for (const double x : arguments.nearest.value_or(std::array<double, 3>{}))
     if (!internal::is_in_range(x))
-      throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " + internal::number(x) +
+      throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " + examples::decimal(x) +
                         " is none");
 }
 
@@ -106,17 +116,24 @@ struct Delta_of_no_use : Error {
 };
 
 /// \throw Delta_of_no_use; what reading meshes throws
-Mesh mesh_of(const Arguments& arguments, std::vector<std::string>& left_out) {
+Mesh mesh_of(const Arguments& arguments, std::vector<std::string>& left_out, Validity_report& found) {
   const double delta = arguments.delta.value_or(0);
+  if (arguments.repair.is_asked) {
+    std::string told;
+    Mesh mesh = read_repaired(arguments, left_out, told);
+    std::cout << told;
+    return mesh;
+  }
   try {
-    return arguments.triangulate ? read_triangulated(arguments.mesh, delta, left_out)
-                                 : read_surface<Mesh>(arguments.mesh, delta, &left_out);
+    return arguments.triangulate ? read_triangulated(arguments.mesh, delta, left_out, found)
+                                 : read_surface<Mesh>(arguments.mesh, delta, &left_out, &found);
   } catch (const Invalid_surface& error) {
     const auto& low = error.report().low_faces;
     if (low.empty() || low.size() != error.report().number_of_faults())
       throw;
-    throw Delta_of_no_use("--delta " + internal::number(delta) + " does not serve '" + arguments.mesh + "', which has " +
-                          std::to_string(low.size()) + " triangle(s) with an altitude below it, the first of them face " +
+    throw Delta_of_no_use("--delta " + examples::decimal(delta) + " does not serve '" + arguments.mesh +
+                          "', which has " + std::to_string(low.size()) +
+                          " triangle(s) with an altitude below it, the first of them face " +
                           std::to_string(static_cast<std::size_t>(low[0])) +
                           "; give a smaller length, or leave the option out");
   }
@@ -186,13 +203,22 @@ int sculpt(const Arguments& arguments) {
     log.emplace(arguments.log, sha256_of_file(arguments.mesh));
   const Plan plan = plan_of(script, log ? &*log : nullptr, arguments);
   std::vector<std::string> left_out;
-  Mesh mesh = mesh_of(arguments, left_out);
+  Validity_report found;
+  Mesh mesh = mesh_of(arguments, left_out, found);
+  if (arguments.orient && !found.inside_out_components.empty()) {
+    std::cout << "components turned over: " << orient_components(mesh) << '\n';
+    found.inside_out_components.clear();
+  }
   check_mesh_directives(script.commands, arguments);
   const drawing::Scene before = needs_before(arguments.shown) ? drawing::scene_of(mesh) : drawing::Scene();
 
   Result_writer writer("sculpt");
+  if (const std::string remarks = found.remarks(); !remarks.empty())
+    writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are. --orient turns components over that are "
+                "inside out; --repair also leaves out vertices without faces");
   if (!arguments.out.empty() && !left_out.empty())
-    writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh + "' has besides its faces: " + listed(left_out));
+    writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh +
+                "' has besides its faces: " + listed(left_out));
   bool is_told = false;
   const auto tell_failure = [&] { // once, and at once: the work may take hours
     if (log && !log->failure().empty() && !std::exchange(is_told, true))
@@ -201,7 +227,8 @@ int sculpt(const Arguments& arguments) {
   const bool is_logging = log && !script.commands.empty();
   if (log) {
     if (log->contents() && !log->contents()->unfinished.empty())
-      writer.note("the unfinished last line of the log '" + arguments.log + "' is dropped: " + printable(log->contents()->unfinished));
+      writer.note("the unfinished last line of the log '" + arguments.log +
+                  "' is dropped: " + printable(log->contents()->unfinished));
     log->begin(settings_of(arguments));
     if (is_logging && !plan.rest.is_announced)
       log->begin_pass(script.hash, plan.rest.after);
