@@ -95,8 +95,8 @@ public:
     if (!begin_record())
       return;
     const auto& point = edit.kind == Edit_kind::remove ? edit.before : edit.after;
-    const std::size_t words = edit.around.size() * (edit.kind == Edit_kind::shift ? 3 : 1);
-    edits_.push_back({edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(words), edit.kind});
+    edits_.push_back(
+        {edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(words_of(edit)), edit.kind});
     for (const std::size_t name : edit.around)
       around_.push_back(name);
     if (edit.kind == Edit_kind::shift)
@@ -108,12 +108,12 @@ public:
     end_record();
   }
 
-  /// A shift of so many vertices follows: what it needs is allocated now.
-  void prepare_for_shift(std::size_t vertices) {
+  /// Room for the record of an edit: to be called before it is made.
+  void make_room_for(const Edit& edit) {
     if (is_off())
       return;
     edits_.reserve(1);
-    around_.reserve(3 * vertices);
+    around_.reserve(words_of(edit));
     steps_.reserve(1);
   }
 
@@ -204,6 +204,8 @@ private:
   std::vector<std::size_t> latest_;         ///< by number of vertex, its last move; maybe one that is no more
 
   static_assert(sizeof(std::size_t) == sizeof(double), "coordinates are kept among numbers of vertices");
+  /// That are kept of it besides.
+  static std::size_t words_of(const Edit& edit) { return edit.around.size() * (edit.kind == Edit_kind::shift ? 3 : 1); }
   static std::size_t word_of(double x) {
     std::size_t word;
     std::memcpy(&word, &x, sizeof word);

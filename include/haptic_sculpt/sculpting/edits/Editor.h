@@ -149,7 +149,7 @@ public:
         if (!mesh_->is_isolated(ways[k].first))
           recorded.around.push_back(edit.around[k]), recorded.ways.push_back(edit.ways[k]);
     }
-    history_.prepare_for_shift(recorded.around.size());
+    history_.make_room_for(recorded);
     changes_.make(edit, place(history_.number_of_next(), true), [&](Vertex_index changed) {
       watch(changed, edit);
       if (!recorded.around.empty())
