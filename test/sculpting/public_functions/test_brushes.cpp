@@ -26,8 +26,9 @@ std::size_t dab(brushes::Kind kind, double unit, bool has_direction, Outcome& ou
     outcome.point(targets[static_cast<std::size_t>(v)]);
     moved += targets[static_cast<std::size_t>(v)] != scene.mesh.point(v);
   }
-  const auto other = brushes::mirrored(dab, meshes::Kernel::Plane_3(scene.at(0.25, 0, 0), dab.direction.value_or(scene.at(1, 0, 1) - scene.at(0, 0, 0))));
-  outcome.number(std::isfinite(other.centre.x() / unit));
+  // A plane is told by a direction, of any length, and a place.
+  const meshes::Kernel::Plane_3 plane(scene.at(0.25, 0, 0), meshes::Kernel::Vector_3(1, 0.5, 0.25));
+  outcome.point(brushes::mirrored(dab, plane).centre);
   return moved;
 }
 
