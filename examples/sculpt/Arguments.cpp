@@ -96,6 +96,19 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
                  "Prints the vertices nearest to the point X Y Z, with their numbers, after the edits")
       ->type_name("X Y Z");
   app.add_flag("--triangulate", arguments.triangulate, "Divides faces with more than three corners into triangles");
+  app.add_flag("--orient", arguments.orient, "Turns over components that are inside out, and repairs nothing else");
+  app.add_flag("--repair", arguments.repair.is_asked,
+               "Repairs the mesh on reading, and says how; with -o and no script: converts a broken mesh into a valid one");
+  app.add_option("--repair-report", arguments.repair.report, "Where the steps of the repair go, as JSON")
+      ->check(named)
+      ->needs("--repair");
+  app.add_option("--repair-gap", arguments.repair.gap,
+                 "Points on open edges become one where they are at most this length apart, >= 0; by default 1e-6 of the "
+                 "extent where edges are much longer")
+      ->needs("--repair");
+  app.add_option("--repair-largest-hole", arguments.repair.largest_hole,
+                 "Holes with more edges than this are not closed, and the mesh is refused; by default all are closed")
+      ->needs("--repair");
   try {
     app.parse(argc, argv);
     if (!shown.view.empty() && arguments.picture.empty() && arguments.comparison.empty())

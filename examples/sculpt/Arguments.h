@@ -20,11 +20,20 @@ struct Picture_arguments {
   bool before = false, numbers = false;
 };
 
+/// What `--repair` may do.
+struct Repair_arguments {
+  bool is_asked = false;
+  std::string report;
+  std::optional<double> gap;
+  std::optional<std::size_t> largest_hole;
+};
+
 /// The command line. Names that were not given are empty.
 struct Arguments {
   std::string mesh, script, out, report, log, response, broad_phase = "tree", picture, comparison;
   std::optional<double> clearance, delta;
-  bool append = false, triangulate = false;
+  bool append = false, triangulate = false, orient = false;
+  Repair_arguments repair;
   Picture_arguments shown;
   std::optional<std::array<double, 3>> nearest;
 };

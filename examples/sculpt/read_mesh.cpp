@@ -56,7 +56,7 @@ Face_soup triangulated(const Face_soup& soup, const std::string& path) {
 
 } // namespace
 
-Mesh read_triangulated(const std::string& path, double delta, std::vector<std::string>& left_out) {
+Mesh read_triangulated(const std::string& path, double delta, std::vector<std::string>& left_out, Validity_report& found) {
   Face_soup soup = read_face_soup(path);
   left_out = std::move(soup.left_out);
   Validity_report report = validate_soup(soup, delta);
@@ -72,6 +72,7 @@ Mesh read_triangulated(const std::string& path, double delta, std::vector<std::s
     if (!report.is_valid())
       throw Invalid_surface("'" + path + "', its faces divided into triangles,", std::move(report));
   }
+  found = std::move(report);
   Mesh mesh;
   for (const auto& p : soup.points)
     mesh.add_vertex({p.x(), p.y(), p.z()});

@@ -8,6 +8,7 @@
 #include "nearest_vertices.h"
 #include "printable.h"
 #include "read_mesh.h"
+#include "read_repaired.h"
 #include "resume.h"
 #include "sha256_of_file.h"
 #include "write_results.h"
@@ -15,6 +16,7 @@
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
+#include <haptic_sculpt/surface/orient_components.h>
 #include <haptic_sculpt/surface/read_surface.h>
 
 #include <cmath>
@@ -52,7 +54,8 @@ void check_files(const Arguments& a) {
                    {"-o", a.out},
                    {"--report", a.report},
                    {"--picture", a.picture},
-                   {"--compare", a.comparison}};
+                   {"--compare", a.comparison},
+                   {"--repair-report", a.repair.report}};
   files.inputs = {{examples::input_mesh, a.mesh}, {"--script", a.script}};
   if (a.log.empty()) // the result may take the place of the mesh that was read
     files.replaced_by = "-o", files.replaced = examples::input_mesh;
@@ -60,7 +63,7 @@ void check_files(const Arguments& a) {
     throw Usage_error("'" + a.out + "' is the mesh that the log '" + a.log +
                       "' begins with; sculpted, it could not be resumed from the log. Give the result another name");
   files.check_apart();
-  for (const std::string& path : {a.out, a.report, a.picture, a.comparison}) // a log looks for itself
+  for (const std::string& path : {a.out, a.report, a.picture, a.comparison, a.repair.report}) // a log looks for itself
     if (!path.empty())
       examples::check_target(path);
 }
@@ -99,6 +102,8 @@ void check_lengths(const Arguments& arguments) {
     throw Usage_error("--clearance must be a length > 0 and at most 2^1000, about 1.07e301");
   if (arguments.delta && !(*arguments.delta >= 0 && internal::is_in_range(*arguments.delta)))
     throw Usage_error("--delta must be a length >= 0 and at most 2^1000, about 1.07e301");
+  if (arguments.repair.gap && !(*arguments.repair.gap >= 0 && internal::is_in_range(*arguments.repair.gap)))
+    throw Usage_error("--repair-gap must be a length >= 0 and at most 2^1000, about 1.07e301");
   for (const double x : arguments.nearest.value_or(std::array<double, 3>{}))
     if (!internal::is_in_range(x))
       throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " + examples::decimal(x) +
@@ -111,11 +116,17 @@ struct Delta_of_no_use : Error {
 };
 
 /// \throw Delta_of_no_use; what reading meshes throws
-Mesh mesh_of(const Arguments& arguments, std::vector<std::string>& left_out) {
+Mesh mesh_of(const Arguments& arguments, std::vector<std::string>& left_out, Validity_report& found) {
   const double delta = arguments.delta.value_or(0);
+  if (arguments.repair.is_asked) {
+    std::string told;
+    Mesh mesh = read_repaired(arguments, left_out, told);
+    std::cout << told;
+    return mesh;
+  }
   try {
-    return arguments.triangulate ? read_triangulated(arguments.mesh, delta, left_out)
-                                 : read_surface<Mesh>(arguments.mesh, delta, &left_out);
+    return arguments.triangulate ? read_triangulated(arguments.mesh, delta, left_out, found)
+                                 : read_surface<Mesh>(arguments.mesh, delta, &left_out, &found);
   } catch (const Invalid_surface& error) {
     const auto& low = error.report().low_faces;
     if (low.empty() || low.size() != error.report().number_of_faults())
@@ -192,11 +203,19 @@ int sculpt(const Arguments& arguments) {
     log.emplace(arguments.log, sha256_of_file(arguments.mesh));
   const Plan plan = plan_of(script, log ? &*log : nullptr, arguments);
   std::vector<std::string> left_out;
-  Mesh mesh = mesh_of(arguments, left_out);
+  Validity_report found;
+  Mesh mesh = mesh_of(arguments, left_out, found);
+  if (arguments.orient && !found.inside_out_components.empty()) {
+    std::cout << "components turned over: " << orient_components(mesh) << '\n';
+    found.inside_out_components.clear();
+  }
   check_mesh_directives(script.commands, arguments);
   const drawing::Scene before = needs_before(arguments.shown) ? drawing::scene_of(mesh) : drawing::Scene();
 
   Result_writer writer("sculpt");
+  if (const std::string remarks = found.remarks(); !remarks.empty())
+    writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are. --orient turns components "
+                "over that are inside out; --repair also leaves out vertices without faces");
   if (!arguments.out.empty() && !left_out.empty())
     writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh +
                 "' has besides its faces: " + listed(left_out));
