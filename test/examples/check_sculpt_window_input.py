@@ -208,11 +208,20 @@ check(hand.drop(identity, saved), "a dropped file is taken")
 eventually(lambda: title() == f"sculpt_window {saved}", f"where it would be saved is opened: {title()}")
 dragged(vertex, goal)
 eventually(lambda: title().endswith("(not saved)"), "something is not saved")
-plain = still(MIDDLE)
+hand.key("Tab")  # the panels would lie over a button
+time.sleep(0.3)
+plain, QUESTION = still(MIDDLE), (20, SIZE[1] // 2 - 60, SIZE[0] - 40, 120)
+around = still(QUESTION)
 hand.close(identity)
 eventually(lambda: seen(MIDDLE) != plain, "closing asks again")
-# The question is as wide as its longest line, in letters of 7 pixels, and stands in the middle.
-hand.move(SIZE[0] // 2 - (7 * len(f"It would be saved to {saved}") + 16) // 2 + 40, SIZE[1] // 2)
+# The leftmost button is where something blue has come.
+asked = still(QUESTION)
+blue = [(i // 4 % QUESTION[2], i // 4 // QUESTION[2]) for i in range(0, len(asked), 4)
+        if asked[i:i + 3] != around[i:i + 3] and asked[i] > 1.5 * asked[i + 2] and asked[i] > 60]
+check(len(blue) > 1000, f"the question has buttons: {len(blue)} blue pixels")
+left = min(x for x, y in blue) if blue else 0
+rows = [y for x, y in blue if x < left + 10] or [0]
+hand.move(QUESTION[0] + left + 15, QUESTION[1] + (min(rows) + max(rows)) // 2)
 time.sleep(0.4)
 hand.click()
 eventually(lambda: seen(MIDDLE) == plain, "the question is answered")
@@ -221,8 +230,11 @@ check(process.poll() is None, "a save that is refused quits")
 hand.move(*vertex)
 hand.key("s")
 eventually(lambda: seen(MIDDLE) != plain, "s asks for a name again")
+time.sleep(0.3)  # the field takes the keys with the next frame
 for key in ("End", *4 * ("BackSpace",), "2", "period", "o", "f", "f"):
-    hand.key(key)
+    hand.key_goes(key, True)  # for some frames, as above
+    time.sleep(0.1)
+    hand.key_goes(key, False)
     time.sleep(0.1)
 hand.key_goes("Return", True)
 eventually(lambda: os.path.exists(at("saved2.off")), f"another name is taken: {os.listdir(folder)}")
