@@ -143,7 +143,7 @@ private:
   }
 
   Passivity_limits limits_of(const Haptic_parameters& parameters, const Scene& scene) {
-    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (scene.upper - scene.lower).norm());
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (scene.upper - scene.lower).stableNorm());
     const Passivity_limits limits = passivity_limits(device_, parameters.limits, scene.map, scene.lower - margin,
                                                      scene.upper + margin, settings_.damping, tick_, settings_.delay);
     if (!limits.worst.is_found)

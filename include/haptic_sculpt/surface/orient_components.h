@@ -16,7 +16,8 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Whether each face is of a component that these faces are of.
-inline std::vector<bool> faces_of_components(const Face_soup& soup, const std::vector<Validity_report::Face_index>& some) {
+inline std::vector<bool> faces_of_components(const Face_soup& soup,
+                                             const std::vector<Validity_report::Face_index>& some) {
   Disjoint_sets sets = Soup_connectivity(soup).components();
   std::vector<bool> root(soup.points.size(), false), found(soup.number_of_faces());
   for (const auto f : some)

@@ -17,7 +17,8 @@ namespace internal {
 inline Validity_report check_repairable(const Face_soup& soup, const Repair_parameters& parameters) {
   const double gap = parameters.gap_length.value_or(0);
   if (!(gap >= 0) || !is_in_range(gap))
-    throw Out_of_range("gap " + number(gap) + " is out of range: give a length >= 0 and at most 2^1000, about 1.07e301");
+    throw Out_of_range("gap " + number(gap) +
+                       " is out of range: give a length >= 0 and at most 2^1000, about 1.07e301");
   for (std::size_t i = 0; i < soup.corners.size(); ++i)
     if (soup.corners[i] >= soup.points.size())
       throw Error("corner " + std::to_string(i) + " of the list of faces is point " + std::to_string(soup.corners[i]) +
@@ -49,15 +50,15 @@ inline Repair_report repaired(const Face_soup& soup, const Repair_parameters& pa
 } // namespace internal
 
 /// Makes a valid surface of whatever a file holds, as far as CGAL's functions can: a soup of faces, with holes, gaps,
-/// doubled, turned and degenerate faces, self-intersections, overlapping solids. doc/repair.md says what is done, in which
-/// order, and what comes through.
+/// doubled, turned and degenerate faces, self-intersections, overlapping solids. doc/repair.md says what is done, in
+/// which order, and what comes through.
 ///
 /// All is done on a copy. Where faults are left, the soup is unchanged, and the report says which. Where there is no
 /// fault, no component inside out and no point without a face, the soup is unchanged, too.
 ///
 /// \throw Out_of_range if a coordinate or the gap is; Error if a corner is no index of a point; nothing is changed
 /// \post `report.is_repaired()` and `validate_soup(soup, delta).is_valid()`, or the soup is unchanged
-/// Complexity: O(n log^3 n) and what CGAL's functions take where there are faults; a hole of h edges takes up to O(h^3).
+/// Complexity: O(n log^3 n) and what CGAL's functions take where there are faults; a hole of h edges up to O(h^3).
 inline Repair_report repair(Face_soup& soup, const Repair_parameters& parameters = {}) {
   Face_soup result;
   Repair_report report = internal::repaired(soup, parameters, result);
@@ -77,7 +78,8 @@ Repair_report repair(Mesh& mesh, const Repair_parameters& parameters = {}) {
   static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
                 "repair(mesh): it must be a CGAL::Surface_mesh whose points have double coordinates");
   if (!internal::inconsistent_halfedges(mesh).empty())
-    throw Error("cannot repair: the half-edges of the mesh contradict each other; give its points and faces as a Face_soup");
+    throw Error("cannot repair: the half-edges of the mesh contradict each other; give its points and faces as a "
+                "Face_soup");
   Face_soup result;
   Mesh copy;
   if (mesh.has_garbage()) { // removed vertices are no points

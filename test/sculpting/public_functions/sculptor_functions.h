@@ -83,11 +83,15 @@ inline std::vector<Public_function> sculptor_functions() {
                    outcome.mesh(scene.mesh);
                  }});
   all.push_back({"Sculptor::insert_on_face Sculptor::insert_on_edge Sculptor::remove Sculptor::collapse Sculptor::flip Sculptor::undo "
-                 "Sculptor::redo Sculptor::reserve",
+                 "Sculptor::redo Sculptor::reserve Sculptor::keep",
                  [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);
                    sculptor.reserve(10, 10);
+                   auto heights = scene.mesh.add_property_map<Vertex_index, double>("v:height", 0).first;
+                   for (const Vertex_index v : scene.mesh.vertices())
+                     heights[v] = scene.mesh.point(v).z();
+                   sculptor.keep(heights, Interpolate_property());
                    const Mesh& mesh = sculptor.mesh();
                    for (int round = 0; round < 4; ++round) {
                      const auto f = *std::next(mesh.faces().begin(), 7 * round + 1);
@@ -105,6 +109,8 @@ inline std::vector<Public_function> sculptor_functions() {
                      outcome.edit(sculptor.undo());
                      outcome.edit(sculptor.redo());
                      outcome.mesh(mesh);
+                     for (const Vertex_index v : mesh.vertices())
+                       outcome.length(heights[v]);
                    }
                  }});
   all.push_back({"Sculptor::shift", [](double unit, Outcome& outcome) {

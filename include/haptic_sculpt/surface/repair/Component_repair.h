@@ -18,8 +18,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Resolves what intersects in a soup of triangles, component by component: those that meet themselves, and then those that
-/// meet others, which are united. Components that meet nothing are not touched.
+/// Resolves what intersects in a soup of triangles, component by component: those that meet themselves, and then those
+/// that meet others, which are united. Components that meet nothing are not touched.
 class Component_repair {
   using Index = Face_soup::Index;
 

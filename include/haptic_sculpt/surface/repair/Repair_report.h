@@ -32,9 +32,10 @@ enum class Repair_kind {
 
 /// E.g. "close holes".
 inline const char* name_of(Repair_kind kind) {
-  constexpr const char* names[] = {"merge points", "drop faces", "drop points", "close gaps", "orient faces", "divide faces",
-                                   "stitch edges", "remove degenerate faces", "close holes", "separate vertices", "drop sheets",
-                                   "resolve self-intersections", "unite solids", "orient solids"};
+  constexpr const char* names[] = {"merge points", "drop faces", "drop points", "close gaps", "orient faces",
+                                   "divide faces", "stitch edges", "remove degenerate faces", "close holes",
+                                   "separate vertices", "drop sheets", "resolve self-intersections", "unite solids",
+                                   "orient solids"};
   return names[static_cast<int>(kind)];
 }
 
@@ -75,8 +76,8 @@ struct Repair_report {
 
   /// Of the repaired surface, or of what the repair came to: what is left of the faults.
   Validity_report left;
-  /// What the repair came to, where faults are left; the numbers in `left` are those of its points and faces. Empty where
-  /// it came to the end.
+  /// What the repair came to, where faults are left; the numbers in `left` are those of its points and faces. Empty
+  /// where it came to the end.
   Face_soup attempt;
 
   /// Whether the surface is valid now. If not, what was given to repair() is unchanged.
@@ -103,12 +104,11 @@ struct Repair_report {
       text = "nothing to repair\n";
     text += "of " + std::to_string(points_before) + " points none moved farther than " + internal::number(moved);
     if (points_removed > 0)
-      text += "; " + std::to_string(points_removed) + " are gone, and were at most " + internal::number(removed_distance) +
-              " from the surface as it is now";
+      text += "; " + std::to_string(points_removed) + " are gone, and were at most " +
+              internal::number(removed_distance) + " from the surface as it is now";
     text += "; " + std::to_string(points_added) + " are new\n";
     if (!is_repaired())
-      text += "what is left could not be repaired, and nothing was changed (numbers are those of the repair's attempt):\n" +
-              left.message(8, reader);
+      text += "what is left could not be repaired, and nothing was changed (numbers are those of its attempt):\n" + left.message(8, reader);
     return text;
   }
 };

@@ -40,8 +40,8 @@ public:
     now_.assign(start_.begin(), start_.end());
   }
 
-  /// Points go on from where they are. One with several moves takes the farthest from where it started; one with none is
-  /// gone. \return the largest distance of the moves. O(n log n)
+  /// Points go on from where they are. One with several moves takes the farthest from where it started; one with none
+  /// is gone. \return the largest distance of the moves. O(n log n)
   double follow(std::vector<Move> moves) {
     double farthest = 0;
     for (const Move& move : moves)

@@ -95,7 +95,8 @@ private:
 
   template <class Function>
   void for_each_near_pair(const Function& function) const {
-    using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t, CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
+    using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t,
+                                                          CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
     std::vector<Box> boxes;
     for (std::size_t v = 0; v < soup_.points.size(); ++v)
       if (is_open_[v]) { // as wide as twice the gap: two boxes meet if their points are near, whatever is rounded

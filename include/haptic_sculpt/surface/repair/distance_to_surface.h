@@ -18,8 +18,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// The largest distance of a point from the triangles of a soup, rounded; 0 if it has none. O((points + faces) log faces)
-/// in the mean.
+/// The largest distance of a point from the triangles of a soup, rounded; 0 if it has none. O((points + faces) log
+/// faces) in the mean.
 inline double farthest_from_surface(const std::vector<Decision_kernel::Point_3>& points, const Face_soup& soup) {
   using Triangles = std::vector<Decision_kernel::Triangle_3>;
 #if CGAL_VERSION_NR >= 1060000000

@@ -28,17 +28,19 @@
 namespace haptic_sculpt {
 namespace internal {
 
-using Work_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>; ///< what CGAL's functions work on, whatever the user's kernel
+/// What CGAL's functions work on, whatever the user's kernel.
+using Work_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>;
 
-/// Where the vertices of a mesh were before CGAL changed it. A vertex added later has no mark: a slot used again gets the
-/// default value.
+/// Where the vertices of a mesh were before CGAL changed it. A vertex added later has no mark: a slot used again gets
+/// the default value.
 class Vertex_marks {
   using Point = Decision_kernel::Point_3;
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 public:
   explicit Vertex_marks(Work_mesh& mesh)
-      : mesh_(mesh), before_(mesh.add_property_map<Work_mesh::Vertex_index, Point>("v:repair_before", Point(none, none, none)).first) {
+      : mesh_(mesh),
+        before_(mesh.add_property_map<Work_mesh::Vertex_index>("v:repair_before", Point(none, none, none)).first) {
     for (const auto v : mesh.vertices())
       before_[v] = mesh.point(v);
   }

@@ -18,8 +18,8 @@ class Vertex_separation {
   using Vertex = Work_mesh::Vertex_index;
   using Point = Work_mesh::Point;
 
-  /// Of the way to the middle of the neighbours. What two cones that meet in their tips need is any: this can hardly be seen,
-  /// and still is far from what is rounded.
+  /// Of the way to the middle of the neighbours. To two cones that meet in their tips any serves: this can hardly be
+  /// seen, and still is far from what is rounded.
   static constexpr double share = 0x1p-10;
   /// Which vertices of a place move: all, and where surfaces then meet, as cones in each other do, all but one, or one.
   enum Attempt { all, all_but_first, first_only, nobody };
@@ -34,7 +34,8 @@ public:
       return c == CGAL::SMALLER || (c == CGAL::EQUAL && v < w);
     });
     for (auto begin = order.begin(); begin != order.end();) {
-      const auto end = std::find_if(begin, order.end(), [&](Vertex v) { return mesh_.point(v) != mesh_.point(*begin); });
+      const Point& here = mesh_.point(*begin);
+      const auto end = std::find_if(begin, order.end(), [&](Vertex v) { return mesh_.point(v) != here; });
       if (end - begin > 1)
         places_.push_back({{begin, end}, mesh_.point(*begin), all});
       begin = end;

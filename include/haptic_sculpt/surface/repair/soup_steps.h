@@ -62,7 +62,7 @@ inline Repair_step orient_soup(Polygon_soup& soup) {
   const std::vector<Polygon_soup::Face> before = soup.faces;
   const std::size_t points = soup.points.size();
   CGAL::Polygon_mesh_processing::orient_polygon_soup(soup.points, soup.faces);
-  // What corner has been split does not matter: a face that was turned over has its corners' points the other way round.
+  // What corner has been split does not matter: a face that was turned over has its corners the other way round.
   const auto is_turned = [&](std::size_t f) {
     const auto &a = before[f], &b = soup.faces[f];
     const auto at = [&](std::size_t corner) { return soup.points[b[corner % b.size()]]; };
