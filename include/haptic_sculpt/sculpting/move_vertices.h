@@ -58,7 +58,7 @@ void measure_distances(const Mesh& mesh, const std::vector<Moving_vertex<Mesh>>&
 
 } // namespace internal
 
-/// Moves vertices as near to their targets as single drags can bring them, each proven: no surface passes through a
+/// Moves vertices as near to their targets as axis moves and drags bring them, each proven: no surface passes through a
 /// surface on the way, and no vertex ends farther from its target than it was.
 ///
 /// \param vertices a range of vertices; one that is given again counts once

@@ -223,7 +223,8 @@ private:
         }
     if (shared != 0 && are_side_by_side(f, g, shared, common))
       return;
-    const std::array<std::uint32_t, 6> v{f.corners[0], f.corners[1], f.corners[2], g.corners[0], g.corners[1], g.corners[2]};
+    const std::array<std::uint32_t, 6> v{f.corners[0], f.corners[1], f.corners[2],
+                                         g.corners[0], g.corners[1], g.corners[2]};
     const Axis_motion<6> motion = motion_of(v);
     const Axis_sweep<6, Filter_counters> sweep(motion, *counters_);
     const auto is_face = [&v](int first) { return v[first] != v[first + 1]; };

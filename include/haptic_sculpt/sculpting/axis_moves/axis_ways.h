@@ -36,7 +36,8 @@ void take_for(Axis_move<Mesh>& move, const Mesh& mesh, Broad_phase& broad_phase,
     for (const auto v : corners_of_face(mesh, faces[i])) {
       std::array<double, 3> p = vertex_coordinates(mesh, v);
       box.include(p);
-      const auto end = std::lower_bound(ends.begin(), ends.end(), std::make_pair(static_cast<std::size_t>(v), -HUGE_VAL));
+      const auto end =
+          std::lower_bound(ends.begin(), ends.end(), std::make_pair(static_cast<std::size_t>(v), -HUGE_VAL));
       if (end != ends.end() && end->first == static_cast<std::size_t>(v)) {
         p[axis] = end->second;
         box.include(p);
