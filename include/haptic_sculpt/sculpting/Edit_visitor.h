@@ -13,12 +13,16 @@ namespace haptic_sculpt {
 ///
 /// - A drag that moved its vertex or a placement of a probe, or such a one undone or redone: `vertex_moved`, after the move, once
 ///   however many legs there were.
+///   A shift of many vertices, too, made, undone or redone: `vertex_moved` of each, when all stand.
 ///   A stroke is undone and redone change by change, the drags of a vertex between two other edits as one.
 /// - All other edits, undone and redone ones included, replace some faces by others. First, while the mesh is still as before,
 ///   `face_dies`, `edge_dies`, `vertex_dies` of what the edit takes away; then, when the mesh is complete again, `vertex_created`,
 ///   `edge_created`, `face_created` of what it has made. Each element once.
 /// - A face or edge is the triangle or segment of its vertices: one that is replaced has died, though one of the new ones may have
 ///   got its descriptor, as Surface_mesh uses them again, within one edit too. What died has to be forgotten before the new is noted.
+/// - A visitor that has data of its own for faces or edges may also have `face_replaces(created, dead)` and
+///   `edge_replaces(created, dead)`: before `vertex_created`, for each new element that comes from an old one, with the descriptor
+///   that the old one had (doc/properties.md says which comes from which). Undo and redo tell it, too.
 /// - Nothing is told of what was refused, of a drag that did not move, of Sculptor::probe(), of set_delta() and the like; of an undo
 ///   that a probe in its way refused halfway, what was taken back and made again.
 ///

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Edit_visitor.h>
 #include <haptic_sculpt/sculpting/edits/Edit.h>
+#include <haptic_sculpt/sculpting/edits/Kept_properties.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/edits/Vertex_names.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
@@ -17,7 +18,7 @@ namespace internal {
 /// Makes changes of a mesh and takes them back, and keeps the broad phase, the numbers of the vertices and a visitor told. Nothing
 /// is proven here: what comes in has been, or restores what was.
 ///
-/// Every change but a move and a flip replaces the fan of one vertex over a polygon by the star of another, or the other way round.
+/// Every change but a move, a shift and a flip replaces the fan of one vertex over a polygon by the star of another, or the other way round.
 /// Cost: the size of the polygon, the degree of the fan's vertex to find it, and the broad phase.
 ///
 /// The visitor is told of what dies before anything is changed, and of what was made when all is, `noted` included: an
@@ -32,19 +33,29 @@ public:
   Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, internal::Isolated_vertices<Mesh>& isolated,
                Visitor visitor)
     : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(&isolated), names_(mesh),
-      visitor_(std::move(visitor)) {}
+      kept_(mesh), visitor_(std::move(visitor)) {
+    kept_.tell_lineage(visitor_);
+  }
+  Change_maker(const Change_maker&) = delete; // what is kept refers to the visitor
+  Change_maker& operator=(const Change_maker&) = delete;
 
   const Vertex_names<Mesh>& names() const { return names_; }
   Visitor& visitor() { return visitor_; }
+  Kept_properties<Mesh>& kept() { return kept_; }
+  using Place = typename Kept_properties<Mesh>::Place;
 
+  /// \param place where it stands in the history
   /// \param noted called as `noted(v)` when the change is made and the visitor has not been told yet; v has moved or is new, or is the null index
   /// \return the vertex moved or created; of a removal, the neighbour it went into; of a flip, an end of the new edge
   /// \throw Mesh_changed where the faces to be replaced are not those known
   template <class Noted>
-  Vertex_index make(const Edit& edit, const Noted& noted) {
+  Vertex_index make(const Edit& edit, const Place& place, const Noted& noted) {
+    begin(edit, false, place);
     switch (edit.kind) {
     case Edit_kind::move:
       return put(edit.vertex, edit.after, noted);
+    case Edit_kind::shift:
+      return put_all(edit, 1, noted);
     case Edit_kind::insert_on_face:
       return create_on_face(edit, noted);
     case Edit_kind::insert_on_edge:
@@ -58,10 +69,13 @@ public:
 
   /// \return the vertex moved or revived; of a creation, a neighbour of what was created; of a flip, an end of the old edge
   template <class Noted>
-  Vertex_index take_back(const Edit& edit, const Noted& noted) {
+  Vertex_index take_back(const Edit& edit, const Place& place, const Noted& noted) {
+    begin(edit, true, place);
     switch (edit.kind) {
     case Edit_kind::move:
       return put(edit.vertex, edit.before, noted);
+    case Edit_kind::shift:
+      return put_all(edit, 0, noted);
     case Edit_kind::remove:
       return star_instead_of_fan(edit, noted);
     case Edit_kind::flip:
@@ -91,6 +105,7 @@ private:
   Face_corners<Mesh>* corners_of_;
   internal::Isolated_vertices<Mesh>* isolated_;
   Vertex_names<Mesh> names_;
+  Kept_properties<Mesh> kept_;
   Visitor visitor_;
   Star<Mesh> star_;
   Fan<Mesh> fan_;
@@ -98,6 +113,10 @@ private:
   std::vector<Face_index> faces_;
 
   Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
+  void begin(const Edit& edit, bool is_back, const Place& place) {
+    if (!kept_.is_empty() && edit.kind != Edit_kind::move && edit.kind != Edit_kind::shift)
+      kept_.begin(edit, is_back, place);
+  }
   static typename Mesh::Point to_point(const Coordinates& p) { return {p[0], p[1], p[2]}; }
 
   /// \throw Mesh_changed where there is none: whoever calls knows that there was
@@ -119,6 +138,31 @@ private:
     noted(v);
     visitor_.vertex_moved(v);
     return v;
+  }
+
+  /// All at once: the visitor is told when all stand. \param end 0: as before, 1: as after
+  template <class Noted>
+  Vertex_index put_all(const Edit& edit, int end, const Noted& noted) {
+    faces_.clear(); // all that allocates comes before the first point is written
+    for (const std::size_t name : edit.around)
+      if (const Vertex_index v = vertex(name); !mesh_->is_isolated(v))
+        for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
+          faces_.push_back(f);
+    std::sort(faces_.begin(), faces_.end());
+    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+    for (std::size_t k = 0; k < edit.around.size(); ++k) {
+      const Vertex_index v = vertex(edit.around[k]);
+      Coordinates p = vertex_coordinates(*mesh_, v);
+      p[edit.vertex] = edit.ways[k][end];
+      mesh_->point(v) = to_point(p);
+      isolated_->moved(v);
+    }
+    broad_phase_->faces_moved(faces_);
+    noted(Vertex_index());
+    if constexpr (has_visitor)
+      for (const std::size_t name : edit.around)
+        visitor_.vertex_moved(vertex(name));
+    return edit.around.empty() ? Vertex_index() : vertex(edit.around.back());
   }
 
   template <class Noted>
@@ -170,10 +214,14 @@ private:
         visitor_.face_dies(f);
       visitor_.edge_dies(mesh_->edge(h));
     }
+    if (!kept_.is_empty())
+      kept_.die(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
     CGAL::Euler::flip_edge(h, *mesh_);
     corners_of_->update(faces_);
     broad_phase_->faces_moved(faces_); // they keep their descriptors
     noted(Vertex_index());
+    if (!kept_.is_empty())
+      kept_.create(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
     if constexpr (has_visitor) {
       visitor_.edge_created(mesh_->edge(h));
       for (const Face_index f : faces_)
@@ -188,6 +236,8 @@ private:
       faces_.push_back(mesh_->face(h));
   }
 
+  auto inside_of_fan() const { return CGAL::make_range(fan_.begin() + 1, fan_.end()); }
+
   void fan_dies() {
     collect_fan_faces();
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
@@ -197,6 +247,8 @@ private:
       for (std::size_t i = 1; i < fan_.size(); ++i)
         visitor_.edge_dies(mesh_->edge(fan_[i]));
     }
+    if (!kept_.is_empty())
+      kept_.die(names_, Vertex_index(), faces_, inside_of_fan());
     broad_phase_->faces_removed(faces_);
     corners_of_->forget(faces_);
   }
@@ -207,6 +259,8 @@ private:
     corners_of_->update(faces_);
     broad_phase_->faces_inserted(faces_);
     noted(Vertex_index());
+    if (!kept_.is_empty())
+      kept_.create(names_, Vertex_index(), faces_, inside_of_fan());
     if constexpr (has_visitor) {
       for (std::size_t i = 1; i < fan_.size(); ++i)
         visitor_.edge_created(mesh_->edge(fan_[i]));
@@ -225,6 +279,8 @@ private:
         visitor_.edge_dies(mesh_->edge(h));
       visitor_.vertex_dies(v, names_.name(v));
     }
+    if (!kept_.is_empty())
+      kept_.die(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
     broad_phase_->faces_removed(star_.faces);
     corners_of_->forget(star_.faces);
   }
@@ -236,6 +292,8 @@ private:
     corners_of_->update(star_.faces);
     broad_phase_->faces_inserted(star_.faces);
     noted(v);
+    if (!kept_.is_empty())
+      kept_.create(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
     if constexpr (has_visitor) {
       visitor_.vertex_created(v, edit.vertex);
       for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))

@@ -38,6 +38,7 @@ public:
 
   const Vertex_names<Mesh>& names() const { return changes_.names(); }
   Visitor& visitor() { return changes_.visitor(); }
+  Kept_properties<Mesh>& kept() { return changes_.kept(); }
   Edit_history& history() { return history_; }
   const Edit_history& history() const { return history_; }
 
@@ -75,7 +76,7 @@ public:
     edit_.before = before;
     edit_.after = p;
     edit_.around.clear();
-    return Result::done(changes_.make(edit_, [this](Vertex_index changed) {
+    return Result::done(changes_.make(edit_, place(history_.number_of_next(), true), [this](Vertex_index changed) {
       watch(changed);
       if (records_probes_)
         history_.push(edit_);
@@ -130,6 +131,30 @@ public:
     const auto& [a, b, c, d] = flip_.corners();
     describe(Edit_kind::flip, names().name(a), {}, {a, b, c, d});
     return make();
+  }
+
+  /// Moves many vertices along one axis, a motion that has been proven free; one change. \param ways where each is to be
+  void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
+    Edit edit, recorded; // not kept: there may be millions
+    edit.kind = Edit_kind::shift;
+    edit.vertex = static_cast<std::size_t>(axis);
+    for (const auto& [v, end] : ways) {
+      edit.around.push_back(names().name(v));
+      edit.ways.push_back({vertex_coordinates(*mesh_, v)[axis], end});
+    }
+    recorded = edit;
+    if (!records_probes_) {
+      recorded.around.clear(), recorded.ways.clear();
+      for (std::size_t k = 0; k < ways.size(); ++k)
+        if (!mesh_->is_isolated(ways[k].first))
+          recorded.around.push_back(edit.around[k]), recorded.ways.push_back(edit.ways[k]);
+    }
+    history_.make_room_for(recorded);
+    changes_.make(edit, place(history_.number_of_next(), true), [&](Vertex_index changed) {
+      watch(changed, edit);
+      if (!recorded.around.empty())
+        history_.push(recorded);
+    });
   }
 
   /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. Only probes
@@ -210,16 +235,24 @@ private:
     return records_probes_ ? std::nullopt : restoration_.refuse(edit, names(), is_back);
   }
   Vertex_index take_back() {
-    return changes_.take_back(*history_.to_undo(), [this](Vertex_index changed) {
-      watch(changed);
+    const auto at = place(history_.number_to_undo(), false);
+    const Edit& edit = *history_.to_undo();
+    return changes_.take_back(edit, at, [&](Vertex_index changed) {
+      watch(changed, edit);
       history_.undone();
     });
   }
   Vertex_index make_again() {
-    return changes_.make(*history_.to_redo(), [this](Vertex_index changed) {
-      watch(changed);
+    const auto at = place(history_.number_to_redo(), false);
+    const Edit& edit = *history_.to_redo();
+    return changes_.make(edit, at, [&](Vertex_index changed) {
+      watch(changed, edit);
       history_.redone();
     });
+  }
+
+  typename Kept_properties<Mesh>::Place place(std::size_t number, bool is_new) const {
+    return {history_.first_number(), number, is_new};
   }
 
   void describe(Edit_kind kind, std::size_t vertex, const Coordinates& p, std::initializer_list<Vertex_index> around) {
@@ -240,12 +273,19 @@ private:
   }
 
   Result make() {
-    return Result::done(changes_.make(edit_, [this](Vertex_index changed) {
+    return Result::done(changes_.make(edit_, place(history_.number_of_next(), true), [this](Vertex_index changed) {
       watch(changed);
       history_.push(edit_);
     }));
   }
 
+  /// Of a shift all that it moves.
+  void watch(Vertex_index changed, const Edit& edit) {
+    watch(changed);
+    if (edit.kind == Edit_kind::shift)
+      for (const std::size_t name : edit.around)
+        watch_->remember(names().vertex(name));
+  }
   void watch(Vertex_index changed) {
     watch_->remember_counts();
     if (changed.is_valid())
