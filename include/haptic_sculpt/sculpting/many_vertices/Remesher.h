@@ -179,8 +179,8 @@ private:
     return relaxed_place(state_.star, state_.place(v));
   }
 
-  /// As in CGAL, half of the way to the middle of the neighbours on the line; where the line bends by 60 degrees or more
-  /// it has a corner, and v stays.
+  /// As in CGAL, half of the way to the middle of the neighbours on the line; where the line bends by 60 degrees or
+  /// more it has a corner, and v stays.
   Coordinates relaxed_on_line(Vertex_index v) {
     state_.collect(v);
     const Coordinates from = state_.place(v);

@@ -39,8 +39,8 @@ inline void check_remeshing(double target_edge_length, const Remeshing_parameter
 
 /// Refuses a length for which splits alone would make more faces than wanted, where nothing is in the way of a split.
 ///
-/// An edge of length l becomes at least l / (4/3 L) edges, and of the edges of a closed surface two thirds are faces. No
-/// triangle with edges of at most 4/3 L has a larger area than the equilateral one.
+/// An edge of length l becomes at least l / (4/3 L) edges, and a closed surface has two thirds as many faces as edges.
+/// No triangle with edges of at most 4/3 L has a larger area than the equilateral one.
 /// \throw Invalid_parameter
 template <class Mesh>
 void check_number_of_faces(const Mesh& mesh, const Scaled_points<Mesh>& points,

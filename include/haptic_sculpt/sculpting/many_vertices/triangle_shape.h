@@ -32,8 +32,8 @@ inline double least_angle_measure(const Vector& a, const Vector& b, const Vector
   return product > 0 ? quick_dot(n, n) / product : 0;
 }
 
-/// The square of the distance of p to the point of triangle abc that is nearest to it, as found by rounded numbers: that
-/// is a point of the triangle, so no less than the distance, up to the rounding of the square.
+/// The square of the distance of p to the point of triangle abc that is nearest to it, as found by rounded numbers:
+/// that is a point of the triangle, so no less than the distance, up to the rounding of the square.
 inline double squared_distance_to_triangle(const Vector& p, const Vector& a, const Vector& b, const Vector& c) {
   const Vector ab = minus(b, a), ac = minus(c, a), ap = minus(p, a), bp = minus(p, b), cp = minus(p, c);
   const double b_of_a = quick_dot(ab, ap), c_of_a = quick_dot(ac, ap), b_of_b = quick_dot(ab, bp),
