@@ -43,32 +43,61 @@ struct Dab {
   std::optional<typename Kernel::Vector_3> direction = {}; ///< any length; the mean normal where none is given
 };
 
+/// Multiplied by the power of two that brings its largest coordinate to about 1: squares and products of what is measured in
+/// metres or in light years are doubles then. Zero for zero.
+template <class Vector_3>
+Vector_3 of_size_one(const Vector_3& v) {
+  const double size = std::fmax(std::fabs(v.x()), std::fmax(std::fabs(v.y()), std::fabs(v.z())));
+  if (!(size > 0) || !std::isfinite(size))
+    return v;
+  const int exponent = -std::ilogb(size);
+  return {std::ldexp(v.x(), exponent), std::ldexp(v.y(), exponent), std::ldexp(v.z(), exponent)};
+}
+
+/// Unit length; zero for zero.
+template <class Vector_3>
+Vector_3 unit(const Vector_3& v) {
+  const Vector_3 direction = of_size_one(v);
+  const double length = std::sqrt(direction.squared_length());
+  return length > 0 ? direction / length : v;
+}
+
 /// The same dab on the other side of a plane.
 template <class Kernel>
 Dab<Kernel> mirrored(Dab<Kernel> dab, const typename Kernel::Plane_3& plane) {
-  const auto n = plane.orthogonal_vector();
-  const auto reflect = [&](const typename Kernel::Vector_3& v) { return v - 2 * (v * n) / n.squared_length() * n; };
-  const auto foot = plane.projection(dab.centre);
+  const auto n = unit(plane.orthogonal_vector());
+  const auto reflect = [&](const typename Kernel::Vector_3& v) { return v - 2 * (v * n) * n; };
+  const auto foot = dab.centre - ((dab.centre - plane.point()) * n) * n;
   dab.centre = foot + reflect(dab.centre - foot);
   if (dab.direction)
     dab.direction = reflect(*dab.direction);
   return dab;
 }
 
-/// Unit length; zero for zero.
-template <class Vector_3>
-Vector_3 unit(const Vector_3& v) {
-  const double length = std::sqrt(v.squared_length());
-  return length > 0 ? v / length : v;
-}
-
 template <class Mesh>
 auto normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
+  double size = 0; // of the star; all its edges are multiplied alike
+  for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v))) {
+    const auto edge = mesh.point(mesh.source(h)) - mesh.point(v);
+    size = std::fmax(size, std::fmax(std::fabs(edge.x()), std::fmax(std::fabs(edge.y()), std::fabs(edge.z()))));
+  }
+  const int exponent = size > 0 ? -std::ilogb(size) : 0;
+  const auto edge_to = [&](typename Mesh::Vertex_index w) {
+    const auto edge = mesh.point(w) - mesh.point(v);
+    return decltype(edge)(std::ldexp(edge.x(), exponent), std::ldexp(edge.y(), exponent), std::ldexp(edge.z(), exponent));
+  };
   auto sum = mesh.point(v) - mesh.point(v);
   for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
-    sum = sum + CGAL::cross_product(mesh.point(mesh.source(h)) - mesh.point(v),
-                                    mesh.point(mesh.target(mesh.next(h))) - mesh.point(v));
+    sum = sum + CGAL::cross_product(edge_to(mesh.source(h)), edge_to(mesh.target(mesh.next(h))));
   return unit(-sum);
+}
+
+/// The square of how far a point is from the centre of a dab, in its radii.
+template <class Kernel>
+double squared_share(const typename Kernel::Point_3& p, const Dab<Kernel>& dab) {
+  const auto d = p - dab.centre;
+  const double x = d.x() / dab.radius, y = d.y() / dab.radius, z = d.z() / dab.radius;
+  return x * x + y * y + z * z;
 }
 
 /// The vertices within the radius that are connected to `nearest`: not those on the other side of a thin wall. Cost: that of
@@ -77,9 +106,7 @@ template <class Mesh, class Kernel>
 std::vector<typename Mesh::Vertex_index> touched(const Mesh& mesh, const Dab<Kernel>& dab,
                                                  typename Mesh::Vertex_index nearest) {
   using Vertex_index = typename Mesh::Vertex_index;
-  const auto is_within = [&](Vertex_index v) {
-    return CGAL::squared_distance(mesh.point(v), dab.centre) < dab.radius * dab.radius;
-  };
+  const auto is_within = [&](Vertex_index v) { return squared_share(mesh.point(v), dab) < 1; };
   std::vector<Vertex_index> result;
   if (!is_within(nearest))
     return result;
@@ -96,7 +123,7 @@ std::vector<typename Mesh::Vertex_index> touched(const Mesh& mesh, const Dab<Ker
 template <class Mesh, class Kernel>
 std::vector<typename Mesh::Vertex_index> touched(const Mesh& mesh, const Dab<Kernel>& dab) {
   using Vertex_index = typename Mesh::Vertex_index;
-  const auto distance = [&](Vertex_index v) { return CGAL::squared_distance(mesh.point(v), dab.centre); };
+  const auto distance = [&](Vertex_index v) { return squared_share(mesh.point(v), dab); };
   Vertex_index nearest;
   for (const Vertex_index v : mesh.vertices())
     if (!mesh.is_isolated(v) && (!nearest.is_valid() || distance(v) < distance(nearest)))
@@ -112,7 +139,7 @@ void fill_targets_of(const std::vector<typename Mesh::Vertex_index>& vertices, c
                      Target_map targets, const Mask_map& mask) {
   using Vector_3 = typename Kernel::Vector_3;
   const auto weight = [&](typename Mesh::Vertex_index v) {
-    const double square = CGAL::squared_distance(mesh.point(v), dab.centre) / (dab.radius * dab.radius);
+    const double square = squared_share(mesh.point(v), dab);
     return (1 - square) * (1 - square) * get(mask, v);
   };
   Vector_3 direction = CGAL::NULL_VECTOR, mean = CGAL::NULL_VECTOR;

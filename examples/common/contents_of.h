@@ -18,12 +18,10 @@ namespace haptic_sculpt::examples {
 /// \throw Exception, which says why it cannot be read: not there, a folder, no permission
 template <class Exception, class Take>
 void read_blocks(const std::string& path, const std::string& what, const Take& take) {
-  const auto fail = [&](const char* why) {
-    throw Exception("cannot read " + what + (what.empty() ? "'" : " '") + path + "': " + why);
-  };
+  const std::string named = what + (what.empty() ? "'" : " '") + path + "'";
   const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (opened < 0)
-    fail(std::strerror(errno));
+    throw Exception("cannot open " + named + ": " + std::strerror(errno));
   const auto close = [](const int* file) { ::close(*file); };
   const std::unique_ptr<const int, decltype(close)> closes(&opened, close);
   std::array<char, 1 << 16> block;
@@ -34,7 +32,7 @@ void read_blocks(const std::string& path, const std::string& what, const Take& t
     if (got > 0)
       take(std::string_view(block.data(), static_cast<std::size_t>(got)));
     else if (errno != EINTR)
-      fail(std::strerror(errno));
+      throw Exception("reading " + named + " failed: " + std::strerror(errno));
   }
 }
 

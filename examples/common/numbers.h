@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -17,8 +18,14 @@ namespace haptic_sculpt::examples {
 inline std::optional<double> number_of(const std::string& word) {
   char* end = nullptr;
   const double value = std::strtod(word.c_str(), &end);
-  const bool is_number = !word.empty() && !std::isspace(static_cast<unsigned char>(word[0])) && end == word.c_str() + word.size();
-  return is_number ? std::optional(value) : std::nullopt;
+  const bool is_blank = word.empty() || std::isspace(static_cast<unsigned char>(word[0])); // which strtod passes over
+  return !is_blank && end == word.c_str() + word.size() ? std::optional(value) : std::nullopt;
+}
+
+/// The shortest decimal that is this number.
+inline std::string decimal(double x) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
 
 /// The three words of `@X,Y,Z`; nothing where there are not three.

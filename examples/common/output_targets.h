@@ -24,6 +24,9 @@ struct Named_file {
   std::string path; ///< empty: it was not given
 };
 
+/// The role of the mesh that a program begins with.
+constexpr const char* input_mesh = "MESH, the mesh to be read";
+
 /// Whether two names lead to one file, there or not yet there.
 inline bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;

@@ -25,7 +25,7 @@ inline void open_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
       const int opened = stream == STDIN_FILENO ? ::open("/", O_RDONLY | O_DIRECTORY) : ::open("/dev/null", O_WRONLY);
-      if (opened >= 0 && opened != stream) { // the lowest that is free is the stream itself, unless others open files here
+      if (opened >= 0 && opened != stream) { // it is the lowest that is free, unless others open files here
         ::dup2(opened, stream);
         ::close(opened);
       }

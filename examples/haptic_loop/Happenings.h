@@ -72,11 +72,11 @@ public:
     }
     const bool is_touching = step.contacts > 0 && !step.reached;
     note(touched, is_touching);
-    way_ = is_touching && is_touching_ ? way_ + (step.proxy - last_).norm() / scale_ : 0;
+    way_ = is_touching && is_touching_ ? way_ + ((step.proxy - last_) / scale_).norm() : 0;
     note(slid, way_ > a_way);
     if (is_touching)
       touch_ = step.proxy, has_touched_ = true;
-    note(lifted_off, has_touched_ && !is_touching && (step.proxy - touch_).norm() / scale_ > a_way);
+    note(lifted_off, has_touched_ && !is_touching && ((step.proxy - touch_) / scale_).norm() > a_way);
     is_touching_ = is_touching, last_ = step.proxy;
   }
 

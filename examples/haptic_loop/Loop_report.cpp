@@ -73,7 +73,8 @@ void print_summary(std::ostream& out, const Run_result& r, const Settings& setti
   out << std::fixed << std::setprecision(1) << r.ticks << " ticks at " << settings.rate
       << " Hz; CPU time of a tick, microseconds: median " << microseconds(r.cpu.percentile(0.5)) << ", 99.9 % "
       << microseconds(r.cpu.percentile(0.999)) << ", largest " << microseconds(r.cpu.largest()) << "; missed "
-      << r.missed << " (by CPU time " << r.missed_by_cpu << "), woken late " << r.missed_by_wakeup << ", allocations " << r.allocations << '\n';
+      << r.missed << " (by CPU time " << r.missed_by_cpu << "), woken late " << r.missed_by_wakeup << ", allocations "
+      << r.allocations << '\n';
   out << std::setprecision(3) << "force: at most " << r.largest_force << " N, in free motion " << r.largest_free_force
       << " N; stiffness " << settings.stiffness << " N/m, passive up to " << r.passive_stiffness << ", stable up to "
       << r.stable_stiffness << '\n';

@@ -46,9 +46,13 @@ void check_files(const Arguments& a) {
   examples::Run_files files;
   files.outputs = {{"-o", a.out},         {"--trace", a.trace},     {"--report", a.report},
                    {"--record", a.record}, {"--picture", a.picture}, {"--log", a.log}};
-  files.inputs = {{"--replay", a.replay}, {"--device", a.device}, {"--hand", a.hand}, {"--path", a.path}, {"MESH", a.mesh}};
+  files.inputs = {{"--replay", a.replay},
+                  {"--device", a.device},
+                  {"--hand", a.hand},
+                  {"--path", a.path},
+                  {examples::input_mesh, a.mesh}};
   if (a.log.empty()) // a log begins with the mesh
-    files.replaced_by = "-o", files.replaced = "MESH";
+    files.replaced_by = "-o", files.replaced = examples::input_mesh;
   files.check_apart();
   const auto is_stream = [](const std::string& file) { // rows may go into a pipe as they come
     std::error_code error;
@@ -102,7 +106,9 @@ int loop(const Arguments& arguments, Plan& plan) {
     return examples::exit_code_of(result.failure);
   if (!writer.all_written())
     return examples::cannot_write;
-  return result.faults.empty() ? examples::done : fault;
+  if (!result.faults.empty())
+    return fault;
+  return examples::done;
 }
 
 int exit_code_of(const std::exception& error) {
@@ -119,9 +125,9 @@ int run(int argc, char** argv) {
   Plan plan;
   Settings& settings = plan.settings;
   CLI::App app("Sculpts in a closed loop: a simulated device in a simulated hand that follows a path.\n"
-               "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 path cannot be read, "
-               "5 cannot write, 6 recording of another mesh, 7 stiffness, damping, virtual mass or controller not stable, "
-               "8 a fault ended the run.");
+               "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 path cannot be "
+               "read, 5 cannot write, 6 recording of another mesh, 7 stiffness, damping, virtual mass or controller not "
+               "stable, 8 a fault ended the run.");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->capture_default_str();
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes");
   app.add_option("--seconds", arguments.seconds, "How long; by default as long as the path");

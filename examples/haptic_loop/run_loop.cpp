@@ -4,6 +4,7 @@
 #include "Run_log.h"
 #include "Real_time.h"
 #include "Row_file.h"
+#include "Trace.h"
 #include "write_run_picture.h"
 
 #include "../drawing/surface_mesh_arrays.h"
@@ -94,9 +95,7 @@ public:
     if (record_.get() != nullptr)
       std::fputs(recording_head(hash, settings_).c_str(), record_.get());
     if (trace_.get() != nullptr)
-      std::fputs(
-          "t,theta1,theta2,theta3,tx,ty,tz,x,y,z,fcx,fcy,fcz,fx,fy,fz,tau1,tau2,tau3,end,contacts,pairs,cpu_ns\n",
-          trace_.get());
+      write_columns(trace_.get());
     try {
       if (plan_.replay)
         replay(loop);
@@ -144,7 +143,7 @@ private:
   }
 
   Passivity_limits limits_of(const Haptic_parameters& parameters, const Scene& scene) {
-    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (scene.upper - scene.lower).norm());
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (scene.upper - scene.lower).stableNorm());
     const Passivity_limits limits = passivity_limits(device_, parameters.limits, scene.map, scene.lower - margin,
                                                      scene.upper + margin, settings_.damping, tick_, settings_.delay);
     if (!limits.worst.is_found)
@@ -264,7 +263,7 @@ private:
     if (made.is_new_fault)
       result_.faults.emplace_back(time, name_of(made.fault));
     if (trace_.get() != nullptr)
-      write_row(reading, made, time, cpu_taken);
+      write_row(trace_.get(), reading, made, time, cpu_taken);
     return !loop.has_stopped();
   }
 
@@ -276,17 +275,6 @@ private:
     constexpr const char* words[] = {"", "grabbed", "created", "created", "released", "removed", "refused"};
     if (tool.event != Tool_event::none)
       samples_.events.push_back({tool.proxy, words[static_cast<int>(tool.event)]});
-  }
-
-  void write_row(const Joint_reading& reading, const Haptic_tick& made, double time, std::uint64_t cpu) const {
-    const auto put = [&](const Eigen::Vector3d& v) {
-      std::fprintf(trace_.get(), ",%.17g,%.17g,%.17g", v[0], v[1], v[2]);
-    };
-    std::fprintf(trace_.get(), "%.17g", time);
-    put(reading.theta), put(made.tool.target), put(made.tool.proxy), put(made.coupling), put(made.rendered.force),
-        put(made.rendered.torque);
-    std::fprintf(trace_.get(), ",%s,%d,%zu,%llu\n", made.tool.end ? name_of(*made.tool.end) : "none", made.tool.contacts,
-                 made.tool.pairs, static_cast<unsigned long long>(cpu));
   }
 
   void wait(std::uint64_t due) {

@@ -32,7 +32,9 @@ inline std::array<int, 3> axes_by_area(const std::vector<std::array<double, 3>>&
     for (const double x : p)
       largest = std::fmax(largest, std::fabs(x));
   std::array<double, 3> area{};
-  const auto at = [&](std::size_t i, int axis) { return corners[i % corners.size()][axis] / largest - corners[0][axis] / largest; };
+  const auto at = [&](std::size_t i, int axis) {
+    return corners[i % corners.size()][axis] / largest - corners[0][axis] / largest;
+  };
   for (std::size_t i = 0; i < corners.size() && largest > 0; ++i)
     for (int k = 0; k < 3; ++k) {
       const int x = (k + 1) % 3, y = (k + 2) % 3;
@@ -46,10 +48,12 @@ inline std::array<int, 3> axes_by_area(const std::vector<std::array<double, 3>>&
 /// The inside of a simple polygon, divided by edges between its corners (constrained Delaunay).
 inline std::vector<Corners_of_triangle> triangles_inside(const Seen_polygon& polygon) {
   using Vertex_base = CGAL::Triangulation_vertex_base_with_info_2<std::size_t, Kernel>;
-  using Face_base = CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
+  using Face_with_side = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
+  using Face_base = CGAL::Constrained_triangulation_face_base_2<Kernel, Face_with_side>;
   using Structure = CGAL::Triangulation_data_structure_2<Vertex_base, Face_base>;
   // No two of its edges cross: that a constraint would be cut is never asked for.
-  using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+  using No_crossings = CGAL::No_constraint_intersection_tag;
+  using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, No_crossings>;
   std::vector<std::pair<Kernel::Point_2, std::size_t>> corners;
   for (std::size_t i = 0; i < polygon.size(); ++i)
     corners.emplace_back(polygon[i], i);

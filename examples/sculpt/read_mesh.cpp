@@ -20,8 +20,8 @@ bool is_polygon(const Face_soup& soup, std::size_t f) {
   return corners.size() >= 3 && std::adjacent_find(corners.begin(), corners.end()) == corners.end();
 }
 
-/// Of each face the first triangle takes its place, the others follow behind all faces. \throw Read_error where a polygon
-/// cannot be divided
+/// Of each face the first triangle takes its place, the others follow behind all faces.
+/// \throw Read_error where a polygon cannot be divided
 Face_soup triangulated(const Face_soup& soup, const std::string& path) {
   Face_soup result;
   result.points = soup.points;
@@ -39,8 +39,8 @@ Face_soup triangulated(const Face_soup& soup, const std::string& path) {
     if (!triangles)
       throw Read_error("cannot read '" + path + "': face " + std::to_string(f) + ", of " +
                        std::to_string(places.size()) +
-                       " corners, cannot be divided into triangles, as it folds over itself or has all its corners on a "
-                       "line: along no axis it is seen as a simple polygon. Divide it by hand");
+                       " corners, cannot be divided into triangles, as it folds over itself or has all its corners on "
+                       "a line: along no axis it is seen as a simple polygon. Divide it by hand");
     for (const Corners_of_triangle& t : *triangles) {
       const std::array<Face_soup::Index, 3> triangle{corner[t[0]], corner[t[1]], corner[t[2]]};
       if (&t == &triangles->front())
@@ -78,7 +78,8 @@ Mesh read_triangulated(const std::string& path, double delta, std::vector<std::s
     mesh.add_vertex({p.x(), p.y(), p.z()});
   std::vector<std::array<Vertex_index, 3>> faces(soup.number_of_faces());
   for (std::size_t f = 0; f < faces.size(); ++f)
-    std::transform(soup.begin(f), soup.end(f), faces[f].begin(), [](const auto corner) { return Vertex_index(corner); });
+    for (std::size_t k = 0; k < 3; ++k)
+      faces[f][k] = Vertex_index(soup.begin(f)[k]);
   CGAL::Euler::add_faces(faces, mesh);
   return mesh;
 }

@@ -2,6 +2,7 @@
 // Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/sculpt.md.
 #include "../common/contents_of.h"
 #include "../common/mesh_program.h"
+#include "../common/numbers.h"
 #include "../common/output_targets.h"
 #include "Log_file.h"
 #include "nearest_vertices.h"
@@ -49,11 +50,15 @@ void check_files(const Arguments& a) {
   examples::check_mesh_name({"-o", a.out});
   examples::check_picture_name({"--picture", a.picture}), examples::check_picture_name({"--compare", a.comparison});
   examples::Run_files files;
-  files.outputs = {{"--log", a.log}, {"-o", a.out}, {"--report", a.report}, {"--picture", a.picture}, {"--compare", a.comparison},
+  files.outputs = {{"--log", a.log},
+                   {"-o", a.out},
+                   {"--report", a.report},
+                   {"--picture", a.picture},
+                   {"--compare", a.comparison},
                    {"--repair-report", a.repair.report}};
-  files.inputs = {{"MESH", a.mesh}, {"--script", a.script}};
+  files.inputs = {{examples::input_mesh, a.mesh}, {"--script", a.script}};
   if (a.log.empty()) // the result may take the place of the mesh that was read
-    files.replaced_by = "-o", files.replaced = "MESH";
+    files.replaced_by = "-o", files.replaced = examples::input_mesh;
   else if (!a.out.empty() && examples::are_one_file(a.out, a.mesh))
     throw Usage_error("'" + a.out + "' is the mesh that the log '" + a.log +
                       "' begins with; sculpted, it could not be resumed from the log. Give the result another name");
@@ -101,7 +106,7 @@ void check_lengths(const Arguments& arguments) {
     throw Usage_error("--repair-gap must be a length >= 0 and at most 2^1000, about 1.07e301");
   for (const double x : arguments.nearest.value_or(std::array<double, 3>{}))
     if (!internal::is_in_range(x))
-      throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " + internal::number(x) +
+      throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " + examples::decimal(x) +
                         " is none");
 }
 
@@ -126,8 +131,9 @@ Mesh mesh_of(const Arguments& arguments, std::vector<std::string>& left_out, Val
     const auto& low = error.report().low_faces;
     if (low.empty() || low.size() != error.report().number_of_faults())
       throw;
-    throw Delta_of_no_use("--delta " + internal::number(delta) + " does not serve '" + arguments.mesh + "', which has " +
-                          std::to_string(low.size()) + " triangle(s) with an altitude below it, the first of them face " +
+    throw Delta_of_no_use("--delta " + examples::decimal(delta) + " does not serve '" + arguments.mesh +
+                          "', which has " + std::to_string(low.size()) +
+                          " triangle(s) with an altitude below it, the first of them face " +
                           std::to_string(static_cast<std::size_t>(low[0])) +
                           "; give a smaller length, or leave the option out");
   }
@@ -211,7 +217,8 @@ int sculpt(const Arguments& arguments) {
     writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are. --orient turns components "
                 "over that are inside out; --repair also leaves out vertices without faces");
   if (!arguments.out.empty() && !left_out.empty())
-    writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh + "' has besides its faces: " + listed(left_out));
+    writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh +
+                "' has besides its faces: " + listed(left_out));
   bool is_told = false;
   const auto tell_failure = [&] { // once, and at once: the work may take hours
     if (log && !log->failure().empty() && !std::exchange(is_told, true))
@@ -220,7 +227,8 @@ int sculpt(const Arguments& arguments) {
   const bool is_logging = log && !script.commands.empty();
   if (log) {
     if (log->contents() && !log->contents()->unfinished.empty())
-      writer.note("the unfinished last line of the log '" + arguments.log + "' is dropped: " + printable(log->contents()->unfinished));
+      writer.note("the unfinished last line of the log '" + arguments.log +
+                  "' is dropped: " + printable(log->contents()->unfinished));
     log->begin(settings_of(arguments));
     if (is_logging && !plan.rest.is_announced)
       log->begin_pass(script.hash, plan.rest.after);

@@ -79,9 +79,9 @@ private:
     if (brush_.kind == Brush_kind::grab) { // what is about the centre goes with the mouse
       const Eigen::Vector3d way = on_plane(pointer, centre_) - centre_;
       const double least = 1e-3; // of the radius: less is no motion of a hand
-      if (way.norm() < least * brush_.radius)
+      if (way.stableNorm() < least * brush_.radius)
         return;
-      find({brushes::Kind::grab, internal::point_of<Kernel::Point_3>(centre_), brush_.radius, way.norm(),
+      find({brushes::Kind::grab, internal::point_of<Kernel::Point_3>(centre_), brush_.radius, way.stableNorm(),
             Kernel::Vector_3(way[0], way[1], way[2])},
            scene);
       centre_ += way;

@@ -85,7 +85,7 @@ private:
 
   /// The parameter on the line from home along the normal that is nearest to the mouse's line.
   double nearest_on_normal(const Pointer& pointer) const {
-    const Eigen::Vector3d from = vector(pointer.from), line = (vector(pointer.to) - from).normalized();
+    const Eigen::Vector3d from = vector(pointer.from), line = (vector(pointer.to) - from).stableNormalized();
     const Eigen::Vector3d apart = vector(held_.home) - from, normal = vector(held_.normal);
     const double cosine = normal.dot(line), sine = 1 - cosine * cosine;
     const double least_sine = 0.01; // looked at along the normal nearly: a pixel would be too far a way

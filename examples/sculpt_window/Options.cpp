@@ -32,8 +32,8 @@ std::string lists() {
          "  tool drag|probe|create|remove|brush | brush KIND RADIUS [STRENGTH] | depth LENGTH\n"
          "  wait SECONDS | settle | screenshot FILE | save FILE | open FILE | record FILE\n"
          "  print | where PLACE | close | quit\n"
-         "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 script error, 5 cannot write, 6 log of another "
-         "mesh, 7 no window can be made.";
+         "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 script error, 5 cannot "
+         "write, 6 log of another mesh, 7 no window can be made.";
 }
 
 } // namespace
@@ -47,9 +47,9 @@ void check_files(const Options& options) {
                    {"--report", options.report},
                    {"--screenshot", options.screenshot},
                    {"the log", options.log_of(options.mesh)}};
-  files.inputs = {{"MESH", options.mesh}, {"--script", options.script}};
+  files.inputs = {{examples::input_mesh, options.mesh}, {"--script", options.script}};
   if (options.without_log) // a log begins with the mesh
-    files.replaced_by = "-o", files.replaced = "MESH";
+    files.replaced_by = "-o", files.replaced = examples::input_mesh;
   files.check_apart();
   for (const std::string& path : {options.report, options.screenshot}) // what is saved may find another place later
     if (!path.empty())

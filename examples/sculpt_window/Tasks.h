@@ -146,7 +146,7 @@ private:
       return refuse("there is nothing to touch: point at the surface");
     const Eigen::Vector3d aim = internal::vector_of(hit->point), back = vector(pointer_.from) - aim;
     const Eigen::Vector3d front =
-        aim + std::fmin(0.1 * static_cast<Model&>(scene).extent(), 0.5 * back.norm()) * back.normalized();
+        aim + std::fmin(0.1 * static_cast<Model&>(scene).extent(), 0.5 * back.stableNorm()) * back.stableNormalized();
     if (!tool.take_probe(front))
       return refuse("there is no room for the probe in front of the surface");
     held.hold = Status::Hold::probe;
@@ -160,7 +160,7 @@ private:
     Vertex_index best;
     for (const Vertex_index v : mesh.vertices_around_face(mesh.halfedge(hit.face)))
       if (!best.is_valid() ||
-          CGAL::squared_distance(mesh.point(v), hit.point) < CGAL::squared_distance(mesh.point(best), hit.point))
+          CGAL::has_smaller_distance_to_point(hit.point, mesh.point(v), mesh.point(best)))
         best = v;
     return best;
   }
@@ -204,10 +204,9 @@ private:
       return {};
     const Mesh& mesh = scene.mesh;
     const auto h = hit->feature == Surface_feature::edge ? mesh.halfedge(hit->edge) : nearest_edge(mesh, *hit);
-    return CGAL::squared_distance(mesh.point(mesh.target(h)), hit->point) <
-                   CGAL::squared_distance(mesh.point(mesh.source(h)), hit->point)
-               ? mesh.opposite(h)
-               : h;
+    const bool is_target_nearer =
+        CGAL::has_smaller_distance_to_point(hit->point, mesh.point(mesh.target(h)), mesh.point(mesh.source(h)));
+    return is_target_nearer ? mesh.opposite(h) : h;
   }
 
   /// Of the face that is met, in parts of the face's altitude on it.
@@ -219,7 +218,8 @@ private:
       const Eigen::Vector3d a = internal::vector_of(mesh.point(mesh.source(h))),
                             b = internal::vector_of(mesh.point(mesh.target(h))),
                             c = internal::vector_of(mesh.point(mesh.target(mesh.next(h))));
-      const double height = (b - a).cross(p - a).norm() / (b - a).cross(c - a).norm();
+      const Eigen::Vector3d along = (b - a).stableNormalized();
+      const double height = along.cross(p - a).stableNorm() / along.cross(c - a).stableNorm();
       if (height < least)
         least = height, best = h;
     }

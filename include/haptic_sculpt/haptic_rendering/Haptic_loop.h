@@ -68,6 +68,7 @@ public:
 
   /// \throw what drags throw: Mesh_changed, Out_of_range
   const Haptic_tick& tick(const Joint_reading& reading) {
+    const internal::Rounding_to_nearest rounding;
     tick_.is_new_fault = false;
     if (tick_.fault == Loop_fault::none)
       run(reading);

@@ -71,6 +71,7 @@ public:
 
   /// \throw what drags throw: Mesh_changed, Out_of_range
   const Pose_tick& tick(const Pose_reading& reading) {
+    const internal::Rounding_to_nearest rounding;
     tick_.is_new_fault = false;
     if (tick_.fault == Loop_fault::none) {
       Joint_reading coordinates; // of the handle instead of joints: what the watchdog looks at is the same

@@ -42,6 +42,7 @@ public:
   /// One tick: the button first, then the drag. Allocates nothing but what edits do; its work is that of the drag,
   /// bounded by the Sculptor. \throw what drags throw
   Tool_step move(const Eigen::Vector3d& handle, int button) {
+    const internal::Rounding_to_nearest rounding;
     const Eigen::Vector3d hand = map_.to_scene(handle);
     Tool_step step;
     if (!is_started_)
@@ -66,6 +67,7 @@ public:
   /// Lets go of everything, as at a fault. The next move begins anew, anchored, with the probe; a button that is held
   /// does nothing until it is pressed again.
   void let_go() {
+    const internal::Rounding_to_nearest rounding;
     grab_.reset();
     mesh_edits_.end_stroke();
     held_ = false, is_anchored_ = false;
@@ -81,11 +83,13 @@ public:
 
   /// Takes a vertex of the surface, as a press of the button would the nearest.
   void take(Vertex_index v) {
+    const internal::Rounding_to_nearest rounding;
     begin_stroke();
     hold(v, internal::vertex_normal(sculptor_->mesh(), v));
   }
   /// Makes a creation and takes the vertex, both in one stroke. \pre its kind is one of the creations
   Edited create_and_take(const Journal_entry& wanted) {
+    const internal::Rounding_to_nearest rounding;
     let_go();
     const Eigen::Vector3d probe = place_of(probe_), away = last_push_;
     const bool was_placed = is_probe_placed_;
@@ -99,6 +103,7 @@ public:
   }
   /// Puts the probe somewhere, whatever is on the way, and takes it. \return false where that is not outside
   bool take_probe(const Eigen::Vector3d& place) {
+    const internal::Rounding_to_nearest rounding;
     let_go();
     is_started_ = true;
     is_probe_placed_ = internal::put_probe(*sculptor_, probe_, place);
@@ -109,6 +114,7 @@ public:
   /// Does an edit: an undo or redo, a creation, removal, collapse or flip. The probe is out of its way meanwhile.
   /// \param wanted with `Sculptor::name()`s \pre its kind is one of these
   Edited edit(const Journal_entry& wanted) {
+    const internal::Rounding_to_nearest rounding;
     let_go();
     const Eigen::Vector3d probe = place_of(probe_);
     const bool was_placed = is_probe_placed_;

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_WORKSPACE_MAP_H
 
 #include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/collision/arithmetic/unit_of.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -36,7 +37,9 @@ public:
                               double radius) {
     if (!(radius > 0))
       throw Error("a ball of the device with the radius " + internal::number(radius) + " m holds no scene");
-    return Workspace_map(0.5 * (upper - lower).norm() / radius, Eigen::Vector3d::Zero(), 0.5 * (lower + upper), home);
+    const Eigen::Vector3d extent = upper - lower;
+    const double unit = internal::unit_of(extent.lpNorm<Eigen::Infinity>()); // squares stay in the range of doubles
+    return Workspace_map(0.5 * ((unit * extent).norm() / unit) / radius, Eigen::Vector3d::Zero(), 0.5 * (lower + upper), home);
   }
 
   double scale() const { return scale_; }                       ///< units of the scene a metre of the device

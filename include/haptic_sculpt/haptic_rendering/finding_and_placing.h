@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_FINDING_AND_PLACING_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_FINDING_AND_PLACING_H
 
+#include <haptic_sculpt/collision/arithmetic/unit_of.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
 #include <haptic_sculpt/sculpting.h>
 
@@ -64,8 +65,14 @@ template <class Mesh>
 Eigen::Vector3d vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   const Eigen::Vector3d p = vector_of(mesh.point(v));
-  for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(v), mesh))
-    sum += (vector_of(mesh.point(mesh.target(mesh.next(h)))) - p).cross(vector_of(mesh.point(mesh.source(h))) - p);
+  const auto around = CGAL::halfedges_around_target(mesh.halfedge(v), mesh);
+  double size = 0; // of the star: in a unit of its own areas stay in the range of doubles
+  for (const auto h : around)
+    size = std::fmax(size, (vector_of(mesh.point(mesh.source(h))) - p).lpNorm<Eigen::Infinity>());
+  const double unit = unit_of(size);
+  const auto edge_to = [&](typename Mesh::Vertex_index w) -> Eigen::Vector3d { return unit * (vector_of(mesh.point(w)) - p); };
+  for (const auto h : around)
+    sum += edge_to(mesh.target(mesh.next(h))).cross(edge_to(mesh.source(h)));
   return sum.stableNormalized();
 }
 
@@ -83,10 +90,14 @@ Journal_entry creation_at(const Sculptor& sculptor, const std::array<typename Sc
   wanted.point = {p[0], p[1], p[2]};
   const auto place_of = [&](int i) { return vector_of(sculptor.mesh().point(face[i])); };
   const Eigen::Vector3d corners[3] = {place_of(0), place_of(1), place_of(2)};
-  const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  // Products of four lengths: in a unit of the face's own.
+  const double unit = unit_of(std::fmax((corners[1] - corners[0]).lpNorm<Eigen::Infinity>(),
+                                        (corners[2] - corners[0]).lpNorm<Eigen::Infinity>()));
+  const auto way = [unit](const Eigen::Vector3d& from, const Eigen::Vector3d& to) -> Eigen::Vector3d { return unit * (to - from); };
+  const Eigen::Vector3d normal = way(corners[0], corners[1]).cross(way(corners[0], corners[2]));
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
-    if ((b - a).cross(p - a).dot(normal) < edge_share * normal.squaredNorm()) {
+    if (way(a, b).cross(way(a, p)).dot(normal) < edge_share * normal.squaredNorm()) {
       wanted.kind = Journal_entry::Kind::insert_on_edge;
       wanted.vertices = {wanted.vertices[(i + 1) % 3], wanted.vertices[(i + 2) % 3], 0};
       break;

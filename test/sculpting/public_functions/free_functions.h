@@ -81,7 +81,7 @@ inline std::vector<Public_function> free_functions() {
                    sweep_over_a_grid(traits.edge_edge_sweep_3_object(), unit, outcome);
                    sweep_over_a_grid(traits.face_vertex_sweep_3_object(), unit, outcome);
                  }});
-  all.push_back({"Satisfies_delta_rule_3 validate validate_soup", [](double unit, Outcome& outcome) {
+  all.push_back({"Satisfies_delta_rule_3 validate validate_soup face_soup", [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    for (const double delta : {0.0, 0.125, 0.25, 0.5}) {
                      outcome.number(static_cast<double>(validate(scene.mesh, scene.length(delta)).number_of_faults()));
@@ -91,14 +91,17 @@ inline std::vector<Public_function> free_functions() {
                    scene.mesh.point(Scaled_scene::vertex(0)) = scene.at(1.25, 0.0625, 0.25); // through the moon
                    const auto report = validate(scene.mesh);
                    outcome.number(static_cast<double>(report.number_of_faults()));
+                   for (const auto& p : face_soup(scene.mesh).points)
+                     outcome.length(p.x()), outcome.length(p.y()), outcome.length(p.z());
                  }});
   for (const char* extension : {".off", ".ply", ".obj", ".stl"})
-    all.push_back({"read_surface write_surface read_face_soup", [=](double unit, Outcome& outcome) {
+    all.push_back({"read_surface write_surface read_face_soup make_surface", [=](double unit, Outcome& outcome) {
                      Scaled_scene scene(unit);
                      scene.mesh.remove_vertex(scene.probe);
                      const Scene_file file(extension);
                      write_surface(file.path, scene.mesh);
                      outcome.mesh(read_surface<Mesh>(file.path));
+                     outcome.mesh(make_surface<Mesh>(read_face_soup(file.path)));
                      outcome.number(static_cast<double>(read_face_soup(file.path).number_of_faces()));
                    }});
   for (const Guard_policy policy : {Guard_policy::back_off, Guard_policy::stop, Guard_policy::slide, Guard_policy::whole})
@@ -125,8 +128,8 @@ inline std::vector<Public_function> free_functions() {
                    }
                    outcome.mesh(scene.mesh);
                  }});
-  for (const double along : {0.0, 0.0625, 0.25})
-    for (const double share : {0.5, 1.0, 1.5, -1.0})
+  for (const double along : {0.0625, 0.25})
+    for (const double share : {0.5, 1.5, -1.0})
       all.push_back({"move_vertices", [=](double unit, Outcome& outcome) {
                        Scaled_scene scene(unit);
                        Sculptor<Mesh> sculptor(scene.mesh);

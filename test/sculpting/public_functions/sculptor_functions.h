@@ -83,11 +83,15 @@ inline std::vector<Public_function> sculptor_functions() {
                    outcome.mesh(scene.mesh);
                  }});
   all.push_back({"Sculptor::insert_on_face Sculptor::insert_on_edge Sculptor::remove Sculptor::collapse Sculptor::flip Sculptor::undo "
-                 "Sculptor::redo Sculptor::reserve",
+                 "Sculptor::redo Sculptor::reserve Sculptor::keep",
                  [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);
                    sculptor.reserve(10, 10);
+                   auto heights = scene.mesh.add_property_map<Vertex_index, double>("v:height", 0).first;
+                   for (const Vertex_index v : scene.mesh.vertices())
+                     heights[v] = scene.mesh.point(v).z();
+                   sculptor.keep(heights, Interpolate_property());
                    const Mesh& mesh = sculptor.mesh();
                    for (int round = 0; round < 4; ++round) {
                      const auto f = *std::next(mesh.faces().begin(), 7 * round + 1);
@@ -105,7 +109,25 @@ inline std::vector<Public_function> sculptor_functions() {
                      outcome.edit(sculptor.undo());
                      outcome.edit(sculptor.redo());
                      outcome.mesh(mesh);
+                     for (const Vertex_index v : mesh.vertices())
+                       outcome.length(heights[v]);
                    }
+                 }});
+  all.push_back({"Sculptor::shift", [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   for (int axis = 0; axis < 3; ++axis)
+                     for (const double share : {0.5, -2.0, 1.75}) { // a mirror is refused
+                       std::vector<std::pair<Vertex_index, double>> ways;
+                       for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i) {
+                         const Vertex_index v = Scaled_scene::vertex(i);
+                         ways.emplace_back(v, internal::coordinates(scene.beyond(v, share, -0.25))[axis]);
+                       }
+                       outcome.edit(sculptor.shift(axis, ways));
+                       outcome.mesh(scene.mesh);
+                     }
+                   outcome.edit(sculptor.undo());
+                   outcome.mesh(scene.mesh);
                  }});
   all.push_back({"Sculptor::set_delta Sculptor::set_clearance Sculptor::set_default_clearance Sculptor::clearance Sculptor::options "
                  "Sculptor::set_work_limit",

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_GUARDED_MESH_H
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
+#include <haptic_sculpt/sculpting/axis_moves/axis_ways.h>
 #include <haptic_sculpt/sculpting/contact/Scene_bound.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
 #include <haptic_sculpt/sculpting/finding/Surface_finder.h>
@@ -190,6 +191,39 @@ public:
     scene_.include_the_past();
     return edited(edit);
   }
+
+  /// Moves vertices at once along one axis as far as that is free, as one change; each vertex is given once.
+  /// \param move made by `axis_move()`; may be used again while the connectivity stays
+  /// \return false where more than `most_held` would be held back: then nothing has changed, and `move` knows why
+  /// \throw Unknown_vertex, Out_of_range, Mesh_changed
+  bool shift(Axis_move<Mesh>& move, int axis, const Axis_ways<Mesh>& ways, std::size_t most_held) {
+    const Rounding_to_nearest rounding;
+    for (const auto& way : ways) {
+      check_vertex(*mesh_, way.first);
+      if (!is_in_range(way.second))
+        throw_out_of_range("where vertex " + std::to_string(static_cast<std::size_t>(way.first)) + " is to go",
+                           {way.second, way.second, way.second});
+    }
+    release();
+    look_for_changes();
+    for (const Vertex_index v : mesh_->vertices())
+      watch_.check(v);
+    take_for(move, *mesh_, broad_phase_, isolated_.all(), axis, ways);
+    move.begin(axis, ways);
+    if (!move.hold_back(most_held))
+      return false;
+    Axis_ways<Mesh> made;
+    for (const auto& [v, end] : ways)
+      if (Coordinates p = vertex_coordinates(*mesh_, v); move.end(v) != p[axis]) {
+        p[axis] = move.end(v);
+        made.emplace_back(v, p[axis]);
+        scene_.include(p);
+      }
+    if (!made.empty())
+      editor_.shift(axis, made);
+    return true;
+  }
+  Axis_move<Mesh> axis_move() { return Axis_move<Mesh>(*mesh_, parameters.delta_length, counters_); }
 
   void reserve(std::size_t edits, std::size_t moves) {
     const auto n = static_cast<typename Mesh::size_type>(edits);
