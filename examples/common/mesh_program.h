@@ -28,7 +28,7 @@ inline std::string message_of(const std::exception& error) {
   if (!refused->report().non_triangular_faces.empty())
     text += "`sculpt MESH --triangulate -o OUT` divides polygons into triangles.\n";
   if (refused->report().is_repairable())
-    text += "`sculpt MESH --repair -o OUT` repairs what CGAL can.";
+    text += "`sculpt MESH --repair -o OUT` repairs what can be repaired.";
   while (!text.empty() && text.back() == '\n')
     text.pop_back();
   return text;

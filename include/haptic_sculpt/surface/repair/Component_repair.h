@@ -12,6 +12,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -190,8 +191,8 @@ private:
           ++failed;
           continue;
         }
-      } catch (const PMP::Corefinement::Self_intersection_exception&) {
-        failure = "a component still meets itself";
+      } catch (const std::runtime_error& error) { // what corefinement throws where a component still meets itself
+        failure = error.what();
         continue;
       } catch (const CGAL::Failure_exception& error) {
         failure = error.what();
