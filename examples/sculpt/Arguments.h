@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_EXAMPLES_ARGUMENTS_H
 #define HAPTIC_SCULPT_EXAMPLES_ARGUMENTS_H
 
-#include <haptic_sculpt/Error.h>
+#include "../common/run_program.h"
 
 #include <array>
 #include <optional>
@@ -20,11 +20,20 @@ struct Picture_arguments {
   bool before = false, numbers = false;
 };
 
+/// What `--repair` may do.
+struct Repair_arguments {
+  bool is_asked = false;
+  std::string report;
+  std::optional<double> gap;
+  std::optional<std::size_t> largest_hole;
+};
+
 /// The command line. Names that were not given are empty.
 struct Arguments {
   std::string mesh, script, out, report, log, response, broad_phase = "tree", picture, comparison;
   std::optional<double> clearance, delta;
-  bool append = false, triangulate = false;
+  bool append = false, triangulate = false, orient = false;
+  Repair_arguments repair;
   Picture_arguments shown;
   std::optional<std::array<double, 3>> nearest;
 };
@@ -34,10 +43,7 @@ struct Arguments {
 /// `--version`), or by what is wrong (false).
 std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments);
 
-/// Something that was asked for and does not exist yet, or does not fit together.
-struct Usage_error : Error {
-  using Error::Error;
-};
+using examples::Usage_error;
 
 } // namespace haptic_sculpt::sculpt_program
 

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "resume.h"
 
+#include "../common/numbers.h"
+
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 
 namespace haptic_sculpt::sculpt_program {
 namespace {
 
-/// The shortest decimal that is this number.
-std::string decimal(double x) {
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, x).ptr};
-}
+using examples::decimal;
 
 void compare(const Arguments& arguments, const Settings& log, const std::string& when) {
   const auto refuse = [&](const std::string& name, const std::string& asked, const std::string& logged) {

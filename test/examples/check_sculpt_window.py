@@ -16,7 +16,7 @@ import time
 import zlib
 
 from box_mesh import box
-from program_runs import SCULPT, SOURCE, check, end, run, write, bytes_of, points
+from program_runs import SCULPT, SOURCE, TETRAHEDRON, check, end, run, write, bytes_of, points
 from virtual_display import Display
 
 WINDOW = os.path.abspath(sys.argv[4])
@@ -384,6 +384,40 @@ help_text = subprocess.run([WINDOW, "--help"], capture_output=True, text=True).s
 for action in ("move", "press", "release", "click", "drag", "scroll", "key", "view", "orbit", "zoom", "fit", "tool", "brush", "depth", "wait", "settle",
                "screenshot", "save", "open", "record", "print", "where", "close", "quit"):
     check(f"`{action}" in described and f" {action}" in help_text, f"the action {action} is described")
+
+# No file of the run is written over another one, by an option or a line of a script; a line that is refused is told by the exit code.
+precious = write(at("precious.off"), box(3))
+kept = bytes_of(precious)
+for options, parts in ((["--record", precious], ["--record", "MESH"]), (["--report", precious], ["--report", "MESH"]), (["--log", precious], ["the log", "MESH"]),
+                       (["-o", precious], ["-o", "MESH"]), (["--report", at("x"), "--record", at("x")], ["--record", "--report"]),
+                       (["--report", precious + ".log"], ["--report", "the log"]), (["--report", at("script.txt")], ["--report", "--script"])):
+    _, err = window(precious, *options, script="quit\n", code=2, what=f"{options}")
+    check(all(part in err for part in parts + ["one file"]), f"{options}: {err}")
+_, err = window(precious, "--screenshot", precious, script="", code=2, what="a screenshot over the mesh")
+check(".png" in err, f"a screenshot over the mesh: {err}")
+for line in (f"save {precious}", f"save {at('precious.off.log')}", f"save {at('nothing.txt')}", f"screenshot {precious}", f"record {precious}",
+             f"record {at('script.txt')}", f"screenshot {at('drawn.json')}"):
+    _, err = window(precious, "--samples", 0, "--size", 100, 100, "--report", at("drawn.json"), script=f"settle\n{line}\nsettle\nquit\n", code=5, what=line)
+    check("another name" in err or ".off" in err, f"{line}: {err}")
+    check(bytes_of(precious) == kept and open(at("script.txt")).read().startswith("settle"), f"{line}: an input was written over")
+    check(json.load(open(at("drawn.json")))["version"] != "", f"{line}: the report is there")
+window(precious, "--no-log", "-o", precious, "--samples", 0, script="settle\nkey s\nsettle\nquit\n", what="without a log the mesh may be replaced")
+# A log beside the mesh that is of another mesh: nobody has asked for it.
+write(at("stale.off"), box(2))
+write(at("stale.off.log"), bytes_of(at("work.log")))
+_, err = window(at("stale.off"), script="quit\n", code=6, what="a log beside the mesh")
+check("--no-log" in err and "--log" in err and "beside" in err, f"a log that nobody gave: {err}")
+_, err = window(write(at("hole.off"), TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", "")), script="quit\n", code=3, what="a hole")
+check("holes" in err and "PMP" not in err, f"advice for people: {err}")
+# A terminal that is closed, and being asked to end: the log keeps what is not saved.
+for which in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT):
+    ended = write(at(f"ended_{int(which)}.off"), box(3))
+    process = start(ended, "--samples", 0, "--report", at("ended.json"), script="settle\ndrag 600 450 700 350 6\nsettle\nprint\nwait 100\n")
+    process.stdout.readline()
+    process.send_signal(which)
+    process.communicate(timeout=60)
+    check(process.returncode == 0 and os.path.exists(ended + ".log") and json.load(open(at("ended.json")))["edits"] > 0, f"{which}: exit {process.returncode}")
+    os.remove(at("ended.json"))
 
 # A file that is opened in place of another; the log of the first one stays, for it has what was not saved.
 second = shutil.copy(cube, at("second.off"))

@@ -202,6 +202,34 @@ check(sum(a != b for a, b in zip(points(mesh), points(saved))) == 2, "two vertic
 check(hand.drop(identity, other), "a dropped file is taken")
 eventually(lambda: title() == f"sculpt_window {other}", f"a dropped file is opened: {title()}")
 
+# "Save and quit" that is refused, as the name is that of what is open and its log begins with it, does not make a later save quit.
+shutil.copy(mesh, saved)
+check(hand.drop(identity, saved), "a dropped file is taken")
+eventually(lambda: title() == f"sculpt_window {saved}", f"where it would be saved is opened: {title()}")
+dragged(vertex, goal)
+eventually(lambda: title().endswith("(not saved)"), "something is not saved")
+plain = still(MIDDLE)
+hand.close(identity)
+eventually(lambda: seen(MIDDLE) != plain, "closing asks again")
+# The question is as wide as its longest line, in letters of 7 pixels, and stands in the middle.
+hand.move(SIZE[0] // 2 - (7 * len(f"It would be saved to {saved}") + 16) // 2 + 40, SIZE[1] // 2)
+time.sleep(0.4)
+hand.click()
+eventually(lambda: seen(MIDDLE) == plain, "the question is answered")
+time.sleep(0.3)
+check(process.poll() is None, "a save that is refused quits")
+hand.move(*vertex)
+hand.key("s")
+eventually(lambda: seen(MIDDLE) != plain, "s asks for a name again")
+for key in ("End", *4 * ("BackSpace",), "2", "period", "o", "f", "f"):
+    hand.key(key)
+    time.sleep(0.1)
+hand.key_goes("Return", True)
+eventually(lambda: os.path.exists(at("saved2.off")), f"another name is taken: {os.listdir(folder)}")
+hand.key_goes("Return", False)
+time.sleep(0.5)
+check(process.poll() is None, "the save after one that was refused does not quit")
+
 hand.close(identity)
 try:
     out, err = process.communicate(timeout=10)

@@ -13,6 +13,7 @@ namespace haptic_sculpt {
 ///
 /// - A drag that moved its vertex or a placement of a probe, or such a one undone or redone: `vertex_moved`, after the move, once
 ///   however many legs there were.
+///   A shift of many vertices, too, made, undone or redone: `vertex_moved` of each, when all stand.
 ///   A stroke is undone and redone change by change, the drags of a vertex between two other edits as one.
 /// - All other edits, undone and redone ones included, replace some faces by others. First, while the mesh is still as before,
 ///   `face_dies`, `edge_dies`, `vertex_dies` of what the edit takes away; then, when the mesh is complete again, `vertex_created`,

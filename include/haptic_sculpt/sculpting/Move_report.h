@@ -13,7 +13,8 @@ namespace haptic_sculpt {
 struct Move_report {
   std::size_t asked = 0;   ///< vertices, each once
   std::size_t reached = 0; ///< of these, how many are at their targets, to the last bit
-  std::size_t drags = 0;   ///< how many motions were asked for, those that took steps back included
+  /// How many motions were asked for, those that took steps back included; of an axis move one for each vertex.
+  std::size_t drags = 0;
   std::size_t counted = 0; ///< the same, but a slide counts by its work: what Move_parameters::most_drags() bounds
 
   /// How many vertices are not at their targets; left_l2 and left_max tell how far they are from there.
@@ -54,7 +55,7 @@ struct Move_parameters {
     drag_limit = n;
     return *this;
   }
-  /// Called every `drags_between_calls` drags, counted in the same way; false ends the call, with all vertices as near to their targets as they
+  /// Called before each axis move and every `drags_between_calls` drags, counted in the same way; false ends the call, with all vertices as near to their targets as they
   /// have come. What it throws goes on to the caller; what was done by then is one step of the history.
   Move_parameters& progress(std::function<bool(const Move_progress&)> function) {
     progress_function = std::move(function);
@@ -62,8 +63,8 @@ struct Move_parameters {
   }
   static constexpr std::size_t drags_between_calls = 256; ///< counted; the first call is before any drag
 
-  /// Whether, where many vertices stand in each other's way, all go in smaller steps. On by default; a brush is faster
-  /// without.
+  /// Whether all go at once, along one axis after the other, in smaller steps where they stand in each other's way. On by
+  /// default; without, each is dragged by itself.
   Move_parameters& steps(bool on) {
     takes_steps = on;
     return *this;

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
+#include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
 #include <haptic_sculpt/sculpting/motion/Guarded_mesh.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 
@@ -75,6 +76,7 @@ public:
 
   /// Takes a vertex in hand. \throw Unknown_vertex, Mesh_changed
   Grab_type grab(Vertex_index v) {
+    const internal::Rounding_to_nearest rounding;
     release();
     guarded_.hold(v);
     return Grab_type(*this, name(v));
@@ -176,6 +178,15 @@ public:
     if (!probe.is_valid() || static_cast<std::size_t>(probe) >= mesh().num_vertices() || mesh().is_removed(probe))
       return Edited::refused(Refusal_reason::unknown_element);
     return guarded_.place(probe, p);
+  }
+
+  /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one that is
+  /// given again. Done where the surface stays embedded, and the delta rule kept, at every time of the motion, and no probe is
+  /// met; decided exactly, whatever the traits (doc/axis_moves.md). Else refused, with the vertices of a place that is in the way, and nothing has
+  /// changed. One change of the history; the visitor is told of the moves when all stand. \param axis 0, 1 or 2
+  /// \post Nothing has died. \throw Unknown_vertex, Out_of_range. Cost: n log n in what moves and is near
+  Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
+    return internal::shift_all(guarded_, axis, ways);
   }
 
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as the history
@@ -296,6 +307,7 @@ public:
 
 private:
   friend class Grab<Sculptor>;
+  friend struct internal::Sculptor_access;
   friend class Stroke<Sculptor>;
 
   void end_stroke(std::size_t number) noexcept { guarded_.editor().history().end_stroke(number); }

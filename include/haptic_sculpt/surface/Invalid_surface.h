@@ -16,7 +16,9 @@ class Invalid_surface : public Error {
 public:
   /// \param subject what is refused, e.g. the name of a file
   Invalid_surface(const std::string& subject, Validity_report report)
-      : Error(subject + " is not a valid surface:\n" + report.message()), report_(std::move(report)) {}
+      : Error(subject + " is not a valid surface:\n" + report.message() +
+              (report.is_repairable() ? "Or call repair(), of haptic_sculpt/surface/repair.h, which tries all of it.\n" : "")),
+        report_(std::move(report)) {}
 
   const Validity_report& report() const { return report_; } ///< Every offending element; lives as long as the exception.
 

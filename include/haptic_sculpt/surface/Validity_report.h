@@ -83,6 +83,29 @@ struct Validity_report {
            intersecting_faces.size();
   }
 
+  /// Whether repair() is worth a try: there are faults that it looks after. A low triangle it leaves as it is, and of a
+  /// coordinate that is no number it knows nothing.
+  bool is_repairable() const {
+    return inconsistent_halfedges.empty() && non_finite_vertices.empty() && number_of_faults() > low_faces.size();
+  }
+
+  /// What does not make a surface invalid and may be meant or not, in plain words, one kind a line, the first `named` of
+  /// each: vertices without faces, components inside out. Empty where there are none.
+  std::string remarks(std::size_t named = 8) const {
+    std::string text;
+    const auto list = [&](const auto& elements, const std::string& kind) {
+      if (elements.empty())
+        return;
+      text += std::to_string(elements.size()) + ' ' + kind + ':';
+      for (std::size_t i = 0; i < elements.size() && i < named; ++i)
+        text += (i == 0 ? " " : ", ") + name(elements[i]);
+      text += elements.size() > named ? ", ...\n" : "\n";
+    };
+    list(isolated_vertices, "vertex(es) without faces");
+    list(inside_out_components, "component(s) inside out, with the faces");
+    return text;
+  }
+
   /// To whom `message()` says what repairs a fault.
   enum class Reader {
     programmer, ///< by the functions of CGAL that do

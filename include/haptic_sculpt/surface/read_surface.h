@@ -133,12 +133,14 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
 /// \param path to the file; its extension tells the format
 /// \param delta the delta rule's length, >= 0
 /// \param left_out if given, receives what the file has and a mesh has not, in words, e.g. "normals"
+/// \param found if given, receives what validate() says of the surface: vertices without faces, components inside out
 /// \throw Read_error if the file cannot be read as a mesh; Out_of_range if a coordinate is
 /// \throw Invalid_surface if `validate()` finds fault with it; names every offending vertex, edge and face by index (of
 /// pairs of intersecting faces the first `Validity_report::default_most_intersections`)
 /// \post `validate(mesh, delta).is_valid()`
 template <class Mesh>
-Mesh read_surface(const std::filesystem::path& path, double delta = 0, std::vector<std::string>* left_out = nullptr) {
+Mesh read_surface(const std::filesystem::path& path, double delta = 0, std::vector<std::string>* left_out = nullptr,
+                  Validity_report* found = nullptr) {
   static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
                 "read_surface<Mesh>: Mesh must be a CGAL::Surface_mesh whose points have double coordinates, e.g. "
                 "CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>");
@@ -148,8 +150,24 @@ Mesh read_surface(const std::filesystem::path& path, double delta = 0, std::vect
   Validity_report report = validate_soup(soup, delta);
   if (!report.is_valid())
     throw Invalid_surface(internal::quoted_path(path), std::move(report));
+  if (found != nullptr)
+    *found = std::move(report);
   if constexpr (internal::Is_mesh_of_doubles<Mesh>::value) // else one message is enough
     return internal::mesh_of<Mesh>(soup);
+}
+
+/// The mesh of a valid list of faces, e.g. of one that repair() has repaired. Vertices and faces keep their numbers.
+/// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
+/// \param delta the delta rule's length, >= 0
+/// \throw Invalid_surface if `validate_soup()` finds fault with it
+template <class Mesh>
+Mesh make_surface(const Face_soup& soup, double delta = 0) {
+  static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
+                "make_surface<Mesh>: Mesh must be a CGAL::Surface_mesh whose points have double coordinates");
+  Validity_report report = validate_soup(soup, delta);
+  if (!report.is_valid())
+    throw Invalid_surface("the list of faces", std::move(report));
+  return internal::mesh_of<Mesh>(soup);
 }
 
 } // namespace haptic_sculpt

@@ -16,6 +16,7 @@ using internal::Axis_obstacle;
 namespace {
 
 using Axis_move = internal::Axis_move<Mesh>;
+using Ways = internal::Axis_ways<Mesh>;
 
 /// Where it was and where it is to go, on the grid: a shift of one part, a shear, single vertices, or all at random.
 std::vector<double> random_ends(Random& random, const oracle::Mesh_list& mesh, int axis, int size) {
@@ -35,8 +36,8 @@ std::vector<double> random_ends(Random& random, const oracle::Mesh_list& mesh, i
   return ends;
 }
 
-std::vector<Axis_move::Way> ways_of(const Axis_scene& scene) {
-  std::vector<Axis_move::Way> ways;
+Ways ways_of(const Axis_scene& scene) {
+  Ways ways;
   for (std::size_t i = 0; i < scene.ends.size(); ++i)
     ways.push_back({Vertex_index(static_cast<Mesh::size_type>(i)), scene.ends[i]});
   return ways;
@@ -164,15 +165,15 @@ BOOST_AUTO_TEST_CASE(shears_of_large_meshes_are_free) {
   Axis_move move(mesh, 0, counters);
   move.take(mesh.faces(), {}, true);
   for (const auto& [axis, other, factor] : {std::tuple<int, int, double>(0, 1, -1.0), {1, 0, 1.0}, {0, 1, -1.0}}) {
-    std::vector<Axis_move::Way> ways;
+    Ways ways;
     for (const Vertex_index v : mesh.vertices())
       ways.push_back({v, mesh.point(v)[axis] + factor * mesh.point(v)[other]});
     move.begin(axis, ways);
     BOOST_TEST(move.is_free());
     for (const auto& way : ways) {
-      std::array<double, 3> p = vertex_coordinates(mesh, way.vertex);
-      p[axis] = way.end;
-      mesh.point(way.vertex) = Point_3(p[0], p[1], p[2]);
+      std::array<double, 3> p = vertex_coordinates(mesh, way.first);
+      p[axis] = way.second;
+      mesh.point(way.first) = Point_3(p[0], p[1], p[2]);
     }
     BOOST_TEST(validate(mesh).is_valid());
   }
@@ -186,7 +187,7 @@ BOOST_AUTO_TEST_CASE(noise_of_large_meshes_ends_valid) {
     Axis_move move(mesh, 0, counters);
     move.take(mesh.faces(), {}, true);
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<Axis_move::Way> ways;
+      Ways ways;
       for (const Vertex_index v : mesh.vertices())
         ways.push_back({v, mesh.point(v)[axis] + size * (static_cast<double>(random() % 2001) / 1000 - 1)});
       move.begin(axis, ways);
@@ -194,10 +195,10 @@ BOOST_AUTO_TEST_CASE(noise_of_large_meshes_ends_valid) {
       BOOST_TEST(move.is_free());
       std::size_t whole = 0;
       for (const auto& way : ways) {
-        std::array<double, 3> p = vertex_coordinates(mesh, way.vertex);
-        whole += move.end(way.vertex) == way.end;
-        p[axis] = move.end(way.vertex);
-        mesh.point(way.vertex) = Point_3(p[0], p[1], p[2]);
+        std::array<double, 3> p = vertex_coordinates(mesh, way.first);
+        whole += move.end(way.first) == way.second;
+        p[axis] = move.end(way.first);
+        mesh.point(way.first) = Point_3(p[0], p[1], p[2]);
       }
       BOOST_TEST_MESSAGE("noise " << size << ", axis " << axis << ": " << whole << " of " << ways.size() << " whole");
       BOOST_TEST(validate(mesh).is_valid());

@@ -45,7 +45,7 @@ struct Scaled_scene {
   static constexpr std::size_t ball_size = 42;
 
 private:
-  static double on_grid(double x) { return std::ldexp(std::rint(std::ldexp(x, 20)), -20); }
+  static double on_grid(double x) { return std::ldexp(std::rint(std::ldexp(0.75 * x, 20)), -20); }
 };
 
 } // namespace haptic_sculpt::test

@@ -125,7 +125,7 @@ inline std::vector<Public_function> free_functions() {
                    }
                    outcome.mesh(scene.mesh);
                  }});
-  for (const double along : {0.0, 0.0625, 1.0})
+  for (const double along : {0.0, 0.0625, 0.25})
     for (const double share : {0.5, 1.0, 1.5, -1.0})
       all.push_back({"move_vertices", [=](double unit, Outcome& outcome) {
                        Scaled_scene scene(unit);

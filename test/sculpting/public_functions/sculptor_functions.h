@@ -107,6 +107,22 @@ inline std::vector<Public_function> sculptor_functions() {
                      outcome.mesh(mesh);
                    }
                  }});
+  all.push_back({"Sculptor::shift", [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   for (int axis = 0; axis < 3; ++axis)
+                     for (const double share : {0.5, -2.0, 1.75}) { // a mirror is refused
+                       std::vector<std::pair<Vertex_index, double>> ways;
+                       for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i) {
+                         const Vertex_index v = Scaled_scene::vertex(i);
+                         ways.emplace_back(v, internal::coordinates(scene.beyond(v, share, -0.25))[axis]);
+                       }
+                       outcome.edit(sculptor.shift(axis, ways));
+                       outcome.mesh(scene.mesh);
+                     }
+                   outcome.edit(sculptor.undo());
+                   outcome.mesh(scene.mesh);
+                 }});
   all.push_back({"Sculptor::set_delta Sculptor::set_clearance Sculptor::set_default_clearance Sculptor::clearance Sculptor::options "
                  "Sculptor::set_work_limit",
                  [](double unit, Outcome& outcome) {

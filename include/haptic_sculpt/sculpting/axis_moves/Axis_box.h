@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_AXIS_BOX_H
 #define HAPTIC_SCULPT_SCULPTING_AXIS_BOX_H
 
-#include <haptic_sculpt/surface/broad_phase/outward_float.h>
+#include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Where a face is in a motion along one axis: the intervals of the two other coordinates, which do not change, and those
-/// along the axis at the start and at the end. Floats, rounded outward.
+/// along the axis at the start and at the end. Floats in a unit of the scene's own, rounded outward.
 struct Axis_box {
   std::array<float, 4> lower, upper; ///< of the next coordinate, of the one after, at the start, at the end
 
@@ -22,16 +22,17 @@ struct Axis_box {
 
   /// Corners at the start, and their coordinates along the axis at the end.
   template <std::size_t corners>
-  Axis_box(int axis, const std::array<std::array<double, 3>, corners>& start, const std::array<double, corners>& end)
+  Axis_box(const Box_scale& scale, int axis, const std::array<std::array<double, 3>, corners>& start,
+           const std::array<double, corners>& end)
     : Axis_box() {
     for (std::size_t i = 0; i < corners; ++i)
-      include({start[i][(axis + 1) % 3], start[i][(axis + 2) % 3], start[i][axis], end[i]});
+      include(scale, {start[i][(axis + 1) % 3], start[i][(axis + 2) % 3], start[i][axis], end[i]});
   }
 
 private:
-  void include(const std::array<double, 4>& p) {
+  void include(const Box_scale& scale, const std::array<double, 4>& p) {
     for (int k = 0; k < 4; ++k) {
-      const float below = float_below(p[k]), above = float_above(p[k]);
+      const float below = scale.below(p[k]), above = scale.above(p[k]);
       lower[k] = below < lower[k] ? below : lower[k];
       upper[k] = above > upper[k] ? above : upper[k];
     }

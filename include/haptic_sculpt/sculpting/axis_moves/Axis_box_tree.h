@@ -22,7 +22,7 @@ public:
   void resize(std::size_t slots) {
     levels_.clear();
     for (std::size_t size = slots; size > 1 || levels_.empty();) {
-      size = (size + width - 1) / width;
+      size = std::max<std::size_t>(1, (size + width - 1) / width); // a root, even of nothing
       levels_.emplace_back(size);
     }
     touched_.clear();

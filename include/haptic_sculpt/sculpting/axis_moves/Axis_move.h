@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_AXIS_MOVE_H
 #define HAPTIC_SCULPT_SCULPTING_AXIS_MOVE_H
 
+#include <haptic_sculpt/sculpting/Mesh_changed.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_box_tree.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_obstacle.h>
 #include <haptic_sculpt/sculpting/axis_moves/axis_delta.h>
@@ -10,6 +11,10 @@
 
 namespace haptic_sculpt {
 namespace internal {
+
+/// Vertices, and where each is to be along an axis.
+template <class Mesh>
+using Axis_ways = std::vector<std::pair<typename Mesh::Vertex_index, double>>;
 
 /// Decides whether many vertices of a mesh can go at once along one axis, and holds those back that cannot: it reads the
 /// mesh and changes nothing. The theorem is in doc/proofs/axis_moves.md.
@@ -21,12 +26,6 @@ class Axis_move {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
   using Face_index = typename Mesh::Face_index;
-  /// A vertex and where it is to be along the axis.
-  struct Way {
-    Vertex_index vertex;
-    double end;
-  };
-
   /// \param delta 0: no rule
   Axis_move(const Mesh& mesh, double delta, Filter_counters& counters)
     : mesh_(&mesh), counters_(&counters), delta_(delta) {}
@@ -36,9 +35,10 @@ public:
   template <class Faces>
   void take(const Faces& faces, const std::vector<Vertex_index>& isolated, bool are_all) {
     are_all_ = are_all;
+    scale_ = Box_scale::of(*mesh_);
     items_.clear();
     slot_of_face_.assign(mesh_->num_faces(), no_slot);
-    for (const Face_middle& f : faces_in_spatial_order(*mesh_, faces)) {
+    for (const Face_middle& f : faces_in_spatial_order(*mesh_, faces, scale_)) {
       slot_of_face_[f.face] = static_cast<std::uint32_t>(items_.size());
       items_.push_back(item_of(Face_index(f.face)));
     }
@@ -49,13 +49,14 @@ public:
   }
 
   /// A motion of the vertices given, each once. \pre every face of theirs has been taken
-  void begin(int axis, const std::vector<Way>& ways) {
+  void begin(int axis, const Axis_ways<Mesh>& ways) {
     axis_ = axis;
+    held_ = 0;
     vertices_.assign(mesh_->num_vertices(), Vertex{});
     tree_.begin_round();
-    for (const Way& way : ways)
-      if (way.end != height(index(way.vertex)))
-        vertices_[index(way.vertex)].end = way.end, vertices_[index(way.vertex)].moves = true;
+    for (const auto& [v, end] : ways)
+      if (end != height(index(v)))
+        vertices_[index(v)].end = end, vertices_[index(v)].moves = true;
     active_.clear();
     for (std::uint32_t slot = 0; slot < items_.size(); ++slot) {
       Item& item = items_[slot];
@@ -77,14 +78,26 @@ public:
   /// Where the vertex is along the axis at the end, as far as it is held back by now.
   double end(Vertex_index v) const { return end_of(index(v)); }
 
-  /// Holds vertices back until the motion is free: the least that some round proposes, or all. Every round holds one back at
-  /// least, and one held back `most_pulls` times stays where it is; standing still is free.
-  void hold_back() {
+  /// Holds vertices back until the motion is free: each by the least that some round proposes. Every round holds one back
+  /// at least, and one held back `most_pulls` times stays where it is; standing still is free.
+  /// \return false where these would be more than `most`: then it is given up
+  /// \throw Mesh_changed where the mesh cannot have been embedded
+  bool hold_back(std::size_t most = std::numeric_limits<std::size_t>::max()) {
     while (!is_free()) {
       pull();
+      if (pulled_.empty())
+        throw Mesh_changed("faces that do not move meet each other");
+      if (held_ > most)
+        return false;
       decide();
     }
+    return true;
   }
+  /// So many vertices are held back by now.
+  std::size_t held() const { return held_; }
+
+  /// Whether all of the mesh is looked at.
+  bool has_taken_all() const { return are_all_; }
 
 private:
   /// A face, or a vertex without faces three times.
@@ -96,8 +109,8 @@ private:
   struct Vertex {
     double end = 0;    ///< where it moves
     double share = 1;  ///< proposed in this round
-    std::uint16_t faces = 0;
-    std::int16_t sides = 0; ///< the sum of their sides
+    std::int32_t faces = 0; ///< of those taken, around it
+    std::int32_t sides = 0; ///< the sum of their sides
     std::uint8_t pulls = 0;
     bool moves = false, is_pulled = false;
   };
@@ -108,7 +121,9 @@ private:
   Filter_counters* counters_;
   double delta_;
   int axis_ = 0;
-  bool are_all_ = true;
+  Box_scale scale_;
+  bool are_all_ = false;
+  std::size_t held_ = 0; ///< vertices that have been pulled
   std::vector<Item> items_; ///< by slot; faces in the order of space, then vertices without
   std::size_t first_isolated_ = 0;
   std::vector<std::uint32_t> slot_of_face_;
@@ -159,7 +174,7 @@ private:
     std::array<double, 3> ends;
     for (int k = 0; k < 3; ++k)
       ends[k] = motion.end[k][axis_];
-    tree_.set(slot, Axis_box(axis_, motion.start, ends), is_active);
+    tree_.set(slot, Axis_box(scale_, axis_, motion.start, ends), is_active);
     if (is_active)
       active_.push_back(slot);
   }
@@ -272,6 +287,7 @@ private:
     const double start = height(k), end = std::fma(v.share, v.end - start, start);
     v.end = v.end < start ? std::fmin(std::fmax(end, v.end), start) : std::fmax(std::fmin(end, v.end), start);
     v.share = 1;
+    held_ += v.pulls == 0;
     if (++v.pulls == most_pulls || v.end == start)
       v.moves = false;
   }

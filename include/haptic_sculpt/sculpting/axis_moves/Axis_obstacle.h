@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_AXIS_OBSTACLE_H
 
 #include <haptic_sculpt/collision/arithmetic/axis_sweep.h>
+#include <haptic_sculpt/collision/arithmetic/unit_of.h>
 
 #include <cmath>
 
@@ -34,12 +35,18 @@ struct Axis_pull {
 /// planes, all go half their ways.
 inline Axis_pull pull_for(Axis_obstacle::Kind kind, const Axis_motion<4>& motion) {
   Axis_pull pull{{true, true, true, true}, 0.5};
-  const int i = (motion.axis + 1) % 3, j = (motion.axis + 2) % 3;
+  const int i = (motion.axis + 1) % 3, j = (motion.axis + 2) % 3, h = motion.axis;
   const auto& p = motion.start;
+  double across = 0, along = 0; // the largest differences, lest products leave the range
+  for (int k = 0; k < 4; ++k) {
+    across = std::fmax(across, std::fmax(std::abs(p[k][i] - p[0][i]), std::abs(p[k][j] - p[0][j])));
+    along = std::fmax(along, std::fmax(std::abs(p[k][h] - p[0][h]), std::abs(motion.end[k][h] - p[k][h])));
+  }
+  const double unit_across = unit_of(across), unit_along = unit_of(along);
   // Each product-sum is a fused one, so that compilers cannot choose.
   const auto minor = [&](int a, int b, int c, int d) { // of b - a and d - c
-    const double x = p[b][i] - p[a][i], y = p[b][j] - p[a][j];
-    return std::fma(x, p[d][j] - p[c][j], -(y * (p[d][i] - p[c][i])));
+    const double x = (p[b][i] - p[a][i]) * unit_across, y = (p[b][j] - p[a][j]) * unit_across;
+    return std::fma(x, (p[d][j] - p[c][j]) * unit_across, -(y * ((p[d][i] - p[c][i]) * unit_across)));
   };
   std::array<double, 4> weights;
   if (kind == Axis_obstacle::Kind::vertex_face)
@@ -51,11 +58,11 @@ inline Axis_pull pull_for(Axis_obstacle::Kind kind, const Axis_motion<4>& motion
     return pull;
   double gap = 0;
   for (int k = 1; k < 4; ++k)
-    gap = std::fma(weights[k], p[k][motion.axis] - p[0][motion.axis], gap);
+    gap = std::fma(weights[k], (p[k][h] - p[0][h]) * unit_along, gap);
   double closing = 0, opening = 0;
   Axis_pull proposed = pull;
   for (int k = 0; k < 4; ++k) {
-    const double change = std::copysign(1.0, gap) * weights[k] * (motion.end[k][motion.axis] - p[k][motion.axis]);
+    const double change = std::copysign(1.0, gap) * weights[k] * ((motion.end[k][h] - p[k][h]) * unit_along);
     proposed.is_pulled[k] = change < 0;
     (change < 0 ? closing : opening) += std::abs(change);
   }

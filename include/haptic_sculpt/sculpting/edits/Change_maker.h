@@ -18,7 +18,7 @@ namespace internal {
 /// Makes changes of a mesh and takes them back, and keeps the broad phase, the numbers of the vertices and a visitor told. Nothing
 /// is proven here: what comes in has been, or restores what was.
 ///
-/// Every change but a move and a flip replaces the fan of one vertex over a polygon by the star of another, or the other way round.
+/// Every change but a move, a shift and a flip replaces the fan of one vertex over a polygon by the star of another, or the other way round.
 /// Cost: the size of the polygon, the degree of the fan's vertex to find it, and the broad phase.
 ///
 /// The visitor is told of what dies before anything is changed, and of what was made when all is, `noted` included: an
@@ -54,6 +54,8 @@ public:
     switch (edit.kind) {
     case Edit_kind::move:
       return put(edit.vertex, edit.after, noted);
+    case Edit_kind::shift:
+      return put_all(edit, 1, noted);
     case Edit_kind::insert_on_face:
       return create_on_face(edit, noted);
     case Edit_kind::insert_on_edge:
@@ -72,6 +74,8 @@ public:
     switch (edit.kind) {
     case Edit_kind::move:
       return put(edit.vertex, edit.before, noted);
+    case Edit_kind::shift:
+      return put_all(edit, 0, noted);
     case Edit_kind::remove:
       return star_instead_of_fan(edit, noted);
     case Edit_kind::flip:
@@ -110,7 +114,7 @@ private:
 
   Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
   void begin(const Edit& edit, bool is_back, const Place& place) {
-    if (!kept_.is_empty() && edit.kind != Edit_kind::move)
+    if (!kept_.is_empty() && edit.kind != Edit_kind::move && edit.kind != Edit_kind::shift)
       kept_.begin(edit, is_back, place);
   }
   static typename Mesh::Point to_point(const Coordinates& p) { return {p[0], p[1], p[2]}; }
@@ -134,6 +138,31 @@ private:
     noted(v);
     visitor_.vertex_moved(v);
     return v;
+  }
+
+  /// All at once: the visitor is told when all stand. \param end 0: as before, 1: as after
+  template <class Noted>
+  Vertex_index put_all(const Edit& edit, int end, const Noted& noted) {
+    faces_.clear(); // all that allocates comes before the first point is written
+    for (const std::size_t name : edit.around)
+      if (const Vertex_index v = vertex(name); !mesh_->is_isolated(v))
+        for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
+          faces_.push_back(f);
+    std::sort(faces_.begin(), faces_.end());
+    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+    for (std::size_t k = 0; k < edit.around.size(); ++k) {
+      const Vertex_index v = vertex(edit.around[k]);
+      Coordinates p = vertex_coordinates(*mesh_, v);
+      p[edit.vertex] = edit.ways[k][end];
+      mesh_->point(v) = to_point(p);
+      isolated_->moved(v);
+    }
+    broad_phase_->faces_moved(faces_);
+    noted(Vertex_index());
+    if constexpr (has_visitor)
+      for (const std::size_t name : edit.around)
+        visitor_.vertex_moved(vertex(name));
+    return edit.around.empty() ? Vertex_index() : vertex(edit.around.back());
   }
 
   template <class Noted>

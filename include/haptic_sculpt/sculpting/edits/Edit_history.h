@@ -6,6 +6,8 @@
 #include <haptic_sculpt/sculpting/edits/Edit.h>
 #include <haptic_sculpt/sculpting/edits/Record_queue.h>
 
+#include <cstring>
+
 namespace haptic_sculpt {
 namespace internal {
 
@@ -13,7 +15,7 @@ namespace internal {
 /// is one each.
 ///
 /// Within a stroke the moves between two other edits are kept once a vertex, from where it was first to where it was
-/// last. Bytes: a move 56, another edit 56 and 8 for each vertex around it, a step 16.
+/// last. Bytes: a move 56, another edit 56 and 8 for each vertex around it, 24 for each that a shift moves, a step 16.
 class Edit_history {
 public:
   /// So many drags follow a `make_room()` without an allocation: a quarter of a minute of a hand that drags a thousand
@@ -93,13 +95,26 @@ public:
     if (!begin_record())
       return;
     const auto& point = edit.kind == Edit_kind::remove ? edit.before : edit.after;
-    edits_.push_back(
-        {edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(edit.around.size()), edit.kind});
+    const std::size_t words = edit.around.size() * (edit.kind == Edit_kind::shift ? 3 : 1);
+    edits_.push_back({edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(words), edit.kind});
     for (const std::size_t name : edit.around)
       around_.push_back(name);
+    if (edit.kind == Edit_kind::shift)
+      for (const auto& way : edit.ways)
+        for (const double x : way)
+          around_.push_back(word_of(x));
     ++edits_done_;
     first_of_run_ = moves_done_;
     end_record();
+  }
+
+  /// A shift of so many vertices follows: what it needs is allocated now.
+  void prepare_for_shift(std::size_t vertices) {
+    if (is_off())
+      return;
+    edits_.reserve(1);
+    around_.reserve(3 * vertices);
+    steps_.reserve(1);
   }
 
   /// \name Going back and forth, change by change
@@ -163,8 +178,8 @@ private:
     std::size_t vertex;
     Coordinates point;
     std::size_t moves_before; ///< the number of the first move that came later
-    std::size_t around;       ///< where the vertices around begin
-    std::uint32_t valence;    ///< how many these are
+    std::size_t around;       ///< where the vertices around begin; of a shift, their coordinates follow, as words
+    std::uint32_t words;      ///< how many there are
     Edit_kind kind;
   };
   /// Between two records.
@@ -187,6 +202,18 @@ private:
   bool has_step_ = false, is_lost_ = false; ///< whether it is the last step; whether it was too large to be kept
   std::size_t first_of_run_ = 0;            ///< the first move of the stroke since its last other edit
   std::vector<std::size_t> latest_;         ///< by number of vertex, its last move; maybe one that is no more
+
+  static_assert(sizeof(std::size_t) == sizeof(double), "coordinates are kept among numbers of vertices");
+  static std::size_t word_of(double x) {
+    std::size_t word;
+    std::memcpy(&word, &x, sizeof word);
+    return word;
+  }
+  static double number_of(std::size_t word) {
+    double x;
+    std::memcpy(&x, &word, sizeof x);
+    return x;
+  }
 
   bool is_off() const { return limit_.steps == 0 || limit_.bytes == 0; }
 
@@ -216,8 +243,12 @@ private:
     current_.vertex = other.vertex;
     current_.before = current_.after = other.point;
     current_.around.clear();
-    for (std::size_t k = 0; k < other.valence; ++k)
+    current_.ways.clear();
+    const std::size_t vertices = other.kind == Edit_kind::shift ? other.words / 3 : other.words;
+    for (std::size_t k = 0; k < vertices; ++k)
       current_.around.push_back(around_[other.around + k]);
+    for (std::size_t k = other.around + vertices; k < other.around + other.words; k += 2)
+      current_.ways.push_back({number_of(around_[k]), number_of(around_[k + 1])});
     return &current_;
   }
 

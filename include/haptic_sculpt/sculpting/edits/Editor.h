@@ -133,6 +133,30 @@ public:
     return make();
   }
 
+  /// Moves many vertices along one axis, a motion that has been proven free; one change. \param ways where each is to be
+  void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
+    Edit edit, recorded; // not kept: there may be millions
+    edit.kind = Edit_kind::shift;
+    edit.vertex = static_cast<std::size_t>(axis);
+    for (const auto& [v, end] : ways) {
+      edit.around.push_back(names().name(v));
+      edit.ways.push_back({vertex_coordinates(*mesh_, v)[axis], end});
+    }
+    recorded = edit;
+    if (!records_probes_) {
+      recorded.around.clear(), recorded.ways.clear();
+      for (std::size_t k = 0; k < ways.size(); ++k)
+        if (!mesh_->is_isolated(ways[k].first))
+          recorded.around.push_back(edit.around[k]), recorded.ways.push_back(edit.ways[k]);
+    }
+    history_.prepare_for_shift(recorded.around.size());
+    changes_.make(edit, place(history_.number_of_next(), true), [&](Vertex_index changed) {
+      watch(changed, edit);
+      if (!recorded.around.empty())
+        history_.push(recorded);
+    });
+  }
+
   /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. Only probes
   /// that move outside of the history may be elsewhere now: a step that would jump over one is refused.
   Result undo() {
@@ -212,14 +236,17 @@ private:
   }
   Vertex_index take_back() {
     const auto at = place(history_.number_to_undo(), false);
-    return changes_.take_back(*history_.to_undo(), at, [this](Vertex_index changed) {
-      watch(changed);
+    const Edit& edit = *history_.to_undo();
+    return changes_.take_back(edit, at, [&](Vertex_index changed) {
+      watch(changed, edit);
       history_.undone();
     });
   }
   Vertex_index make_again() {
-    return changes_.make(*history_.to_redo(), place(history_.number_to_redo(), false), [this](Vertex_index changed) {
-      watch(changed);
+    const auto at = place(history_.number_to_redo(), false);
+    const Edit& edit = *history_.to_redo();
+    return changes_.make(edit, at, [&](Vertex_index changed) {
+      watch(changed, edit);
       history_.redone();
     });
   }
@@ -252,6 +279,13 @@ private:
     }));
   }
 
+  /// Of a shift all that it moves.
+  void watch(Vertex_index changed, const Edit& edit) {
+    watch(changed);
+    if (edit.kind == Edit_kind::shift)
+      for (const std::size_t name : edit.around)
+        watch_->remember(names().vertex(name));
+  }
   void watch(Vertex_index changed) {
     watch_->remember_counts();
     if (changed.is_valid())

@@ -3,11 +3,15 @@
 #define HAPTIC_SCULPT_SCULPTING_RESTORATION_PROOF_H
 
 #include <haptic_sculpt/collision.h>
+#include <haptic_sculpt/collision/arithmetic/axis_sweep.h>
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/edits/Edit.h>
 #include <haptic_sculpt/sculpting/edits/Vertex_names.h>
+#include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 #include <haptic_sculpt/surface/star.h>
+
+#include <unordered_map>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -42,6 +46,8 @@ public:
       link_ = star_.link_points;
       return refuse_swept(is_back ? edit.after : edit.before, is_back ? edit.before : edit.after, link_.size());
     }
+    if (edit.kind == Edit_kind::shift)
+      return refuse_shift(edit, names, is_back);
     // Between the star of a vertex and the fan of a neighbour, into which it could be drawn.
     if ((edit.kind == Edit_kind::remove) != is_back) {
       star_.collect(*mesh_, names.vertex(edit.vertex));
@@ -65,6 +71,33 @@ private:
   Star<Mesh> star_;
   std::vector<Coordinates> link_;
   std::vector<Vertex_index> near_;
+
+  /// Every face that moves against every probe.
+  Refused refuse_shift(const Edit& edit, const Vertex_names<Mesh>& names, bool is_back) const {
+    const int axis = static_cast<int>(edit.vertex);
+    std::unordered_map<std::size_t, double> ends; // by index
+    for (std::size_t k = 0; k < edit.around.size(); ++k)
+      ends[static_cast<std::size_t>(names.vertex(edit.around[k]))] = edit.ways[k][is_back ? 0 : 1];
+    for (const std::size_t name : edit.around)
+      for (const auto f : mesh_->faces_around_target(mesh_->halfedge(names.vertex(name)))) {
+        std::array<Coordinates, 4> start;
+        std::array<double, 4> heights;
+        const auto corners = corners_of_face(*mesh_, f);
+        for (int i = 0; i < 3; ++i) {
+          start[i] = vertex_coordinates(*mesh_, corners[i]);
+          const auto end = ends.find(static_cast<std::size_t>(corners[i]));
+          heights[i] = end != ends.end() ? end->second : start[i][axis];
+        }
+        for (const Vertex_index probe : isolated_->all()) {
+          start[3] = vertex_coordinates(*mesh_, probe);
+          heights[3] = start[3][axis];
+          const Axis_motion<4> motion(axis, start, heights);
+          if (Axis_sweep<4, Filter_counters>(motion, *counters_).do_vertex_and_face_meet(3, 0, 1, 2))
+            return Refusal<Mesh>{Refusal_reason::blocked, {probe}};
+        }
+      }
+    return std::nullopt;
+  }
 
   /// The tetrahedra of a, b and the first so many edges of the closed polygon link_. Those with b for a corner of the
   /// edge are flat, and so parts of the others' boundaries.

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
 #define HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
 
+#include <haptic_sculpt/sculpting/many_vertices/Axis_walk.h>
 #include <haptic_sculpt/sculpting/many_vertices/Drag_budget.h>
 #include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/sculpting/many_vertices/leading_order.h>
@@ -10,10 +11,9 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Brings many vertices as near to their targets as single drags do (doc/many_vertices.md).
+/// Brings many vertices as near to their targets as axis moves and single drags do (doc/many_vertices.md).
 ///
-/// No drag ends farther from where it was to go than it began. So a vertex that goes by points of its way is never
-/// farther from such a point than that point is from where it began, nor from its target than that was.
+/// No drag ends farther from its target than it began, and in an axis move no coordinate does.
 template <class Sculptor>
 class Vertices_mover {
 public:
@@ -34,48 +34,27 @@ public:
     asked_ = sum_left();
     const Response_scope scope(sculptor_, Response::stop, true);
     Positions behind = all_behind();
-    // To be taken back if too many stay behind; else the log is of no use.
-    log_.reserve(parameters_.takes_steps ? behind.size() : 0);
-    stop_passes(behind, {1}, parameters_.takes_steps);
+    if (!parameters_.takes_steps || behind.size() < many)
+      stop_passes(behind);
     tries_whole_ = false;
-    if (behind.size() > few(vertices_.size()) && parameters_.takes_steps && goes_on_) {
-      take_back();
-      walk_in_steps();
-    }
-    log_ = {};
+    if (parameters_.takes_steps && !behind.empty() && goes_on_)
+      goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_).run();
     finish();
   }
 
 private:
   using Position = std::uint32_t; ///< in vertices_
   using Positions = std::vector<Position>;
-  /// Where vertices go: to a share of their ways, all at once or one coordinate after the other.
-  struct Aim {
-    double share;
-    int axis = -1; ///< 0, 1 or 2: only that coordinate; -1: all
-  };
-  /// A motion that was made.
-  struct Made {
-    Position position;
-    Coordinates before;
-  };
-
-  /// Steps are not made shorter than this share of the way, nor than half the shortest edge of a vertex that moves,
-  /// unless all can be made with so many drags: small meshes, whose faces are long.
-  static constexpr double least_step = 1.0 / 128, affordable_drags = 50000;
+  /// From so many on all go at once along one axis after the other.
+  static constexpr std::size_t many = 8;
   /// So many passes of slides are made when few are left.
   static constexpr int slide_passes_of_few = 3;
-  /// One coordinate after the other is worth its three drags a vertex where it leaves no more than this share behind.
-  static constexpr double axes_gain = 0.75;
   /// Another pass is made at the end while the last has gained more than this share of what was left, as a sum of
   /// distances, and more than this share of what was asked is left: to the origin there is no end of coming nearer.
   static constexpr double least_gain = 0.01, least_left = 0x1p-100;
 
   /// So few of n do not stand in each other's way as a whole: what blocks them is local.
   static std::size_t few(std::size_t n) { return 1 + n / 32; }
-  /// So few of n may stay behind in a step where a shorter one may bring more along: those that do slide off their ways,
-  /// and of a right angle that could arrive some never find back (doc/many_vertices.md).
-  static std::size_t hardly_any(std::size_t n) { return n / 4096; }
 
   Sculptor& sculptor_;
   const std::vector<Moving>& vertices_;
@@ -83,11 +62,10 @@ private:
   Move_report* report_;
   Drag_budget budget_;
   std::optional<std::size_t> bound_; ///< on the work of a drag, as it was before
-  std::vector<Made> log_; ///< of the step under way
   bool tries_whole_;
   bool goes_on_ = true; ///< neither cancelled nor out of work
   std::size_t behind_ = 0;
-  double way_ = 1, asked_ = 0; ///< a share; a sum of distances
+  double asked_ = 0; ///< a sum of distances
 
   Coordinates place(Position k) const { return vertex_coordinates(sculptor_.mesh(), vertices_[k].vertex); }
   double distance_left(Position k) const { return distance(place(k), vertices_[k].target); }
@@ -121,30 +99,13 @@ private:
       return false;
     report_->cancelled =
         budget_.has_room() && parameters_.progress_function && budget_.is_call_due() &&
-        !parameters_.progress_function(Move_progress{vertices_.size(), behind_, report_->drags, way_});
+        !parameters_.progress_function(Move_progress{vertices_.size(), behind_, report_->drags, 1});
     return goes_on_ = !report_->cancelled && !report_->out_of_work;
   }
 
-  /// Where a vertex is to go; where it is, unless that is nearer to the target.
-  Coordinates aimed_at(Position k, const Aim& aim) const {
-    const Moving& v = vertices_[k];
-    const Coordinates from = place(k), p = aim.share == 1 ? v.target : point_of_path(v.source, v.target, aim.share);
-    if (aim.axis < 0)
-      return aim.share == 1 || is_farther(v.target, from, p) ? p : from;
-    Coordinates to = from;
-    if (std::abs(p[aim.axis] - v.target[aim.axis]) < std::abs(from[aim.axis] - v.target[aim.axis]))
-      to[aim.axis] = p[aim.axis];
-    return to;
-  }
-
-  /// Whether `from` is farther from the target than `to`. Rounded; so by more than rounding can do.
-  static bool is_farther(const Coordinates& target, const Coordinates& from, const Coordinates& to) {
-    return distance(from, target) * (1 - 0x1p-48) > distance(to, target);
-  }
-
   /// Those that are not where they are to go, in an order in which they are least in each other's way: leaders first,
-  /// and where the faces leave it open the foremost, along the axis or the sum of all ways.
-  Positions ordered(const Positions& given, const Aim& aim) const {
+  /// and where the faces leave it open the foremost, along the sum of all ways.
+  Positions ordered(const Positions& given) const {
     struct Motion {
       double advance;
       Position position;
@@ -154,17 +115,13 @@ private:
     motions.reserve(given.size());
     Vector whole{};
     for (const Position k : given)
-      if (const Coordinates from = place(k), to = aimed_at(k, aim); from != to) {
+      if (const Coordinates from = place(k), to = vertices_[k].target; from != to) {
         motions.push_back({0, k, {vertices_[k].vertex, from, to}});
         whole = plus(whole, minus(to, from));
       }
     whole = scaled(whole, unit_of(quick_magnitude(whole))); // its products with places stay in range
-    for (Motion& motion : motions) {
-      const Coordinates &from = motion.moving.source, &to = motion.moving.target;
-      motion.advance = aim.axis < 0                      ? quick_dot(whole, minus(from, Coordinates{}))
-                       : to[aim.axis] > from[aim.axis] ? from[aim.axis]
-                                                       : -from[aim.axis];
-    }
+    for (Motion& motion : motions)
+      motion.advance = quick_dot(whole, minus(motion.moving.source, Coordinates{}));
     std::sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) {
       return std::make_pair(b.advance, a.position) < std::make_pair(a.advance, b.position);
     });
@@ -178,15 +135,14 @@ private:
     return order;
   }
 
-  /// Drags those that are behind to where they aim, again while they at least halve, few while a tenth comes along.
+  /// Drags those that are behind to their targets, again while they at least halve, few while a tenth comes along.
   /// Leaves in `behind` those that stay behind.
-  void stop_passes(Positions& behind, const Aim& aim, bool logs) {
-    way_ = aim.share;
+  void stop_passes(Positions& behind) {
     if (!tries_whole_)
-      behind = ordered(behind, aim);
+      behind = ordered(behind);
     for (;;) {
       const std::size_t before = behind.size();
-      pass(behind, aim, logs);
+      pass(behind);
       const std::size_t gained = before - behind.size(), share = behind.size() <= few(vertices_.size()) ? 10 : 2;
       if (!goes_on_ || behind.empty() || gained == 0 || share * gained < before)
         return;
@@ -194,121 +150,22 @@ private:
   }
 
   /// Drags each once.
-  void pass(Positions& behind, const Aim& aim, bool logs) {
+  void pass(Positions& behind) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < behind.size(); ++i) {
       const Position k = behind[i];
       behind_ = behind.size() - i + kept;
-      const Coordinates from = place(k), to = aimed_at(k, aim);
-      if (from == to)
+      if (place(k) == vertices_[k].target)
         continue;
       if (!may_drag()) {
         behind[kept++] = k;
         continue;
       }
-      const bool reached = drag(k, to);
-      if (logs && place(k) != from)
-        log_.push_back({k, from});
+      const bool reached = drag(k, vertices_[k].target);
       if (!reached)
         behind[kept++] = k;
     }
     behind.resize(kept);
-  }
-
-  /// Takes the motions of the log back, the last one first: each is free, for all stands as it did when the motion was
-  /// made.
-  void take_back() {
-    for (; !log_.empty() && may_drag(); log_.pop_back())
-      drag(log_.back().position, log_.back().before);
-  }
-
-  /// Brings all together to a share of their ways, by axes one coordinate after the other. \return those that stay
-  /// behind, in their order
-  Positions step_to(const Positions& going, double share, bool by_axes, bool logs) {
-    Positions behind;
-    for (int axis = by_axes ? 0 : 3; axis <= 3; ++axis) {
-      behind = going;
-      stop_passes(behind, {share, axis < 3 ? axis : -1}, logs); // at last all coordinates, for those that stay behind
-    }
-    std::sort(behind.begin(), behind.end());
-    return behind;
-  }
-
-  /// All go on together, in steps that halve where some stay behind and double after two in which hardly any did. Few
-  /// who stay behind in a step half as long too, or in the shortest, are left to slide; where those are many they are
-  /// given up. The first step is tried both ways, straight and by axes, and the better one is kept to, but for the
-  /// shortest steps: these are straight.
-  void walk_in_steps() {
-    Positions going = all_behind();
-    const double shortest = shortest_step();
-    double way = 0, step = 0.5;
-    bool by_axes = false, is_first = true;
-    std::size_t stuck = 0; // so many stay behind in any step
-    std::size_t before = 0; // so many stayed behind in the step twice as long; 0: there was none
-    for (int successes = 0; way < 1 && !going.empty();) {
-      const double next = std::fmin(1, way + step);
-      const bool is_shortest = step <= shortest, logs = is_first || !is_shortest;
-      log_.clear();
-      Positions behind = step_to(going, next, by_axes && !is_shortest, logs);
-      if (std::exchange(is_first, false) && behind.size() > hardly_any(going.size())) {
-        take_back();
-        const std::size_t straight = behind.size();
-        behind = step_to(going, next, true, logs);
-        by_axes = static_cast<double>(behind.size()) < axes_gain * static_cast<double>(straight);
-      }
-      if (!goes_on_)
-        return;
-      const bool is_hopeless = is_shortest || (before > 0 && 2 * behind.size() > before);
-      if (is_hopeless && behind.size() <= few(going.size()))
-        stuck = std::max(stuck, behind.size());
-      if (behind.size() <= std::max(stuck, hardly_any(going.size()))) {
-        slide_few(behind, next);
-        way = next, before = 0;
-        if (++successes % 2 == 0)
-          step *= 2;
-        continue;
-      }
-      successes = 0, before = behind.size();
-      if (is_shortest) {
-        way = next, before = 0;
-        give_up(going, behind);
-      } else {
-        take_back();
-        step /= 2;
-      }
-      if (!goes_on_)
-        return;
-    }
-  }
-
-  /// So that they do not stay in the way of others.
-  void slide_few(Positions& behind, double share) {
-    if (behind.empty() || !parameters_.slides)
-      return;
-    const Response_scope scope(sculptor_, Response::slide, false);
-    for (int i = 0; i < slide_passes_of_few && goes_on_ && !behind.empty(); ++i)
-      pass(behind, {share}, false);
-  }
-
-  /// Takes away from `going` what is in `behind`, which has the same order.
-  static void give_up(Positions& going, const Positions& behind) {
-    Positions left;
-    std::set_difference(going.begin(), going.end(), behind.begin(), behind.end(), std::back_inserter(left));
-    going = std::move(left);
-  }
-
-  /// As a share of the way: that on which the vertex with the longest way goes half the shortest edge.
-  double shortest_step() const {
-    const Mesh& mesh = sculptor_.mesh();
-    double edge = std::numeric_limits<double>::infinity(), way = 0;
-    for (const Moving& v : vertices_) {
-      way = std::fmax(way, distance(v.source, v.target));
-      if (!mesh.is_isolated(v.vertex))
-        for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v.vertex)))
-          edge = std::fmin(edge, distance(vertex_coordinates(mesh, mesh.source(h)), v.source));
-    }
-    const double affordable = static_cast<double>(vertices_.size()) / affordable_drags;
-    return std::fmin(std::fmax(least_step, 0.5 * edge / way), affordable);
   }
 
   double sum_left() const {
@@ -332,9 +189,9 @@ private:
     double left = sum_left();
     for (int i = 0; i < most_passes && goes_on_ && left > least_left * asked_; ++i) {
       Positions behind = all_behind();
-      way_ = 1;
-      pass(behind, {1}, false);
-      if (const double before = std::exchange(left, sum_left()); !(before - left > least_gain * before))
+      pass(behind);
+      const double before = std::exchange(left, sum_left());
+      if (!(before - left > least_gain * before))
         return;
     }
   }

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_GUARDED_MESH_H
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
+#include <haptic_sculpt/sculpting/axis_moves/axis_ways.h>
 #include <haptic_sculpt/sculpting/contact/Scene_bound.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
 #include <haptic_sculpt/sculpting/finding/Surface_finder.h>
@@ -44,18 +45,23 @@ public:
   auto& editor() { return editor_; }
   const auto& editor() const { return editor_; }
 
-  void release() { hand_.release(); }
+  void release() {
+    const Rounding_to_nearest rounding; // the broad phase is told where a vertex is
+    hand_.release();
+  }
 
-  /// \throw Unknown_vertex, Mesh_changed
+  /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed
   void hold(Vertex_index v) {
-    const Rounding_to_nearest rounding;
     check_vertex(*mesh_, v);
     if (!hand_.holds(v))
       hand_.take(v, [this] { editor_.prepare_for_moves(); });
   }
 
   bool expects_single_drags() const { return hand_.expects_single_drags(); }
-  void expect_single_drags(bool on) { hand_.expect_single_drags(on); }
+  void expect_single_drags(bool on) {
+    const Rounding_to_nearest rounding;
+    hand_.expect_single_drags(on);
+  }
 
   /// \pre v is in the mesh
   Result drag(Vertex_index v, const Point& target, std::vector<Point>* path) {
@@ -184,6 +190,39 @@ public:
     return edited(edit);
   }
 
+  /// Moves vertices at once along one axis as far as that is free, as one change; each vertex is given once.
+  /// \param move made by `axis_move()`; may be used again while the connectivity stays
+  /// \return false where more than `most_held` would be held back: then nothing has changed, and `move` knows why
+  /// \throw Unknown_vertex, Out_of_range, Mesh_changed
+  bool shift(Axis_move<Mesh>& move, int axis, const Axis_ways<Mesh>& ways, std::size_t most_held) {
+    const Rounding_to_nearest rounding;
+    for (const auto& way : ways) {
+      check_vertex(*mesh_, way.first);
+      if (!is_in_range(way.second))
+        throw_out_of_range("where vertex " + std::to_string(static_cast<std::size_t>(way.first)) + " is to go",
+                           {way.second, way.second, way.second});
+    }
+    release();
+    look_for_changes();
+    for (const Vertex_index v : mesh_->vertices())
+      watch_.check(v);
+    take_for(move, *mesh_, broad_phase_, isolated_.all(), axis, ways);
+    move.begin(axis, ways);
+    if (!move.hold_back(most_held))
+      return false;
+    Axis_ways<Mesh> made;
+    for (const auto& [v, end] : ways)
+      if (Coordinates p = vertex_coordinates(*mesh_, v); move.end(v) != p[axis]) {
+        p[axis] = move.end(v);
+        made.emplace_back(v, p[axis]);
+        scene_.include(p);
+      }
+    if (!made.empty())
+      editor_.shift(axis, made);
+    return true;
+  }
+  Axis_move<Mesh> axis_move() { return Axis_move<Mesh>(*mesh_, parameters.delta_length, counters_); }
+
   void reserve(std::size_t edits, std::size_t moves) {
     const auto n = static_cast<typename Mesh::size_type>(edits);
     mesh_->reserve(mesh_->num_vertices() + n, mesh_->num_edges() + 3 * n, mesh_->num_faces() + 2 * n);
@@ -194,7 +233,10 @@ public:
     hand_.reserve(editor_.usual_valence, editor_.usual_candidates);
   }
 
-  void check_unchanged() const { watch_.check_all(corners_); }
+  void check_unchanged() const {
+    const Rounding_to_nearest rounding; // points that differ by a subnormal number differ
+    watch_.check_all(corners_);
+  }
   std::size_t memory() const {
     return broad_phase_.memory() + corners_.memory() + watch_.memory() + isolated_.memory() + editor_.names().memory();
   }

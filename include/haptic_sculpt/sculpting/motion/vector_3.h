@@ -8,6 +8,8 @@
 /// Every product-sum is an explicit fused multiply-add, so that compilers cannot choose: the same edits give the same
 /// bits in every build.
 
+#include <haptic_sculpt/collision/arithmetic/unit_of.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,14 +39,6 @@ inline Vector cross(const Vector& a, const Vector& b) {
 
 inline double largest_magnitude(const Vector& a) {
   return std::max(std::abs(a[0]), std::max(std::abs(a[1]), std::abs(a[2])));
-}
-
-/// The power of two that brings a length to about 1, where products of lengths stay in the range of doubles; it and its
-/// inverse are normal numbers. 1 for 0, and for what is not finite.
-inline double unit_of(double length) {
-  if (!(length > 0) || !std::isfinite(length))
-    return 1;
-  return std::ldexp(1.0, std::max(-1000, std::min(1000, -std::ilogb(length))));
 }
 
 /// Whether squares of a vector with this largest coordinate, and what is added to them, are far from both ends of the

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_READ_REPAIRED_H
+#define HAPTIC_SCULPT_EXAMPLES_READ_REPAIRED_H
+
+#include "Arguments.h"
+#include "Run_result.h"
+
+#include <string>
+#include <vector>
+
+namespace haptic_sculpt::sculpt_program {
+
+/// Reads what a file holds and repairs it; writes the report that was asked for, whatever comes of it.
+/// \param left_out receives what the file has and a mesh has not, \param told the steps, in words
+/// \throw Read_error, Out_of_range; Read_error also for what cannot be repaired, with what is left; Write_error
+Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_out, std::string& told);
+
+} // namespace haptic_sculpt::sculpt_program
+
+#endif

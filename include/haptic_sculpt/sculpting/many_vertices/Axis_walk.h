@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_WALK_H
+#define HAPTIC_SCULPT_SCULPTING_AXIS_WALK_H
+
+#include <haptic_sculpt/sculpting/Move_report.h>
+#include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
+#include <haptic_sculpt/sculpting/many_vertices/leading_order.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Brings many vertices towards their targets by axis moves: all along x, then along y, then along z. Whole ways first; where
+/// too many are held back all is taken back and tried by half (doc/many_vertices.md).
+///
+/// Each coordinate of a vertex only comes nearer to that of its target.
+template <class Sculptor>
+class Axis_walk {
+public:
+  using Mesh = typename Sculptor::Mesh_type;
+  using Moving = Moving_vertex<Mesh>;
+
+  /// \param report counts a motion for each vertex of a move along one axis
+  Axis_walk(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
+            Move_report& report)
+      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), parameters_(parameters), report_(report),
+        move_(guarded_.axis_move()) {}
+
+  /// Ends, too, where a move would be more motions than may be made: single drags may go on with what is left of these.
+  /// \return false where it was cancelled
+  bool run() {
+    // Steps that are taken back would use up what few motions there are.
+    const bool takes_steps = parameters_.drag_limit / work_of_steps >= vertices_.size();
+    double way = takes_steps ? 0 : 1, step = 1;
+    std::size_t before = vertices_.size(); // so many were held back in the step twice as long
+    while (way < 1 && goes_on_) {
+      const double next = std::fmin(1, way + step);
+      const std::size_t held = step_to(next, vertices_.size() / 4);
+      if (!goes_on_)
+        break;
+      if (held <= few()) {
+        way = next, before = vertices_.size();
+        step *= 2;
+        continue;
+      }
+      take_back();
+      step /= 2;
+      if (step < worth_trying && (step < least_step || 2 * held > before))
+        break;
+      before = held;
+    }
+    for (double left = sum_left(); goes_on_ && left > 0;) {
+      step_to(1, vertices_.size());
+      const double gone = left - sum_left();
+      if (!(gone > least_gain * left))
+        break;
+      left -= gone;
+    }
+    return !report_.cancelled;
+  }
+
+private:
+  /// Steps of this share of the way are tried whatever comes of it; shorter ones, to the least, only while half as long a
+  /// step at least halves the number held back: that is so in twists, and not in noise.
+  static constexpr double worth_trying = 1.0 / 16, least_step = 1.0 / 256;
+  /// Steps are tried where so many motions a vertex may be made.
+  static constexpr std::size_t work_of_steps = 16;
+  /// Another pass to the end is made while the last has gained more than this share of what was left.
+  static constexpr double least_gain = 0.01;
+
+  using Ways = Axis_ways<Mesh>;
+
+  std::decay_t<decltype(Sculptor_access::guarded(std::declval<Sculptor&>()))>& guarded_;
+  const std::vector<Moving>& vertices_;
+  const Move_parameters& parameters_;
+  Move_report& report_;
+  Axis_move<Mesh> move_;
+  std::vector<std::pair<int, Ways>> made_; ///< by the step under way: the axis, and where all were before
+  bool goes_on_ = true;                    ///< neither cancelled nor without room for another move
+
+  /// So many may be held back in a step.
+  std::size_t few() const { return 1 + vertices_.size() / 32; }
+
+  Coordinates place(const Moving& v) const { return vertex_coordinates(guarded_.mesh(), v.vertex); }
+
+  /// Where the vertex is to be along an axis: where it is, unless the point of its way is nearer to the target.
+  double aim(const Moving& v, const Coordinates& from, double share, int axis) const {
+    const double target = v.target[axis];
+    const double p = share == 1 ? target : std::fma(share, target - v.source[axis], v.source[axis]);
+    return std::abs(p - target) < std::abs(from[axis] - target) ? p : from[axis];
+  }
+
+  /// Along all axes, with at most so many held back by each move. \return how many are held back, in all at the end, or
+  /// all where a move was given up
+  std::size_t step_to(double share, std::size_t most) {
+    made_.clear();
+    for (int axis = 0; axis < 3; ++axis) {
+      Ways ways, before;
+      for (const Moving& v : vertices_)
+        if (const Coordinates from = place(v); aim(v, from, share, axis) != from[axis]) {
+          ways.emplace_back(v.vertex, aim(v, from, share, axis));
+          before.emplace_back(v.vertex, from[axis]);
+        }
+      if (ways.empty())
+        continue;
+      if (!may_move(ways.size(), share))
+        return vertices_.size();
+      if (!guarded_.shift(move_, axis, ways, most))
+        return vertices_.size();
+      made_.emplace_back(axis, std::move(before));
+    }
+    std::size_t held = 0;
+    for (const Moving& v : vertices_) {
+      const Coordinates at = place(v);
+      held += aim(v, at, share, 0) != at[0] || aim(v, at, share, 1) != at[1] || aim(v, at, share, 2) != at[2];
+    }
+    return held;
+  }
+
+  /// The step that was made: the same motions back are free.
+  void take_back() {
+    for (; !made_.empty(); made_.pop_back())
+      if (!guarded_.shift(move_, made_.back().first, made_.back().second, 0))
+        throw Mesh_changed("a motion that was free is not when it is taken back");
+  }
+
+  bool may_move(std::size_t vertices, double share) {
+    if (vertices > parameters_.drag_limit - std::min(report_.counted, parameters_.drag_limit))
+      return goes_on_ = false;
+    if (parameters_.progress_function &&
+        !parameters_.progress_function(Move_progress{vertices_.size(), vertices, report_.drags, share})) {
+      report_.cancelled = true;
+      return goes_on_ = false;
+    }
+    report_.drags += vertices;
+    report_.counted += vertices;
+    return true;
+  }
+
+  double sum_left() const {
+    double sum = 0;
+    for (const Moving& v : vertices_)
+      sum += distance(place(v), v.target);
+    return sum;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_REPAIR_H
+#define HAPTIC_SCULPT_SURFACE_REPAIR_H
+
+#include <haptic_sculpt/no_fast_math.h>
+#include <haptic_sculpt/surface/coordinate_range.h>
+#include <haptic_sculpt/surface/read_surface.h>
+#include <haptic_sculpt/surface/repair/Repairer.h>
+
+#include <string>
+#include <utility>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// \throw Out_of_range, Error. \return a report of the points that are not finite, if there are any
+inline Validity_report check_repairable(const Face_soup& soup, const Repair_parameters& parameters) {
+  const double gap = parameters.gap_length.value_or(0);
+  if (!(gap >= 0) || !is_in_range(gap))
+    throw Out_of_range("gap " + number(gap) + " is out of range: give a length >= 0 and at most 2^1000, about 1.07e301");
+  for (std::size_t i = 0; i < soup.corners.size(); ++i)
+    if (soup.corners[i] >= soup.points.size())
+      throw Error("corner " + std::to_string(i) + " of the list of faces is point " + std::to_string(soup.corners[i]) +
+                  ", but there are only " + std::to_string(soup.points.size()) + " points; give indices from 0");
+  Validity_report report;
+  for (std::size_t v = 0; v < soup.points.size(); ++v)
+    if (!soup.is_finite(v))
+      report.non_finite_vertices.emplace_back(static_cast<Validity_report::Any_mesh::size_type>(v));
+    else if (const auto& p = soup.points[v]; !is_in_range({p.x(), p.y(), p.z()}))
+      throw_out_of_range("cannot repair: vertex " + std::to_string(v) + " at", {p.x(), p.y(), p.z()});
+  return report;
+}
+
+/// What repair() does, without a change where there is nothing to do. \param result receives the repaired soup
+inline Repair_report repaired(const Face_soup& soup, const Repair_parameters& parameters, Face_soup& result) {
+  const Rounding_to_nearest rounding;
+  Repair_report report;
+  report.left = check_repairable(soup, parameters);
+  if (!report.left.is_valid()) {
+    report.attempt = soup;
+    return report;
+  }
+  Repairer repairer(soup, parameters);
+  report = repairer.run();
+  (report.is_repaired() ? result : report.attempt) = std::move(repairer.soup());
+  return report;
+}
+
+} // namespace internal
+
+/// Makes a valid surface of whatever a file holds, as far as CGAL's functions can: a soup of faces, with holes, gaps,
+/// doubled, turned and degenerate faces, self-intersections, overlapping solids. doc/repair.md says what is done, in which
+/// order, and what comes through.
+///
+/// All is done on a copy. Where faults are left, the soup is unchanged, and the report says which. Where there is no
+/// fault, no component inside out and no point without a face, the soup is unchanged, too.
+///
+/// \throw Out_of_range if a coordinate or the gap is; Error if a corner is no index of a point; nothing is changed
+/// \post `report.is_repaired()` and `validate_soup(soup, delta).is_valid()`, or the soup is unchanged
+/// Complexity: O(n log^3 n) and what CGAL's functions take where there are faults; a hole of h edges takes up to O(h^3).
+inline Repair_report repair(Face_soup& soup, const Repair_parameters& parameters = {}) {
+  Face_soup result;
+  Repair_report report = internal::repaired(soup, parameters, result);
+  if (report.is_repaired() && !report.steps.empty()) {
+    result.left_out = std::move(soup.left_out);
+    soup = std::move(result);
+  }
+  return report;
+}
+
+/// The same of a mesh, in place. Where it was changed it is a new mesh: indices, properties and handles to them are not
+/// those it had.
+/// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
+/// \throw Error also if its half-edges contradict each other. Points are numbered without removed vertices
+template <class Mesh>
+Repair_report repair(Mesh& mesh, const Repair_parameters& parameters = {}) {
+  static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
+                "repair(mesh): it must be a CGAL::Surface_mesh whose points have double coordinates");
+  if (!internal::inconsistent_halfedges(mesh).empty())
+    throw Error("cannot repair: the half-edges of the mesh contradict each other; give its points and faces as a Face_soup");
+  Face_soup result;
+  Mesh copy;
+  if (mesh.has_garbage()) { // removed vertices are no points
+    copy = mesh;
+    copy.collect_garbage();
+  }
+  Repair_report report = internal::repaired(face_soup(mesh.has_garbage() ? copy : mesh), parameters, result);
+  if (report.is_repaired() && !report.steps.empty())
+    mesh = internal::mesh_of<Mesh>(result);
+  return report;
+}
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_COMPONENT_REPAIR_H
+#define HAPTIC_SCULPT_SURFACE_COMPONENT_REPAIR_H
+
+#include <haptic_sculpt/surface/repair/separate_vertices.h>
+
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+
+#include <CGAL/determinant.h>
+
+#include <array>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Resolves what intersects in a soup of triangles, component by component: those that meet themselves, and then those that
+/// meet others, which are united. Components that meet nothing are not touched.
+class Component_repair {
+  using Index = Face_soup::Index;
+
+public:
+  /// \pre the soup is a 2-manifold of triangles, with or without boundary
+  Component_repair(const Face_soup& soup, Trail& trail) : soup_(soup), trail_(trail) {}
+
+  /// Appends steps. \return the soup afterwards
+  Face_soup run(std::vector<Repair_step>& steps) {
+    collect();
+    if (meeting_.empty() && crossed_.empty())
+      return soup_;
+    find_sheets();
+    if (sheets_.size() == number_of_components_)
+      return soup_; // it holds nothing
+    steps.push_back({Repair_kind::drop_sheets, {{"components without volume dropped", sheets_.size()}}, 0, {}});
+    std::vector<Trail::Move> moves;
+    steps.push_back(resolve(moves));
+    steps.back().moved = trail_.follow(std::move(moves));
+    steps.push_back(unite());
+    Face_soup result;
+    for (const Work_mesh& mesh : meshes_)
+      append(face_soup(mesh), result);
+    trail_.keep(result.points); // the union only takes points away, and adds
+    return result;
+  }
+
+private:
+  void collect() {
+    Disjoint_sets sets = Soup_connectivity(soup_).components();
+    std::map<Index, std::size_t> number;
+    std::vector<Index> triangles(soup_.number_of_faces());
+    std::vector<bool> flat(triangles.size());
+    const Meet_improperly meet_improperly(soup_);
+    component_of_.resize(triangles.size());
+    for (Index f = 0; f < triangles.size(); ++f) {
+      component_of_[f] = number.emplace(sets.find(*soup_.begin(f)), number.size()).first->second;
+      triangles[f] = f;
+      flat[f] = meet_improperly.is_flat(f);
+    }
+    number_of_components_ = number.size();
+    for (const auto& [f, g] : improper_intersections(soup_, triangles, flat, Vertex_separation::most_pairs).pairs) {
+      const auto pair = std::minmax(component_of_[f], component_of_[g]);
+      ++(pair.first == pair.second ? crossed_[pair.first] : meeting_[{pair.first, pair.second}]);
+    }
+  }
+
+  // Loose faces and walls in the inside: closed by faces upon themselves, they enclose nothing, and so meet themselves.
+  void find_sheets() {
+    std::map<std::size_t, Exact_ring_number> volume; // six times
+    std::map<std::size_t, Index> apex;
+    for (Index f = 0; f < soup_.number_of_faces(); ++f) {
+      const std::size_t c = component_of_[f];
+      if (crossed_.count(c) == 0)
+        continue;
+      const auto& o = soup_.points[apex.emplace(c, *soup_.begin(f)).first->second];
+      std::array<std::array<Exact_ring_number, 3>, 3> d;
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+          d[i][k] = Exact_ring_number(soup_.points[soup_.begin(f)[i]][k]) - Exact_ring_number(o[k]);
+      Exact_ring_number& sum = volume.emplace(c, Exact_ring_number(0)).first->second;
+      sum = sum + CGAL::determinant(d[0][0], d[0][1], d[0][2], d[1][0], d[1][1], d[1][2], d[2][0], d[2][1], d[2][2]);
+    }
+    for (const auto& [c, sum] : volume)
+      if (CGAL::sign(sum) == CGAL::ZERO)
+        sheets_.insert(c);
+    for (const std::size_t c : sheets_)
+      crossed_.erase(c);
+    for (auto meeting = meeting_.begin(); meeting != meeting_.end();)
+      meeting = sheets_.count(meeting->first.first) + sheets_.count(meeting->first.second) > 0 ? meeting_.erase(meeting)
+                                                                                           : std::next(meeting);
+  }
+
+  static void append(const Face_soup& part, Face_soup& soup) {
+    std::vector<Index> number(part.points.size(), static_cast<Index>(-1));
+    for (std::size_t f = 0; f < part.number_of_faces(); ++f) {
+      for (const Index* corner = part.begin(f); corner != part.end(f); ++corner) {
+        if (number[*corner] == static_cast<Index>(-1)) {
+          number[*corner] = static_cast<Index>(soup.points.size());
+          soup.points.push_back(part.points[*corner]);
+        }
+        soup.corners.push_back(number[*corner]);
+      }
+      soup.close_face();
+    }
+  }
+
+  // The mesh of each component.
+  void split() {
+    std::vector<Polygon_soup> parts(number_of_components_, Polygon_soup(Face_soup()));
+    std::vector<std::size_t> number(soup_.points.size(), static_cast<std::size_t>(-1));
+    for (Index f = 0; f < soup_.number_of_faces(); ++f) {
+      Polygon_soup& part = parts[component_of_[f]];
+      part.faces.emplace_back();
+      for (const Index* corner = soup_.begin(f); corner != soup_.end(f); ++corner) {
+        if (number[*corner] == static_cast<std::size_t>(-1)) {
+          number[*corner] = part.points.size();
+          part.points.push_back(soup_.points[*corner]);
+        }
+        part.faces.back().push_back(number[*corner]);
+      }
+    }
+    for (std::size_t c = 0; c < parts.size(); ++c)
+      meshes_.push_back(sheets_.count(c) == 0 ? work_mesh(parts[c]) : Work_mesh());
+  }
+
+  Repair_step resolve(std::vector<Trail::Move>& moves) {
+    split();
+    std::size_t crossed = 0, removed = 0, added = 0, left = 0;
+    std::string failure;
+    for (std::size_t c = 0; c < meshes_.size(); ++c) {
+      Work_mesh& mesh = meshes_[c];
+      const auto found = crossed_.find(c);
+      if (found == crossed_.end()) {
+        for (const auto v : mesh.vertices())
+          moves.emplace_back(mesh.point(v), mesh.point(v));
+        continue;
+      }
+      crossed += found->second;
+      Work_mesh copy = mesh;
+      const Vertex_marks marks(copy);
+      try {
+        left += !resolve_self_intersections(copy);
+      } catch (const CGAL::Failure_exception& error) {
+        failure = error.what();
+        continue;
+      }
+      marks.append_moves(moves);
+      removed += mesh.number_of_faces();
+      added += copy.number_of_faces();
+      mesh = copy;
+      mesh.collect_garbage();
+    }
+    return {Repair_kind::resolve_self_intersections,
+            {{"pairs of faces of a component that met", crossed}, {"components where some are left", left},
+             {"faces before", removed}, {"faces after", added}}, 0, failure};
+  }
+
+  // With its normals outwards. \pre closed
+  static void turn_outwards(Work_mesh& mesh) {
+    const Face_soup soup = face_soup(mesh);
+    if (!Component_orientation(soup).inside_out().empty())
+      CGAL::Polygon_mesh_processing::reverse_face_orientations(mesh);
+  }
+
+  Repair_step unite() {
+    namespace PMP = CGAL::Polygon_mesh_processing;
+    std::size_t united = 0, failed = 0;
+    std::string failure;
+    std::vector<std::size_t> now(meshes_.size()); // the mesh that a component has become part of
+    for (std::size_t c = 0; c < now.size(); ++c)
+      now[c] = c;
+    for (const auto& meeting : meeting_) {
+      const std::size_t a = now[meeting.first.first], b = now[meeting.first.second];
+      if (a == b)
+        continue;
+      if (!CGAL::is_closed(meshes_[a]) || !CGAL::is_closed(meshes_[b])) {
+        ++failed;
+        continue;
+      }
+      Work_mesh one = meshes_[a], other = meshes_[b], sum;
+      try {
+        if (a == meeting.first.first && !is_united(a, now))
+          turn_outwards(one);
+        if (b == meeting.first.second && !is_united(b, now))
+          turn_outwards(other);
+        if (!PMP::corefine_and_compute_union(one, other, sum, CGAL::parameters::throw_on_self_intersection(true))) {
+          ++failed;
+          continue;
+        }
+      } catch (const PMP::Corefinement::Self_intersection_exception&) {
+        failure = "a component still meets itself";
+        continue;
+      } catch (const CGAL::Failure_exception& error) {
+        failure = error.what();
+        continue;
+      }
+      ++united;
+      meshes_[a] = std::move(sum);
+      meshes_[b].clear();
+      for (std::size_t& c : now)
+        if (c == b)
+          c = a;
+    }
+    return {Repair_kind::unite_solids,
+            {{"times two solids were united", united}, {"pairs that could not be united", failed}}, 0, failure};
+  }
+  static bool is_united(std::size_t a, const std::vector<std::size_t>& now) {
+    return std::count(now.begin(), now.end(), a) > 1;
+  }
+
+  const Face_soup& soup_;
+  Trail& trail_;
+  std::size_t number_of_components_ = 0;
+  std::vector<std::size_t> component_of_; // of each face
+  std::map<std::size_t, std::size_t> crossed_;                         // pairs of faces within a component
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> meeting_; // pairs of faces of two components
+  std::set<std::size_t> sheets_;                                       // components without volume
+  std::vector<Work_mesh> meshes_;
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_MESH_STEPS_H
+#define HAPTIC_SCULPT_SURFACE_MESH_STEPS_H
+
+#include <haptic_sculpt/surface/repair/Repair_parameters.h>
+#include <haptic_sculpt/surface/repair/Trail.h>
+#include <haptic_sculpt/surface/repair/soup_steps.h>
+#include <haptic_sculpt/surface/validate.h>
+
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
+#if defined(__GNUC__) && !defined(__clang__) // CGAL 5.5: Polyhedral_envelope.h, which is not used here
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+
+#include <iterator>
+#include <limits>
+
+namespace haptic_sculpt {
+namespace internal {
+
+using Work_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>; ///< what CGAL's functions work on, whatever the user's kernel
+
+/// Where the vertices of a mesh were before CGAL changed it. A vertex added later has no mark: a slot used again gets the
+/// default value.
+class Vertex_marks {
+  using Point = Decision_kernel::Point_3;
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+public:
+  explicit Vertex_marks(Work_mesh& mesh)
+      : mesh_(mesh), before_(mesh.add_property_map<Work_mesh::Vertex_index, Point>("v:repair_before", Point(none, none, none)).first) {
+    for (const auto v : mesh.vertices())
+      before_[v] = mesh.point(v);
+  }
+  Vertex_marks(const Vertex_marks&) = delete;
+  Vertex_marks& operator=(const Vertex_marks&) = delete;
+  ~Vertex_marks() { mesh_.remove_property_map(before_); }
+
+  /// Appends the way of each vertex that was there and is.
+  void append_moves(std::vector<Trail::Move>& moves) const {
+    for (const auto v : mesh_.vertices())
+      if (const Point& before = before_[v]; before.x() == before.x())
+        moves.emplace_back(before, mesh_.point(v));
+  }
+
+private:
+  Work_mesh& mesh_;
+  Work_mesh::Property_map<Work_mesh::Vertex_index, Point> before_;
+};
+
+/// \pre the soup is a 2-manifold with or without boundary
+inline Work_mesh work_mesh(const Polygon_soup& soup) {
+  Work_mesh mesh;
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.faces, mesh);
+  return mesh;
+}
+
+inline Repair_step divide_faces(Work_mesh& mesh) {
+  std::size_t polygons = 0;
+  for (const auto f : mesh.faces())
+    polygons += !CGAL::is_triangle(mesh.halfedge(f), mesh);
+  if (polygons > 0)
+    CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
+  return {Repair_kind::divide_faces, {{"faces divided into triangles", polygons}}, 0, {}};
+}
+
+inline Repair_step stitch_edges(Work_mesh& mesh) {
+  const std::size_t stitched = CGAL::Polygon_mesh_processing::stitch_borders(mesh);
+  return {Repair_kind::stitch_edges, {{"pairs of open edges stitched", stitched}}, 0, {}};
+}
+
+inline Repair_step remove_degenerate(Work_mesh& mesh) {
+  std::size_t flat = 0;
+  for (const auto f : mesh.faces())
+    flat += CGAL::Polygon_mesh_processing::is_degenerate_triangle_face(f, mesh);
+  if (flat > 0)
+    CGAL::Polygon_mesh_processing::remove_degenerate_faces(mesh);
+  return {Repair_kind::remove_degenerate_faces, {{"degenerate faces", flat}}, 0, {}};
+}
+
+inline void close_hole(Work_mesh& mesh, Work_mesh::Halfedge_index h) {
+#if CGAL_VERSION_NR >= 1050600000
+  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h);
+#else
+  std::vector<Work_mesh::Face_index> faces;
+  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h, std::back_inserter(faces));
+#endif
+}
+
+/// A hole that CGAL finds no triangles for stays.
+inline Repair_step close_holes(Work_mesh& mesh, std::size_t most_edges) {
+  std::vector<Work_mesh::Halfedge_index> holes;
+  CGAL::Polygon_mesh_processing::extract_boundary_cycles(mesh, std::back_inserter(holes));
+  std::size_t closed = 0, left = 0;
+  const std::size_t faces = mesh.number_of_faces();
+  for (const auto h : holes) {
+    if (CGAL::halfedges_around_face(h, mesh).size() <= most_edges)
+      close_hole(mesh, h);
+    ++(mesh.is_border(h) ? left : closed);
+  }
+  return {Repair_kind::close_holes,
+          {{"holes closed", closed}, {"triangles added", mesh.number_of_faces() - faces}, {"holes left", left}}, 0, {}};
+}
+
+/// Of a mesh of one component. First keeping its genus, and if that does not do, not.
+inline bool resolve_self_intersections(Work_mesh& mesh) {
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  return PMP::experimental::remove_self_intersections(mesh, CGAL::parameters::preserve_genus(true)) ||
+         PMP::experimental::remove_self_intersections(mesh, CGAL::parameters::preserve_genus(false));
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

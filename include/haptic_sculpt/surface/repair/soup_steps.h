@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_SOUP_STEPS_H
+#define HAPTIC_SCULPT_SURFACE_SOUP_STEPS_H
+
+#include <haptic_sculpt/surface/repair/Repair_report.h>
+#include <haptic_sculpt/surface/validity/Face_soup.h>
+
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// A soup as CGAL's functions take it.
+struct Polygon_soup {
+  using Face = std::vector<std::size_t>;
+  std::vector<Face_soup::Point_3> points;
+  std::vector<Face> faces;
+
+  explicit Polygon_soup(const Face_soup& soup) : points(soup.points) {
+    faces.reserve(soup.number_of_faces());
+    for (std::size_t f = 0; f < soup.number_of_faces(); ++f)
+      faces.emplace_back(soup.begin(f), soup.end(f));
+  }
+  Face_soup face_soup() const {
+    Face_soup soup;
+    soup.points = points;
+    for (const Face& face : faces)
+      soup.add_face(face);
+    return soup;
+  }
+};
+
+/// Equal points become one; faces without area by their corners alone, doubled faces and unused points go. No point
+/// moves.
+inline void clean_soup(Polygon_soup& soup, std::vector<Repair_step>& steps) {
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  const std::size_t merged = PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.faces);
+  const auto is_degenerate = [](Polygon_soup::Face face) {
+    std::sort(face.begin(), face.end());
+    return std::unique(face.begin(), face.end()) - face.begin() < 3;
+  };
+  std::size_t faces = soup.faces.size();
+  soup.faces.erase(std::remove_if(soup.faces.begin(), soup.faces.end(), is_degenerate), soup.faces.end());
+  const std::size_t degenerate = faces - soup.faces.size(), points = soup.points.size();
+  faces = soup.faces.size();
+  PMP::repair_polygon_soup(soup.points, soup.faces);
+  const std::size_t doubled = faces - std::min(faces, soup.faces.size()); // a polygon that meets itself may become two
+  steps.push_back({Repair_kind::merge_points, {{"points merged with equal ones", merged}}, 0, {}});
+  steps.push_back({Repair_kind::drop_faces,
+                   {{"faces with a repeated corner dropped", degenerate}, {"doubled faces dropped", doubled}}, 0, {}});
+  steps.push_back({Repair_kind::drop_points, {{"points without faces dropped", points - soup.points.size()}}, 0, {}});
+}
+
+/// Makes neighbours agree, and splits edges of more than two faces and vertices of several fans.
+/// \post the soup is a 2-manifold with or without boundary
+inline Repair_step orient_soup(Polygon_soup& soup) {
+  const std::vector<Polygon_soup::Face> before = soup.faces;
+  const std::size_t points = soup.points.size();
+  CGAL::Polygon_mesh_processing::orient_polygon_soup(soup.points, soup.faces);
+  // What corner has been split does not matter: a face that was turned over has its corners' points the other way round.
+  const auto is_turned = [&](std::size_t f) {
+    const auto &a = before[f], &b = soup.faces[f];
+    const auto at = [&](std::size_t corner) { return soup.points[b[corner % b.size()]]; };
+    std::size_t first = 0;
+    while (first < b.size() && at(first) != soup.points[a[0]])
+      ++first;
+    return at(first + 1) != soup.points[a[1]];
+  };
+  std::size_t turned = 0;
+  for (std::size_t f = 0; f < before.size(); ++f)
+    turned += is_turned(f);
+  return {Repair_kind::orient_faces,
+          {{"faces turned over", turned}, {"copies of points made", soup.points.size() - points}}, 0, {}};
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

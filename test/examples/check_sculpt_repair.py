@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`sculpt --repair` and `--orient`: what they mend, what they say, what they leave alone."""
+import json
+import tempfile
+
+from box_mesh import box, off
+from program_runs import OCTAHEDRON, bytes_of, check, end, fails, points, run, surface, write
+
+
+def turned(faces):
+    return [[a, c, b] for a, b, c in faces]
+
+
+def moved(vertices, x):
+    return [(v[0] + x, v[1] + 0.25, v[2] + 0.125) for v in vertices]
+
+
+def broken_meshes():
+    vertices, faces = box(2)
+    n = len(vertices)
+    both = [[a + n, b + n, c + n] for a, b, c in faces]
+    yield "hole", off(vertices, faces[2:])
+    yield "soup", off([vertices[v] for f in faces for v in f], [[3 * i, 3 * i + 1, 3 * i + 2] for i in range(len(faces))])
+    yield "gaps", off([tuple(x + 1e-7 * ((7 * i + k) % 5 - 2) / 5 for k, x in enumerate(vertices[v])) for f in faces for i, v in enumerate(f)],
+                      [[3 * i, 3 * i + 1, 3 * i + 2] for i in range(len(faces))])
+    yield "doubled", off(vertices, faces + faces[:5] + turned(faces[7:9]))
+    yield "turned faces", off(vertices, faces[:4] + turned(faces[4:9]) + faces[9:])
+    yield "overlap", off(vertices + moved(vertices, 1.0), faces + both)
+    yield "degenerate", off(vertices, faces + [[0, 0, 1]])
+    yield "quadrangles", "OFF\n5 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.5 1\n4 0 3 2 1\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n"
+
+
+def repairs(folder):
+    for name, text in broken_meshes():
+        mesh, out, steps = write(f"{folder}/{name}.off", text), f"{folder}/{name} repaired.off", f"{folder}/{name}.json"
+        refused = run(mesh, "-o", out)
+        fails(3, ["is not a valid surface", "--repair"], refused, f"{name}, not repaired unasked")
+        check(refused.stderr.rstrip().split("\n")[-1].find("--repair") >= 0, f"{name}: the last line names what helps: {refused.stderr}")
+        done = run(mesh, "--repair", "--repair-report", steps, "-o", out)
+        check(done.returncode == 0, f"{name}: {done.stderr}")
+        check(bytes_of(mesh) == text.encode(), f"{name}: the mesh that was read is as it was")
+        report = json.loads(bytes_of(steps))
+        check(report["repaired"] and report["steps"] and not any(report["left"].values()), f"{name}: report {report}")
+        check(0 <= report["moved"] <= (2e-7 if name == "gaps" else 0), f"{name}: moved by {report['moved']}")
+        again = run(out, "--repair", "-o", f"{folder}/again.off")
+        check("nothing to repair" in again.stdout and surface(f"{folder}/again.off") == surface(out), f"{name}: repaired twice")
+
+
+def goes_on_to_sculpt(folder):
+    vertices, faces = box(2)
+    mesh = write(f"{folder}/open.off", off(vertices, faces[2:]))
+    done = run(mesh, "--repair", "--script", "-", "-o", f"{folder}/sculpted.off", script="drag 0 -1.5 -1.5 -1.5\n")
+    check(done.returncode == 0 and "reached 1" in done.stdout, f"sculpting what was repaired: {done.stdout}{done.stderr}")
+    check(points(f"{folder}/sculpted.off")[0] == (-1.5, -1.5, -1.5), "where the vertex went")
+
+
+def refusals(folder):
+    sheet = write(f"{folder}/sheet.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    fails(3, ["cannot repair", "what is left"], run(sheet, "--repair", "--repair-report", f"{folder}/sheet.json", "-o", f"{folder}/no.off"), "a sheet")
+    report = json.loads(bytes_of(f"{folder}/sheet.json"))
+    check(not report["repaired"] and any(report["left"].values()), f"report of what could not be repaired: {report}")
+    vertices, faces = box(2)
+    mesh = write(f"{folder}/hole.off", off(vertices, faces[2:]))
+    fails(3, ["boundary edge"], run(mesh, "--repair", "--repair-largest-hole", 3), "a hole too large")
+    check(run(mesh, "--repair", "--repair-largest-hole", 4).returncode == 0, "a hole that may be closed")
+    fails(2, ["--repair-gap"], run(mesh, "--repair", "--repair-gap", "-1"), "a gap below zero")
+    fails(2, ["is the mesh to be read"], run(mesh, "--repair", "--repair-report", mesh), "a report over the mesh")
+    check(run(mesh, "--repair-report", f"{folder}/x.json").returncode == 2, "a report of no repair")
+
+
+def orients(folder):
+    vertices, faces = box(2)
+    n = len(vertices)
+    text = off(vertices + moved(vertices, 5.0) + [(9, 9, 9)], faces + turned([[a + n, b + n, c + n] for a, b, c in faces]))
+    mesh, out = write(f"{folder}/flipped.off", text), f"{folder}/flipped out.off"
+    done = run(mesh, "-o", out)
+    check(done.returncode == 0 and "without faces" in done.stderr and "inside out" in done.stderr and "--orient" in done.stderr,
+          f"what is remarked on: {done.stderr}")
+    check(surface(out) == surface(mesh), "nothing is turned unasked")
+    done = run(mesh, "--orient", "-o", out)
+    check("components turned over: 1" in done.stdout and "inside out, with" not in done.stderr, f"turned: {done.stdout}{done.stderr}")
+    right = write(f"{folder}/right.off", off(vertices + moved(vertices, 5.0) + [(9, 9, 9)], faces + [[a + n, b + n, c + n] for a, b, c in faces]))
+    check(surface(out) == surface(right), "that component, and nothing else")
+    octahedron = write(f"{folder}/octahedron.off", OCTAHEDRON)
+    check(run(octahedron).stderr == "", "nothing is remarked where there is nothing")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    repairs(folder)
+    goes_on_to_sculpt(folder)
+    refusals(folder)
+    orients(folder)
+end()
