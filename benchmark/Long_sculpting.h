@@ -4,6 +4,7 @@
 
 #include "sculpting/response/Recording_guard.h"
 #include "sculpting/clearances.h"
+#include "sculpting/result_contradiction.h"
 #include "sculpting/response/local_minimum.h"
 
 #include <nlohmann/json.hpp>
@@ -111,6 +112,7 @@ private:
   void drag(Grab& grab, Vertex_index v, const Point_3& to, bool check) {
     if (check)
       check_legs(v, to);
+    const Point_3 from = mesh_.point(v);
     const auto begin = std::chrono::steady_clock::now();
     const auto r = grab.drag_to(to);
     tally_.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
@@ -119,7 +121,7 @@ private:
     tally_.held += r.end == Drag_end::held;
     tally_.at_leg_limit += r.end == Drag_end::leg_limit;
     tally_.without_progress += r.end == Drag_end::no_progress;
-    tally_.contradictions += r.position != mesh_.point(v) || r.reached != (r.position == to) || r.legs > 32;
+    tally_.contradictions += r.position != mesh_.point(v) || r.legs > 32 || test::contradiction(r, from, to) != nullptr;
     ++tally_.legs[std::min<std::size_t>(32, static_cast<std::size_t>(r.legs))];
     if (check && !r.reached) {
       const auto minimum = test::check_local_minimum(test::Surroundings(mesh_, v), mesh_, r, to, test::clearance_kept(sculptor_, r), random_);

@@ -5,6 +5,7 @@
 #include "Drag_tally.h"
 #include "Random_places.h"
 #include "sculpting/clearances.h"
+#include "sculpting/result_contradiction.h"
 
 #include <chrono>
 
@@ -62,6 +63,7 @@ private:
     const Drag_result<Mesh> result = sculptor_.grab(v).drag_to(target);
     tally_.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
     ++tally_.drags;
+    tally_.contradictions += result.position != mesh_.point(v) || test::contradiction(result, start, target) != nullptr;
     ++(result.reached ? tally_.reached : tally_.blocked);
     const double error = result.stop_error / test::clearance_kept(sculptor_, result);
     const bool determined = result.contacts.size() == 1 && !result.contacts[0].is_flat;

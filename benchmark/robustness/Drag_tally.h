@@ -14,6 +14,7 @@ struct Drag_tally {
   std::size_t short_asked = 0, short_arrived = 0;
   std::size_t through_asked = 0, through_stayed = 0, through_lazy = 0;
   std::size_t validations = 0, invalid = 0, changed = 0, slow_stops = 0;
+  std::size_t contradictions = 0; ///< results that contradict themselves
   double largest_stop_error = 0; ///< in clearances; stops with one contact whose plane is determined
   double nanoseconds = 0;
 
@@ -22,6 +23,7 @@ struct Drag_tally {
     short_asked += t.short_asked, short_arrived += t.short_arrived;
     through_asked += t.through_asked, through_stayed += t.through_stayed, through_lazy += t.through_lazy;
     validations += t.validations, invalid += t.invalid, changed += t.changed, slow_stops += t.slow_stops;
+    contradictions += t.contradictions;
     largest_stop_error = std::max(largest_stop_error, t.largest_stop_error);
     nanoseconds += t.nanoseconds;
     return *this;
@@ -38,6 +40,7 @@ struct Drag_tally {
             {"validations", validations},
             {"invalid", invalid},
             {"changed_elsewhere", changed},
+            {"contradictions", contradictions},
             {"stops_beyond_two_clearances", slow_stops},
             {"largest_stop_error_in_clearances", largest_stop_error},
             {"mean_ns", drags > 0 ? nanoseconds / static_cast<double>(drags) : 0}};

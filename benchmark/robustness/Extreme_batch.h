@@ -4,6 +4,7 @@
 
 #include "Extreme_tally.h"
 #include "robustness_meshes.h"
+#include "sculpting/result_contradiction.h"
 
 #include <haptic_sculpt/sculpting.h>
 
@@ -113,10 +114,12 @@ private:
   /// Whether the mesh can be used on.
   bool drag(Sculptor<Mesh>& sculptor, Vertex_index v, const Point_3& target) {
     const auto before = points();
+    const Point_3 start = mesh_.point(v);
     try {
       const auto result = sculptor.grab(v).drag_to(target);
       ++tally_.drags;
       tally_.reached += result.reached;
+      tally_.contradictions += result.position != mesh_.point(v) || test::contradiction(result, start, target) != nullptr;
     } catch (const Error&) {
       ++tally_.refused;
       tally_.moved_though_refused += points() != before;

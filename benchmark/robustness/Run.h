@@ -29,6 +29,7 @@ enum Exit {
   jumped_over = 19,      ///< a creation was accepted that crosses or jumps over a part of the surface
   not_finite = 20,       ///< an extreme drag left a coordinate that is no finite number
   went_away = 21,        ///< an extreme drag ended farther from its target than it began
+  contradiction = 23,    ///< a result contradicts itself
   moved_though_refused = 22 ///< an extreme drag was refused with an error, and something had moved
 };
 
@@ -172,6 +173,8 @@ private:
       return moved_though_refused;
     if (extremes_.farther > 0)
       return went_away;
+    if (drags_.contradictions + extremes_.contradictions > 0)
+      return contradiction;
     if (edits_.creations_wrongly_accepted > 0)
       return jumped_over;
     if (drags_.changed + edits_.changed > 0)

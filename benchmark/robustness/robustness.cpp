@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
                "was accepted, 14 one was refused without being named by --refuse, 15 an element not in hand has changed, 16 undoing "
                "everything does not give back the input, 17 redoing everything does not give back the end, 18 more than 1 % of the "
                "feasible creations were refused, 19 a creation was accepted that crosses or jumps over a part of the surface, 20 an extreme drag "
-               "left a coordinate that is not finite, 21 one ended farther from its target than it began, 22 one was refused but moved something.");
+               "left a coordinate that is not finite, 21 one ended farther from its target than it began, 22 one was refused but moved something, 23 "
+               "the result of a drag contradicts itself.");
   app.add_option("--meshes", options.folder, "Folder of meshes to work on, beside the generated ones")->check(CLI::ExistingDirectory);
   app.add_option("--refuse", options.refuse, "File names in the folder that have to be refused");
   app.add_option("--drags", options.drags, "Drags on each mesh")->capture_default_str();

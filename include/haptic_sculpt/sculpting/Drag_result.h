@@ -37,25 +37,25 @@ struct Drag_result {
   /// Like a std::vector.
   using Contacts = boost::container::small_vector<Contact_3<Mesh>, usual_contacts>;
 
-  /// Of a vertex that is not there any more, or is not in this hand.
-  static Drag_result stale_at(const typename Mesh::Point& target) {
+  /// Of a vertex that is not there any more, or is not in this hand. \param place where this hand left it
+  static Drag_result stale_at(const typename Mesh::Point& place) {
     Drag_result result;
-    result.position = target;
+    result.position = place;
     result.end = Drag_end::stale;
     return result;
   }
 
-  typename Mesh::Point position;             ///< where the vertex is now; of a stale Grab, the target
-  bool reached = false;                      ///< whether that is the target
+  typename Mesh::Point position;             ///< where the vertex is now; of a stale Grab, where that Grab had it last
+  bool reached = false;                      ///< whether that is the target, as numbers: +0 is -0; `end` says the same
   Drag_end end = Drag_end::reached;          ///< why the drag ended
   Contacts contacts;                         ///< what holds it, in an order that depends on the elements only
-  int legs = 0;                              ///< straight motions, each proven, from where it was to `position`
+  int legs = 0;                              ///< straight motions, each proven, from where it was to `position`; 0 where that is the same
   /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact is
   /// flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.
   double stop_error = 0;
   double stop_error_along_path = 0;          ///< the distance from the exact point of impact, along the path
-  std::size_t work = 0;                      ///< pairs decided and candidates looked up: what a bound on the work counts
-  double kkt_residual = 0;                   ///< |d - nearest point of the cone of pushes| / |d|, d = target - position
+  std::size_t work = 0;                      ///< pairs decided and candidates looked up: what a bound on the work counts; no more than it
+  double kkt_residual = 0;                   ///< |d - nearest point of the cone of pushes| / |d|, d = target - position; 0 if reached
 };
 
 } // namespace haptic_sculpt

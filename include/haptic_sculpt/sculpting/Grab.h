@@ -43,14 +43,14 @@ public:
   /// Allocates nothing once it is warm: no list longer than any before, no more contacts than Drag_result::usual_contacts, at most
   /// Edit_history::room moves since the grab, and no delta rule so nearly broken that it takes rational numbers to decide.
   Drag_result<Mesh> drag_to(const Point& target) {
-    return sculptor_ != nullptr ? sculptor_->drag(vertex(), target) : Drag_result<Mesh>::stale_at(target);
+    return drag(target, nullptr);
   }
 
   /// The same, and says on which way: where the vertex was, and where it was after each of the `legs` of the result, each a straight
   /// motion that was proven free; `position` is the last point. Of a stale Grab none. \param path is written anew
   Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path) {
     path.clear();
-    return sculptor_ != nullptr ? sculptor_->drag(vertex(), target, &path) : Drag_result<Mesh>::stale_at(target);
+    return drag(target, &path);
   }
 
   /// Lets go. The next drag takes the vertex again, without contacts.
@@ -64,12 +64,32 @@ private:
 
   Sculptor* sculptor_ = nullptr; ///< whose hand this is; none once it is another's
   std::size_t name_ = 0;         ///< a number that lasts: the mesh's own indices are recycled
+  Point place_;                  ///< where the vertex was at the grab, after the last drag, or when the hand was lost
 
-  Grab(Sculptor& sculptor, std::size_t name) : sculptor_(&sculptor), name_(name) { sculptor_->set_hand(this); }
+  Grab(Sculptor& sculptor, std::size_t name)
+    : sculptor_(&sculptor), name_(name), place_(sculptor.mesh().point(sculptor.vertex(name))) {
+    sculptor_->set_hand(this);
+  }
+
+  /// Another Grab takes the hand.
+  void note_place() noexcept {
+    if (const Vertex_index v = vertex(); v.is_valid())
+      place_ = sculptor_->mesh().point(v);
+  }
+
+  Drag_result<Mesh> drag(const Point& target, std::vector<Point>* path) {
+    const Vertex_index v = vertex();
+    if (!v.is_valid())
+      return Drag_result<Mesh>::stale_at(place_);
+    Drag_result<Mesh> result = sculptor_->drag(v, target, path);
+    place_ = result.position;
+    return result;
+  }
 
   void take_over(Grab& other) noexcept {
     sculptor_ = std::exchange(other.sculptor_, nullptr);
     name_ = other.name_;
+    place_ = other.place_;
     if (sculptor_ != nullptr)
       sculptor_->set_hand(this);
   }

@@ -15,6 +15,10 @@ struct Move_report {
   std::size_t reached = 0; ///< of these, how many are at their targets, to the last bit
   /// How many motions were asked for, those that took steps back included; of an axis move one for each vertex.
   std::size_t drags = 0;
+  std::size_t counted = 0; ///< the same, but a slide counts by its work: what Move_parameters::most_drags() bounds
+
+  /// How many vertices are not at their targets; left_l2 and left_max tell how far they are from there.
+  std::size_t left() const { return asked - reached; }
 
   double asked_l2 = 0;  ///< sqrt of the sum of the squares of the distances to the targets, before
   double left_l2 = 0;   ///< the same after; never more than asked_l2
@@ -22,7 +26,7 @@ struct Move_report {
   double left_max = 0;  ///< the largest distance after; never more than asked_max
 
   bool cancelled = false;   ///< the progress function asked to stop
-  bool out_of_work = false; ///< `most_drags` were made
+  bool out_of_work = false; ///< as much as `most_drags` was made, and some vertex was still to go on
 };
 
 /// How far a call that moves many vertices has come.
@@ -36,23 +40,28 @@ struct Move_progress {
 /// The options of move_vertices(), named and chained: `Move_parameters().most_drags(1000000).progress(f)`.
 struct Move_parameters {
   std::size_t drag_limit = std::numeric_limits<std::size_t>::max(); ///< most_drags(); at first without limit
+
+  /// A slide counts as one drag for each so many pairs that it decides, or part of them: as many as a drag that is stopped at its
+  /// first impact decides, or a little more (doc/many_vertices.md).
+  static constexpr std::size_t pairs_a_drag = 64;
   std::function<bool(const Move_progress&)> progress_function;      ///< progress(); at first none
   bool takes_steps = true, ///< steps()
       slides = true;       ///< slide()
 
-  /// So many drags are made at most; then the call ends as it would if it had been cancelled: where many stand in each other's way, with
-  /// all of them on their ways.
+  /// So many drags are made at most, a slide counting by its work (pairs_a_drag); then the call ends as it would if it had been
+  /// cancelled: where many stand in each other's way, with all of them on their ways. The report tells what was left. No clock is
+  /// asked: the same call does the same again, with any broad phase.
   Move_parameters& most_drags(std::size_t n) {
     drag_limit = n;
     return *this;
   }
-  /// Called before each axis move and every `drags_between_calls` drags; false ends the call, with all vertices as near to their targets as they
+  /// Called before each axis move and every `drags_between_calls` drags, counted in the same way; false ends the call, with all vertices as near to their targets as they
   /// have come. What it throws goes on to the caller; what was done by then is one step of the history.
   Move_parameters& progress(std::function<bool(const Move_progress&)> function) {
     progress_function = std::move(function);
     return *this;
   }
-  static constexpr std::size_t drags_between_calls = 256; ///< of the progress function; the first call is before any drag
+  static constexpr std::size_t drags_between_calls = 256; ///< counted; the first call is before any drag
 
   /// Whether all go at once, along one axis after the other, in smaller steps where they stand in each other's way. On by
   /// default; without, each is dragged by itself.

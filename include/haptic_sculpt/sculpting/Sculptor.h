@@ -327,8 +327,11 @@ private:
 
   /// Whoever had the hand is stale from now on.
   void set_hand(Grab_type* grab) noexcept {
-    if (holder_ != nullptr && holder_ != grab)
+    if (holder_ != nullptr && holder_ != grab) {
+      if (grab != nullptr) // else this may be dying, after its mesh
+        holder_->note_place();
       holder_->sculptor_ = nullptr;
+    }
     holder_ = grab;
   }
 

@@ -68,9 +68,11 @@ void measure_distances(const Mesh& mesh, const std::vector<Moving_vertex<Mesh>>&
 ///
 /// All targets are read and checked before the first vertex moves. The whole is one stroke, one step of the history;
 /// its own response is used, that of the Sculptor is as before afterwards. doc/many_vertices.md tells how the vertices
-/// are brought on. \throw Unknown_vertex, Out_of_range, Invalid_parameter: nothing has moved; Mesh_changed, and what
-/// the progress function throws Cost: some microseconds a vertex where the targets are free; about a millisecond for
-/// one that has to slide.
+/// are brought on, and which do not arrive: few that stay behind, up to one and a 32nd of all, slide after the others,
+/// and may end far from their targets although these are free.
+/// \throw Unknown_vertex, Out_of_range, Invalid_parameter: nothing has moved; Mesh_changed, and what the progress
+/// function throws
+/// Cost: some microseconds a vertex where the targets are free; about a millisecond for one that has to slide.
 template <class Sculptor, class Vertex_range, class Target_map, class Output_iterator = CGAL::Emptyset_iterator>
 Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, const Target_map& target_map,
                           const Move_parameters& parameters = Move_parameters(),
@@ -85,8 +87,8 @@ Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, cons
     internal::order_in_space(moving);
     const auto stroke = sculptor.stroke();
     internal::Vertices_mover<Sculptor>(sculptor, moving, parameters,
-                                       internal::are_ways_short(sculptor.mesh(), moving))
-        .run(report);
+                                       internal::are_ways_short(sculptor.mesh(), moving), report)
+        .run();
   }
   internal::measure_distances(sculptor.mesh(), asked, report.left_l2, report.left_max);
   // Each distance is exactly no longer than it was; its root may be rounded up.

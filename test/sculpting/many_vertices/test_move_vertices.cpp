@@ -57,6 +57,9 @@ Move_report checked_run(const std::string& name, Mesh mesh,
     BOOST_TEST(report.asked == mesh.number_of_vertices());
     BOOST_TEST(report.reached == report.asked - not_there.size());
     BOOST_TEST((behind == not_there));
+    BOOST_TEST(report.left() == not_there.size());
+    BOOST_TEST(report.counted >= report.drags);
+    BOOST_TEST(report.counted <= parameters.drag_limit);
     BOOST_TEST(report.left_l2 <= report.asked_l2);
     BOOST_TEST(std::abs(report.asked_l2 - static_cast<double>(std::sqrt(asked))) <= 1e-12 * report.asked_l2);
     BOOST_TEST(std::abs(report.left_l2 - static_cast<double>(std::sqrt(left))) <= 1e-12 * report.asked_l2);
@@ -228,6 +231,30 @@ BOOST_AUTO_TEST_CASE(cancelled_bounded_and_thrown_out_of) {
     BOOST_TEST(bounded.out_of_work);
     BOOST_TEST(!bounded.cancelled);
     BOOST_TEST(validate(mesh).is_valid());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_slide_counts_by_its_work) {
+  // A shell about a ball: blown up and down they are in each other's way, and only slides lead on.
+  Mesh mesh = meshes::to_mesh(meshes::ball_in_a_cavity());
+  const double l = mean_edge(mesh);
+  const auto noisy = [l](std::size_t seed) {
+    std::mt19937 random(seed);
+    return [l, random](const Mesh& m, Vertex_index v) mutable {
+      return m.point(v) + 2 * l * Vector_3(meshes::uniform(random), meshes::uniform(random), meshes::uniform(random));
+    };
+  };
+  const Move_report whole = checked_run("noisy", mesh, noisy(1), Move_parameters().steps(false));
+  BOOST_TEST(whole.counted > whole.drags); // some slides decide more than a drag does
+  BOOST_TEST(!whole.out_of_work);
+  const Move_report stops = checked_run("noisy, stops only", mesh, noisy(1), Move_parameters().steps(false).slide(false));
+  BOOST_TEST(stops.counted == stops.drags);
+  // Whatever the limit is, it holds, and no more is left than where there are no slides.
+  for (const std::size_t more : {1, 2, 10, 100, 1000}) {
+    const Move_report bounded =
+        checked_run("noisy, bounded", mesh, noisy(1), Move_parameters().steps(false).most_drags(stops.counted + more));
+    BOOST_TEST(bounded.left_l2 <= stops.left_l2);
+    BOOST_TEST((!bounded.out_of_work || bounded.counted == stops.counted + more));
   }
 }
 

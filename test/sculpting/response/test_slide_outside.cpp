@@ -4,6 +4,7 @@
 
 #include "sculpting/response/Slide_faults.h"
 #include "sculpting/clearances.h"
+#include "sculpting/result_contradiction.h"
 #include "sculpting/response/local_minimum.h"
 #include "sculpting/response/outside_scenes.h"
 
@@ -65,10 +66,10 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
                 std::to_string(contact.vertices[1]) + '-' + std::to_string(contact.vertices[2]);
       faults.add(scene.name, mesh, scene.moved, source, target, c, text, &history);
     };
-    if (r.position != mesh.point(scene.moved) || r.reached != (r.position == target) || r.reached != (r.end == Drag_end::reached))
-      fault(found.end, "the result contradicts itself");
-    else if (r.end == Drag_end::no_progress && r.position != source)
-      fault(found.end, "no progress, but another place");
+    if (r.position != mesh.point(scene.moved))
+      fault(found.end, "the position is another");
+    else if (const char* what = contradiction(r, source, target))
+      fault(found.end, what);
     if (r.end == Drag_end::leg_limit) {
       ++ends.at_limit;
       fault(found.limit, "unfinished");
@@ -165,11 +166,16 @@ BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
   }
   const std::size_t drags = count_from_environment("HAPTIC_SCULPT_SLIDES", 3000) / 6;
   const std::size_t largest = count_from_environment("HAPTIC_SCULPT_SLIDE_FACES", 2000);
-  Random random(seed_from_environment(509));
+  const std::uint64_t seed = seed_from_environment(509);
   Outside_findings found;
   const auto scenes = shared_scenes(folder, largest);
+  std::vector<Random> streams; // each mesh has its own: what is found on one does not hang on what other files there are
+  for (const Outside_scene& scene : scenes)
+    streams.emplace_back(seed_of(scene.name, seed));
   for (std::size_t done = 0; done < drags && !scenes.empty();)
-    for (Outside_scene scene : scenes) {
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      Outside_scene scene = scenes[i];
+      Random& random = streams[i];
       scene.moved = Vertex_index(static_cast<Mesh::size_type>(random() % scene.mesh.number_of_vertices()));
       drag_and_check(scene, random() % 2 == 0 ? 0 : 1e-9 * scene.size, drags_per_scene, random, found, response_under_test());
       done += drags_per_scene;

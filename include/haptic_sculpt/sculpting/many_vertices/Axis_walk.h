@@ -124,7 +124,7 @@ private:
   }
 
   bool may_move(std::size_t vertices, double share) {
-    if (vertices > parameters_.drag_limit - std::min(report_.drags, parameters_.drag_limit))
+    if (vertices > parameters_.drag_limit - std::min(report_.counted, parameters_.drag_limit))
       return goes_on_ = false;
     if (parameters_.progress_function &&
         !parameters_.progress_function(Move_progress{vertices_.size(), vertices, report_.drags, share})) {
@@ -132,6 +132,7 @@ private:
       return goes_on_ = false;
     }
     report_.drags += vertices;
+    report_.counted += vertices;
     return true;
   }
 

@@ -4,26 +4,23 @@
 
 #include <haptic_sculpt/sculpting/Response.h>
 
-#include <limits>
+#include <cstddef>
 #include <optional>
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// Sets the response of a Sculptor, whether it expects single drags, and a bound on the work of each, unless it has a
-/// tighter one; at its end, an exception included, all are as they were before. Lets go of the vertex in hand.
+/// Sets the response of a Sculptor and whether it expects single drags; at its end, an exception included, these and the bound
+/// on the work of a drag, which may be set meanwhile, are as they were before. Lets go of the vertex in hand.
 template <class Sculptor>
 class Response_scope {
 public:
-  Response_scope(Sculptor& sculptor, Response rule, bool expects_single_drags,
-                 std::size_t most_work = std::numeric_limits<std::size_t>::max())
+  Response_scope(Sculptor& sculptor, Response rule, bool expects_single_drags)
       : sculptor_(sculptor)
       , before_(sculptor.options().response_rule)
       , expected_before_(sculptor.expects_single_drags())
       , work_before_(sculptor.options().work_bound) {
     set(rule, expects_single_drags);
-    if (most_work < work_before_.value_or(std::numeric_limits<std::size_t>::max()))
-      sculptor_.set_work_limit(most_work);
   }
   ~Response_scope() {
     set(before_, expected_before_);

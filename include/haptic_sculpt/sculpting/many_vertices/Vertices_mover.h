@@ -2,8 +2,8 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
 #define HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
 
-#include <haptic_sculpt/sculpting/Move_report.h>
 #include <haptic_sculpt/sculpting/many_vertices/Axis_walk.h>
+#include <haptic_sculpt/sculpting/many_vertices/Drag_budget.h>
 #include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/sculpting/many_vertices/leading_order.h>
 #include <haptic_sculpt/sculpting/motion/stop.h>
@@ -23,13 +23,14 @@ public:
   /// \param vertices successive ones near each other in space; all targets are in range
   /// \param are_short whether the ways are so short that few vertices stand in each other's way: then the first drags
   /// are made in a way that costs less where there is nothing in the way, and more where there is, and in any order
+  /// \param report filled in by run()
   Vertices_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
-                 bool are_short)
-      : sculptor_(sculptor), vertices_(vertices), parameters_(parameters), tries_whole_(are_short) {}
+                 bool are_short, Move_report& report)
+      : sculptor_(sculptor), vertices_(vertices), parameters_(parameters), report_(&report), budget_(parameters, report)
+      , bound_(sculptor.options().work_bound), tries_whole_(are_short) {}
 
   /// Fills in what the report tells of drags, `cancelled` and `out_of_work`.
-  void run(Move_report& report) {
-    report_ = &report;
+  void run() {
     asked_ = sum_left();
     const Response_scope scope(sculptor_, Response::stop, true);
     Positions behind = all_behind();
@@ -37,7 +38,7 @@ public:
       stop_passes(behind);
     tries_whole_ = false;
     if (parameters_.takes_steps && !behind.empty() && goes_on_)
-      goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, report).run();
+      goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_).run();
     finish();
   }
 
@@ -48,9 +49,6 @@ private:
   static constexpr std::size_t many = 8;
   /// So many passes of slides are made when few are left.
   static constexpr int slide_passes_of_few = 3;
-  /// A slide decides at most so many pairs: few need more, where parts lie close about each other, and these would take
-  /// most of the time (doc/many_vertices.md).
-  static constexpr std::size_t slide_work = 10000;
   /// Another pass is made at the end while the last has gained more than this share of what was left, as a sum of
   /// distances, and more than this share of what was asked is left: to the origin there is no end of coming nearer.
   static constexpr double least_gain = 0.01, least_left = 0x1p-100;
@@ -61,7 +59,9 @@ private:
   Sculptor& sculptor_;
   const std::vector<Moving>& vertices_;
   const Move_parameters& parameters_;
-  Move_report* report_ = nullptr;
+  Move_report* report_;
+  Drag_budget budget_;
+  std::optional<std::size_t> bound_; ///< on the work of a drag, as it was before
   bool tries_whole_;
   bool goes_on_ = true; ///< neither cancelled nor out of work
   std::size_t behind_ = 0;
@@ -81,25 +81,26 @@ private:
   /// One drag. \return whether the vertex is there
   bool drag(Position k, const Coordinates& p) {
     ++report_->drags;
-    if (tries_whole_ && sculptor_.move_if_free(vertices_[k].vertex, {p[0], p[1], p[2]}))
-      return true;
-    return sculptor_.grab(vertices_[k].vertex).drag_to({p[0], p[1], p[2]}).reached;
+    const auto v = vertices_[k].vertex;
+    const typename Mesh::Point target(p[0], p[1], p[2]);
+    if (sculptor_.options().response_rule == Response::slide) {
+      sculptor_.set_work_limit(budget_.work_of_slide(bound_));
+      const auto result = sculptor_.grab(v).drag_to(target);
+      budget_.count_slide(result.work);
+      return result.reached;
+    }
+    budget_.count_drag();
+    return (tries_whole_ && sculptor_.move_if_free(v, target)) || sculptor_.grab(v).drag_to(target).reached;
   }
 
   /// Whether another drag may be made; asks the progress function in its turn.
   bool may_drag() {
     if (!goes_on_)
       return false;
-    if (report_->drags >= parameters_.drag_limit) {
-      report_->out_of_work = true;
-      return goes_on_ = false;
-    }
-    if (parameters_.progress_function && report_->drags % Move_parameters::drags_between_calls == 0 &&
-        !parameters_.progress_function(Move_progress{vertices_.size(), behind_, report_->drags, 1})) {
-      report_->cancelled = true;
-      return goes_on_ = false;
-    }
-    return true;
+    report_->cancelled =
+        budget_.has_room() && parameters_.progress_function && budget_.is_call_due() &&
+        !parameters_.progress_function(Move_progress{vertices_.size(), behind_, report_->drags, 1});
+    return goes_on_ = !report_->cancelled && !report_->out_of_work;
   }
 
   /// Those that are not where they are to go, in an order in which they are least in each other's way: leaders first,
@@ -179,7 +180,7 @@ private:
     passes_to_the_end(std::numeric_limits<int>::max());
     if (!parameters_.slides)
       return;
-    const Response_scope scope(sculptor_, Response::slide, false, slide_work);
+    const Response_scope scope(sculptor_, Response::slide, false);
     passes_to_the_end(all_behind().size() <= few(vertices_.size()) ? slide_passes_of_few
                                                                    : std::numeric_limits<int>::max());
   }

@@ -63,22 +63,21 @@ public:
     hand_.expect_single_drags(on);
   }
 
+  /// \pre v is in the mesh
   Result drag(Vertex_index v, const Point& target, std::vector<Point>* path) {
     const Rounding_to_nearest rounding;
     check_point("the target", target);
-    if (!v.is_valid())
-      return Result::stale_at(target);
     scene_.check_clearance_serves(parameters);
     hold(v);
     const Coordinates s = vertex_coordinates(*mesh_, v), t = coordinates(target);
     Result result;
+    settle_result(s, t, t, result); // where there is no way to go
     const Coordinates end = s == t ? t : hand_.move(s, t, parameters, result);
     hand_.check_candidates();
     if (path != nullptr)
       hand_.write_path(parameters.response_rule, s, end, *path);
     if (end != s)
       put(v, s, end);
-    finish(end, t, result);
     return result;
   }
 
@@ -116,8 +115,7 @@ public:
     look_for_changes();
     const Coordinates s = coordinates(source), t = coordinates(target);
     Result result;
-    result.position = source;
-    result.reached = s == t;
+    settle_result(s, t, s, result);
     if (const Face_index f = find_face_within(*mesh_, broad_phase_, s, Clearance_rule(parameters.clearance_length),
                                               scene_.largest_coordinate(), faces_near_start_);
         f.is_valid()) {
@@ -126,6 +124,7 @@ public:
       contact.is_flat = true;
       result.contacts.push_back(contact);
       result.end = Drag_end::refused;
+      result.reached = false; // nothing was asked
       return result;
     }
     if (s == t)
@@ -135,7 +134,6 @@ public:
     if (path != nullptr)
       probe_.write_path(parameters.response_rule, s, end, *path);
     probe_.release();
-    finish(end, t, result);
     return result;
   }
 
@@ -271,11 +269,6 @@ private:
     scene_.include(to);
     hand_.note_moved();
     editor_.note_move(v, from, to);
-  }
-
-  static void finish(const Coordinates& end, const Coordinates& target, Result& result) {
-    result.position = Point(end[0], end[1], end[2]);
-    result.reached = end == target;
   }
 };
 

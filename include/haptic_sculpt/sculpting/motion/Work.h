@@ -39,7 +39,8 @@ public:
   bool is_spent() const { return done_ > limit_; }
   /// So much may still be spent.
   std::size_t left() const { return is_spent() ? 0 : limit_ - done_; }
-  std::size_t done() const { return done_; }
+  /// No more than the limit: what passed it was not done.
+  std::size_t done() const { return is_spent() ? limit_ : done_; }
 
   /// A search begins, or goes on, with the vertex at rest.
   void search_at(const Coordinates& place) {

@@ -6,6 +6,7 @@
 #include <haptic_sculpt/sculpting/response/Paper_response.h>
 #include <haptic_sculpt/sculpting/response/Slide_response.h>
 #include <haptic_sculpt/sculpting/response/kkt_residual.h>
+#include <haptic_sculpt/sculpting/response/settle_result.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -34,12 +35,9 @@ public:
       end = paper_.move(guard, mesh, source, target, rules, result);
     else {
       end = guard.leg(source, target, rules, result);
-      result.legs = end == source ? 0 : 1; // to be stopped where it stands is no leg
-      result.end = end == target     ? Drag_end::reached
-                   : guard.is_spent() ? Drag_end::work_limit
-                   : end == source    ? Drag_end::no_progress
-                                      : Drag_end::held;
+      result.end = guard.is_spent() ? Drag_end::work_limit : end == source ? Drag_end::no_progress : Drag_end::held;
     }
+    settle_result(source, target, end, result);
     const Vector pull = minus(target, end);
     if (result.contacts.empty())
       result.kkt_residual = end == target ? 0 : 1;
