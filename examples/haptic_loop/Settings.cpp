@@ -156,7 +156,7 @@ json json_of(const Settings& s) {
           {"work", s.work},
           {"virtual_mass", s.virtual_mass},
           {"compensated_inertia", s.compensated_inertia},
-          {"controller", s.controller},
+          {"controller", s.controller ? json(*s.controller) : json()},
           {"map", s.map},
           {"device", json_of(s.device)}};
 }
@@ -167,7 +167,9 @@ Settings settings_of(const json& j) {
     s.rate = j.at("rate"), s.delay = j.at("delay"), s.stiffness = j.at("stiffness"), s.damping = j.at("damping");
     s.reach = j.at("reach"), s.work = j.at("work"), s.map = j.at("map").get<std::vector<double>>();
     s.virtual_mass = j.value("virtual_mass", 0.0); // older recordings have none
-    s.compensated_inertia = j.value("compensated_inertia", 0.0), s.controller = j.value("controller", 0.0);
+    s.compensated_inertia = j.value("compensated_inertia", 0.0);
+    const json controller = j.value("controller", json(0.0));
+    s.controller = controller.is_null() ? std::nullopt : std::optional<double>(controller.get<double>());
     s.device = device_of(j.at("device"));
     return s;
   } catch (const json::exception& error) {

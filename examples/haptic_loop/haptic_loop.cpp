@@ -84,7 +84,7 @@ void check_numbers(const Settings& s, double seconds) {
   require(s.damping >= 0 && std::isfinite(s.damping), "--damping must be a finite number >= 0, N s/m");
   require(s.virtual_mass >= 0 && s.virtual_mass <= 10, "--virtual-mass must be from 0 to 10 kg");
   require(s.compensated_inertia >= 0 && s.compensated_inertia <= 1, "--compensated-inertia must be from 0 to 1");
-  require(s.controller >= 0 && std::isfinite(s.controller), "--controller must be a finite number >= 0, N s/m");
+  require(s.controller.value_or(0) >= 0 && std::isfinite(s.controller.value_or(0)), "--controller must be a finite number >= 0, N s/m");
   require(s.reach >= 0 && std::isfinite(s.reach), "--reach must be a finite length >= 0, m");
   require(s.work > 0, "--work must be at least 1");
   require(seconds >= 0 && std::isfinite(seconds), "--seconds must be a finite time >= 0");
@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
   Settings& settings = plan.settings;
   CLI::App app("Sculpts in a closed loop: a simulated device in a simulated hand that follows a path.\n"
                "Exit: 0 done, 1 out of memory, 2 usage, 3 mesh refused, 4 path cannot be read, 5 cannot write, "
-               "6 recording of another mesh, 7 stiffness, damping, virtual mass or controller not stable, 8 a fault "
+               "6 recording of another mesh, 7 stiffness not passive, or damping, virtual mass or controller not stable, 8 a fault "
                "ended the run.");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->capture_default_str();
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes");
@@ -183,8 +183,7 @@ int main(int argc, char** argv) {
                  "Share of the device's own inertia that its motors carry, 0 to 1")
       ->capture_default_str();
   app.add_option("--controller", settings.controller,
-                 "The most that the passivity controller may damp, N s/m; 0: there is none")
-      ->capture_default_str();
+                 "The most that the passivity controller may damp, N s/m; 0: there is none; by default half of what may be");
   app.add_option("--map", settings.map,
                  "SCALE X Y Z [RX RY RZ]: scene = (X, Y, Z) + SCALE R (device - home); by default the scene is fitted")
       ->expected(4, 7);

@@ -130,13 +130,13 @@ private:
       throw Usage_error("the map leads to no place that the device can reach; see --map");
     result_.friction = limits.friction;
     result_.passive_stiffness = limits.passive_stiffness;
-    result_.stable_stiffness = limits.stable_stiffness;
     result_.largest_damping = limits.largest_damping, result_.largest_mass = limits.largest_mass;
     result_.largest_controller = limits.largest_controller;
-    if (limits.permits(parameters.coupling) && !limits.is_passive(parameters.coupling))
+    if (limits.permits(parameters.coupling) && settings_.damping == 0 &&
+        settings_.stiffness > limits.recommended_stiffness())
       notes_.push_back("the stiffness " + internal::number(settings_.stiffness) +
-                       " N/m is stable, but not passive: that ends at " +
-                       internal::number(std::fmax(0.0, limits.passive_stiffness)) + " N/m");
+                       " N/m is passive, but a handle that nobody holds rings on it; recommended are at most " +
+                       internal::number(limits.recommended_stiffness()) + " N/m, or a damping");
     return limits;
   }
 
@@ -260,8 +260,12 @@ private:
     std::fprintf(plan_.trace, "%.17g", time);
     put(reading.theta), put(made.tool.target), put(made.tool.proxy), put(made.coupling), put(made.rendered.force),
         put(made.rendered.torque);
-    std::fprintf(plan_.trace, ",%s,%d,%zu,%llu\n", made.tool.end ? name_of(*made.tool.end) : "none", made.tool.contacts,
+    std::fprintf(plan_.trace, ",%s,%d,%zu,%llu\n", end_of(made.tool), made.tool.contacts,
                  made.tool.pairs, static_cast<unsigned long long>(cpu));
+  }
+
+  static const char* end_of(const Tool_step& tool) {
+    return tool.starved ? "starved" : tool.end ? name_of(*tool.end) : "none";
   }
 
   void wait(std::uint64_t due) {
