@@ -40,8 +40,9 @@ public:
     return text_.substr(begin_, position_ - begin_);
   }
 
-  double coordinate() {
-    const std::string number = word("a coordinate (15 in all)");
+  /// \param all how many there are to be on the line
+  double coordinate(int all) {
+    const std::string number = word(("a coordinate (" + std::to_string(all) + " in all)").c_str());
     char* end = nullptr;
     const double value = std::strtod(number.c_str(), &end);
     if (end != number.c_str() + number.size())
@@ -51,6 +52,18 @@ public:
     return value;
   }
 
+  Point_3 point(int all) {
+    const double x = coordinate(all), y = coordinate(all), z = coordinate(all);
+    return {x, y, z};
+  }
+
+  void expect_end(int coordinates) {
+    if (at_end())
+      return;
+    const std::string rest = word("");
+    fail("'" + rest + "' follows the " + std::to_string(coordinates) + " coordinates");
+  }
+
   [[noreturn]] void fail(const std::string& what) const { throw Malformed_line(line_, begin_ + 1, what); }
 
 private:
@@ -58,36 +71,59 @@ private:
   std::size_t line_, position_ = 0, begin_ = 0;
 };
 
-std::optional<haptic_sculpt::Impact_3<Kernel>> answer(const std::string& text, std::size_t line, const Traits& traits) {
+/// The rest of a line that asks about an axis move.
+bool axis_answer(Line_reader& reader) {
+  const std::string kind = reader.word("VF or EE");
+  if (kind != "VF" && kind != "EE")
+    reader.fail("'" + kind + "' is not VF or EE");
+  const std::string axis = reader.word("the axis");
+  if (axis != "0" && axis != "1" && axis != "2")
+    reader.fail("'" + axis + "' is not an axis: 0, 1 or 2");
+  std::array<Point_3, 4> p;
+  for (Point_3& point : p)
+    point = reader.point(16);
+  std::array<double, 4> ends;
+  for (double& end : ends)
+    end = reader.coordinate(16);
+  reader.expect_end(16);
+  const haptic_sculpt::Axis_sweep_traits_3<Kernel> traits;
+  const int k = axis[0] - '0';
+  return kind == "VF" ? traits.vertex_face_axis_sweep_3_object()(k, p[0], p[1], p[2], p[3], ends)
+                      : traits.edge_edge_axis_sweep_3_object()(k, p[0], p[1], p[2], p[3], ends);
+}
+
+/// What is printed for a line.
+std::string answer(const std::string& text, std::size_t line, const Traits& traits) {
   Line_reader reader(text, line);
-  const std::string kind = reader.word("VF, EE or FV");
+  const std::string kind = reader.word("VF, EE, FV or AX");
+  if (kind == "AX")
+    return axis_answer(reader) ? "1" : "0";
   if (kind != "VF" && kind != "EE" && kind != "FV")
-    reader.fail("'" + kind + "' is not VF, EE or FV");
+    reader.fail("'" + kind + "' is not VF, EE, FV or AX");
   std::array<Point_3, 5> p;
-  for (Point_3& point : p) {
-    const double x = reader.coordinate(), y = reader.coordinate(), z = reader.coordinate();
-    point = Point_3(x, y, z);
-  }
-  if (!reader.at_end()) {
-    const std::string rest = reader.word("");
-    reader.fail("'" + rest + "' follows the 15 coordinates");
-  }
-  if (kind == "VF")
-    return traits.vertex_face_sweep_3_object()(p[0], p[1], p[2], p[3], p[4]);
-  if (kind == "EE")
-    return traits.edge_edge_sweep_3_object()(p[0], p[1], p[2], p[3], p[4]);
-  return traits.face_vertex_sweep_3_object()(p[0], p[1], p[2], p[3], p[4]);
+  for (Point_3& point : p)
+    point = reader.point(15);
+  reader.expect_end(15);
+  const auto impact = kind == "VF"   ? traits.vertex_face_sweep_3_object()(p[0], p[1], p[2], p[3], p[4])
+                      : kind == "EE" ? traits.edge_edge_sweep_3_object()(p[0], p[1], p[2], p[3], p[4])
+                                     : traits.face_vertex_sweep_3_object()(p[0], p[1], p[2], p[3], p[4]);
+  if (!impact)
+    return "0";
+  const mpq_class time = impact->exact_time();
+  return "1 " + time.get_num().get_str() + "/" + time.get_den().get_str();
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Answers exact sweep queries.\n"
-               "Each line of FILE: VF, EE or FV and 15 doubles (decimal or C99 hexadecimal):\n"
+               "Each line of FILE (doubles are decimal or C99 hexadecimal): VF, EE or FV and 15 doubles, the coordinates of\n"
                "  VF S T A B C   vertex from S to T against face ABC\n"
                "  EE S T V A B   edge from the moving vertex to V against edge AB\n"
                "  FV S T G I A   face from the moving vertex to GI against vertex A\n"
-               "Prints a line each: 0, or 1 and the first time u as num/den in lowest terms.\n"
+               "or AX VF K or AX EE K and 16 doubles: all move at once along axis K (0, 1 or 2), from four points, V A B C or the\n"
+               "ends of two edges, to where they are along K at the end.\n"
+               "Prints a line each: 0, or 1 and the first time u as num/den in lowest terms; of AX, 1 without a time.\n"
                "Empty lines and lines that begin with # are skipped. Exit: 0 done, 2 usage or a malformed line.");
   std::string path;
   app.add_option("FILE", path, "The queries; - is standard input")->required();
@@ -113,12 +149,7 @@ int main(int argc, char** argv) {
       const std::size_t first = text.find_first_not_of(" \t\r");
       if (first == std::string::npos || text[first] == '#')
         continue;
-      if (const auto impact = answer(text, line, traits)) {
-        const mpq_class time = impact->exact_time();
-        std::cout << "1 " << time.get_num() << '/' << time.get_den() << '\n';
-      } else {
-        std::cout << "0\n";
-      }
+      std::cout << answer(text, line, traits) << '\n';
     }
     if (input.bad())
       throw haptic_sculpt::Error("reading '" + path + "' failed");

@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A filter for Doxygen, which does not know the names that headings of Markdown have on the web (`page.md#a-heading`): gives
-every heading a label, and makes links lead to it. Usage: doxygen_links.py PAGE.md"""
+"""A filter for Doxygen, whose Markdown is not that of the web: doxygen_links.py PAGE.md
+
+- Headings get the names that they have on the web (`page.md#a-heading`), and links lead to them.
+- The text of a link stands on one line, without code: else Doxygen 1.9 prints what follows as it stands.
+- Pictures are named as Doxygen copies them, tutorials as its pages of examples (tutorials.dox); links to what is no page are text.
+"""
 import os
 import re
 import sys
@@ -18,18 +22,31 @@ def label(of, name):
     return f"{of}-{name}".replace("_", "-")
 
 
+def heading(match):
+    return f"{match[1]} {match[2]} {{#{label(page, name_of(match[2]))}}}"
+
+
 def link(match):
-    of = os.path.splitext(os.path.basename(match.group(1)))[0].lower() or page
-    return f"](@ref {label(of, match.group(2))})"
+    is_picture, text, target = match.groups()
+    lines = text.count("\n")
+    text = " ".join(text.replace("`", "").split())
+    path, _, name = target.partition("#")
+    if is_picture:
+        target = os.path.basename(path)
+    elif name and not path.startswith("http"):
+        of = os.path.splitext(os.path.basename(path))[0].lower() or page
+        target = f"@ref {label(of, name)}"
+    elif path.startswith("examples/tutorials/"):
+        target = os.path.basename(path).replace(".", "_8") + "-example.html"
+    elif not path.endswith(".md") and not path.startswith("http"):
+        return text + "\n" * lines
+    return f"{is_picture}[{text}]({target})" + "\n" * lines
 
 
 with open(sys.argv[1]) as file:
-    is_code = False
-    for line in file:
-        is_code ^= line.startswith("```")
-        heading = None if is_code else re.fullmatch(r"(##+) (.*)\n", line)
-        if heading:
-            line = f"{heading[1]} {heading[2]} {{#{label(page, name_of(heading[2]))}}}\n"
-        elif not is_code:
-            line = re.sub(r"\]\(([\w./]*)#([\w-]+)\)", link, line)
-        sys.stdout.write(line)
+    parts = re.split(r"(^```.*?^```$)", file.read(), flags=re.M | re.S)
+for part in parts:
+    if not part.startswith("```"):
+        part = re.sub(r"^(##+) (.*)$", heading, part, flags=re.M)
+        part = re.sub(r"(!?)\[([^\[\]]+)\]\(([^\s()]+)\)", link, part)
+    sys.stdout.write(part)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mechanism as a calculator: one JSON request a line in, one JSON answer a line out. doc/device.md has the keys.
+#include "common/json_words.h"
+#include "common/run_program.h"
 #include "device_json.h"
 #include "json_line.h"
 #include <haptic_sculpt/device.h>
@@ -274,7 +276,7 @@ json answer_line(const Line_reader& reader) {
   } catch (const Line_too_complex& error) {
     return failure(error.code(), error.what());
   } catch (const json::exception& error) {
-    return failure("malformed_json", error.what());
+    return failure("malformed_json", examples::in_words(error));
   }
   json found = answer_or_failure(request);
   json unknown = unknown_keys(request);
@@ -306,23 +308,18 @@ A request that cannot be answered gets {"ok":false,"error":CODE,"message":TEXT},
 known are listed in the answer as "unknown_keys". A line may have 1048576 bytes, 1000 values and 32 levels of nesting.
 
 usage: device_calculator [--help] < REQUESTS > ANSWERS
-exit:  0 all lines answered (failures are answers), 2 wrong arguments, 5 the answers cannot be written
+exit:  0 all lines answered (failures are answers), 1 a fault of the program, 2 wrong arguments, 5 the answers cannot be written
 )";
 static_assert(longest_line == 1048576 && most_values == 1000 && deepest_nesting == 32, "the help text says these");
 
-} // namespace
-
-int main(int argument_count, char** arguments) {
+int calculate(int argument_count, char** arguments) {
   for (int k = 1; k < argument_count; ++k)
     if (std::strcmp(arguments[k], "--help") == 0 || std::strcmp(arguments[k], "-h") == 0) {
       std::cout << help;
-      return std::cout.flush() ? 0 : 5;
+      return std::cout.flush() ? examples::done : examples::cannot_write;
     }
-  if (argument_count > 1) {
-    std::cerr << "device_calculator: unknown argument `" << arguments[1] << "`. It reads JSON requests, one a line, from its input; see --help.\n";
-    return 2;
-  }
-  std::ios::sync_with_stdio(false);
+  if (argument_count > 1)
+    throw examples::Usage_error("unknown argument `" + std::string(arguments[1]) + "`. It reads JSON requests, one a line, from its input; see --help.");
   Line_reader reader(std::cin);
   while (reader.next()) {
     try {
@@ -331,6 +328,17 @@ int main(int argument_count, char** arguments) {
       std::cout << R"({"error":"out_of_memory","message":"there is not enough memory to answer this line","ok":false})" << std::endl;
     }
     if (!std::cout)
-      return 5;
+      return examples::cannot_write;
   }
+  return examples::done;
+}
+
+} // namespace
+
+int main(int argument_count, char** arguments) {
+  std::ios::sync_with_stdio(false); // first of all: it makes the streams anew
+  return examples::run_program(
+      "device_calculator", [&] { return calculate(argument_count, arguments); },
+      [](const std::exception& error) { return dynamic_cast<const examples::Usage_error*>(&error) != nullptr ? examples::usage : examples::failed; },
+      [](const std::exception& error) { return std::string(error.what()); });
 }

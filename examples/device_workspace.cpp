@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints the workspace, force and inertia figures of a design, and writes its samples for plot_device_workspace.py to draw.
+#include "common/process_state.h"
 #include "device_json.h"
 #include <haptic_sculpt/device.h>
 #include <Eigen/Eigenvalues>
@@ -70,6 +71,7 @@ void figures(Device_description<double> description, const char* name, int per_j
 } // namespace
 
 int main(int argument_count, char** arguments) {
+  examples::put_process_in_order("device_workspace");
   if (argument_count > 1 && std::strcmp(arguments[1], "--help") == 0) {
     std::puts("device_workspace [SAMPLES.txt [DEVICE.json]]\n"
               "Prints workspace, force and inertia of the designs D1, D2, D3 in both forms, or of DEVICE.json (the keys of doc/device.md);\n"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Loop_report.h"
 
+#include "../common/json_words.h"
+
 #include <haptic_sculpt/version.h>
 
 #include <iomanip>
@@ -33,6 +35,7 @@ std::string report_of(const Run_result& r, const Settings& settings, const std::
       {"ticks", r.ticks},
       {"missed", r.missed},
       {"missed_by_cpu", r.missed_by_cpu},
+      {"missed_by_wakeup", r.missed_by_wakeup},
       {"cpu_ns", percentiles(r.cpu)},
       {"wall_ns", percentiles(r.wall)},
       {"wakeup_ns", percentiles(r.wakeup)},
@@ -62,7 +65,7 @@ std::string report_of(const Run_result& r, const Settings& settings, const std::
       {"map", r.map},
       {"settings", json_of(settings)},
       {"notes", notes}};
-  return report.dump(2) + "\n";
+  return examples::text_of(report, 2) + "\n";
 }
 
 void print_summary(std::ostream& out, const Run_result& r, const Settings& settings) {
@@ -70,7 +73,7 @@ void print_summary(std::ostream& out, const Run_result& r, const Settings& setti
   out << std::fixed << std::setprecision(1) << r.ticks << " ticks at " << settings.rate
       << " Hz; CPU time of a tick, microseconds: median " << microseconds(r.cpu.percentile(0.5)) << ", 99.9 % "
       << microseconds(r.cpu.percentile(0.999)) << ", largest " << microseconds(r.cpu.largest()) << "; missed "
-      << r.missed << " (by CPU time " << r.missed_by_cpu << "), allocations " << r.allocations << '\n';
+      << r.missed << " (by CPU time " << r.missed_by_cpu << "), woken late " << r.missed_by_wakeup << ", allocations " << r.allocations << '\n';
   out << std::setprecision(3) << "force: at most " << r.largest_force << " N, in free motion " << r.largest_free_force
       << " N; stiffness " << settings.stiffness << " N/m, passive up to " << r.passive_stiffness << '\n';
   out << std::setprecision(6) << "energy: from the hand " << r.port << " J, friction " << r.dissipated

@@ -4,6 +4,8 @@
 
 #include "Settings.h"
 
+#include "../common/contents_of.h"
+
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
 
 #include <cstdio>
@@ -34,7 +36,7 @@ inline void write_reading(std::FILE* file, const Joint_reading& r) {
 }
 
 inline Recording Recording::read(const std::string& path) {
-  const std::string text = contents_of(path);
+  const std::string text = examples::contents_of<Usage_error>(path, "the recording");
   const std::size_t end = text.find('\n');
   Recording recording;
   const nlohmann::json head = nlohmann::json::parse(text.substr(0, end), nullptr, false);

@@ -5,10 +5,13 @@
 #include "Happenings.h"
 #include "Recording.h"
 
+#include "../common/Result_writer.h"
+
 #include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
 
 #include <atomic>
 #include <cstdint>
+#include <exception>
 
 namespace haptic_sculpt::loop_program {
 
@@ -17,7 +20,7 @@ std::size_t allocations();
 
 /// What is to be done.
 struct Plan {
-  std::string mesh, out, log, picture;
+  std::string mesh, out, log, picture, trace, record; ///< names of files; empty: none
   Settings settings;
   std::optional<Recording> replay;
   std::optional<Hand_path> path; ///< none in a replay
@@ -25,13 +28,12 @@ struct Plan {
   double seconds = 0;        ///< 0: as long as path or recording
   bool waits = false;        ///< for the time of each tick
   bool is_real_time = false; ///< the system is asked for it
-  std::FILE* trace = nullptr;
-  std::FILE* record = nullptr;
 };
 
 /// What came of it.
 struct Run_result {
   std::uint64_t ticks = 0, missed = 0, missed_by_cpu = 0, allocations = 0;
+  std::uint64_t missed_by_wakeup = 0; ///< begun more than a tick after their time
   Tick_statistics cpu, wall, wakeup;
   double largest_force = 0,
          largest_free_force = 0; ///< N; free: nothing is touched, and the slew limit has had its time
@@ -47,12 +49,13 @@ struct Run_result {
   std::string log_failure;                            ///< why the log does not hold all; empty if it does
   std::vector<double> map;                            ///< scale, origin, rotation vector, home
   bool is_valid = false, is_cut_short = false;
+  std::exception_ptr failure; ///< what ended the run by an exception: the results are those so far
 };
 
-/// Reads the mesh, runs, and writes the sculpted mesh. \param notes gets what people should know
-/// \param is_interrupted ends the run in order \throw what reading and writing meshes throws; Unstable_coupling;
-/// Foreign_recording; Usage_error; Foreign_log, Script_error
-Run_result run_loop(const Plan& plan, std::vector<std::string>& notes, const std::atomic<bool>& is_interrupted);
+/// Reads the mesh, runs, and writes sculpted mesh, picture and rows. \param writer is told what people should know
+/// \param is_interrupted ends the run in order \throw before the first tick what reading meshes and opening files throws;
+/// Unstable_coupling; Foreign_recording; Usage_error; Foreign_log, Script_error
+Run_result run_loop(const Plan& plan, examples::Result_writer& writer, const std::atomic<bool>& is_interrupted);
 
 } // namespace haptic_sculpt::loop_program
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Settings.h"
 
+#include "../common/contents_of.h"
+#include "../common/json_words.h"
 #include "../device_json.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <haptic_sculpt/device/simulation/Torque_delay.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace haptic_sculpt::loop_program {
 namespace {
@@ -15,9 +17,9 @@ using nlohmann::json;
 
 json json_file(const std::string& path) {
   try {
-    return json::parse(contents_of(path));
+    return json::parse(examples::contents_of<Usage_error>(path, ""));
   } catch (const json::exception& error) {
-    throw Usage_error("'" + path + "' is no JSON: " + error.what());
+    throw Usage_error("'" + path + "' is no JSON: " + examples::in_words(error));
   }
 }
 
@@ -40,16 +42,6 @@ Device_description<double> device_of(const json& device) {
 }
 
 } // namespace
-
-std::string contents_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw Usage_error("cannot open '" + path + "': " + std::strerror(errno));
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad())
-    throw Usage_error("reading '" + path + "' failed");
-  return text;
-}
 
 Device_description<double> default_device() {
   Device_description<double> d = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
@@ -107,7 +99,8 @@ Simulated_hand read_hand(const std::string& path) {
 }
 
 Hand_path read_path(const std::string& path) {
-  return Hand_path::parse(contents_of(path), path);
+  const std::string text = examples::contents_of<Usage_error>(path, "the path");
+  return Hand_path::parse(examples::without_byte_order_mark(text), path);
 }
 
 Injected_fault fault_of(const std::string& text) {
@@ -165,18 +158,55 @@ Settings settings_of(const json& j) {
   try {
     Settings s;
     s.rate = j.at("rate"), s.delay = j.at("delay"), s.stiffness = j.at("stiffness"), s.damping = j.at("damping");
-    s.reach = j.at("reach"), s.work = j.at("work"), s.map = j.at("map").get<std::vector<double>>();
+    s.reach = j.at("reach"), s.map = j.at("map").get<std::vector<double>>();
+    s.work = j.at("work").is_number_unsigned() ? j.at("work").get<std::size_t>() : 0; // 0 is refused below
     s.virtual_mass = j.value("virtual_mass", 0.0); // older recordings have none
     s.compensated_inertia = j.value("compensated_inertia", 0.0);
     const json controller = j.value("controller", json(0.0));
     s.controller = controller.is_null() ? std::nullopt : std::optional<double>(controller.get<double>());
     s.device = device_of(j.at("device"));
+    if (const auto bad = bad_setting(s)) {
+      std::string key = bad->option;
+      std::replace(key.begin(), key.end(), '-', '_');
+      throw Foreign_recording("`" + key + "` " + bad->demand);
+    }
     return s;
   } catch (const json::exception& error) {
-    throw Foreign_recording(std::string("the recording's settings cannot be read: ") + error.what());
+    throw Foreign_recording(std::string("the recording's settings cannot be read: ") + examples::in_words(error));
+  } catch (const Foreign_recording& error) {
+    throw Foreign_recording(std::string("the recording's settings cannot be used: ") + error.what());
   } catch (const Error& error) {
     throw Foreign_recording(std::string("the recording's device cannot be used: ") + error.what());
   }
+}
+
+std::optional<Bad_setting> bad_setting(const Settings& s) {
+  const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
+  if (!(s.rate >= 100 && s.rate <= 100000))
+    return Bad_setting{"rate", "must be from 100 to 100000 Hz"};
+  if (!(s.delay >= 0 && s.delay <= Torque_delay<double>::most_ticks))
+    return Bad_setting{"delay", "must be from 0 to 16 ticks"};
+  if (!is_length(s.stiffness))
+    return Bad_setting{"stiffness", "must be a finite number >= 0, N/m"};
+  if (!is_length(s.damping))
+    return Bad_setting{"damping", "must be a finite number >= 0, N s/m"};
+  if (!(s.virtual_mass >= 0 && s.virtual_mass <= 10))
+    return Bad_setting{"virtual-mass", "must be from 0 to 10 kg"};
+  if (!(s.compensated_inertia >= 0 && s.compensated_inertia <= 1))
+    return Bad_setting{"compensated-inertia", "must be from 0 to 1"};
+  if (!is_length(s.controller.value_or(0)))
+    return Bad_setting{"controller", "must be a finite number >= 0, N s/m"};
+  if (!is_length(s.reach))
+    return Bad_setting{"reach", "must be a finite length >= 0, m"};
+  if (s.work == 0)
+    return Bad_setting{"work", "must be a whole number of pairs, at least 1"};
+  if (!(s.map.empty() || s.map.size() == 4 || s.map.size() == 7))
+    return Bad_setting{"map", "needs 4 numbers, SCALE X Y Z, or 7, with RX RY RZ"};
+  if (!std::all_of(s.map.begin(), s.map.end(), [](double x) { return std::isfinite(x); }))
+    return Bad_setting{"map", "must be finite numbers"};
+  if (!s.map.empty() && !(s.map[0] > 0))
+    return Bad_setting{"map", "must begin with a scale > 0"};
+  return std::nullopt;
 }
 
 } // namespace haptic_sculpt::loop_program

@@ -2,6 +2,8 @@
 #ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_SETTINGS_H
 #define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_SETTINGS_H
 
+#include "../common/run_program.h"
+
 #include <haptic_sculpt/device/Device_parameters.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Hand_path.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Simulated_hand.h>
@@ -15,10 +17,7 @@
 
 namespace haptic_sculpt::loop_program {
 
-/// Options or files that cannot be used.
-struct Usage_error : Error {
-  using Error::Error;
-};
+using examples::Usage_error;
 
 /// A recording of another mesh, or none at all.
 struct Foreign_recording : Error {
@@ -55,11 +54,16 @@ Injected_fault fault_of(const std::string& text);
 nlohmann::json json_of(const Device_description<double>& device);
 /// Number types as the double they are, so that reading gives the same settings.
 nlohmann::json json_of(const Settings& settings);
-/// \throw Foreign_recording
+/// \throw Foreign_recording where a setting is missing, or is none that the options could give
 Settings settings_of(const nlohmann::json& json);
 
-/// \throw Usage_error if it cannot be read
-std::string contents_of(const std::string& path);
+/// A setting that cannot be used.
+struct Bad_setting {
+  std::string option; ///< its name without the dashes: "virtual-mass"
+  std::string demand; ///< what it has to be: "must be from 0 to 10 kg"
+};
+/// The first of them, apart from the device; nothing where all can be used.
+std::optional<Bad_setting> bad_setting(const Settings& settings);
 
 } // namespace haptic_sculpt::loop_program
 

@@ -2,24 +2,16 @@
 // Sculpts in a closed loop with a simulated device in a simulated hand. See --help; formats: doc/haptic_rendering.md.
 #include "Loop_report.h"
 
+#include "../common/mesh_program.h"
+#include "../common/output_targets.h"
 #include "../count_allocations.h"
-#include "../drawing/Scene.h"
-#include "../sculpt/Log_text.h"
-#include "../sculpt/output_targets.h"
 
-#include <haptic_sculpt/device/simulation/Torque_delay.h>
 #include <haptic_sculpt/haptic_rendering/check_coupling.h>
-#include <haptic_sculpt/surface/read_surface.h>
 
 #include <CLI/CLI.hpp>
 
-#include <cerrno>
-#include <csignal>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 
 std::size_t haptic_sculpt::loop_program::allocations() {
   return allocations_so_far;
@@ -30,17 +22,7 @@ namespace {
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::loop_program;
 
-enum Exit {
-  done = 0,
-  no_memory = 1,
-  usage = 2,
-  mesh_refused = 3,
-  path_error = 4,
-  cannot_write = 5,
-  foreign_recording = 6,
-  unstable = 7,
-  fault = 8
-};
+enum Own_exit { unstable = 7, fault = 8 };
 
 struct Arguments {
   std::string mesh = HAPTIC_SCULPT_EXAMPLE_DATA "/ball_and_moon.off",
@@ -50,79 +32,41 @@ struct Arguments {
   bool does_not_wait = false, is_real_time = false;
 };
 
-std::atomic<bool> is_interrupted{false};
-
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-/// \throw Write_error
-File opened(const std::string& path) {
-  if (path.empty())
-    return {nullptr, &std::fclose};
-  std::FILE* const file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr)
-    throw Write_error("cannot write '" + path + "': " + std::strerror(errno));
-  return {file, &std::fclose};
+void check_numbers(const Settings& settings, double seconds) {
+  if (const auto bad = bad_setting(settings))
+    throw Usage_error("--" + bad->option + ' ' + bad->demand);
+  if (!(seconds >= 0 && std::isfinite(seconds)))
+    throw Usage_error("--seconds must be a finite time >= 0");
 }
 
-void close(File& file, const std::string& path) {
-  std::FILE* const raw = file.release();
-  if (raw == nullptr)
-    return;
-  const bool has_failed = std::ferror(raw) != 0;
-  if (std::fclose(raw) != 0 || has_failed)
-    throw Write_error("cannot write all of '" + path + "': the disk may be full");
-}
-
-void check_numbers(const Settings& s, double seconds) {
-  const auto require = [](bool holds, const char* what) {
-    if (!holds)
-      throw Usage_error(what);
-  };
-  require(s.rate >= 100 && s.rate <= 100000, "--rate must be from 100 to 100000 Hz");
-  require(s.delay >= 0 && s.delay <= Torque_delay<double>::most_ticks, "--delay must be from 0 to 16 ticks");
-  require(s.stiffness >= 0 && std::isfinite(s.stiffness), "--stiffness must be a finite number >= 0, N/m");
-  require(s.damping >= 0 && std::isfinite(s.damping), "--damping must be a finite number >= 0, N s/m");
-  require(s.virtual_mass >= 0 && s.virtual_mass <= 10, "--virtual-mass must be from 0 to 10 kg");
-  require(s.compensated_inertia >= 0 && s.compensated_inertia <= 1, "--compensated-inertia must be from 0 to 1");
-  require(s.controller.value_or(0) >= 0 && std::isfinite(s.controller.value_or(0)), "--controller must be a finite number >= 0, N s/m");
-  require(s.reach >= 0 && std::isfinite(s.reach), "--reach must be a finite length >= 0, m");
-  require(s.work > 0, "--work must be at least 1");
-  require(seconds >= 0 && std::isfinite(seconds), "--seconds must be a finite time >= 0");
-  require(s.map.empty() || s.map.size() == 4 || s.map.size() == 7,
-          "--map needs 4 numbers, SCALE X Y Z, or 7, with RX RY RZ");
-  for (double x : s.map)
-    require(std::isfinite(x), "--map must be finite numbers");
-  require(s.map.empty() || s.map[0] > 0, "the scale of --map must be > 0");
-}
-
-void check_targets(const Arguments& a) {
-  if (!a.out.empty() && !mesh_file_format(a.out))
-    throw Usage_error("'" + a.out + "' does not end in .off, .ply, .obj or .stl");
-  const std::string files[] = {a.out,    a.trace,  a.report, a.record, a.picture, a.log,
-                               a.replay, a.device, a.hand,   a.path,   a.mesh};
-  const auto may_be_one = [&](std::size_t i, std::size_t j) { // a log begins with the mesh
-    return i == 0 && j + 1 == std::size(files) && a.log.empty();
-  };
-  constexpr std::size_t outputs = 6;
-  for (std::size_t i = 0; i < outputs; ++i)
-    for (std::size_t j = i + 1; j < std::size(files); ++j)
-      if (!files[i].empty() && !files[j].empty() && !may_be_one(i, j) &&
-          sculpt_program::are_one_file(files[i], files[j]))
-        throw Usage_error("'" + files[i] + "' and '" + files[j] + "' are one file; give each its own");
-  const auto is_stream = [&](const std::string& file) { // rows may go into a pipe as they come
+/// \throw Usage_error, Write_error
+void check_files(const Arguments& a) {
+  examples::check_mesh_name({"-o", a.out});
+  examples::check_picture_name({"--picture", a.picture});
+  examples::Run_files files;
+  files.outputs = {{"-o", a.out},         {"--trace", a.trace},     {"--report", a.report},
+                   {"--record", a.record}, {"--picture", a.picture}, {"--log", a.log}};
+  files.inputs = {{"--replay", a.replay}, {"--device", a.device}, {"--hand", a.hand}, {"--path", a.path}, {"MESH", a.mesh}};
+  if (a.log.empty()) // a log begins with the mesh
+    files.replaced_by = "-o", files.replaced = "MESH";
+  files.check_apart();
+  const auto is_stream = [](const std::string& file) { // rows may go into a pipe as they come
     std::error_code error;
-    return (file == a.trace || file == a.record) && std::filesystem::exists(file, error) &&
-           !std::filesystem::is_regular_file(file, error) && !std::filesystem::is_directory(file, error);
+    return std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error) &&
+           !std::filesystem::is_directory(file, error);
   };
-  for (std::size_t i = 0; i + 1 < outputs; ++i) // a log looks for itself
-    if (!files[i].empty() && !is_stream(files[i]))
-      sculpt_program::check_target(files[i]);
+  for (const std::string& path : {a.out, a.report, a.picture}) // a log looks for itself
+    if (!path.empty())
+      examples::check_target(path);
+  for (const std::string& path : {a.trace, a.record})
+    if (!path.empty() && !is_stream(path))
+      examples::check_target(path);
 }
 
-Exit loop(const Arguments& arguments, Plan& plan) {
+int loop(const Arguments& arguments, Plan& plan) {
   Settings& settings = plan.settings;
   check_numbers(settings, arguments.seconds);
-  check_targets(arguments);
+  check_files(arguments);
   settings.device = arguments.device.empty() ? default_device() : read_device(arguments.device);
   if (!arguments.hand.empty())
     settings.hand = read_hand(arguments.hand);
@@ -140,36 +84,45 @@ Exit loop(const Arguments& arguments, Plan& plan) {
   plan.picture = arguments.picture, plan.is_real_time = arguments.is_real_time;
   plan.seconds = arguments.seconds;
   plan.waits = !arguments.does_not_wait && !plan.replay;
-  File trace = opened(arguments.trace), record = opened(arguments.record);
-  plan.trace = trace.get(), plan.record = record.get();
-  std::vector<std::string> notes;
-  const Run_result result = run_loop(plan, notes, is_interrupted);
-  for (const std::string& note : notes)
-    std::cerr << "haptic_loop: " << note << '\n';
-  close(trace, arguments.trace), close(record, arguments.record);
-  if (!arguments.report.empty())
-    replace_file(arguments.report, report_of(result, settings, notes));
+  plan.trace = arguments.trace, plan.record = arguments.record;
+  examples::Result_writer writer("haptic_loop");
+  const Run_result result = run_loop(plan, writer, examples::end_in_order_by_signals());
+  if (result.failure)
+    writer.note("the run has ended after " + std::to_string(result.ticks) + " ticks: " +
+                examples::message_of(result.failure) + ". What was done until then is written");
+  if (!result.log_failure.empty())
+    writer.fail(result.log_failure);
+  writer.write(arguments.report, [&](const std::string& path) {
+    return replace_file(path, report_of(result, settings, writer.notes()));
+  });
   print_summary(std::cout, result, settings);
   if (!std::cout.flush())
     throw Write_error("cannot write the summary to standard output");
-  if (!result.log_failure.empty())
-    throw Write_error(result.log_failure);
-  return result.faults.empty() ? done : fault;
+  if (result.failure)
+    return examples::exit_code_of(result.failure);
+  if (!writer.all_written())
+    return examples::cannot_write;
+  return result.faults.empty() ? examples::done : fault;
 }
 
-} // namespace
+int exit_code_of(const std::exception& error) {
+  if (examples::is_a<Unstable_coupling>(error))
+    return unstable;
+  if (examples::is_a<Hand_path_error>(error))
+    return examples::script_error;
+  return examples::is_a<Foreign_recording>(error) ? examples::foreign_log : examples::exit_code_of(error);
+}
 
-int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGINT, [](int) { is_interrupted = true; });
-  std::signal(SIGTERM, [](int) { is_interrupted = true; });
+/// Reads the command line, and runs.
+int run(int argc, char** argv) {
   Arguments arguments;
   Plan plan;
   Settings& settings = plan.settings;
   CLI::App app("Sculpts in a closed loop: a simulated device in a simulated hand that follows a path.\n"
-               "Exit: 0 done, 1 out of memory, 2 usage, 3 mesh refused, 4 path cannot be read, 5 cannot write, "
-               "6 recording of another mesh, 7 stiffness not passive, or damping, virtual mass or controller not stable, 8 a fault "
-               "ended the run.");
+               "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 path cannot be read, "
+               "5 cannot write, 6 recording of another mesh, 7 stiffness not passive, or damping, virtual mass or "
+               "controller too large, "
+               "8 a fault ended the run.");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->capture_default_str();
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes");
   app.add_option("--seconds", arguments.seconds, "How long; by default as long as the path");
@@ -208,36 +161,13 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : usage;
+    return app.exit(error) == 0 ? examples::done : examples::usage;
   }
-  const auto fail = [](const std::exception& error, Exit code) {
-    std::cerr << "haptic_loop: " << error.what() << '\n';
-    return code;
-  };
-  try {
-    return loop(arguments, plan);
-  } catch (const Unstable_coupling& error) {
-    return fail(error, unstable);
-  } catch (const Hand_path_error& error) {
-    return fail(error, path_error);
-  } catch (const Foreign_recording& error) {
-    return fail(error, foreign_recording);
-  } catch (const sculpt_program::Foreign_log& error) {
-    return fail(error, foreign_recording);
-  } catch (const sculpt_program::Script_error& error) {
-    return fail(error, path_error);
-  } catch (const Write_error& error) {
-    return fail(error, cannot_write);
-  } catch (const drawing::Picture_error& error) {
-    return fail(error, cannot_write);
-  } catch (const Read_error& error) {
-    return fail(error, mesh_refused);
-  } catch (const Invalid_surface& error) {
-    return fail(error, mesh_refused);
-  } catch (const std::bad_alloc&) {
-    std::cerr << "haptic_loop: the memory does not suffice for this mesh\n";
-    return no_memory;
-  } catch (const Error& error) {
-    return fail(error, usage);
-  }
+  return loop(arguments, plan);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  return examples::run_mesh_program("haptic_loop", [&] { return run(argc, argv); }, exit_code_of);
 }

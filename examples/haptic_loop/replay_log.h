@@ -7,6 +7,8 @@
 
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
 
+#include <limits>
+
 namespace haptic_sculpt::loop_program {
 
 /// Makes the lines of a log again in a scene, whose probe is somewhere far away: what can be undone afterwards is what
@@ -97,7 +99,8 @@ private:
   }
 
   std::size_t name(const Command& c, std::size_t which) const {
-    return c.indices[which] + (c.indices[which] >= probe_ ? 1 : 0);
+    const std::size_t number = c.indices[which]; // one that no vertex can have stays one, and does not wrap round
+    return number + (number >= probe_ && number != std::numeric_limits<std::size_t>::max() ? 1 : 0);
   }
   static auto point(const Command& c) {
     return typename Scene::Mesh::Point(c.points[0][0], c.points[0][1], c.points[0][2]);
@@ -139,7 +142,8 @@ private:
       return;
     try {
       sculptor_.set_delta(c.length);
-    } catch (const Invalid_surface&) { // refused then, too
+    } catch (const Invalid_surface&) {   // refused then, too
+    } catch (const Invalid_parameter&) { // a clearance that the scene has outgrown
     }
   }
 };

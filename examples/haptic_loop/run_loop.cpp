@@ -3,6 +3,7 @@
 #include "Run.h"
 #include "Run_log.h"
 #include "Real_time.h"
+#include "Row_file.h"
 #include "write_run_picture.h"
 
 #include "../drawing/surface_mesh_arrays.h"
@@ -44,10 +45,10 @@ Workspace_map map_of(const Settings& settings, const Eigen::Vector3d& lower, con
 /// One run.
 class Run {
 public:
-  Run(const Plan& plan, std::vector<std::string>& notes, const std::atomic<bool>& is_interrupted)
+  Run(const Plan& plan, examples::Result_writer& writer, const std::atomic<bool>& is_interrupted)
       : plan_(plan)
       , settings_(plan.settings)
-      , notes_(notes)
+      , writer_(writer)
       , is_interrupted_(is_interrupted)
       , tick_(1 / settings_.rate)
       , device_(settings_.device)
@@ -62,13 +63,13 @@ public:
       throw Foreign_recording("the recording is of a mesh with the SHA-256 " + plan_.replay->mesh + ", but that of '" +
                               plan_.mesh + "' is " + hash);
     log_.emplace(plan_.log, hash);
-    if (log_->has_edits() && (plan_.replay || plan_.record != nullptr))
+    if (log_->has_edits() && (plan_.replay || !plan_.record.empty()))
       throw Usage_error("a recording is of a run that begins with the mesh itself; give a log that is not there yet");
     Scene scene(read_surface<Mesh>(plan_.mesh), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
       return map_of(settings_, lower, upper, device_, *home_);
     });
     if (const std::string told = log_->resume(scene); !told.empty())
-      notes_.push_back(told);
+      writer_.note(told);
     Haptic_parameters parameters;
     parameters.tick = tick_, parameters.delay = settings_.delay;
     parameters.coupling = {settings_.stiffness, settings_.damping};
@@ -78,8 +79,10 @@ public:
     parameters.reach = settings_.reach, parameters.work = settings_.work;
     const Passivity_limits limits = limits_of(parameters, scene);
     const Device_pose<double> start = start_pose();
+    check(parameters, limits);
     Loop loop(scene.sculptor, scene.probe, device_, start, scene.map, parameters, limits);
-    const double most_lost = 0.1; // by a kill, s
+    trace_.open(plan_.trace), record_.open(plan_.record); // nothing is refused any more
+    const double most_lost = 0.1;                         // by a kill, s
     log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
     Session session(loop, scene, nullptr, nullptr, log_->journal());
     session_ = &session;
@@ -87,17 +90,21 @@ public:
     happenings_ = &happenings;
     if (plan_.is_real_time)
       for (const std::string& refused : ask_for_real_time())
-        notes_.push_back(refused);
-    if (plan_.record != nullptr)
-      std::fputs(recording_head(hash, settings_).c_str(), plan_.record);
-    if (plan_.trace != nullptr)
+        writer_.note(refused);
+    if (record_.get() != nullptr)
+      std::fputs(recording_head(hash, settings_).c_str(), record_.get());
+    if (trace_.get() != nullptr)
       std::fputs(
           "t,theta1,theta2,theta3,tx,ty,tz,x,y,z,fcx,fcy,fcz,fx,fy,fz,tau1,tau2,tau3,end,contacts,pairs,cpu_ns\n",
-          plan_.trace);
-    if (plan_.replay)
-      replay(loop);
-    else
-      simulate(loop, start);
+          trace_.get());
+    try {
+      if (plan_.replay)
+        replay(loop);
+      else
+        simulate(loop, start);
+    } catch (const std::exception&) { // told with the results so far, which are not lost
+      result_.failure = std::current_exception();
+    }
     session.end();
     if (plan_.is_real_time)
       leave_real_time();
@@ -108,7 +115,7 @@ public:
 private:
   const Plan& plan_;
   const Settings& settings_;
-  std::vector<std::string>& notes_;
+  examples::Result_writer& writer_;
   const std::atomic<bool>& is_interrupted_;
   double tick_;
   Device_parameters<double> device_;
@@ -121,6 +128,21 @@ private:
   double port_ = 0, dissipated_ = 0;
   Run_result result_;
   double free_since_ = 0;
+  Row_file trace_, record_;
+
+  /// \throw Unstable_coupling that says more where the device is the reason
+  void check(const Haptic_parameters& parameters, const Passivity_limits& limits) const {
+    try {
+      check_dynamics(parameters.coupling.damping, parameters.inertia,
+                     parameters.controller_damping.value_or(0), limits);
+      check_coupling(parameters.coupling, limits);
+    } catch (const Unstable_coupling& error) {
+      if (settings_.device.viscous_friction > 0)
+        throw;
+      throw Unstable_coupling(error.what() + std::string(". This device has no `friction` (N m s/rad), without which "
+                                                         "nothing is passive: give its joints' in the device's file"));
+    }
+  }
 
   Passivity_limits limits_of(const Haptic_parameters& parameters, const Scene& scene) {
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (scene.upper - scene.lower).norm());
@@ -134,7 +156,7 @@ private:
     result_.largest_controller = limits.largest_controller;
     if (limits.permits(parameters.coupling) && settings_.damping == 0 &&
         settings_.stiffness > limits.recommended_stiffness())
-      notes_.push_back("the stiffness " + internal::number(settings_.stiffness) +
+      writer_.note("the stiffness " + internal::number(settings_.stiffness) +
                        " N/m is passive, but a handle that nobody holds rings on it; recommended are at most " +
                        internal::number(limits.recommended_stiffness()) + " N/m, or a damping");
     return limits;
@@ -156,6 +178,8 @@ private:
 
   void replay(Loop& loop) {
     for (const Joint_reading& reading : plan_.replay->readings) {
+      if (is_interrupted_)
+        return;
       log_->let_catch_up(session_->ticks());
       port_ = loop.observer().port(), dissipated_ = loop.observer().dissipated();
       if (!tick(loop, reading, result_.ticks * tick_))
@@ -185,10 +209,12 @@ private:
       if (!tick(loop, reading, device.time()))
         break;
       last = *tick_made_;
-      if (device.write(last.rendered.torque, last.rendered.interaction_torque) != Device_status::success)
-        throw Usage_error(
-            "at " + std::to_string(device.time()) +
-            " s the hand has torn the mechanism through a singular pose; give a path within the workspace");
+      if (device.write(last.rendered.torque, last.rendered.interaction_torque) != Device_status::success) {
+        writer_.note("at " + std::to_string(device.time()) +
+                     " s the hand has torn the mechanism through a singular pose; give a path within the workspace");
+        result_.faults.emplace_back(device.time(), "torn");
+        break;
+      }
     }
     result_.has_true_energy = true;
     result_.port = device.port(), result_.dissipated = device.dissipated();
@@ -211,8 +237,8 @@ private:
 
   /// \return whether the run goes on
   bool tick(Loop& loop, const Joint_reading& reading, double time) {
-    if (plan_.record != nullptr)
-      write_reading(plan_.record, reading);
+    if (record_.get() != nullptr)
+      write_reading(record_.get(), reading);
     const std::size_t allocated = allocations();
     const std::uint64_t cpu = nanoseconds(CLOCK_THREAD_CPUTIME_ID), wall = nanoseconds(CLOCK_MONOTONIC);
     const Haptic_tick& made = session_->tick(reading);
@@ -238,7 +264,7 @@ private:
       result_.largest_free_force = std::fmax(result_.largest_free_force, force);
     if (made.is_new_fault)
       result_.faults.emplace_back(time, name_of(made.fault));
-    if (plan_.trace != nullptr)
+    if (trace_.get() != nullptr)
       write_row(reading, made, time, cpu_taken);
     return !loop.has_stopped();
   }
@@ -255,12 +281,12 @@ private:
 
   void write_row(const Joint_reading& reading, const Haptic_tick& made, double time, std::uint64_t cpu) const {
     const auto put = [&](const Eigen::Vector3d& v) {
-      std::fprintf(plan_.trace, ",%.17g,%.17g,%.17g", v[0], v[1], v[2]);
+      std::fprintf(trace_.get(), ",%.17g,%.17g,%.17g", v[0], v[1], v[2]);
     };
-    std::fprintf(plan_.trace, "%.17g", time);
+    std::fprintf(trace_.get(), "%.17g", time);
     put(reading.theta), put(made.tool.target), put(made.tool.proxy), put(made.coupling), put(made.rendered.force),
         put(made.rendered.torque);
-    std::fprintf(plan_.trace, ",%s,%d,%zu,%llu\n", end_of(made.tool), made.tool.contacts,
+    std::fprintf(trace_.get(), ",%s,%d,%zu,%llu\n", end_of(made.tool), made.tool.contacts,
                  made.tool.pairs, static_cast<unsigned long long>(cpu));
   }
 
@@ -274,6 +300,7 @@ private:
       ;
     const std::uint64_t now = nanoseconds(CLOCK_MONOTONIC);
     result_.wakeup.add(now > due ? now - due : 0);
+    result_.missed_by_wakeup += now > due + static_cast<std::uint64_t>(1e9 * tick_);
   }
 
   void finish(const Loop& loop, const Scene& scene) {
@@ -308,15 +335,17 @@ private:
     sculpted.remove_vertex(probe);
     result_.is_valid = validate(sculpted).is_valid();
     log_->finish();
-    if (!plan_.out.empty())
-      if (const std::string lost = write_surface(plan_.out, sculpted, options); !lost.empty())
-        notes_.push_back(lost);
-    if (!plan_.picture.empty())
-      if (const std::string lost =
-              write_run_picture(drawing::scene_of(sculpted), samples_, result_.has_true_energy, plan_.picture);
-          !lost.empty())
-        notes_.push_back(lost);
-    log_->end();
+    writer_.write(plan_.out, [&](const std::string& path) { return write_surface(path, sculpted, options); });
+    writer_.write(plan_.picture, [&](const std::string& path) {
+      return write_run_picture(drawing::scene_of(sculpted), samples_, result_.has_true_energy, path);
+    });
+    for (Row_file* const rows : {&trace_, &record_})
+      writer_.write(rows == &trace_ ? plan_.trace : plan_.record, [&](const std::string&) {
+        rows->close();
+        return std::string();
+      });
+    if (writer_.all_written() && !result_.failure)
+      log_->end();
     for (int what = 0; what < Happenings::number; ++what)
       result_.happened[what] = happenings_->first(static_cast<Happenings::What>(what));
     result_.ticks_written = log_->ticks(), result_.log_lost = log_->lost();
@@ -326,8 +355,8 @@ private:
 
 } // namespace
 
-Run_result run_loop(const Plan& plan, std::vector<std::string>& notes, const std::atomic<bool>& is_interrupted) {
-  return Run(plan, notes, is_interrupted).run();
+Run_result run_loop(const Plan& plan, examples::Result_writer& writer, const std::atomic<bool>& is_interrupted) {
+  return Run(plan, writer, is_interrupted).run();
 }
 
 } // namespace haptic_sculpt::loop_program

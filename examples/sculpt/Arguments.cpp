@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Arguments.h"
 
+#include "../common/numbers.h"
+
 #include <haptic_sculpt/version.h>
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 namespace haptic_sculpt::sculpt_program {
+namespace {
+
+template <class Numbers>
+bool are_finite(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+} // namespace
 
 std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Sculpts a closed triangle mesh from a script; no surface ever passes through a surface.\n"
-               "Exit: 0 done (blocked drags and refused edits are done), 1 out of memory, 2 usage, 3 mesh refused, 4 "
+               "Exit: 0 done (blocked drags and refused edits are done), 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 "
                "script error, "
                "5 cannot write, 6 script or log of another mesh, or no log.\n"
                "Script, one edit a line; # comments; numbers decimal or hexadecimal; a vertex by its number, or the "
@@ -47,12 +58,11 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
   Picture_arguments& shown = arguments.shown;
   const CLI::Validator place(
       [](const std::string& text) -> std::string {
-        double x, y, z;
-        int read = 0;
         const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        const bool is_place = std::sscanf(text.c_str(), "@%lf,%lf,%lf%n", &x, &y, &z, &read) == 3 &&
-                              static_cast<std::size_t>(read) == text.size();
-        return is_number || is_place || text == "edit" ? "" : "'" + text + "' is not a vertex's number, @X,Y,Z or edit";
+        const auto place = examples::place_of(text);
+        if (is_number || text == "edit" || (place && are_finite(*place)))
+          return "";
+        return "'" + text + "' is not a vertex's number, @X,Y,Z of finite numbers, or edit";
       },
       "V|@X,Y,Z|edit");
   app.add_flag("--picture-numbers", shown.numbers, "In the picture: the numbers of vertices, where there is room")
@@ -66,7 +76,10 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       ->check(place)
       ->needs("--picture");
   app.add_option("--picture-zoom", shown.zoom, "How large; 1 is all of the mesh; by default 8 with --picture-at")
-      ->check(CLI::Range(0.25, 1e5))
+      ->check([](const std::string& text) -> std::string { // CLI::Range lets pass what is no number
+        const double zoom = examples::number_of(text).value_or(0);
+        return zoom >= 0.25 && zoom <= 1e5 ? "" : "'" + text + "' is not a number from 0.25 to 100000";
+      })
       ->needs("--picture");
   app.add_flag("--picture-before", shown.before, "Two side by side: before the edits, and after")->needs("--picture");
   app.add_option("--picture-color", shown.color,
@@ -90,8 +103,8 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0;
   }
-  if (shown.view.size() == 3 && shown.view == std::vector<double>(3, 0.0)) {
-    std::cerr << "--picture-view 0 0 0 is no direction\n";
+  if (shown.view.size() == 3 && (shown.view == std::vector<double>(3, 0.0) || !are_finite(shown.view))) {
+    std::cerr << "--picture-view takes a direction: three finite numbers that are not all 0\n";
     return false;
   }
   if (arguments.script == "-")

@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_EXAMPLES_ARGUMENTS_H
 #define HAPTIC_SCULPT_EXAMPLES_ARGUMENTS_H
 
-#include <haptic_sculpt/Error.h>
+#include "../common/run_program.h"
 
 #include <array>
 #include <optional>
@@ -34,10 +34,7 @@ struct Arguments {
 /// `--version`), or by what is wrong (false).
 std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments);
 
-/// Something that was asked for and does not exist yet, or does not fit together.
-struct Usage_error : Error {
-  using Error::Error;
-};
+using examples::Usage_error;
 
 } // namespace haptic_sculpt::sculpt_program
 

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -80,6 +81,8 @@ struct Run_result {
   std::vector<std::size_t> numbers;        ///< of these
   std::vector<double> nanoseconds;         ///< of each edit that was carried out
   Filter_counters filter;
+  std::exception_ptr failure; ///< of a line that could not be carried out and ended the script, which was `failed`
+  Command failed;
 
   std::size_t asked() const { return reached + blocked + refused; }
 };

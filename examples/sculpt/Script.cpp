@@ -4,6 +4,8 @@
 #include "printable.h"
 
 #include "../brushes.h"
+#include "../common/contents_of.h"
+#include "../common/numbers.h"
 
 #include <haptic_sculpt/sculpting/Response.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
@@ -12,7 +14,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 namespace haptic_sculpt::sculpt_program {
 namespace {
@@ -71,15 +72,14 @@ public:
 
   /// The one place where a number is read. \param found the word just read
   double number(const std::string& expected, const std::string& found) const {
-    char* end = nullptr;
-    const double value = std::strtod(found.c_str(), &end);
-    if (found.empty() || end != found.c_str() + found.size()) // empty: between two commas
+    const auto value = examples::number_of(found);
+    if (!value)
       fail("'" + printable(found) + "' is not " + expected + " (a decimal or hexadecimal number)");
-    if (!std::isfinite(value))
+    if (!std::isfinite(*value))
       fail("'" + printable(found) + "' is not a finite number");
-    if (!internal::is_in_range(value))
+    if (!internal::is_in_range(*value))
       fail("'" + printable(found) + "' is out of range: numbers are of at most 2^1000, about 1.07e301");
-    return value;
+    return *value;
   }
 
   std::array<double, 3> coordinates(const std::string& expected) {
@@ -111,15 +111,12 @@ private:
   }
 
   std::array<double, 3> place(const std::string& found) const {
+    const auto words = examples::words_of_place(found);
+    if (!words)
+      fail("'" + printable(found) + "' is not @X,Y,Z: three numbers, commas and no blanks between them");
     std::array<double, 3> point;
-    std::size_t begin = 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t comma = std::min(found.find(',', begin), found.size());
-      if ((comma == found.size()) != (i == 2))
-        fail("'" + printable(found) + "' is not @X,Y,Z: three numbers, commas and no blanks between them");
-      point[i] = number("a coordinate", found.substr(begin, comma - begin));
-      begin = comma + 1;
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      point[i] = number("a coordinate", (*words)[i]);
     return point;
   }
 
@@ -203,8 +200,7 @@ std::optional<Command> read_line(const std::string& text, std::size_t number, co
 
 std::vector<Command> read_script(std::string_view text, const std::string& name) {
   std::vector<Command> commands;
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") // a byte order mark, which some editors put before a text
-    text.remove_prefix(3);
+  text = examples::without_byte_order_mark(text);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     if (auto command = read_line(std::string(text.substr(0, end)), number, name))

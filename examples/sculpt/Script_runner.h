@@ -24,14 +24,15 @@ public:
 
   Run_result run(const std::vector<Command>& script, const After_command& after) {
     Progress progress(script.size());
-    for (std::size_t i = 0; i < script.size(); ++i) {
-      if (script[i].places.empty()) {
-        carry_out(script[i]);
-        after(script[i]);
-      } else {
-        const Command command = with_vertices_found(script[i]);
+    for (std::size_t i = 0; i < script.size() && !result_.failure; ++i) {
+      try {
+        std::optional<Command> found;
+        const Command& command = script[i].places.empty() ? script[i] : found.emplace(with_vertices_found(script[i]));
         carry_out(command);
         after(command);
+      } catch (const std::exception&) { // told with what was done so far, which is not lost
+        result_.failure = std::current_exception();
+        result_.failed = script[i];
       }
       progress.step(i + 1);
     }
@@ -121,7 +122,7 @@ private:
       if (done.position != start)
         moved_.insert(index);
     } catch (const Invalid_parameter& error) { // the scene has outgrown the clearance
-      refuse(command, clearance_of_no_use, {index}).detail = error.what();
+      refuse(command, clearance_of_no_use, {index}).detail = outgrown(error);
     }
   }
 
@@ -212,7 +213,7 @@ private:
       else
         finish(command, begin, done, command.points[0], command.points[1], {});
     } catch (const Invalid_parameter& error) {
-      refuse(command, clearance_of_no_use, {}).detail = error.what();
+      refuse(command, clearance_of_no_use, {}).detail = outgrown(error);
     }
   }
 
@@ -231,6 +232,11 @@ private:
     }
   }
 
+  /// Of a line that is refused because the scene has outgrown the clearance that an earlier one has set.
+  static std::string outgrown(const Invalid_parameter& error) {
+    return error.what() + std::string("; `clearance default` before this line serves always");
+  }
+
   void delta(const Command& command) {
     if (command.length == sculptor_.options().delta_length) { // a log begins so; looking at all triangles again finds nothing
       sculptor_.release();
@@ -244,6 +250,8 @@ private:
         for (const auto v : mesh_.vertices_around_face(mesh_.halfedge(f)))
           corners.insert(sculptor_.name(v));
       refuse(command, "triangle-lower-than-delta", {corners.begin(), corners.end()});
+    } catch (const Invalid_parameter& error) {
+      refuse(command, clearance_of_no_use, {}).detail = outgrown(error);
     }
   }
 

@@ -43,22 +43,41 @@ Many_vertices_outcome carry_out_brush(Sculptor& sculptor, const Command& command
   }
 }
 
-/// Remeshes all of it to edges of about a length.
-template <class Sculptor>
-Many_vertices_outcome carry_out_remesh(Sculptor& sculptor, const Command& command) {
-  const Mesh& mesh = sculptor.mesh();
-  const double length = command.length;
-  double triangles = 0; // equilateral ones
+/// About how many triangles a remeshing makes on its way, of each face by the larger of two: equilateral ones, by its
+/// area; and what is left of a needle when its edges have been halved until they are no longer than 4/3 of the length:
+/// each time three needles of half the length come of one, however thin it is. In doubles: it may be infinite, or not a
+/// number.
+inline double triangles_of_remeshing(const Mesh& mesh, double length) {
+  double triangles = 0;
   for (const auto f : mesh.faces()) {
     const auto h = mesh.halfedge(f);
     const auto p = mesh.point(mesh.source(h));
-    const auto normal = CGAL::cross_product(mesh.point(mesh.target(h)) - p, mesh.point(mesh.target(mesh.next(h))) - p);
-    triangles += std::sqrt((normal / length / length).squared_length()) * (2 / std::sqrt(3.));
+    const Kernel::Vector_3 a = (mesh.point(mesh.target(h)) - p) / length,
+                           b = (mesh.point(mesh.target(mesh.next(h))) - p) / length;
+    const double by_area = std::sqrt(CGAL::cross_product(a, b).squared_length()) * (2 / std::sqrt(3.));
+    const double longest =
+        std::sqrt(std::fmax(a.squared_length(), std::fmax(b.squared_length(), (b - a).squared_length())));
+    const double halvings = std::ceil(std::fmax(0, std::log2(longest / (4. / 3))));
+    const double of_needle = std::pow(3, halvings) / 2; // a face shares its longest edge with another
+    triangles += by_area < of_needle ? of_needle : by_area; // what is not a number stays one
   }
+  return triangles;
+}
+
+/// Remeshes all of it to edges of about a length.
+template <class Sculptor>
+Many_vertices_outcome carry_out_remesh(Sculptor& sculptor, const Command& command) {
   constexpr double most_triangles = 2e7; // some 800 bytes each: what a machine of 16 GiB holds
-  if (!(triangles <= most_triangles))
+  if (!(triangles_of_remeshing(sculptor.mesh(), command.length) <= most_triangles))
     return {"too-many-triangles", 0, 0, "edges of this length would make more than 20 million triangles of it"};
-  const Remeshing_report report = isotropic_remeshing(sculptor, length, CGAL::parameters::number_of_iterations(3));
+  Remeshing_report report;
+  try {
+    report = isotropic_remeshing(sculptor, command.length, CGAL::parameters::number_of_iterations(3));
+  } catch (const Out_of_range& error) {
+    return {"out-of-range", 0, 0, error.what()};
+  } catch (const Invalid_parameter& error) {
+    return {"clearance-of-no-use", 0, 0, error.what()};
+  }
   std::size_t done = 0, refused = 0;
   std::ostringstream detail;
   const auto tell = [&](const char* what, const Remeshing_report::Count& count) {

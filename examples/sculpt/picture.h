@@ -5,6 +5,7 @@
 #include "Arguments.h"
 #include "Run_result.h"
 
+#include "../common/numbers.h"
 #include "../drawing/surface_mesh_arrays.h"
 #include "../drawing/write_picture.h"
 
@@ -135,11 +136,7 @@ inline std::optional<Eigen::Vector3d> focus_of(const std::string& at, const Mesh
     return vector_of(found->motion->stop);
   }
   if (at[0] == '@') {
-    Eigen::Vector3d p;
-    std::istringstream parts(at.substr(1));
-    char mark = 0;
-    parts >> p[0] >> mark >> p[1] >> mark >> p[2]; // the command line has looked at it
-    return p;
+    return vector_of(examples::place_of(at).value()); // the command line has looked at it
   }
   const std::size_t number = std::strtoull(at.c_str(), nullptr, 10);
   for (std::size_t i = 0; i < result.numbers.size(); ++i)

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "read_mesh.h"
 
+#include "divide_polygon.h"
+
 #include <haptic_sculpt/surface/read_surface.h>
 
-#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
-
 #include <algorithm>
+#include <array>
 #include <utility>
+#include <vector>
 
 namespace haptic_sculpt::sculpt_program {
 namespace {
@@ -18,23 +20,38 @@ bool is_polygon(const Face_soup& soup, std::size_t f) {
   return corners.size() >= 3 && std::adjacent_find(corners.begin(), corners.end()) == corners.end();
 }
 
-/// \throw Read_error where a polygon cannot be divided
-Mesh triangulated(const Face_soup& soup, const std::string& path) {
-  Mesh mesh;
-  for (const auto& p : soup.points)
-    mesh.add_vertex({p.x(), p.y(), p.z()});
-  std::vector<std::vector<Vertex_index>> faces(soup.number_of_faces());
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (const Face_soup::Index* corner = soup.begin(f); corner != soup.end(f); ++corner)
-      faces[f].emplace_back(*corner);
-  CGAL::Euler::add_faces(faces, mesh);
-  // One by one: of them all CGAL does not say which one could not be divided.
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    if (faces[f].size() > 3 &&
-        !CGAL::Polygon_mesh_processing::triangulate_face(Mesh::Face_index(static_cast<Mesh::size_type>(f)), mesh))
-      throw Read_error("cannot read '" + path + "': face " + std::to_string(f) +
-                       " cannot be divided into triangles; divide it by hand");
-  return mesh;
+/// Of each face the first triangle takes its place, the others follow behind all faces. \throw Read_error where a polygon
+/// cannot be divided
+Face_soup triangulated(const Face_soup& soup, const std::string& path) {
+  Face_soup result;
+  result.points = soup.points;
+  std::vector<std::array<Face_soup::Index, 3>> others;
+  for (std::size_t f = 0; f < soup.number_of_faces(); ++f) {
+    const Face_soup::Index* const corner = soup.begin(f);
+    if (soup.number_of_corners(f) == 3) {
+      result.add_face(std::array<Face_soup::Index, 3>{corner[0], corner[1], corner[2]});
+      continue;
+    }
+    std::vector<std::array<double, 3>> places;
+    for (const Face_soup::Index* c = corner; c != soup.end(f); ++c)
+      places.push_back({soup.points[*c].x(), soup.points[*c].y(), soup.points[*c].z()});
+    const auto triangles = divided_polygon(places);
+    if (!triangles)
+      throw Read_error("cannot read '" + path + "': face " + std::to_string(f) + ", of " +
+                       std::to_string(places.size()) +
+                       " corners, cannot be divided into triangles, as it folds over itself or has all its corners on a "
+                       "line: along no axis it is seen as a simple polygon. Divide it by hand");
+    for (const Corners_of_triangle& t : *triangles) {
+      const std::array<Face_soup::Index, 3> triangle{corner[t[0]], corner[t[1]], corner[t[2]]};
+      if (&t == &triangles->front())
+        result.add_face(triangle);
+      else
+        others.push_back(triangle);
+    }
+  }
+  for (const auto& triangle : others)
+    result.add_face(triangle);
+  return result;
 }
 
 } // namespace
@@ -50,11 +67,18 @@ Mesh read_triangulated(const std::string& path, double delta, std::vector<std::s
                                           [&](const auto f) { return is_polygon(soup, static_cast<std::size_t>(f)); });
     if (!others.is_valid() || !are_polygons)
       throw Invalid_surface("'" + path + "'", std::move(report));
+    soup = triangulated(soup, path); // and looked at again
+    report = validate_soup(soup, delta);
+    if (!report.is_valid())
+      throw Invalid_surface("'" + path + "', its faces divided into triangles,", std::move(report));
   }
-  Mesh mesh = triangulated(soup, path);
-  report = validate(mesh, delta);
-  if (!report.is_valid())
-    throw Invalid_surface("'" + path + "', its faces divided into triangles,", std::move(report));
+  Mesh mesh;
+  for (const auto& p : soup.points)
+    mesh.add_vertex({p.x(), p.y(), p.z()});
+  std::vector<std::array<Vertex_index, 3>> faces(soup.number_of_faces());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    std::transform(soup.begin(f), soup.end(f), faces[f].begin(), [](const auto corner) { return Vertex_index(corner); });
+  CGAL::Euler::add_faces(faces, mesh);
   return mesh;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/sculpt.md.
-#include "../Printable_stream.h"
+#include "../common/contents_of.h"
+#include "../common/mesh_program.h"
+#include "../common/output_targets.h"
 #include "Log_file.h"
-#include "output_targets.h"
 #include "nearest_vertices.h"
 #include "printable.h"
 #include "read_mesh.h"
@@ -15,14 +16,9 @@
 #include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/read_surface.h>
 
-#include <cerrno>
 #include <cmath>
-#include <csignal>
-#include <cstring>
-#include <fstream>
 #include <iostream>
 #include <iterator>
-#include <new>
 #include <numeric>
 #include <utility>
 
@@ -31,8 +27,7 @@ namespace {
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::sculpt_program;
 using Kind = Command::Kind;
-
-enum Exit { done = 0, no_memory = 1, usage = 2, mesh_refused = 3, script_error = 4, cannot_write = 5, foreign_log = 6 };
+using examples::Result_writer;
 
 /// A script, and the hash that a log knows it by.
 struct Script {
@@ -43,40 +38,26 @@ struct Script {
 Script script_of(const Arguments& arguments) {
   if (arguments.script.empty())
     return {};
-  std::ifstream file(arguments.script, std::ios::binary);
-  if (!file)
-    throw Script_error("cannot open the script '" + arguments.script + "': " + std::strerror(errno));
-  std::string text, block(1 << 16, '\0');
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
-    text.append(block, 0, static_cast<std::size_t>(file.gcount()));
-  if (!file.eof())
-    throw Script_error("reading the script '" + arguments.script + "' failed");
+  const std::string text = examples::contents_of<Script_error>(arguments.script, "the script");
   return {read_script(text, arguments.script), Sha256().add(text).digest()};
 }
 
-/// \throw Usage_error where one file would be written over another of this run; Write_error
-void check_targets(const Arguments& arguments) {
-  if (!arguments.out.empty() && !mesh_file_format(arguments.out))
-    throw Usage_error("'" + arguments.out + "' does not end in .off, .ply, .obj or .stl");
-  for (const std::string& path : {arguments.picture, arguments.comparison})
-    if (const auto extension = std::filesystem::path(path).extension(); !extension.empty() && extension != ".png" && extension != ".PNG")
-      throw Usage_error("a picture is written as PNG: give a name that ends in .png instead of '" + path + "'");
-  // The result may take the place of the mesh that was read: that is what one asks of an editor.
-  std::vector<std::string> taken = {arguments.script, arguments.out, arguments.report, arguments.picture, arguments.comparison,
-                                    arguments.log};
-  for (std::size_t i = 0; i < taken.size(); ++i)
-    for (std::size_t j = i + 1; j < taken.size(); ++j)
-      if (!taken[i].empty() && !taken[j].empty() && are_one_file(taken[i], taken[j]))
-        throw Usage_error("'" + taken[i] + "' and '" + taken[j] + "' are one file; give each its own");
-  for (const std::string& path : {arguments.report, arguments.picture, arguments.comparison, arguments.log})
-    if (!path.empty() && are_one_file(path, arguments.mesh))
-      throw Usage_error("'" + path + "' is the mesh to be read; give another name");
-  if (!arguments.log.empty() && !arguments.out.empty() && are_one_file(arguments.out, arguments.mesh))
-    throw Usage_error("'" + arguments.out + "' is the mesh that the log '" + arguments.log +
+/// \throw Usage_error, Write_error
+void check_files(const Arguments& a) {
+  examples::check_mesh_name({"-o", a.out});
+  examples::check_picture_name({"--picture", a.picture}), examples::check_picture_name({"--compare", a.comparison});
+  examples::Run_files files;
+  files.outputs = {{"--log", a.log}, {"-o", a.out}, {"--report", a.report}, {"--picture", a.picture}, {"--compare", a.comparison}};
+  files.inputs = {{"MESH", a.mesh}, {"--script", a.script}};
+  if (a.log.empty()) // the result may take the place of the mesh that was read
+    files.replaced_by = "-o", files.replaced = "MESH";
+  else if (!a.out.empty() && examples::are_one_file(a.out, a.mesh))
+    throw Usage_error("'" + a.out + "' is the mesh that the log '" + a.log +
                       "' begins with; sculpted, it could not be resumed from the log. Give the result another name");
-  for (const std::string& path : {arguments.out, arguments.report, arguments.picture, arguments.comparison})
+  files.check_apart();
+  for (const std::string& path : {a.out, a.report, a.picture, a.comparison}) // a log looks for itself
     if (!path.empty())
-      check_target(path);
+      examples::check_target(path);
 }
 
 /// \throw Foreign_log
@@ -115,7 +96,30 @@ void check_lengths(const Arguments& arguments) {
     throw Usage_error("--delta must be a length >= 0 and at most 2^1000, about 1.07e301");
   for (const double x : arguments.nearest.value_or(std::array<double, 3>{}))
     if (!internal::is_in_range(x))
-      throw Usage_error("--nearest takes coordinates of at most 2^1000, about 1.07e301");
+      throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " + internal::number(x) +
+                        " is none");
+}
+
+/// A mesh whose only fault is that a delta was asked for which it does not have.
+struct Delta_of_no_use : Error {
+  using Error::Error;
+};
+
+/// \throw Delta_of_no_use; what reading meshes throws
+Mesh mesh_of(const Arguments& arguments, std::vector<std::string>& left_out) {
+  const double delta = arguments.delta.value_or(0);
+  try {
+    return arguments.triangulate ? read_triangulated(arguments.mesh, delta, left_out)
+                                 : read_surface<Mesh>(arguments.mesh, delta, &left_out);
+  } catch (const Invalid_surface& error) {
+    const auto& low = error.report().low_faces;
+    if (low.empty() || low.size() != error.report().number_of_faults())
+      throw;
+    throw Delta_of_no_use("--delta " + internal::number(delta) + " does not serve '" + arguments.mesh + "', which has " +
+                          std::to_string(low.size()) + " triangle(s) with an altitude below it, the first of them face " +
+                          std::to_string(static_cast<std::size_t>(low[0])) +
+                          "; give a smaller length, or leave the option out");
+  }
 }
 
 /// E.g. "normals, colours".
@@ -173,36 +177,31 @@ Plan plan_of(const Script& script, const Log_file* log, const Arguments& argumen
   return plan;
 }
 
-Exit sculpt(const Arguments& arguments) {
+int sculpt(const Arguments& arguments) {
   check_lengths(arguments);
   const Script script = script_of(arguments);
-  check_targets(arguments);
+  check_files(arguments);
   std::optional<Log_file> log;
   if (!arguments.log.empty())
     log.emplace(arguments.log, sha256_of_file(arguments.mesh));
   const Plan plan = plan_of(script, log ? &*log : nullptr, arguments);
   std::vector<std::string> left_out;
-  Mesh mesh = arguments.triangulate ? read_triangulated(arguments.mesh, arguments.delta.value_or(0), left_out)
-                                    : read_surface<Mesh>(arguments.mesh, arguments.delta.value_or(0), &left_out);
+  Mesh mesh = mesh_of(arguments, left_out);
   check_mesh_directives(script.commands, arguments);
   const drawing::Scene before = needs_before(arguments.shown) ? drawing::scene_of(mesh) : drawing::Scene();
 
-  std::vector<std::string> notes;
-  const auto note = [&notes](const std::string& text) {
-    std::cerr << "sculpt: " << text << '\n';
-    notes.push_back(text);
-  };
+  Result_writer writer("sculpt");
   if (!arguments.out.empty() && !left_out.empty())
-    note("'" + arguments.out + "' will be without what '" + arguments.mesh + "' has besides its faces: " + listed(left_out));
+    writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh + "' has besides its faces: " + listed(left_out));
   bool is_told = false;
   const auto tell_failure = [&] { // once, and at once: the work may take hours
     if (log && !log->failure().empty() && !std::exchange(is_told, true))
-      note(log->failure() + ". The work goes on without; what the log holds can be resumed");
+      writer.note(log->failure() + ". The work goes on without; what the log holds can be resumed");
   };
   const bool is_logging = log && !script.commands.empty();
   if (log) {
     if (log->contents() && !log->contents()->unfinished.empty())
-      note("the unfinished last line of the log '" + arguments.log + "' is dropped: " + printable(log->contents()->unfinished));
+      writer.note("the unfinished last line of the log '" + arguments.log + "' is dropped: " + printable(log->contents()->unfinished));
     log->begin(settings_of(arguments));
     if (is_logging && !plan.rest.is_announced)
       log->begin_pass(script.hash, plan.rest.after);
@@ -218,13 +217,17 @@ Exit sculpt(const Arguments& arguments) {
       tell_failure();
     }
   });
+  if (result.failure)
+    writer.note((result.failed.is_logged ? arguments.log : arguments.script) + ": line " +
+                std::to_string(result.failed.line) + ": `" + name_of(result.failed.kind) + "` has ended the script: " +
+                examples::message_of(result.failure) + ". What was done until then is written");
   const std::vector<Near_vertex> nearest = nearest_to(arguments, mesh, result);
-  bool all_written = write_all(mesh, result, arguments, notes, nearest, before, without_guard);
-  if (is_logging && all_written) {
+  write_all(writer, mesh, result, arguments, nearest, before, without_guard);
+  if (is_logging && writer.all_written() && !result.failure) {
     log->end_pass(script.hash);
     tell_failure();
   }
-  all_written = all_written && (!log || log->failure().empty());
+  const bool all_written = writer.all_written() && (!log || log->failure().empty());
   if (plan.replayed > 0)
     std::cout << "replayed " << plan.replayed << " lines of " << arguments.log << '\n';
   if (plan.rest.after > 0)
@@ -234,51 +237,22 @@ Exit sculpt(const Arguments& arguments) {
   print_table(std::cout, result, mesh); // last: whoever reads it may close the pipe
   if (!std::cout.flush())
     throw Write_error("cannot write the table to standard output");
-  return all_written ? done : cannot_write;
-}
-
-/// The message, with advice for people who do not program.
-std::string in_words_of_a_user(const Invalid_surface& error, bool is_triangulated) {
-  const std::string said = error.what();
-  std::string text = said.substr(0, said.find('\n') + 1) + error.report().message(8, Validity_report::Reader::user);
-  if (!is_triangulated && !error.report().non_triangular_faces.empty())
-    text += "--triangulate divides faces into triangles.\n";
-  return text;
+  if (result.failure)
+    return examples::exit_code_of(result.failure);
+  return all_written ? examples::done : examples::cannot_write;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  const examples::Printable_stream messages(std::cerr), table(std::cout);
-  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is told like a full disk, and the others are written
-  Arguments arguments;
-  if (const auto is_good = read_arguments(argc, argv, arguments))
-    return *is_good ? done : usage;
-  const auto fail = [](const std::exception& error, Exit code) {
-    std::cerr << "sculpt: " << error.what() << '\n';
-    return code;
+  const auto exit_code_of = [](const std::exception& error) {
+    return examples::is_a<Delta_of_no_use>(error) ? examples::mesh_refused : examples::exit_code_of(error);
   };
-  try {
+  return examples::run_mesh_program("sculpt", [&]() -> int {
+    const examples::Printable_stream table(std::cout);
+    Arguments arguments;
+    if (const auto is_good = read_arguments(argc, argv, arguments))
+      return *is_good ? examples::done : examples::usage;
     return sculpt(arguments);
-  } catch (const Usage_error& error) {
-    return fail(error, usage);
-  } catch (const Foreign_log& error) {
-    return fail(error, foreign_log);
-  } catch (const Invalid_parameter& error) {
-    return fail(error, usage);
-  } catch (const Read_error& error) {
-    return fail(error, mesh_refused);
-  } catch (const Invalid_surface& error) {
-    std::cerr << "sculpt: " << in_words_of_a_user(error, arguments.triangulate);
-    return mesh_refused;
-  } catch (const Out_of_range& error) { // those of lengths and of the script have been found before
-    return fail(error, mesh_refused);
-  } catch (const Script_error& error) {
-    return fail(error, script_error);
-  } catch (const Write_error& error) {
-    return fail(error, cannot_write);
-  } catch (const std::bad_alloc&) {
-    std::cerr << "sculpt: the memory does not suffice for this mesh and script\n";
-    return no_memory;
-  }
+  }, exit_code_of);
 }

@@ -3,8 +3,10 @@
 
 #include "keys.h"
 
+#include "../common/contents_of.h"
+#include "../common/numbers.h"
+
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <sstream>
 
@@ -44,11 +46,10 @@ public:
   }
   double number(const std::string& expected) { return number(expected, word(expected)); }
   double number(const std::string& expected, const std::string& found) const {
-    char* end = nullptr;
-    const double value = std::strtod(found.c_str(), &end);
-    if (found.empty() || *end != '\0' || !std::isfinite(value))
+    const auto value = examples::number_of(found);
+    if (!value || !std::isfinite(*value))
       fail("'" + found + "' is not " + expected);
-    return value;
+    return *value;
   }
   double number_or(double otherwise, const std::string& expected) {
     const auto found = next();
@@ -63,12 +64,11 @@ public:
       spot.coordinates = {number("a pixel", first), number("a pixel"), 0};
       return spot;
     }
-    std::istringstream parts(first.substr(1));
-    std::string part;
-    for (double& x : spot.coordinates)
-      x = std::getline(parts, part, ',') ? number("a coordinate", part) : (fail("'" + first + "' is not @X,Y,Z"), 0);
-    if (std::getline(parts, part))
+    const auto words = examples::words_of_place(first);
+    if (!words)
       fail("'" + first + "' is not @X,Y,Z");
+    for (std::size_t i = 0; i < 3; ++i)
+      spot.coordinates[i] = number("a coordinate", (*words)[i]);
     return spot;
   }
   void end() {
@@ -231,7 +231,7 @@ private:
 
 std::vector<Action> read_actions(const std::string& text, const std::string& name) {
   std::vector<Action> actions;
-  std::istringstream lines(text);
+  std::istringstream lines{std::string(examples::without_byte_order_mark(text))};
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
     Line words(line, name, number);

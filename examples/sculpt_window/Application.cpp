@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Application.h"
 
+#include "../common/mesh_program.h"
+
 #include <cstring>
+#include <iostream>
 
 namespace haptic_sculpt::window_program {
 
@@ -61,7 +64,7 @@ void Application::say(const std::string& text) {
 
 void Application::fail_to_write(const std::string& what) {
   say(what);
-  std::fprintf(stderr, "sculpt_window: %s\n", what.c_str());
+  std::cerr << "sculpt_window: " << what << '\n';
   has_failed_to_write_ = true;
 }
 
@@ -195,9 +198,9 @@ void Application::take_reports() {
       left_.push_back(report.model);
       break;
     case Report::Kind::copied:
-      background_.save(report.copy, names_to_save_.front(), report.edits);
-      names_to_save_.pop_front();
-      if (!names_to_save_.empty())
+      background_.save(report.copy, to_save_.front().path, report.edits, to_save_.front().quits);
+      to_save_.pop_front();
+      if (!to_save_.empty())
         ask(request_here(Kind::copy));
       break;
     }
@@ -208,8 +211,8 @@ void Application::take_reports() {
     if (auto opened = background_.take_opened())
       enter(std::move(*opened));
   } catch (const Error& error) {
-    say(error.what());
-    std::fprintf(stderr, "sculpt_window: %s\n", error.what());
+    say(examples::message_of(error));
+    std::cerr << "sculpt_window: " << examples::message_of(error) << '\n';
     has_failed_to_open_ = true;
   }
   while (const auto saved = background_.take_saved()) {
@@ -218,10 +221,9 @@ void Application::take_reports() {
         std::rethrow_exception(saved->error);
       is_saved_ = true, saved_edits_ = saved->edits;
       say("saved " + saved->path + (saved->lost.empty() ? "" : ": " + saved->lost));
-      is_done_ = is_done_ || quits_after_save_;
-    } catch (const Error& error) {
+      is_done_ = is_done_ || saved->quits;
+    } catch (const std::exception& error) {
       fail_to_write(error.what());
-      quits_after_save_ = false;
     }
   }
 }

@@ -77,6 +77,8 @@ public:
   int finish();
   /// A file could not be written: the exit code says so.
   void fail_to_write(const std::string& what);
+  /// Ends as soon as it can, without asking; a log keeps what is not saved.
+  void end() { is_done_ = true; }
 
 private:
   Options options_;
@@ -91,7 +93,12 @@ private:
   std::size_t resumed_ = 0;
   std::uint64_t saved_edits_ = 0;
   bool is_saved_ = false;                 ///< at least once
-  std::deque<std::string> names_to_save_; ///< of copies that were asked for
+  /// A copy of the mesh that was asked for.
+  struct Saving {
+    std::string path;
+    bool quits; ///< once it is written
+  };
+  std::deque<Saving> to_save_;
   std::deque<Request> waiting_;           ///< requests that found the queue full
   std::vector<Model*> left_;
   bool keeps_log_ = true; ///< that of the mesh shown before
@@ -109,7 +116,7 @@ private:
   Tick_statistics frames_, frames_of_thread_, frames_of_process_;
   int frames_due_ = 3;
   Clock::time_point last_frame_{};
-  bool is_done_ = false, has_failed_to_write_ = false, quits_after_save_ = false, discards_ = false;
+  bool is_done_ = false, has_failed_to_write_ = false, discards_ = false;
   std::string screenshot_, last_refusal_;
   int screenshots_ = 0;
 
@@ -119,6 +126,7 @@ private:
   int settled_frames_ = 0;
 
   std::FILE* record_ = nullptr;
+  std::string recorded_to_;
   Clock::time_point last_recorded_{};
 
   bool is_unsaved() const;
@@ -132,7 +140,8 @@ private:
   void enter(Opened opened);
   void take_reports();
   void leave(Model* model, bool keeps_log);
-  void save(const std::string& path);
+  void save(const std::string& path, bool quits = false);
+  bool may_write(const std::string& path, bool is_mesh);
   void open(const std::string& path);
   void quit();
   void obey(Order order);

@@ -3,7 +3,7 @@
 /// What keys and questions order.
 #include "Application.h"
 
-#include "../sculpt/output_targets.h"
+#include "../common/output_targets.h"
 
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 
@@ -145,17 +145,34 @@ void Application::obey(Order order) {
   }
 }
 
-void Application::save(const std::string& path) {
-  if (!mesh_file_format(path)) {
-    say("'" + path + "' does not end in .off, .ply, .obj or .stl");
+/// Whether it is no other file of this run; where it is, that has been told, and in a script counts as not written.
+/// \param is_mesh it is to be the sculpted mesh, which may take the place of the one that was read where no log begins
+/// with that
+bool Application::may_write(const std::string& path, bool is_mesh) {
+  std::string why;
+  std::vector<examples::Named_file> files = {{"the log", log_},
+                                             {"the script", options_.script},
+                                             {"the report", options_.report},
+                                             {"the recording", recorded_to_}};
+  if (!is_mesh || !log_.empty())
+    files.push_back({"the mesh that is open", path_});
+  if (!is_mesh)
+    files.push_back({"where the sculpted mesh goes", options_.out});
+  if (const auto* const other = examples::same_file(path, files))
+    why = "'" + path + "' is " + other->role + (is_mesh && other->path == path_ ? ", which the log begins with" : "") +
+          ": give another name";
+  else if (is_mesh && !mesh_file_format(path))
+    why = "'" + path + "' does not end in .off, .ply, .obj or .stl";
+  if (!why.empty())
+    is_playing() ? fail_to_write(why) : say(why);
+  return why.empty();
+}
+
+void Application::save(const std::string& path, bool quits) {
+  if (!may_write(path, true))
     return;
-  }
-  if (!log_.empty() && (sculpt_program::are_one_file(path, path_) || sculpt_program::are_one_file(path, log_))) {
-    say("'" + path + "' is what the log begins with: give the sculpted mesh another name");
-    return;
-  }
-  names_to_save_.push_back(path);
-  if (names_to_save_.size() == 1)
+  to_save_.push_back({path, quits});
+  if (to_save_.size() == 1)
     ask(request_here(Kind::copy));
 }
 

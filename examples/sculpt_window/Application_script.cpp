@@ -3,6 +3,8 @@
 /// Scripts and recordings of the window, and what it writes at the end.
 #include "Application.h"
 
+#include "../common/json_words.h"
+
 #include <haptic_sculpt/surface/Write_error.h>
 #include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/version.h>
@@ -34,7 +36,7 @@ Eigen::Vector2d Application::pixel_of(const Spot& spot) const {
 }
 
 bool Application::is_settled() const {
-  return waiting_.empty() && thread_.is_idle() && status_.dirty_faces == 0 && names_to_save_.empty() &&
+  return waiting_.empty() && thread_.is_idle() && status_.dirty_faces == 0 && to_save_.empty() &&
          !background_.is_opening() && !background_.is_saving();
 }
 
@@ -142,7 +144,8 @@ bool Application::act(const Action& action) {
   case Kind::screenshot:
     if (!is_settled())
       return false;
-    screenshot_ = action.word;
+    if (may_write(action.word, false))
+      screenshot_ = action.word;
     return true;
   case Kind::save:
     save(action.word);
@@ -201,16 +204,16 @@ void Application::print_status() const {
                {"uploaded_faces", view_.uploaded_faces()}};
   if (s.hold == Status::Hold::vertex)
     json["vertex"] = s.vertex;
-  std::cout << json.dump() << std::endl;
+  std::cout << examples::text_of(json) << std::endl;
 }
 
 void Application::record(const std::string& path) {
   if (record_ != nullptr) {
     std::fclose(record_);
-    record_ = nullptr;
+    record_ = nullptr, recorded_to_.clear();
     say("the recording has ended");
   }
-  if (path.empty())
+  if (path.empty() || !may_write(path, false))
     return;
   record_ = std::fopen(path.c_str(), "w");
   if (record_ == nullptr)
@@ -218,6 +221,7 @@ void Application::record(const std::string& path) {
   std::fprintf(record_, "# sculpt_window of haptic_sculpt %s, a window of %d x %d\n", HAPTIC_SCULPT_VERSION,
                view_size_[0], view_size_[1]);
   last_recorded_ = Clock::now();
+  recorded_to_ = path;
   say("recording to " + path);
 }
 
@@ -271,7 +275,7 @@ int Application::finish() {
                          {"faces", last.faces},
                          {"edits", last.edits}};
     try {
-      replace_file(options_.report, report.dump(2) + '\n');
+      replace_file(options_.report, examples::text_of(report, 2) + '\n');
     } catch (const Write_error& error) {
       fail_to_write(error.what());
     }

@@ -23,9 +23,9 @@ std::optional<Opened> Background::take_opened() {
   return opening_.get();
 }
 
-void Background::save(const Saved_copy& copy, const std::string& path, std::uint64_t edits) {
+void Background::save(const Saved_copy& copy, const std::string& path, std::uint64_t edits, bool quits) {
   saving_.push_back(std::async(std::launch::async, [=] {
-    Saved saved{path, edits, {}, nullptr};
+    Saved saved{path, edits, quits, {}, nullptr};
     try {
       saved.lost = write_copy(*copy, path);
     } catch (...) { // handed on to the window's thread, which tells it

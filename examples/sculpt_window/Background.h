@@ -21,10 +21,11 @@ public:
   struct Saved {
     std::string path;
     std::uint64_t edits = 0; ///< of the mesh that was written
+    bool quits = false;      ///< what was asked for is to end then
     std::string lost;        ///< what of an old file could not be kept
     std::exception_ptr error;
   };
-  void save(const Saved_copy& copy, const std::string& path, std::uint64_t edits);
+  void save(const Saved_copy& copy, const std::string& path, std::uint64_t edits, bool quits);
   bool is_saving() const { return !saving_.empty(); }
   /// What has been written by now, in order.
   std::optional<Saved> take_saved();

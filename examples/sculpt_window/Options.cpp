@@ -3,6 +3,8 @@
 
 #include "keys.h"
 
+#include "../common/output_targets.h"
+
 #include <haptic_sculpt/version.h>
 
 #include <CLI/CLI.hpp>
@@ -30,11 +32,29 @@ std::string lists() {
          "  tool drag|probe|create|remove|brush | brush KIND RADIUS [STRENGTH] | depth LENGTH\n"
          "  wait SECONDS | settle | screenshot FILE | save FILE | open FILE | record FILE\n"
          "  print | where PLACE | close | quit\n"
-         "Exit: 0 done, 1 out of memory, 2 usage, 3 mesh refused, 4 script error, 5 cannot write, 6 log of another "
+         "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 script error, 5 cannot write, 6 log of another "
          "mesh, 7 no window can be made.";
 }
 
 } // namespace
+
+void check_files(const Options& options) {
+  examples::check_mesh_name({"-o", options.out});
+  examples::check_picture_name({"--screenshot", options.screenshot});
+  examples::Run_files files;
+  files.outputs = {{"-o", options.out},
+                   {"--record", options.record},
+                   {"--report", options.report},
+                   {"--screenshot", options.screenshot},
+                   {"the log", options.log_of(options.mesh)}};
+  files.inputs = {{"MESH", options.mesh}, {"--script", options.script}};
+  if (options.without_log) // a log begins with the mesh
+    files.replaced_by = "-o", files.replaced = "MESH";
+  files.check_apart();
+  for (const std::string& path : {options.report, options.screenshot}) // what is saved may find another place later
+    if (!path.empty())
+      examples::check_target(path);
+}
 
 std::optional<bool> read_options(int argc, char** argv, Options& options) {
   CLI::App app("A window to sculpt a closed triangle mesh in; no surface ever passes through a surface.");

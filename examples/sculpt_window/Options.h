@@ -17,9 +17,13 @@ struct Options {
 
   /// The log of a mesh: the one that was asked for, of the first; else one beside it, which is gone when all is well.
   std::string log_of(const std::string& path) const {
-    return without_log ? "" : !log.empty() && path == mesh ? log : path + ".log";
+    return without_log ? "" : !log.empty() && path == mesh ? log : log_beside(path);
   }
+  static std::string log_beside(const std::string& path) { return path + ".log"; }
 };
+
+/// \throw Usage_error, Write_error where one file of the run would be written over another, or cannot be written
+void check_files(const Options& options);
 
 /// Where the program is to end now, people have been told: true for what they asked for, false for what is wrong.
 std::optional<bool> read_options(int argc, char** argv, Options& options);

@@ -3,6 +3,7 @@
 
 #include "Brush_task.h"
 #include "Loop_thread.h"
+#include "Options.h"
 
 #include <haptic_sculpt/surface/write_surface.h>
 
@@ -251,8 +252,30 @@ std::vector<Model*> Sculpting_thread::end() {
   return std::exchange(parts_->models, {});
 }
 
+namespace {
+
+/// What is done about a log that cannot be used depends on who has asked for it.
+std::string with_advice(const char* what, const std::string& path, const std::string& log) {
+  const bool was_asked_for = log != Options::log_beside(path);
+  return std::string(what) + (was_asked_for ? "; --no-log keeps none"
+                                            : ". It is the log that the window keeps beside a mesh: --log FILE keeps "
+                                              "another one, --no-log none; or move it away");
+}
+
+std::unique_ptr<Model> model_of(const std::string& path, const std::string& log) {
+  try {
+    return std::make_unique<Model>(path, log);
+  } catch (const sculpt_program::Foreign_log& error) {
+    throw sculpt_program::Foreign_log(with_advice(error.what(), path, log));
+  } catch (const Write_error& error) {
+    throw Write_error(with_advice(error.what(), path, log));
+  }
+}
+
+} // namespace
+
 Opened open(const std::string& path, const std::string& log) {
-  auto model = std::make_unique<Model>(path, log);
+  auto model = model_of(path, log);
   Opened opened;
   opened.path = path, opened.log = log;
   opened.resumed = model->resumed, opened.note = model->note;

@@ -149,9 +149,8 @@ void Application::draw_question() {
   if (choices_.question == Question::leave_unsaved) {
     ImGui::Text("There is work that is not saved.");
     if (ImGui::Button("Save and quit")) {
-      quits_after_save_ = true;
       choices_.question = Question::none;
-      save(options_.out);
+      save(options_.out, true);
     }
     ImGui::SameLine();
     if (ImGui::Button("Quit without saving"))

@@ -2,13 +2,11 @@
 // A window to sculpt in. See --help; what the mouse and the keys do, scripts, limits: doc/window.md.
 #include "Application.h"
 
+#include "../common/contents_of.h"
+#include "../common/mesh_program.h"
 #include "../drawing/write_png.h"
-#include "../sculpt/Log_text.h"
 
 #include <haptic_sculpt/haptic_rendering/Force_limit.h>
-#include <haptic_sculpt/surface/Invalid_surface.h>
-#include <haptic_sculpt/surface/Write_error.h>
-#include <haptic_sculpt/surface/coordinate_range.h>
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
@@ -17,12 +15,7 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
-#include <csignal>
 #include <ctime>
-#include <fstream>
-#include <iostream>
-#include <iterator>
-#include <new>
 #include <thread>
 
 namespace {
@@ -30,16 +23,7 @@ namespace {
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::window_program;
 
-enum Exit {
-  done = 0,
-  no_memory = 1,
-  usage = 2,
-  mesh_refused = 3,
-  script_error = 4,
-  cannot_write = 5,
-  foreign_log = 6,
-  no_window = 7
-};
+enum Own_exit { no_window = 7 };
 
 struct No_window : Error {
   using Error::Error;
@@ -201,21 +185,23 @@ std::uint64_t time_of(clockid_t clock) {
 
 int run(const Options& options) {
   std::vector<Action> script;
-  if (!options.script.empty()) {
-    std::ifstream file(options.script, std::ios::binary);
-    script = read_actions({std::istreambuf_iterator<char>(file), {}}, options.script);
-  }
+  if (!options.script.empty())
+    script = read_actions(examples::contents_of<Action_error>(options.script, "the script"), options.script);
+  check_files(options);
   Window window(options);
   Application application(options, std::move(script)); // destroyed first: it has parts in the window's context
   window.serve(application);
   const auto [width, height] = window.size();
   application.open_first(width, height);
+  const std::atomic<bool>& is_ended = examples::end_in_order_by_signals(); // from here on: reading may take its time
   using Clock = std::chrono::steady_clock;
   const auto frame_time = std::chrono::microseconds(16667);
   for (auto due = Clock::now(); !application.is_done(); due = std::max(due + frame_time, Clock::now())) {
     glfwPollEvents();
     if (window.was_closed())
       application.on_close();
+    if (is_ended)
+      application.end();
     application.step();
     if (application.needs_frame()) {
       const auto begin = Clock::now();
@@ -242,34 +228,21 @@ int run(const Options& options) {
   return application.finish();
 }
 
+int exit_code_of(const std::exception& error) {
+  if (examples::is_a<No_window>(error))
+    return no_window;
+  if (examples::is_a<Action_error>(error))
+    return examples::script_error;
+  return examples::exit_code_of(error);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is told like a full disk
-  Options options;
-  if (const auto is_good = read_options(argc, argv, options))
-    return *is_good ? done : usage;
-  const auto fail = [](const std::exception& error, Exit code) {
-    std::cerr << "sculpt_window: " << error.what() << '\n';
-    return code;
-  };
-  try {
+  return examples::run_mesh_program("sculpt_window", [&] {
+    Options options;
+    if (const auto is_good = read_options(argc, argv, options))
+      return *is_good ? int(examples::done) : int(examples::usage);
     return run(options);
-  } catch (const No_window& error) {
-    return fail(error, no_window);
-  } catch (const Action_error& error) {
-    return fail(error, script_error);
-  } catch (const sculpt_program::Foreign_log& error) {
-    return fail(error, foreign_log);
-  } catch (const sculpt_program::Script_error& error) {
-    return fail(error, script_error);
-  } catch (const Write_error& error) {
-    return fail(Error(error.what() + std::string("; --log FILE puts the log elsewhere, --no-log keeps none")),
-                cannot_write);
-  } catch (const std::bad_alloc&) {
-    std::cerr << "sculpt_window: the memory does not suffice for this mesh\n";
-    return no_memory;
-  } catch (const Error& error) { // the mesh: unreadable, not valid, out of range
-    return fail(error, mesh_refused);
-  }
+  }, exit_code_of);
 }

@@ -5,6 +5,7 @@
 /// \file
 /// Exact sweep predicates on points. Needs CGAL and GMP.
 
+#include <haptic_sculpt/collision/Axis_sweep_traits_3.h>
 #include <haptic_sculpt/collision/Swept_collision_traits_3.h>
 
 #endif

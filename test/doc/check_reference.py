@@ -1,16 +1,57 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The reference has no warnings, no undocumented name, and nothing internal: check_reference.py ROOT"""
+"""The reference has no warnings, no undocumented name, and nothing internal, and in its HTML every picture and every link within it
+exists: check_reference.py ROOT"""
+import html.parser
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import urllib.parse
 
 SKIPPED = 77
 
 root = pathlib.Path(sys.argv[1])
+
+
+class Page(html.parser.HTMLParser):
+    """What a page refers to, and what in it can be referred to."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.links, self.pictures, self.names = [], [], set()
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        values = dict(attributes)
+        self.names.update(values[key] for key in ("id", "name") if values.get(key))
+        if tag == "img" and values.get("src"):
+            self.pictures.append(values["src"])
+        elif tag == "a" and values.get("href"):
+            self.links.append(values["href"])
+
+
+def broken_links(folder):
+    """Links to `#nested-classes` are Doxygen's own, of classes whose nested ones are all private."""
+    pages = {path.resolve(): Page(path.read_text()) for path in folder.rglob("*.html")}
+    broken, pictures = [], 0
+    for path, page in pages.items():
+        pictures += sum(not picture.endswith("doxygen.svg") for picture in page.pictures)
+        for link in page.links + page.pictures:
+            parts = urllib.parse.urlparse(link)
+            if parts.scheme or parts.netloc or parts.fragment == "nested-classes":
+                continue
+            target = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path
+            name = urllib.parse.unquote(parts.fragment)
+            if not target.exists() or (name and target in pages and name not in pages[target].names):
+                broken.append(f"{path.name}: nothing is at '{link}'")
+    for path in folder.glob("md_*.html"):  # what Doxygen could not read stands in the page as it is
+        broken += [f"{path.name}: {line}" for line in path.read_text().splitlines() if re.match(r"@\w+section|@code", line)]
+    return sorted(set(broken)), len(pages), pictures
+
+
 if shutil.which("doxygen") is None:
     print("reference: doxygen is not installed, so the reference is not checked; bash .ci/install_packages installs it")
     sys.exit(SKIPPED)
@@ -28,9 +69,14 @@ with tempfile.TemporaryDirectory() as folder:
     for name in ("haptic_sculpt::Sculptor", "haptic_sculpt::Swept_collision_traits_3", "SweptCollisionTraits_3"):
         if name not in names:  # then nothing was read, and no warning means nothing
             faults.append(f"not in the reference: {name}")
-    faults += warnings_of("", r"doc/\w+\.md|README\.md")  # links of pages that lead nowhere
+    faults += warnings_of("", r"doc/[\w/]+\.md|README\.md")  # links of pages that lead nowhere
+    broken, pages, pictures = broken_links(pathlib.Path(folder, "html"))
+    faults += broken
+    in_source = sum(len(re.findall(r"!\[[^\]]*\]\(", page.read_text())) for page in [*root.glob("doc/**/*.md"), root / "README.md"])
+    if pictures < in_source:
+        faults.append(f"{pictures} pictures in the HTML, {in_source} in the pages it is made from")
 
 for fault in faults:
     print(fault)
-print(f"reference: {len(names)} classes, structs and namespaces, {len(faults)} faults")
+print(f"reference: {len(names)} classes, structs and namespaces, {pages} pages with {pictures} pictures, {len(faults)} faults")
 sys.exit(1 if faults else 0)

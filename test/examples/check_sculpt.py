@@ -456,6 +456,12 @@ def queries(folder):
     check(ask("EE 0 0 1 0 0 2 0 0 0 -1 0 0 1 0 0\n").stdout == "1 0/1\n", "meeting without the moving end")
     check(ask("VF 0 0 0 0 0 0 0 0 0 1 0 0 0 1 0\n").stdout == "1 0/1\n", "standing still in contact")
     check(ask("VF 0 0 1 0 0 0 0 0 0 1 0 0 0 1 0\n").stdout == "1 1/1\n", "contact at the end")
+    axis_move = "AX VF 2 1 1 1 0 0 0 4 0 0 0 4 0 0 0 0 0\n"
+    crossing = "AX EE 0 1 -1 0 1 1 0 0 0 -1 0 0 1 -0x1p-3 2 0 0\n"
+    check(ask(axis_move + axis_move.replace("0 0 0 0\n", "0x1p-1074 0 0 0\n") + crossing).stdout == "1\n0\n0\n", "axis moves")
+    fails(2, ["line 1", "column 7"], ask(axis_move.replace("VF 2", "VF 3")), "no such axis")
+    fails(2, ["line 1", "column 4"], ask(axis_move.replace("VF", "FV")), "no such question about an axis move")
+    fails(2, ["line 1", "16 coordinates"], ask(axis_move.replace("\n", " 1\n")), "a long line")
     fails(2, ["line 2", "column 1"], ask(vertex_face + "VX 1\n"), "unknown kind")
     fails(2, ["line 1", "column 6"], ask(vertex_face.replace("0.25 0.25 1", "0.25x 0.25 1").replace("VF 0.25x", "VF 0 zz")), "bad number")
     fails(2, ["line 1", "finite"], ask(vertex_face.replace("-1", "inf")), "infinite coordinate")

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_COLLISION_COMPARE_TIME_3_H
 #define HAPTIC_SCULPT_COLLISION_COMPARE_TIME_3_H
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/collision/Impact_3.h>
 
 namespace haptic_sculpt {
@@ -19,6 +20,7 @@ public:
 
   /// `SMALLER` where `a` comes first. Constant cost; allocates only where coordinates need GMP integers.
   result_type operator()(const Impact_3<K>& a, const Impact_3<K>& b) const {
+    const internal::Rounding_to_nearest rounding;
     Counters ignored;
     return static_cast<result_type>(internal::compare_times(a.coordinates(), a.verdict(), b.coordinates(), b.verdict(),
                                                             counters_ != nullptr ? *counters_ : ignored));

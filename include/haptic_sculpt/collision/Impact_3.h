@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_COLLISION_IMPACT_3_H
 #define HAPTIC_SCULPT_COLLISION_IMPACT_3_H
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/collision/arithmetic/sweep_time.h>
 
 #include <CGAL/enum.h>
@@ -59,26 +60,40 @@ public:
 
   /// An interval that contains the time u in [0, 1] at which the features first meet; J(u) = S + u (T - S).
   /// The interval is at most 2^-40 wide. No allocation where the filter gives as much.
-  std::pair<double, double> time() const { return internal::enclosed_time(points_, verdict_); }
+  std::pair<double, double> time() const {
+    const internal::Rounding_to_nearest rounding;
+    return internal::enclosed_time(points_, verdict_);
+  }
 
   /// An interval that contains the time, as the filter gives it: at constant cost and without allocation, but wider than [0, 1]
   /// where the filter knows nothing.
-  std::pair<double, double> time_bounds() const { return internal::filtered_time(points_, verdict_); }
+  std::pair<double, double> time_bounds() const {
+    const internal::Rounding_to_nearest rounding;
+    return internal::filtered_time(points_, verdict_);
+  }
 
   /// The same as time(), with neighbouring doubles (or one double) as ends. Allocates.
-  std::pair<double, double> tight_time() const { return internal::tight_time(points_, verdict_); }
+  std::pair<double, double> tight_time() const {
+    const internal::Rounding_to_nearest rounding;
+    return internal::tight_time(points_, verdict_);
+  }
 
   /// The time as a GMP rational in lowest terms. Allocates.
-  mpq_class exact_time() const { return internal::exact_time(points_, verdict_); }
+  mpq_class exact_time() const {
+    const internal::Rounding_to_nearest rounding; // subnormal numbers count
+    return internal::exact_time(points_, verdict_);
+  }
 
   /// Whether the time is exactly 0.
   bool is_at_start() const {
+    const internal::Rounding_to_nearest rounding;
     No_filter_counters uncounted;
     return internal::compare_times(points_, verdict_, points_, internal::Sweep_verdict(), uncounted) == 0;
   }
 
   /// Compares the times, exactly, whatever the features.
   friend CGAL::Comparison_result compare_time(const Impact_3& a, const Impact_3& b) {
+    const internal::Rounding_to_nearest rounding;
     No_filter_counters uncounted;
     return static_cast<CGAL::Comparison_result>(
         internal::compare_times(a.points_, a.verdict_, b.points_, b.verdict_, uncounted));

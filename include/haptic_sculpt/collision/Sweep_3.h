@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_COLLISION_SWEEP_3_H
 #define HAPTIC_SCULPT_COLLISION_SWEEP_3_H
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/collision/Impact_3.h>
 #include <haptic_sculpt/collision/arithmetic/sweep_decision.h>
 #include <haptic_sculpt/collision/arithmetic/sweep_points.h>
@@ -31,6 +32,7 @@ public:
   /// \pre all coordinates are finite; the ends of a still edge, of an edge that a moving face has, differ
   result_type operator()(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b,
                          const Point_3& c) const {
+    const internal::Rounding_to_nearest rounding;
     const internal::Sweep_points points = checked_points(s, t, a, b, c);
     const internal::Sweep_verdict verdict = decide(points);
     if (!verdict.hits)
@@ -40,6 +42,7 @@ public:
 
   /// Whether the closed sets meet: the same answer as operator(), without building the impact.
   bool do_collide(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b, const Point_3& c) const {
+    const internal::Rounding_to_nearest rounding;
     return decide(checked_points(s, t, a, b, c)).hits;
   }
 

@@ -19,6 +19,9 @@ namespace haptic_sculpt {
 ///   `edge_created`, `face_created` of what it has made. Each element once.
 /// - A face or edge is the triangle or segment of its vertices: one that is replaced has died, though one of the new ones may have
 ///   got its descriptor, as Surface_mesh uses them again, within one edit too. What died has to be forgotten before the new is noted.
+/// - A visitor that has data of its own for faces or edges may also have `face_replaces(created, dead)` and
+///   `edge_replaces(created, dead)`: before `vertex_created`, for each new element that comes from an old one, with the descriptor
+///   that the old one had (doc/properties.md says which comes from which). Undo and redo tell it, too.
 /// - Nothing is told of what was refused, of a drag that did not move, of Sculptor::probe(), of set_delta() and the like; of an undo
 ///   that a probe in its way refused halfway, what was taken back and made again.
 ///

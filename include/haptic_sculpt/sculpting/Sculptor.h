@@ -53,11 +53,12 @@ public:
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
   /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
   explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
-    : guarded_(mesh, options, std::move(visitor), [](Filter_counters& counters) { return traits_that_count(counters); }) {}
+    : guarded_(mesh, options, std::move(visitor), [](Filter_counters& counters) { return traits_that_count(counters); },
+               internal::Rounding_to_nearest()) {}
 
   /// The same with traits of its own, which are copied. \throw as above
   Sculptor(Mesh_type& mesh, const Sculptor_parameters& options, Visitor visitor, const Traits& traits)
-    : guarded_(mesh, options, std::move(visitor), [&traits](Filter_counters&) { return traits; }) {}
+    : guarded_(mesh, options, std::move(visitor), [&traits](Filter_counters&) { return traits; }, internal::Rounding_to_nearest()) {}
   ~Sculptor() { set_hand(nullptr); }
 
   Sculptor(const Sculptor&) = delete;
@@ -74,6 +75,7 @@ public:
 
   /// Takes a vertex in hand. \throw Unknown_vertex, Mesh_changed
   Grab_type grab(Vertex_index v) {
+    const internal::Rounding_to_nearest rounding;
     release();
     guarded_.hold(v);
     return Grab_type(*this, name(v));
@@ -125,6 +127,7 @@ public:
   /// Creates a vertex at `p` and joins it to the corners of f, whose place the three new faces take.
   /// \post f has died; its edges and corners have not. \throw Out_of_range
   Edited insert_on_face(Face_index f, const Point& p) {
+    const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
     if (!f.is_valid() || static_cast<std::size_t>(f) >= mesh().num_faces() || mesh().is_removed(f))
       return Edited::refused(Refusal_reason::unknown_element);
@@ -134,6 +137,7 @@ public:
   /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of two.
   /// \post e and its two faces have died, no vertex has. \throw Out_of_range
   Edited insert_on_edge(Edge_index e, const Point& p) {
+    const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
     if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh().num_edges() || mesh().is_removed(e))
       return Edited::refused(Refusal_reason::unknown_element);
@@ -201,6 +205,25 @@ public:
   void reserve(std::size_t edits, std::size_t moves) { guarded_.reserve(edits, moves); }
   ///@}
 
+  /// Keeps the values of a property map from now on: what undo and redo revive has its values again, and what edits
+  /// create gets a value made of those of the elements it comes from (doc/properties.md); where it comes from none, the
+  /// mesh's default.
+  ///
+  /// \param map a model of `ReadWritePropertyMap`, copied; its keys are vertices, halfedges, edges or faces of the mesh
+  /// \param carry `value carry(const Property_origin<value>&)`: Copy_property, Interpolate_property, or your own
+  ///
+  /// What the functions of the map and `carry` throw goes on to the caller of the edit, which stands; where a value
+  /// cannot be copied before the edit, the edit is not made. Cost: while a map is kept, an edit looks up its names, n log
+  /// n in the valence; the history keeps the values of what dies, which `history().bytes()` does not count.
+  template <class Map, class Carry = Copy_property>
+  void keep(Map map, Carry carry = Carry()) {
+    using Key = typename boost::property_traits<Map>::key_type;
+    static_assert(std::is_same<Key, Vertex_index>::value || std::is_same<Key, Halfedge_index>::value ||
+                    std::is_same<Key, Edge_index>::value || std::is_same<Key, Face_index>::value,
+                  "Sculptor::keep: the keys of the map must be vertices, halfedges, edges or faces of the mesh");
+    guarded_.editor().kept().add(map, std::move(carry));
+  }
+
   /// \name Numbers of vertices that last
   /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo revives it.
   ///@{
@@ -229,12 +252,14 @@ public:
   /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length set, or
   /// the default.
   double clearance(const Point& p) const {
+    const internal::Rounding_to_nearest rounding;
     return internal::Clearance_rule(options().clearance_length).at(internal::largest_magnitude(internal::coordinates(p)));
   }
 
   /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene as it is (Sculptor_parameters), and
   /// nothing changes. Cost: reads every point.
   void set_clearance(double length) {
+    const internal::Rounding_to_nearest rounding;
     const Sculptor_parameters changed = Sculptor_parameters(options()).clearance(length);
     internal::check_parameters(changed);
     internal::check_clearance(mesh(), changed);
@@ -247,6 +272,7 @@ public:
   /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
   /// of validate().
   void set_delta(double length) {
+    const internal::Rounding_to_nearest rounding;
     const Sculptor_parameters changed = Sculptor_parameters(options()).delta(length);
     release();
     internal::checked_scene(mesh(), changed);

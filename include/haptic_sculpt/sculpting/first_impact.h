@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_FIRST_IMPACT_H
 
 #include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/motion/Narrow_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
@@ -15,7 +16,7 @@ public:
   /// Names the coordinates of p.
   template <class Point_3>
   explicit Non_finite_point(const Point_3& p)
-    : Out_of_range("the point (" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
+    : Out_of_range("the point (" + internal::number(p.x()) + ", " + internal::number(p.y()) + ", " + internal::number(p.z()) +
             ") is not finite: give three finite coordinates") {}
 };
 
@@ -61,6 +62,7 @@ void check_point(const char* what, const Point_3& p) {
 template <class Mesh, class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
 Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v,
                                                             const typename Mesh::Point& target, const Traits& traits = Traits()) {
+  const internal::Rounding_to_nearest rounding;
   internal::check_vertex(mesh, v);
   internal::check_point("the target", target);
   const auto source = vertex_coordinates(mesh, v);

@@ -72,6 +72,7 @@ private:
   static constexpr double shares[] = {1, 0.5, 0.25, 0.125};
 
   void write(key_type v, const value_type& p) const {
+    const internal::Rounding_to_nearest rounding;
     internal::check_vertex(sculptor_->mesh(), v);
     ++counts_->puts;
     const internal::Coordinates target = internal::coordinates(p);

@@ -4,8 +4,8 @@
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remesher.h>
+#include <haptic_sculpt/sculpting/many_vertices/check_remeshing.h>
 
-#include <CGAL/Named_function_parameters.h>
 #include <CGAL/property_map.h>
 
 namespace haptic_sculpt {
@@ -17,13 +17,18 @@ namespace haptic_sculpt {
 /// \param faces a range of faces of the mesh; edges on its border are not changed
 /// \param target_edge_length a length > 0; edges longer than 4/3 of it are split, edges shorter than 4/5 collapsed
 /// \param np CGAL's named parameters of these names, with its defaults: number_of_iterations (1),
-/// edge_is_constrained_map, vertex_is_constrained_map, protect_constraints (false), collapse_constraints (true),
-/// do_split, do_collapse, do_flip, do_project (all true), number_of_relaxation_steps (1), projection_functor. Others
-/// are ignored. \param parameters what CGAL does not have: feature angle, progress
+/// edge_is_constrained_map, vertex_is_constrained_map, face_patch_map, protect_constraints (false),
+/// collapse_constraints (true), relax_constraints (false), do_split, do_collapse, do_flip, do_project (all true),
+/// number_of_relaxation_steps (1), projection_functor. The others that CGAL documents for its function do not compile.
+/// \param parameters what CGAL does not have: feature angle, distance to the input, number of faces, progress
 ///
 /// A constrained edge that is split hands its constraint on, a vertex on a line of them goes only along the line, none
-/// is flipped, and relaxation leaves their ends; the map of edges is written as edges come and go. Undo does not write
-/// it. The whole is one stroke. The mesh has removed elements afterwards; who collects garbage needs a new Sculptor.
+/// is flipped, and relaxation leaves their ends, or moves them along the line (relax_constraints). The borders between
+/// patches are constrained. The maps of edges and of patches are written as edges and faces come. Undo does not write
+/// them. The whole is one stroke. The mesh has removed elements afterwards; who collects garbage needs a new Sculptor.
+///
+/// Whatever power of two all coordinates and lengths are multiplied by, the same comes out, multiplied by it, bit for
+/// bit, as long as no coordinate is subnormal or out of range.
 /// \throw Out_of_range, Invalid_parameter: nothing has changed; Mesh_changed, and what the progress function throws
 /// Cost: about 10 microseconds an operation.
 template <class Face_range, class Sculptor, class Named_parameters = CGAL::parameters::Default_named_parameters>
@@ -36,25 +41,10 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
   namespace names = CGAL::internal_np;
   using No_edges = CGAL::Static_boolean_property_map<typename Mesh::Edge_index, false>;
   using No_vertices = CGAL::Static_boolean_property_map<typename Mesh::Vertex_index, false>;
+  internal::check_named_parameters<Named_parameters>();
 
   const internal::Rounding_to_nearest rounding;
-  internal::check_range("the target edge length", target_edge_length);
-  if (!(target_edge_length > 0))
-    throw Invalid_parameter("the target edge length must be > 0, not " + internal::number(target_edge_length));
-  const double angle = parameters.feature_angle_degrees;
-  if (!(angle >= 0 && angle <= 180))
-    throw Invalid_parameter("the feature angle must be from 0 to 180 degrees, not " + internal::number(angle));
-
-  internal::Remeshing_options options;
-  options.target_edge_length = target_edge_length;
-  options.iterations = choose_parameter(get_parameter(np, names::number_of_iterations), 1u);
-  options.relaxation_steps = choose_parameter(get_parameter(np, names::number_of_relaxation_steps), 1u);
-  options.protect_constraints = choose_parameter(get_parameter(np, names::protect_constraints), false);
-  options.collapse_constraints = choose_parameter(get_parameter(np, names::collapse_constraints), true);
-  options.do_split = choose_parameter(get_parameter(np, names::do_split), true);
-  options.do_collapse = choose_parameter(get_parameter(np, names::do_collapse), true);
-  options.do_flip = choose_parameter(get_parameter(np, names::do_flip), true);
-
+  internal::check_remeshing(target_edge_length, parameters);
   const std::vector<typename Mesh::Face_index> range(faces.begin(), faces.end());
   for (const typename Mesh::Face_index f : range)
     if (!f.is_valid() || static_cast<std::size_t>(f) >= sculptor.mesh().num_faces() || sculptor.mesh().is_removed(f))
@@ -62,29 +52,48 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
                               " is not in the mesh, or was removed: give faces of mesh.faces()");
   if (range.empty())
     return {};
+
+  const internal::Scaled_points<Mesh> points(sculptor.mesh(), target_edge_length);
+  internal::Remeshing_options options;
+  options.target_edge_length = points.in_unit(target_edge_length);
+  options.iterations = choose_parameter(get_parameter(np, names::number_of_iterations), 1u);
+  options.relaxation_steps = choose_parameter(get_parameter(np, names::number_of_relaxation_steps), 1u);
+  options.protect_constraints = choose_parameter(get_parameter(np, names::protect_constraints), false);
+  options.collapse_constraints = choose_parameter(get_parameter(np, names::collapse_constraints), true);
+  options.relax_constraints = choose_parameter(get_parameter(np, names::relax_constraints), false);
+  options.do_split = choose_parameter(get_parameter(np, names::do_split), true);
+  options.do_collapse = choose_parameter(get_parameter(np, names::do_collapse), true);
+  options.do_flip = choose_parameter(get_parameter(np, names::do_flip), true);
+  constexpr bool has_functor =
+    !CGAL::parameters::is_default_parameter<Named_parameters, names::projection_functor_t>::value;
+  const bool projects = choose_parameter(get_parameter(np, names::do_project), true);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double distance = parameters.most_distance.value_or(has_functor && projects ? infinity : target_edge_length);
+  options.max_distance = distance < infinity ? points.in_unit(distance) : infinity;
+  if (options.do_split)
+    internal::check_number_of_faces(sculptor.mesh(), points, range, options, target_edge_length, parameters);
+
   const auto edge_map = choose_parameter(get_parameter(np, names::edge_is_constrained), No_edges());
   const auto vertex_map = choose_parameter(get_parameter(np, names::vertex_is_constrained), No_vertices());
-  using Edge_map = std::decay_t<decltype(edge_map)>;
-  using Marks = internal::Remeshing_marks<Mesh, Edge_map>;
+  const auto patch_map = choose_parameter(get_parameter(np, names::face_patch), internal::No_face_patches());
+  using Marks = internal::Remeshing_marks<Mesh, std::decay_t<decltype(edge_map)>, std::decay_t<decltype(patch_map)>>;
   const auto stroke = sculptor.stroke();
-  Marks marks(sculptor.mesh(), range, edge_map, vertex_map);
-  if (angle < 180)
-    marks.constrain_features(angle);
+  Marks marks(sculptor.mesh(), range, edge_map, vertex_map, patch_map);
+  if (parameters.feature_angle_degrees < 180)
+    marks.constrain_features(points, parameters.feature_angle_degrees);
+  marks.connect_patches();
 
   const auto run = [&](auto&& project) {
-    return internal::Remesher<Sculptor, Marks, std::decay_t<decltype(project)>>(sculptor, marks, project, options,
-                                                                                parameters)
-        .run();
+    using Project = std::decay_t<decltype(project)>;
+    return internal::Remesher<Sculptor, Marks, Project>(sculptor, points, marks, project, options, parameters).run();
   };
-  const auto projection = get_parameter(np, names::projection_functor);
-  using Projection = std::decay_t<decltype(projection)>;
-  const bool projects = choose_parameter(get_parameter(np, names::do_project), true);
-  if constexpr (std::is_same<Projection, names::Param_not_found>::value)
-    return run(internal::Projection_onto_input<Mesh>(sculptor.mesh(), range, projects));
-  else if (projects)
-    return run(internal::Projection_by_function<Mesh, Projection>(projection));
-  else
-    return run(internal::Projection_onto_input<Mesh>(sculptor.mesh(), range, false));
+  if constexpr (has_functor) {
+    const auto functor = get_parameter(np, names::projection_functor);
+    if (projects)
+      return run(internal::Projection_by_function<Mesh, std::decay_t<decltype(functor)>>(functor));
+  }
+  return run(internal::Projection_onto_input<Mesh>(sculptor.mesh(), points, range, marks.patches(),
+                                                   projects && !has_functor));
 }
 
 /// The same for all faces.

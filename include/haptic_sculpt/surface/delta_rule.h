@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_DELTA_RULE_H
 #define HAPTIC_SCULPT_SURFACE_DELTA_RULE_H
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/cgal_compatibility.h>
 
 #include <CGAL/FPU.h>
@@ -32,6 +33,7 @@ public:
   /// never satisfies the rule; for `delta == 0` every other one does.
   /// \pre the coordinates are finite
   bool operator()(const Point_3& a, const Point_3& b, const Point_3& c) const {
+    const internal::Rounding_to_nearest rounding; // subnormal numbers count
     {
       CGAL::Protect_FPU_rounding<true> upward;
       const auto holds = decide<CGAL::Interval_nt<false>>(a, b, c);

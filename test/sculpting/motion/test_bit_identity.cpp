@@ -2,12 +2,11 @@
 // Two sculptors do the same: one with the box tree, one that looks at every face. Drags, creations, removals, undo and redo are mixed;
 // every result with its contacts, and every coordinate, has to be the same to the bit.
 #include "sculpting/edits/random_edits.h"
+#include "sculpting/motion/same_bits.h"
 
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 
 #include <boost/test/unit_test.hpp>
-
-#include <cstring>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -16,26 +15,6 @@ namespace {
 
 using Drag = Drag_result<Mesh>;
 using Edited = Edit_result<Mesh>;
-
-bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-bool same_bits(const Point_3& a, const Point_3& b) { return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z()); }
-bool same_bits(const Point_3::R::Vector_3& a, const Point_3::R::Vector_3& b) {
-  return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z());
-}
-
-bool same(const Contact_3<Mesh>& a, const Contact_3<Mesh>& b) {
-  return a.kind == b.kind && a.vertices == b.vertices && same_bits(a.normal, b.normal) && same_bits(a.plane[0], b.plane[0]) &&
-         same_bits(a.plane[1], b.plane[1]) && same_bits(a.plane[2], b.plane[2]) && a.is_flat == b.is_flat &&
-         a.location == b.location && a.side == b.side;
-}
-
-bool same(const Drag& a, const Drag& b) {
-  return same_bits(a.position, b.position) && a.reached == b.reached && a.end == b.end && a.legs == b.legs &&
-         same_bits(a.stop_error, b.stop_error) && same_bits(a.stop_error_along_path, b.stop_error_along_path) &&
-         same_bits(a.kkt_residual, b.kkt_residual) &&
-         std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
-                    [](const auto& x, const auto& y) { return same(x, y); });
-}
 
 bool same(const Edited& a, const Edited& b) {
   return a.vertex == b.vertex && a.refusal.has_value() == b.refusal.has_value() &&
@@ -106,7 +85,7 @@ private:
       const Drag first = grab.drag_to(target), second = other.drag_to(target);
       tally_.blocked += !first.reached;
       tally_.with_contacts += !first.contacts.empty();
-      if (!same(first, second) || !same_bits(a_.point(v), b_.point(v)))
+      if (!same_bits(first, second) || (!forgets_ && first.work != second.work) || !same_bits(a_.point(v), b_.point(v)))
         return differ("a drag");
     }
   }
@@ -142,14 +121,8 @@ private:
   }
 
   void compare_meshes() {
-    if (a_.num_vertices() != b_.num_vertices() || a_.num_faces() != b_.num_faces())
-      return differ("the number of elements");
-    for (const Vertex_index v : a_.vertices())
-      if (b_.is_removed(v) || !same_bits(a_.point(v), b_.point(v)))
-        return differ("a coordinate");
-    for (const auto f : a_.faces())
-      if (b_.is_removed(f) || internal::corners_of_face(a_, f) != internal::corners_of_face(b_, f))
-        return differ("a face");
+    if (!same_bits(a_, b_))
+      differ("the mesh");
   }
 };
 

@@ -25,10 +25,10 @@ struct Checked_mesh : Changing_mesh {
     six_lists.query(box, lists);
     tree.query(box, leaves);
     // Of the tree it is known exactly what it should say: which of the rounded boxes meet.
-    const internal::Float_box around = internal::Float_box::query(box);
+    const internal::Float_box around = tree.scale().query(box);
     for (const Face_index f : mesh.faces()) {
       internal::Box_node node;
-      node.set(0, internal::Float_box(face_box(mesh, f)));
+      node.set(0, tree.scale().around(face_box(mesh, f)));
       if (node.meeting(around) == 1)
         rounded.push_back(f);
     }

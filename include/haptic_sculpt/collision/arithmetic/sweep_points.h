@@ -19,7 +19,8 @@ Sweep_points sweep_points(const Point_3& s, const Point_3& t, const Point_3& a, 
   return {coordinates(s), coordinates(t), coordinates(a), coordinates(b), coordinates(c)};
 }
 
-inline bool are_finite(const Sweep_points& points) {
+template <std::size_t size>
+bool are_finite(const std::array<Coordinates, size>& points) {
   for (const Coordinates& p : points)
     for (double x : p)
       if (!std::isfinite(x))

@@ -9,6 +9,7 @@
 /// u = a / (a + b) with a = |f(S)|, b = |f(T)|. See doc/exact_sweeps.md, "The time of an impact".
 
 #include <haptic_sculpt/collision/arithmetic/Sweep_verdict.h>
+#include <haptic_sculpt/collision/arithmetic/unit_of.h>
 #include <haptic_sculpt/collision/arithmetic/Wide_double.h>
 #include <haptic_sculpt/collision/arithmetic/orientation_filter.h>
 
@@ -23,16 +24,35 @@ constexpr double unit_roundoff_any_rounding = 0x1p-52;
 /// An enclosure of the time wider than this (absolute, times are in [0, 1]) is computed anew from the exact ratio.
 constexpr double widest_filtered_time = 0x1p-40;
 
-/// f at the moving vertex's start (`end == 0`) or target (`end == 1`), in doubles.
-inline Enclosed_determinant enclosed_time_function(const Sweep_points& p, const Sweep_verdict& verdict, int end) {
+/// f at the moving vertex's start (`end == 0`) or target (`end == 1`), in doubles. \param unit a power of two, by which
+/// differences are multiplied: what underflows then is far less than what is safe
+inline Enclosed_determinant enclosed_time_function(const Sweep_points& p, const Sweep_verdict& verdict, int end, double unit) {
   const auto& through = verdict.through;
+  const auto from = [&](const Coordinates& q) {
+    const Coordinates d = difference(q, p[through[0]]);
+    return Coordinates{d[0] * unit, d[1] * unit, d[2] * unit};
+  };
   if (verdict.form == Time_form::plane)
-    return enclosed_orientation_3(p[through[0]], p[through[1]], p[through[2]], p[end]);
+    return enclosed_determinant_3(from(p[through[1]]), from(p[through[2]]), from(p[end]));
   if (verdict.form == Time_form::line)
-    return enclosed_orientation_2(p[through[0]], p[through[1]], p[end], verdict.axis);
-  const double value = p[end][verdict.axis] - p[through[0]][verdict.axis], magnitude = std::abs(value);
+    return enclosed_orientation_2(Coordinates{}, from(p[through[1]]), from(p[end]), verdict.axis);
+  const double value = from(p[end])[verdict.axis], magnitude = std::abs(value);
   const double error = unit_roundoff_any_rounding * magnitude; // itself 0 by underflow where the value is not safe
   return {value, error, value == 0 || (magnitude >= least_safe_difference && magnitude <= largest_safe_difference)};
+}
+
+/// That of the largest difference that the time depends on.
+inline double unit_of_differences(const Sweep_points& p, const Sweep_verdict& verdict) {
+  const std::size_t others = verdict.form == Time_form::plane ? 2 : verdict.form == Time_form::line ? 1 : 0;
+  double largest = 0;
+  const auto include = [&](const Coordinates& q) {
+    const Coordinates d = difference(q, p[verdict.through[0]]);
+    largest = std::max(largest, largest_magnitude(d[0], d[1], d[2]));
+  };
+  include(p[0]), include(p[1]);
+  for (std::size_t i = 1; i <= others; ++i)
+    include(p[verdict.through[i]]);
+  return unit_of(largest);
 }
 
 /// The time as a fraction of non-negative integers. Wide has room for a sum of two 3x3 determinants.
@@ -106,8 +126,11 @@ inline std::pair<double, double> tight_time(const Sweep_points& p, const Sweep_v
 inline std::pair<double, double> filtered_time(const Sweep_points& p, const Sweep_verdict& verdict) {
   if (verdict.form == Time_form::at_start)
     return {0, 0};
-  const Enclosed_determinant start = enclosed_time_function(p, verdict, 0);
-  const Enclosed_determinant target = enclosed_time_function(p, verdict, 1);
+  Enclosed_determinant start = enclosed_time_function(p, verdict, 0, 1), target = enclosed_time_function(p, verdict, 1, 1);
+  if (!(start.is_safe && target.is_safe)) { // in another unit; the time has none
+    const double unit = unit_of_differences(p, verdict);
+    start = enclosed_time_function(p, verdict, 0, unit), target = enclosed_time_function(p, verdict, 1, unit);
+  }
   if (start.is_safe && start.error == 0)
     return {0, 0};
   if (target.is_safe && target.error == 0)

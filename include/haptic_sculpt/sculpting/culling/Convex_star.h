@@ -38,6 +38,13 @@ public:
       link_[i] = minus(star.link_points[i], source);
       reach_ = larger(reach_, quick_magnitude(link_[i]));
     }
+    unit_ = reach_ > least_plain && reach_ < largest_plain ? 1 : unit_of(reach_);
+    if (unit_ != 1) {
+      reach_ *= unit_;
+      target_ = scaled(target_, unit_);
+      for (std::size_t i = 0; i < n; ++i)
+        link_[i] = scaled(link_[i], unit_);
+    }
     for (std::size_t i = 0; i < n; ++i) // in the orientation of the mesh the link runs the other way round
       along_ = plus(along_, quick_cross(link_[star.next(i)], link_[i]));
     const double size = quick_magnitude(along_);
@@ -77,7 +84,7 @@ public:
       for (std::size_t k = 0; k < n; ++k)
         place[i] = star_->link[k] == corners[i] ? k : place[i];
       shared += place[i] != none;
-      p[i] = minus(vertex_coordinates(mesh, corners[i]), origin_);
+      p[i] = scaled(minus(vertex_coordinates(mesh, corners[i]), origin_), unit_);
       far = larger(far, quick_magnitude(p[i]));
     }
     if (!(far < farthest))
@@ -102,11 +109,14 @@ public:
 
 private:
   static constexpr std::size_t most_walls = 12;
+  /// Stars smaller or larger than these are measured in a unit of their own.
+  static constexpr double least_plain = 0x1p-100, largest_plain = 0x1p100;
   /// Within these no product here leaves the range of doubles, nor loses digits at its lower end.
   static constexpr double least_size = 0x1p-150, largest_size = 0x1p150, farthest = 0x1p200;
 
   const Star<Mesh>* star_ = nullptr;
   Coordinates origin_{};                 ///< the source; all else is relative to it
+  double unit_ = 1;                      ///< a power of two, by which that is multiplied
   Vector target_{}, along_{};            ///< along_: n
   std::array<Vector, most_walls> link_, wall_;
   double reach_ = 0, error_ = 0, lowest_ = 0, highest_ = 0;

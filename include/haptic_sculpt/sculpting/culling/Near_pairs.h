@@ -24,7 +24,7 @@ public:
 
   /// A moving and a still feature.
   struct Pair {
-    double square; ///< J has to go that far from the centre, squared, before they can touch; 0 where nothing is known
+    double square; ///< J has to go that far from the centre, squared, before they can touch, in units; 0: nothing is known
     Impact_feature feature;
     std::uint32_t spoke;     ///< which face or edge of the star; unless J itself moves against a face
     std::uint32_t candidate; ///< which face, edge or vertex of the candidates
@@ -60,32 +60,36 @@ public:
               const Coordinates& source, const Coordinates& target) {
     clear();
     double extent = 0, around = 0;
-    for (std::size_t i = 0; i < star.valence(); ++i) {
+    for (std::size_t i = 0; i < star.valence(); ++i)
       extent = larger(extent, quick_magnitude(minus(star.link_points[i], source)));
-      const Vector edge = minus(star.link_points[star.next(i)], star.link_points[i]);
+    unit_ = extent > least_plain && extent < largest_plain ? 1 : unit_of(extent);
+    extent *= unit_;
+    for (std::size_t i = 0; i < star.valence(); ++i) {
+      const Vector edge = scaled(minus(star.link_points[star.next(i)], star.link_points[i]), unit_);
       around += std::sqrt(quick_dot(edge, edge));
     }
     radius_ = widest * smaller(extent, around / static_cast<double>(star.valence()));
-    const Vector way = minus(target, source);
-    const double length = std::sqrt(quick_dot(way, way));
+    const Vector way = minus(target, source), scaled_way = scaled(way, unit_);
+    const double length = std::sqrt(quick_dot(scaled_way, scaled_way));
     if (!(extent > least_extent && length > 0 && length <= longest * radius_))
       return;
     centre_ = quick_sum(source, larger(0.5, ahead * radius_ / length), way);
     for (int i = 0; i < 3; ++i) // the link stays; only J can leave the region
       radius_ = smaller(
-          radius_, smaller(centre_[i] - list.region().lower[i], list.region().upper[i] - centre_[i]));
+          radius_, smaller(centre_[i] - list.region().lower[i], list.region().upper[i] - centre_[i]) * unit_);
     // What stands still may reach far beyond the star: products with it round by as much more.
-    double reach = extent;
+    double reach = 0;
     for (const auto& vertex : list.vertices())
       reach = larger(reach, quick_magnitude(minus(vertex.point, centre_)));
-    error_ = rounding * (reach + radius_ + quick_magnitude(centre_));
+    reach = larger(extent, reach * unit_);
+    error_ = rounding * (reach + radius_ + quick_magnitude(centre_) * unit_);
     const double r = safe(radius_);
     if (!(reach < largest_extent && farther(source, target) < r * r))
       return;
     faces(list);
     Star_motion at_centre(centre_, centre_);
     const auto are_few = [&] { return pairs_.size() <= most_pairs; };
-    runs.for_each_run(star, list, at_centre, radius_, [&](const auto& run) {
+    runs.for_each_run(star, list, at_centre, radius_ / unit_, [&](const auto& run) {
       return run.for_each_edge_pair([&](std::size_t i, std::uint32_t e) { return edge(star, list, i, e), are_few(); }) &&
              run.for_each_vertex_pair([&](std::size_t i, std::uint32_t v) { return vertex(star, list, i, v), are_few(); });
     });
@@ -101,8 +105,10 @@ private:
 
   /// 2^-40: a thousand times what the some twenty roundings of a bound or a comparison, each of 2^-53, can make.
   static constexpr double rounding = 0x1p-40;
-  /// Stars smaller or surroundings larger than these, whose squares of squares might leave the range of doubles, get no
-  /// pairs.
+  /// Stars smaller or larger than these are measured in a unit of their own: squares of squares might leave the range of
+  /// doubles.
+  static constexpr double least_plain = 0x1p-100, largest_plain = 0x1p+100;
+  /// In units, stars smaller or surroundings larger than these get no pairs.
   static constexpr double least_extent = 0x1p-200, largest_extent = 0x1p+200;
   /// The radius, in the smaller of the star's extent and the mean edge of its link. A wider ball is left later, but the one
   /// motion that takes its pairs bounds more of them: at 0.75 the slowest motion in a thousand takes 1.7 times as long, the
@@ -116,12 +122,13 @@ private:
 
   Coordinates centre_{};
   double square_ = -1, nearest_ = -1; ///< the least of all squares
-  double radius_ = 0, error_ = 0;
+  double unit_ = 1;                ///< a power of two, by which lengths are multiplied
+  double radius_ = 0, error_ = 0; ///< in units, like squares
   std::vector<Pair> pairs_;
 
   /// The square of the distance from the centre to the farther point.
   double farther(const Coordinates& p, const Coordinates& q) const {
-    const Vector a = minus(p, centre_), b = minus(q, centre_);
+    const Vector a = local(p), b = local(q);
     return larger(quick_dot(a, a), quick_dot(b, b));
   }
 
@@ -133,7 +140,7 @@ private:
     double square = 0;
     for (int i = 0; i < 3; ++i) {
       const double gap = larger(0, larger(a.lower[i] - b.upper[i], b.lower[i] - a.upper[i]));
-      square += gap * gap;
+      square += (gap * unit_) * (gap * unit_);
     }
     return square >= radius_ * radius_;
   }
@@ -144,7 +151,7 @@ private:
       pairs_.push_back({r * r, feature, static_cast<std::uint32_t>(spoke), static_cast<std::uint32_t>(candidate)});
   }
 
-  Vector local(const Coordinates& p) const { return minus(p, centre_); }
+  Vector local(const Coordinates& p) const { return scaled(minus(p, centre_), unit_); }
 
   void faces(const Candidate_list<Mesh>& list) {
     const Box_3 here(centre_);

@@ -37,6 +37,11 @@ public:
   void reserve(std::size_t n) { x_.reserve(n), y_.reserve(n), z_.reserve(n), sides_.reserve(n); }
   void resize(std::size_t n) { x_.resize(n), y_.resize(n), z_.resize(n); }
   void set(std::size_t v, const Vector& p) { x_[v] = p[0], y_[v] = p[1], z_[v] = p[2]; }
+  void scale(double factor) {
+    for (std::vector<double>* coordinates : {&x_, &y_, &z_})
+      for (double& x : *coordinates)
+        x *= factor;
+  }
 
   /// Takes those of the points, without their sides.
   void assign(const Outcodes& points, const std::vector<std::uint32_t>& which) {

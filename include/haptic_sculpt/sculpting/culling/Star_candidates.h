@@ -27,7 +27,10 @@ public:
   Star_candidates(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
                   Isolated_vertices<Mesh>* isolated, Star_runs<Mesh>& runs, Work& work, Fetch fetch)
     : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(isolated), runs_(&runs), work_(&work)
-    , fetch_(std::move(fetch)) {}
+    , fetch_(std::move(fetch)) {
+    if (!Answers_are_filtered<Broad_phase>::value)
+      scale_ = Box_scale::of(mesh);
+  }
 
   Star<Mesh>& star() { return star_; }
   const Star<Mesh>& star() const { return star_; }
@@ -87,8 +90,7 @@ public:
     look_at(star_.swept(source, target));
     has_looked_ = true;
     return !work_->is_spent() && std::all_of(candidates_.begin(), candidates_.end(), [this](typename Mesh::Face_index f) {
-      const auto& corners = (*corners_of_)(f);
-      return std::find(corners.begin(), corners.end(), star_.centre) != corners.end() || convex_star_.is_apart(*mesh_, corners);
+      return convex_star_.is_apart(*mesh_, (*corners_of_)(f));
     });
   }
 
@@ -158,6 +160,7 @@ private:
   Star_runs<Mesh>* runs_;
   Work* work_;
   Fetch fetch_;
+  Box_scale scale_; ///< of the boxes by which faces are told to be near
   Star<Mesh> star_;
   Candidate_list<Mesh> list_;
   Near_pairs<Mesh> pairs_;
@@ -237,7 +240,7 @@ private:
     anywhere.is_box = true;
     candidates_.clear();
     // Of a drag's work no more than a quarter: what is left has to do for the motions.
-    if (!query_up_to(*broad_phase_, anywhere, std::min(few_about_probe, work_->left() / 4), candidates_)) {
+    if (!query_up_to(*mesh_, scale_, *broad_phase_, anywhere, std::min(few_about_probe, work_->left() / 4), candidates_)) {
       crowded_way_ = way / 2;
       return false;
     }
@@ -267,8 +270,27 @@ private:
   /// Where more is near than there is work left, the work is spent and what was found is of no use.
   void look_at(const Swept_star_3& part) {
     candidates_.clear();
-    const std::size_t left = work_->left();
-    work_->spend(query_up_to(*broad_phase_, part, left, candidates_) ? candidates_.size() : left + 1);
+    const std::size_t left = work_->left(), most = left < Work::unbounded - star_.valence() ? left + star_.valence() : left;
+    if (query_up_to(*mesh_, scale_, *broad_phase_, part, most, candidates_)) {
+      leave_own_faces_out();
+      if (candidates_.size() <= left)
+        return work_->spend(candidates_.size());
+    }
+    candidates_.clear(); // how many were found before it was given up is the broad phase's
+    work_->spend(left + 1);
+  }
+
+  /// Where the star's own faces are the broad phase is not told before the vertex is let go: they do not count.
+  void leave_own_faces_out() {
+    if (star_.valence() == 0)
+      return;
+    std::size_t others = 0;
+    for (const auto f : candidates_) {
+      const auto& [a, b, c] = (*corners_of_)(f);
+      candidates_[others] = f;
+      others += (int(a == star_.centre) | int(b == star_.centre) | int(c == star_.centre)) == 0; // as good as random
+    }
+    candidates_.resize(others);
   }
 
   /// \param part what has been looked at \param region empty for one motion alone: the next one asks again
@@ -277,6 +299,9 @@ private:
     if (work_->is_spent())
       return false;
     pairs_.clear();
+    // The order in which pairs are decided tells how many are, for the first that is met ends a decision: it is not the
+    // broad phase's.
+    std::sort(candidates_.begin(), candidates_.end());
     list_.assign(*mesh_, *corners_of_, star_, candidates_, region, fetch_);
     if (has_isolated() && star_.valence() != 0) {
       isolated_near_.clear();

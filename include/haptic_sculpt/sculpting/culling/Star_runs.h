@@ -70,6 +70,7 @@ private:
   std::vector<Level> levels_ = std::vector<Level>(1); ///< by how often the star has been divided
   std::vector<Vector> spokes_;                        ///< from where the motion starts, like all points
   double reach_ = 0;                                  ///< of the coordinates of spokes and points
+  double unit_ = 1; ///< a power of two, by which all of these are multiplied where products of them might leave the range
   Separating_planes planes_;
   Spoke_planes spoke_planes_;
   static constexpr std::uint32_t nowhere = 0xffffffff;
@@ -86,14 +87,14 @@ private:
   /// Faces of a star that is not large, or on a long way.
   Run run_of_few(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth = 0) {
     Near_candidates& near = levels_[depth].near;
-    planes_.assign(scene.motion.way(), spokes_, first, last, reach_, scene.margin, box_of(scene, first, last));
+    planes_.assign(way_of(scene), spokes_, first, last, reach_, scene.margin * unit_, box_of(scene, first, last));
     planes_.compare(near.outcodes);
     return Run(scene.list, scene.star.valence(), near, first, last, planes_);
   }
   /// A narrow part of a large star.
   Run run_of_many(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth) {
     Near_candidates& near = levels_[depth].near;
-    spoke_planes_.assign(scene.motion.way(), spokes_, first, last, reach_, scene.margin);
+    spoke_planes_.assign(way_of(scene), spokes_, first, last, reach_, scene.margin * unit_);
     spoke_planes_.compare(near.outcodes);
     return Run(scene.list, scene.star.valence(), near, first, last);
   }
@@ -119,7 +120,7 @@ private:
 
   /// Whether the motion is longer than a spoke: what is swept over is a cone then, which planes to its tip fit best.
   bool is_long(const Scene& scene, std::size_t spoke) const {
-    return quick_magnitude(scene.motion.way()) > quick_magnitude(spokes_[spoke]);
+    return quick_magnitude(way_of(scene)) > quick_magnitude(spokes_[spoke]);
   }
 
   /// Finds which of the candidates kept at this depth are near which part.
@@ -132,7 +133,7 @@ private:
     for (std::size_t k = 0; k < parts; ++k) {
       // What is beyond the ends of a part has been left out before.
       const std::array<bool, 2> ends = {depth == 0 || k > 0, depth == 0 || k + 1 < parts};
-      Swept_fan(scene.motion.way(), spokes_, begin(k), begin(k + 1), reach_, scene.margin, ends).compare(outcodes, k);
+      Swept_fan(way_of(scene), spokes_, begin(k), begin(k + 1), reach_, scene.margin * unit_, ends).compare(outcodes, k);
       typename Level::Part& part = level.parts[k];
       if (part.edges.size() < edges.size())
         part.edges.resize(edges.size());
@@ -202,11 +203,13 @@ private:
       box.include(scene.star.link_points[i < scene.star.valence() ? i : 0]);
     const Coordinates& start = scene.motion.source();
     for (int i = 0; i < 3; ++i) {
-      box.lower[i] = box.lower[i] - scene.margin - start[i];
-      box.upper[i] = box.upper[i] + scene.margin - start[i];
+      box.lower[i] = (box.lower[i] - scene.margin - start[i]) * unit_;
+      box.upper[i] = (box.upper[i] + scene.margin - start[i]) * unit_;
     }
     return box;
   }
+
+  Vector way_of(const Scene& scene) const { return scaled(scene.motion.way(), unit_); }
 
   void place(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Star_motion& motion) {
     reach_ = quick_magnitude(minus(motion.target(), motion.source()));
@@ -224,6 +227,13 @@ private:
     for (std::size_t v = 0; v < all.positions.size(); ++v) {
       all.outcodes.set(v, from_source(list.vertices()[v].point));
       all.positions[v] = static_cast<std::uint32_t>(v);
+    }
+    unit_ = Outcodes::serve(reach_) ? 1 : unit_of(reach_);
+    if (unit_ != 1) {
+      reach_ *= unit_;
+      all.outcodes.scale(unit_);
+      for (Vector& spoke : spokes_)
+        spoke = scaled(spoke, unit_);
     }
     all.edges.resize(list.edges().size());
     for (std::size_t e = 0; e < all.edges.size(); ++e)

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Edit_visitor.h>
 #include <haptic_sculpt/sculpting/edits/Edit.h>
+#include <haptic_sculpt/sculpting/edits/Kept_properties.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/edits/Vertex_names.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
@@ -32,16 +33,24 @@ public:
   Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, internal::Isolated_vertices<Mesh>& isolated,
                Visitor visitor)
     : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(&isolated), names_(mesh),
-      visitor_(std::move(visitor)) {}
+      kept_(mesh), visitor_(std::move(visitor)) {
+    kept_.tell_lineage(visitor_);
+  }
+  Change_maker(const Change_maker&) = delete; // what is kept refers to the visitor
+  Change_maker& operator=(const Change_maker&) = delete;
 
   const Vertex_names<Mesh>& names() const { return names_; }
   Visitor& visitor() { return visitor_; }
+  Kept_properties<Mesh>& kept() { return kept_; }
+  using Place = typename Kept_properties<Mesh>::Place;
 
+  /// \param place where it stands in the history
   /// \param noted called as `noted(v)` when the change is made and the visitor has not been told yet; v has moved or is new, or is the null index
   /// \return the vertex moved or created; of a removal, the neighbour it went into; of a flip, an end of the new edge
   /// \throw Mesh_changed where the faces to be replaced are not those known
   template <class Noted>
-  Vertex_index make(const Edit& edit, const Noted& noted) {
+  Vertex_index make(const Edit& edit, const Place& place, const Noted& noted) {
+    begin(edit, false, place);
     switch (edit.kind) {
     case Edit_kind::move:
       return put(edit.vertex, edit.after, noted);
@@ -58,7 +67,8 @@ public:
 
   /// \return the vertex moved or revived; of a creation, a neighbour of what was created; of a flip, an end of the old edge
   template <class Noted>
-  Vertex_index take_back(const Edit& edit, const Noted& noted) {
+  Vertex_index take_back(const Edit& edit, const Place& place, const Noted& noted) {
+    begin(edit, true, place);
     switch (edit.kind) {
     case Edit_kind::move:
       return put(edit.vertex, edit.before, noted);
@@ -91,6 +101,7 @@ private:
   Face_corners<Mesh>* corners_of_;
   internal::Isolated_vertices<Mesh>* isolated_;
   Vertex_names<Mesh> names_;
+  Kept_properties<Mesh> kept_;
   Visitor visitor_;
   Star<Mesh> star_;
   Fan<Mesh> fan_;
@@ -98,6 +109,10 @@ private:
   std::vector<Face_index> faces_;
 
   Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
+  void begin(const Edit& edit, bool is_back, const Place& place) {
+    if (!kept_.is_empty() && edit.kind != Edit_kind::move)
+      kept_.begin(edit, is_back, place);
+  }
   static typename Mesh::Point to_point(const Coordinates& p) { return {p[0], p[1], p[2]}; }
 
   /// \throw Mesh_changed where there is none: whoever calls knows that there was
@@ -170,10 +185,14 @@ private:
         visitor_.face_dies(f);
       visitor_.edge_dies(mesh_->edge(h));
     }
+    if (!kept_.is_empty())
+      kept_.die(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
     CGAL::Euler::flip_edge(h, *mesh_);
     corners_of_->update(faces_);
     broad_phase_->faces_moved(faces_); // they keep their descriptors
     noted(Vertex_index());
+    if (!kept_.is_empty())
+      kept_.create(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
     if constexpr (has_visitor) {
       visitor_.edge_created(mesh_->edge(h));
       for (const Face_index f : faces_)
@@ -188,6 +207,8 @@ private:
       faces_.push_back(mesh_->face(h));
   }
 
+  auto inside_of_fan() const { return CGAL::make_range(fan_.begin() + 1, fan_.end()); }
+
   void fan_dies() {
     collect_fan_faces();
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
@@ -197,6 +218,8 @@ private:
       for (std::size_t i = 1; i < fan_.size(); ++i)
         visitor_.edge_dies(mesh_->edge(fan_[i]));
     }
+    if (!kept_.is_empty())
+      kept_.die(names_, Vertex_index(), faces_, inside_of_fan());
     broad_phase_->faces_removed(faces_);
     corners_of_->forget(faces_);
   }
@@ -207,6 +230,8 @@ private:
     corners_of_->update(faces_);
     broad_phase_->faces_inserted(faces_);
     noted(Vertex_index());
+    if (!kept_.is_empty())
+      kept_.create(names_, Vertex_index(), faces_, inside_of_fan());
     if constexpr (has_visitor) {
       for (std::size_t i = 1; i < fan_.size(); ++i)
         visitor_.edge_created(mesh_->edge(fan_[i]));
@@ -225,6 +250,8 @@ private:
         visitor_.edge_dies(mesh_->edge(h));
       visitor_.vertex_dies(v, names_.name(v));
     }
+    if (!kept_.is_empty())
+      kept_.die(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
     broad_phase_->faces_removed(star_.faces);
     corners_of_->forget(star_.faces);
   }
@@ -236,6 +263,8 @@ private:
     corners_of_->update(star_.faces);
     broad_phase_->faces_inserted(star_.faces);
     noted(v);
+    if (!kept_.is_empty())
+      kept_.create(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
     if constexpr (has_visitor) {
       visitor_.vertex_created(v, edit.vertex);
       for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))

@@ -134,6 +134,15 @@ public:
   bool is_between_steps() const { return is_at(begin_of(steps_done_)); }
   ///@}
 
+  /// \name Numbers of edits other than moves, in the order made; those of edits taken back are given again
+  ///@{
+  std::size_t first_number() const { return edits_.begin(); }
+  std::size_t number_to_undo() const { return edits_done_ - 1; }
+  std::size_t number_to_redo() const { return edits_done_; }
+  /// That of an edit that is made now; the largest number where it will not be recorded.
+  std::size_t number_of_next() const { return is_off() ? std::numeric_limits<std::size_t>::max() : edits_done_; }
+  ///@}
+
   /// One that is done in part counts.
   std::size_t number_of_undo_steps() const { return steps_done_ - steps_.begin(); }
   std::size_t number_of_redo_steps() const { return steps_.end() - steps_done_; }

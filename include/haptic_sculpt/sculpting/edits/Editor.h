@@ -38,6 +38,7 @@ public:
 
   const Vertex_names<Mesh>& names() const { return changes_.names(); }
   Visitor& visitor() { return changes_.visitor(); }
+  Kept_properties<Mesh>& kept() { return changes_.kept(); }
   Edit_history& history() { return history_; }
   const Edit_history& history() const { return history_; }
 
@@ -75,7 +76,7 @@ public:
     edit_.before = before;
     edit_.after = p;
     edit_.around.clear();
-    return Result::done(changes_.make(edit_, [this](Vertex_index changed) {
+    return Result::done(changes_.make(edit_, place(history_.number_of_next(), true), [this](Vertex_index changed) {
       watch(changed);
       if (records_probes_)
         history_.push(edit_);
@@ -210,16 +211,21 @@ private:
     return records_probes_ ? std::nullopt : restoration_.refuse(edit, names(), is_back);
   }
   Vertex_index take_back() {
-    return changes_.take_back(*history_.to_undo(), [this](Vertex_index changed) {
+    const auto at = place(history_.number_to_undo(), false);
+    return changes_.take_back(*history_.to_undo(), at, [this](Vertex_index changed) {
       watch(changed);
       history_.undone();
     });
   }
   Vertex_index make_again() {
-    return changes_.make(*history_.to_redo(), [this](Vertex_index changed) {
+    return changes_.make(*history_.to_redo(), place(history_.number_to_redo(), false), [this](Vertex_index changed) {
       watch(changed);
       history_.redone();
     });
+  }
+
+  typename Kept_properties<Mesh>::Place place(std::size_t number, bool is_new) const {
+    return {history_.first_number(), number, is_new};
   }
 
   void describe(Edit_kind kind, std::size_t vertex, const Coordinates& p, std::initializer_list<Vertex_index> around) {
@@ -240,7 +246,7 @@ private:
   }
 
   Result make() {
-    return Result::done(changes_.make(edit_, [this](Vertex_index changed) {
+    return Result::done(changes_.make(edit_, place(history_.number_of_next(), true), [this](Vertex_index changed) {
       watch(changed);
       history_.push(edit_);
     }));

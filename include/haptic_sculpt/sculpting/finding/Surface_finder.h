@@ -34,7 +34,8 @@ public:
   Vertex_index nearest_vertex(const Coordinates& p, double within) {
     Vertex_index best;
     Coordinates best_point{};
-    double limit = within * within * (1 + Distance_bound::rounding);
+    const double unit = scale().factor();
+    double limit = (within * unit) * (within * unit) * (1 + Distance_bound::rounding);
     if (limit < least_limit) // else what is nearer still would be lost to underflow
       limit = least_limit;
     const auto visit = [&](Face_index f) {
@@ -42,11 +43,11 @@ public:
         if (v == best)
           continue;
         const Coordinates q = vertex_coordinates(*mesh_, v);
-        const double square = rounded_square(p, q);
+        const double square = rounded_square(p, q, unit);
         if (square > limit) // certainly
           continue;
-        const int order = best.is_valid()                       ? compare_distances(p, q, best_point)
-                          : compare_distance(p, q, within) <= 0 ? -1
+        const int order = best.is_valid()                       ? compare_distances(p, q, best_point, unit)
+                          : compare_distance(p, q, within, unit) <= 0 ? -1
                                                                 : 1;
         if (order > 0 || (order == 0 && best < v))
           continue;
@@ -57,7 +58,7 @@ public:
       }
       return limit;
     };
-    const Distance_bound bound(p);
+    const Distance_bound bound(p, scale());
     if constexpr (Visits_nearest_first<Broad_phase, Distance_bound, decltype(visit)>::value)
       broad_phase_->visit_nearest_first(bound, limit, visit);
     else
@@ -83,7 +84,7 @@ public:
         limit = std::fmin(1.0, filtered_time(points, verdict).second);
       return limit;
     };
-    const Entry_bound bound(source, target);
+    const Entry_bound bound(source, target, scale());
     if constexpr (Visits_nearest_first<Broad_phase, Entry_bound, decltype(visit)>::value)
       broad_phase_->visit_nearest_first(bound, limit, visit);
     else
@@ -108,6 +109,14 @@ private:
   const Face_corners<Mesh>* corners_of_;
   Filter_counters* counters_;
   std::vector<Face_index> faces_;
+
+  /// That of the boxes, where there are any.
+  Box_scale scale() const {
+    if constexpr (Has_scale<Broad_phase>::value)
+      return broad_phase_->scale();
+    else
+      return Box_scale();
+  }
 
   /// Where a broad phase does not search nearest first: all that it names.
   template <class Region, class Visit>

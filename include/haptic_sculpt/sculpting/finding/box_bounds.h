@@ -7,6 +7,7 @@
 /// (doc/finding.md, "What is left out").
 
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
+#include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 
 #include <cmath>
 
@@ -21,10 +22,11 @@ inline unsigned nonempty_boxes(const Box_node& node) {
   return mask;
 }
 
-/// Of the squares of the distances from a point.
+/// Of the squares of the distances from a point, in the unit of the boxes.
 class Distance_bound {
 public:
-  explicit Distance_bound(const std::array<double, 3>& point) : point_(point) {}
+  /// \param scale of the boxes
+  Distance_bound(const std::array<double, 3>& point, const Box_scale& scale) : point_(scale(point)) {}
 
   /// What a square may be short of the true one by rounding, or more than it.
   static constexpr double rounding = 0x1p-48;
@@ -51,10 +53,11 @@ private:
 /// Of the times at which a point comes into boxes on its straight way from source to target, at the times 0 and 1.
 class Entry_bound {
 public:
-  Entry_bound(const std::array<double, 3>& source, const std::array<double, 3>& target)
-      : source_(source), around_(Float_box::query(Box_3(source).include(target))) {
+  /// \param scale of the boxes
+  Entry_bound(const std::array<double, 3>& source, const std::array<double, 3>& target, const Box_scale& scale)
+      : source_(scale(source)), around_(scale.query(Box_3(source).include(target))) {
     for (int i = 0; i < 3; ++i) {
-      const double way = target[i] - source[i];
+      const double way = (target[i] - source[i]) * scale.factor();
       // Along an axis on which there is next to no way the box around it tells as much.
       is_used_[i] = std::abs(way) > least_way;
       inverse_[i] = is_used_[i] ? 1 / way : 0;

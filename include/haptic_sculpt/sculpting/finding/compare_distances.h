@@ -16,10 +16,13 @@ inline bool are_told_apart(double a, double b) {
   return larger >= least && larger <= largest && difference > 0x1p-48 * larger;
 }
 
-inline double rounded_square(const Coordinates& p, const Coordinates& q) {
+/// Of the distance times `unit`, a power of two: one that is right for the scene keeps squares in the range of doubles.
+inline double rounded_square(const Coordinates& p, const Coordinates& q, double unit) {
   double sum = 0;
-  for (int i = 0; i < 3; ++i)
-    sum += (q[i] - p[i]) * (q[i] - p[i]);
+  for (int i = 0; i < 3; ++i) {
+    const double d = (q[i] - p[i]) * unit;
+    sum += d * d;
+  }
   return sum;
 }
 
@@ -31,8 +34,9 @@ auto exact_square(const std::array<Integer, 3>& p, const std::array<Integer, 3>&
 
 /// The sign of |a - p| - |b - p|; exact. Integers of n limbs have two bits more than differences need
 /// (exact_integers.h), so three squares of them, and their difference from three others, fit in 2n limbs.
-inline int compare_distances(const Coordinates& p, const Coordinates& a, const Coordinates& b) {
-  const double to_a = rounded_square(p, a), to_b = rounded_square(p, b);
+/// \param unit see rounded_square(); changes no answer
+inline int compare_distances(const Coordinates& p, const Coordinates& a, const Coordinates& b, double unit = 1) {
+  const double to_a = rounded_square(p, a, unit), to_b = rounded_square(p, b, unit);
   if (are_told_apart(to_a, to_b))
     return to_a < to_b ? -1 : 1;
   Exponent_range range;
@@ -47,10 +51,10 @@ inline int compare_distances(const Coordinates& p, const Coordinates& a, const C
 }
 
 /// The sign of |a - p| - length; exact. \pre length >= 0; may be infinite
-inline int compare_distance(const Coordinates& p, const Coordinates& a, double length) {
+inline int compare_distance(const Coordinates& p, const Coordinates& a, double length, double unit = 1) {
   if (std::isinf(length))
     return -1;
-  const double square = rounded_square(p, a), limit = length * length;
+  const double square = rounded_square(p, a, unit), limit = (length * unit) * (length * unit);
   if (are_told_apart(square, limit))
     return square < limit ? -1 : 1;
   Exponent_range range;

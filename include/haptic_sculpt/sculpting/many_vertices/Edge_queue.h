@@ -2,18 +2,12 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_EDGE_QUEUE_H
 #define HAPTIC_SCULPT_SCULPTING_EDGE_QUEUE_H
 
-#include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
-#include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/sculpting/many_vertices/Scaled_points.h>
 
 #include <queue>
 
 namespace haptic_sculpt {
 namespace internal {
-
-template <class Mesh>
-double squared_length(const Mesh& mesh, typename Mesh::Edge_index e) {
-  return squared_length(vertex_coordinates(mesh, mesh.vertex(e, 0)), vertex_coordinates(mesh, mesh.vertex(e, 1)));
-}
 
 /// Edges by length. Those that have died, or have another length than when they were put in, are left out: their slots
 /// may have been used again, and what is new is put in anew.
@@ -23,11 +17,12 @@ public:
   using Edge_index = typename Mesh::Edge_index;
 
   struct Entry {
-    double length; ///< squared
+    double length; ///< squared, in the unit of the points
     Edge_index edge;
   };
 
-  Edge_queue(const Mesh& mesh, bool longest_first) : mesh_(&mesh), sign_(longest_first ? 1 : -1) {}
+  Edge_queue(const Mesh& mesh, const Scaled_points<Mesh>& points, bool longest_first)
+      : mesh_(&mesh), points_(&points), sign_(longest_first ? 1 : -1) {}
 
   void push(Edge_index e, double squared_length) { queue_.push({sign_ * squared_length, e}); }
 
@@ -36,7 +31,7 @@ public:
     while (!queue_.empty()) {
       const Entry entry{sign_ * queue_.top().length, queue_.top().edge};
       queue_.pop();
-      if (!mesh_->is_removed(entry.edge) && squared_length(*mesh_, entry.edge) == entry.length)
+      if (!mesh_->is_removed(entry.edge) && points_->squared_length(entry.edge) == entry.length)
         return entry;
     }
     return {0, Edge_index()};
@@ -48,6 +43,7 @@ private:
   };
 
   const Mesh* mesh_;
+  const Scaled_points<Mesh>* points_;
   double sign_;
   std::priority_queue<Entry, std::vector<Entry>, Comes_later> queue_;
 };

@@ -2,255 +2,75 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_REMESHER_H
 #define HAPTIC_SCULPT_SCULPTING_REMESHER_H
 
-#include <haptic_sculpt/sculpting/Remeshing_report.h>
-#include <haptic_sculpt/sculpting/many_vertices/Edge_queue.h>
-#include <haptic_sculpt/sculpting/many_vertices/Rated_collapse.h>
-#include <haptic_sculpt/sculpting/many_vertices/Remeshing_marks.h>
+#include <haptic_sculpt/sculpting/many_vertices/Edge_collapser.h>
+#include <haptic_sculpt/sculpting/many_vertices/Edge_splitter.h>
 #include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/sculpting/many_vertices/projections.h>
-#include <haptic_sculpt/sculpting/many_vertices/star_shape.h>
 #include <haptic_sculpt/sculpting/motion/stop.h>
 
 #include <cstdlib>
-#include <unordered_set>
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// What is asked of a remeshing; the names are CGAL's.
-struct Remeshing_options {
-  double target_edge_length = 0;
-  unsigned iterations = 1, relaxation_steps = 1;
-  bool protect_constraints = false, collapse_constraints = true;
-  bool do_split = true, do_collapse = true, do_flip = true;
-};
-
 /// Splits, collapses and flips edges and relaxes vertices, each by a proven operation of the Sculptor, or not at all.
 /// See doc/many_vertices.md.
 ///
-/// \tparam Project `project(v, point)` gives where a vertex v that is to be at `point` goes; `project.created(v, w)`
-/// tells of a new vertex near w
+/// \tparam Project `project(v, point, patch)` gives where a vertex v of a patch that is to be at `point` goes;
+/// `project.created(v, w)` tells of a new vertex near w
 template <class Sculptor, class Marks, class Project>
 class Remesher {
 public:
   using Mesh = typename Sculptor::Mesh_type;
-  using Point = typename Mesh::Point;
   using Vertex_index = typename Mesh::Vertex_index;
   using Edge_index = typename Mesh::Edge_index;
   using Halfedge_index = typename Mesh::Halfedge_index;
+  using Face_index = typename Mesh::Face_index;
 
-  Remesher(Sculptor& sculptor, Marks& marks, Project& project, const Remeshing_options& options,
-           const Remeshing_parameters& parameters)
-      : sculptor_(sculptor)
+  Remesher(Sculptor& sculptor, const Scaled_points<Mesh>& points, Marks& marks, Project& project,
+           const Remeshing_options& options, const Remeshing_parameters& parameters)
+      : state_(sculptor, points, marks, project, options, parameters)
       , mesh_(sculptor.mesh())
       , marks_(marks)
-      , project_(project)
-      , options_(options)
-      , parameters_(parameters)
-      , low_(square(options.target_edge_length * 4 / 5))
-      , high_(square(options.target_edge_length * 4 / 3)) {}
+      , options_(options) {}
 
   Remeshing_report run() {
-    const Response_scope<Sculptor> scope(sculptor_, sculptor_.options().response_rule, true);
+    const Response_scope<Sculptor> scope(state_.sculptor, state_.sculptor.options().response_rule, true);
     using Phase = Remeshing_progress::Phase;
-    while (report_.iterations < options_.iterations) {
-      if (options_.do_split && !in(Phase::split, [this] { split_long_edges(); }))
+    while (state_.report.iterations < options_.iterations) {
+      if (options_.do_split && !in(Phase::split, [this] { Edge_splitter<State>(state_).run(); }))
         break;
-      if (options_.do_collapse && !in(Phase::collapse, [this] { collapse_short_edges(); }))
+      if (state_.report.iterations == 0) // so far no point is off the input
+        state_.samples.begin(mesh_, state_.points, marks_);
+      if (options_.do_collapse && !in(Phase::collapse, [this] { Edge_collapser<State>(state_).run(); }))
         break;
       if (options_.do_flip && !in(Phase::flip, [this] { flip_for_valence(); }))
         break;
       if (!in(Phase::relax, [this] { relax(); }))
         break;
-      ++report_.iterations;
+      ++state_.report.iterations;
     }
-    return report_;
+    return state_.report;
   }
 
 private:
+  using State = Remeshing_state<Sculptor, Marks, Project>;
+
   static constexpr int usual_valence = 6;
   /// Of the way a vertex tries so much, one after the other.
   static constexpr double shares[] = {1, 0.5, 0.25, 0.125};
 
-  Sculptor& sculptor_;
+  State state_;
   const Mesh& mesh_;
   Marks& marks_;
-  Project& project_;
   const Remeshing_options& options_;
-  const Remeshing_parameters& parameters_;
-  double low_, high_; ///< squares of the lengths at which edges are collapsed and split
-  Remeshing_report report_;
-  Remeshing_progress::Phase phase_ = Remeshing_progress::Phase::split;
-  std::size_t operations_ = 0;
-  Star<Mesh> star_;
   std::vector<int> valence_;
-  std::unordered_set<Edge_index> unsplit_; ///< splits of this iteration that were refused
-
-  using Entry = typename Edge_queue<Mesh>::Entry;
-
-  using Collapse = Rated_collapse<Halfedge_index>;
-
-  static double square(double x) { return x * x; }
-  Coordinates place(Vertex_index v) const { return vertex_coordinates(mesh_, v); }
-  double length(Edge_index e) const { return squared_length(mesh_, e); }
 
   template <class Work>
   bool in(Remeshing_progress::Phase phase, const Work& work) {
-    phase_ = phase;
+    state_.phase = phase;
     work();
-    return !report_.cancelled;
-  }
-
-  /// Before an operation: whether it may be made.
-  bool goes_on() {
-    if (!report_.cancelled && parameters_.progress_function &&
-        operations_ % Remeshing_parameters::operations_between_calls == 0)
-      report_.cancelled = !parameters_.progress_function(Remeshing_progress{report_.iterations, phase_, operations_});
-    ++operations_;
-    return !report_.cancelled;
-  }
-
-  static bool counted(bool done, Remeshing_report::Count& count) {
-    ++(done ? count.done : count.refused);
-    return done;
-  }
-
-  /// The longest first.
-  void split_long_edges() {
-    unsplit_.clear();
-    Edge_queue<Mesh> queue(mesh_, true);
-    const auto offer = [&](Edge_index e) {
-      if (const double l = length(e); l > high_ && may_split(e))
-        queue.push(e, l);
-    };
-    for (const Edge_index e : mesh_.edges())
-      offer(e);
-    for (Entry entry = queue.pop(); entry.edge.is_valid(); entry = queue.pop()) {
-      if (is_beside_longer_that_stays(entry))
-        continue;
-      if (!goes_on())
-        return;
-      const Vertex_index a = mesh_.vertex(entry.edge, 0), b = mesh_.vertex(entry.edge, 1);
-      const bool was_constrained = marks_.is_constrained(entry.edge);
-      const auto edit = sculptor_.insert_on_edge(entry.edge, CGAL::midpoint(mesh_.point(a), mesh_.point(b)));
-      if (!counted(static_cast<bool>(edit), report_.splits)) {
-        unsplit_.insert(entry.edge);
-        continue;
-      }
-      const Vertex_index v = *edit.vertex;
-      marks_.split(v, a, b, was_constrained);
-      project_.created(v, a);
-      for (const Halfedge_index h : mesh_.halfedges_around_target(mesh_.halfedge(v)))
-        offer(mesh_.edge(h));
-    }
-  }
-
-  bool may_split(Edge_index e) const {
-    return marks_.is_inside(e) && !(options_.protect_constraints && marks_.is_constrained(e)) && unsplit_.count(e) == 0;
-  }
-
-  /// Whether a longer edge of one of its faces may not be split: then splits beside it would go on for ever.
-  bool is_beside_longer_that_stays(const Entry& entry) const {
-    for (const Halfedge_index h : {mesh_.halfedge(entry.edge), mesh_.opposite(mesh_.halfedge(entry.edge))})
-      for (const Halfedge_index g : {mesh_.next(h), mesh_.prev(h)})
-        if (length(mesh_.edge(g)) > entry.length && !may_split(mesh_.edge(g)))
-          return true;
-    return false;
-  }
-
-  /// The shortest first.
-  void collapse_short_edges() {
-    Edge_queue<Mesh> queue(mesh_, false);
-    const auto offer = [&](Edge_index e) {
-      if (const double l = length(e); l < low_ && marks_.is_inside(e))
-        queue.push(e, l);
-    };
-    for (const Edge_index e : mesh_.edges())
-      offer(e);
-    for (Entry entry = queue.pop(); entry.edge.is_valid(); entry = queue.pop()) {
-      if (!goes_on())
-        return;
-      const Halfedge_index h = mesh_.halfedge(entry.edge);
-      std::array<Collapse, 2> ways = {rated_collapse(h), rated_collapse(mesh_.opposite(h))};
-      if (ways[1].is_better_than(ways[0]))
-        std::swap(ways[0], ways[1]);
-      for (const Collapse& way : ways)
-        if (way.is_wanted())
-          if (const Vertex_index kept = collapse(way.halfedge); kept.is_valid()) {
-            for (const Halfedge_index g : mesh_.halfedges_around_target(mesh_.halfedge(kept)))
-              offer(mesh_.edge(g));
-            break;
-          }
-    }
-  }
-
-  /// Whether the source may go into the target, as far as constraints are concerned: along a constrained edge, or off
-  /// none.
-  bool may_collapse(Halfedge_index h) const {
-    const Vertex_index v = mesh_.source(h);
-    if (marks_.is_fixed(v))
-      return false;
-    const int degree = marks_.constrained_degree(v);
-    if (!marks_.is_constrained(mesh_.edge(h)))
-      return degree == 0;
-    return degree == 2 && options_.collapse_constraints && !options_.protect_constraints;
-  }
-
-  /// The measure of the least angle that stays, or -1 where the collapse is not wanted: constraints, a normal that
-  /// turns over, an edge longer than what is split, a sliver.
-  double shape_after_collapse(Halfedge_index h) {
-    if (!may_collapse(h))
-      return -1;
-    star_.collect(mesh_, mesh_.source(h));
-    const Coordinates target = place(mesh_.target(h));
-    for (const Coordinates& p : star_.link_points)
-      if (squared_length(p, target) > high_)
-        return -1;
-    return shape_after_move(star_, place(star_.centre), target, position_in_link(mesh_.target(h)));
-  }
-
-  Collapse rated_collapse(Halfedge_index h) {
-    const double shape = shape_after_collapse(h);
-    return {h, shape,
-            shape < 0 ? 0
-                      : volume_of_collapse(star_, place(star_.centre), position_in_link(mesh_.target(h)),
-                                           options_.target_edge_length)};
-  }
-
-  std::size_t position_in_link(Vertex_index v) const {
-    return static_cast<std::size_t>(std::find(star_.link.begin(), star_.link.end(), v) - star_.link.begin());
-  }
-
-  /// \return the target, or the null index
-  Vertex_index collapse(Halfedge_index h) {
-    const Vertex_index target = mesh_.target(h);
-    star_.collect(mesh_, mesh_.source(h));
-    // The other end of the line that the source is on, if it is on one.
-    Vertex_index line_end;
-    for (const Halfedge_index g : mesh_.halfedges_around_target(mesh_.halfedge(star_.centre)))
-      if (marks_.is_constrained(mesh_.edge(g)) && mesh_.source(g) != target)
-        line_end = mesh_.source(g);
-    if (line_end.is_valid())
-      if (const Halfedge_index g = mesh_.halfedge(line_end, target);
-          g.is_valid() && marks_.is_constrained(mesh_.edge(g)))
-        return {}; // two lines would become one
-    const std::size_t pivot = position_in_link(target), n = star_.valence();
-    if (!counted(static_cast<bool>(sculptor_.collapse(h)), report_.collapses))
-      return {};
-    // New are the edges to all of the link but the target's own neighbours in it, and the faces between them.
-    for (const Halfedge_index g : mesh_.halfedges_around_target(mesh_.halfedge(target))) {
-      const std::size_t k = position_in_link(mesh_.source(g));
-      if (k == n)
-        continue;
-      const bool was_there = k == (pivot + 1) % n || k == (pivot + n - 1) % n;
-      if (mesh_.source(g) == line_end)
-        marks_.constrain(mesh_.edge(g), true);
-      else if (!was_there)
-        marks_.constrain(mesh_.edge(g), false);
-      marks_.face_created(mesh_.face(g));
-      marks_.face_created(mesh_.face(mesh_.opposite(g)));
-    }
-    return target;
+    return !state_.report.cancelled;
   }
 
   void flip_for_valence() {
@@ -262,10 +82,10 @@ private:
     for (const Edge_index e : mesh_.edges()) {
       if (marks_.is_constrained(e) || !marks_.is_inside(e) || !is_flip_wanted(e))
         continue;
-      if (!goes_on())
+      if (!state_.goes_on())
         return;
       const auto [a, b, c, d] = corners(e);
-      if (!counted(static_cast<bool>(sculptor_.flip(e)), report_.flips))
+      if (!State::counted(flip(e), state_.report.flips))
         continue;
       --valence(a), --valence(b), ++valence(c), ++valence(d);
     }
@@ -279,7 +99,13 @@ private:
     return {mesh_.source(h), mesh_.target(h), mesh_.target(mesh_.next(h)), mesh_.target(mesh_.next(g))};
   }
 
-  /// Whether a flip brings valences nearer to six, or makes a sliver better, and turns no normal over.
+  std::array<Face_index, 2> faces(Edge_index e) const {
+    const Halfedge_index h = mesh_.halfedge(e);
+    return {mesh_.face(h), mesh_.face(mesh_.opposite(h))};
+  }
+
+  /// Whether a flip brings valences nearer to six, or makes a sliver better, turns no normal over, and leaves the input
+  /// near. \post if so the samples of its faces are in hand
   bool is_flip_wanted(Edge_index e) {
     const auto [va, vb, vc, vd] = corners(e);
     const auto excess = [&](Vertex_index v, int more) { return std::abs(valence(v) + more - usual_valence); };
@@ -287,7 +113,34 @@ private:
               after = excess(va, -1) + excess(vb, -1) + excess(vc, 1) + excess(vd, 1);
     if (valence(va) <= 3 || valence(vb) <= 3)
       return false;
-    return shape_permits_flip(place(va), place(vb), place(vc), place(vd), after < before);
+    const Coordinates a = state_.place(va), b = state_.place(vb), c = state_.place(vc), d = state_.place(vd);
+    if (!shape_permits_flip(a, b, c, d, after < before))
+      return false;
+    state_.samples.take(faces(e));
+    const bool is_near = state_.samples.fit(
+        2,
+        [&](const Coordinates& p, std::size_t i) {
+          return squared_distance_to_triangle(p, c, d, i == 0 ? b : a);
+        },
+        [&](const Coordinates& p, std::size_t i) { return squared_distance_to_triangle(p, a, b, i == 0 ? c : d); });
+    state_.report.too_far += !is_near;
+    return is_near;
+  }
+
+  /// \pre is_flip_wanted()
+  bool flip(Edge_index e) {
+    const auto old_faces = faces(e);
+    const auto patch = marks_.patch(old_faces[0]);
+    const Vertex_index b = corners(e)[1];
+    if (!state_.sculptor.flip(e))
+      return false;
+    auto new_faces = faces(e);
+    if (corners(e)[2] != b)
+      std::swap(new_faces[0], new_faces[1]);
+    for (const Face_index f : new_faces)
+      marks_.face_created(f, patch);
+    state_.samples.put(mesh_, old_faces, [&](std::size_t i) { return new_faces[i]; });
+    return true;
   }
 
   /// All targets from the places at the begin of a step; projected in the last step, so that relaxation and projection
@@ -297,45 +150,86 @@ private:
     for (unsigned step = 1; step <= options_.relaxation_steps || step == 1; ++step) {
       targets.clear();
       for (const Vertex_index v : mesh_.vertices())
-        if (marks_.is_free(v)) {
-          const Coordinates p = step <= options_.relaxation_steps ? relaxed(v) : place(v);
-          targets.emplace_back(v, step >= options_.relaxation_steps ? project_(v, p) : p);
+        if (const int degree = movable_degree(v); degree == 0) {
+          const Coordinates p = step <= options_.relaxation_steps ? relaxed(v) : state_.place(v);
+          targets.emplace_back(v, step >= options_.relaxation_steps ? state_.project(v, p, patch(v)) : p);
+        } else if (degree == 2 && options_.relax_constraints && step <= options_.relaxation_steps) {
+          targets.emplace_back(v, relaxed_on_line(v));
         }
       move_all(targets);
     }
-    if constexpr (Comes_after_relaxation<Project>::value) {
+    if constexpr (Comes_after_relaxation<typename State::Project>::value) {
       targets.clear();
       for (const Vertex_index v : mesh_.vertices())
-        if (marks_.is_free(v))
-          targets.emplace_back(v, project_.of_vertex(v));
+        if (movable_degree(v) == 0)
+          targets.emplace_back(v, state_.points.in_unit(state_.project.of_vertex(v)));
       move_all(targets);
     }
   }
 
+  /// How many constrained edges v has, or -1 if it may not move at all.
+  int movable_degree(Vertex_index v) const { return marks_.may_move(v) ? marks_.constrained_degree(v) : -1; }
+
+  std::size_t patch(Vertex_index v) const {
+    return static_cast<std::size_t>(marks_.patch(mesh_.face(mesh_.halfedge(v))));
+  }
+
   Coordinates relaxed(Vertex_index v) {
-    star_.collect(mesh_, v);
-    return relaxed_place(star_, place(v));
+    state_.collect(v);
+    return relaxed_place(state_.star, state_.place(v));
+  }
+
+  /// As in CGAL, half of the way to the middle of the neighbours on the line; where the line bends by 60 degrees or more
+  /// it has a corner, and v stays.
+  Coordinates relaxed_on_line(Vertex_index v) {
+    state_.collect(v);
+    const Coordinates from = state_.place(v);
+    Vector sum{}, ends[2]{};
+    int n = 0;
+    for (std::size_t i = 0; i < state_.star.valence(); ++i)
+      if (is_crease(i)) {
+        ends[n] = minus(state_.star.link_points[i], from);
+        sum = plus(sum, ends[n++]);
+      }
+    constexpr double least_square_of_cosine = 0.25;
+    const double product = quick_dot(ends[0], ends[1]);
+    const bool is_line =
+        product < 0 && product * product >
+                         least_square_of_cosine * quick_dot(ends[0], ends[0]) * quick_dot(ends[1], ends[1]);
+    return is_line ? quick_sum(from, 0.25, sum) : from;
+  }
+
+  /// Whether the edge from the centre of the star at hand to link[i] is constrained.
+  bool is_crease(std::size_t i) const {
+    return marks_.is_constrained(mesh_.edge(mesh_.halfedge(state_.star.link[i], state_.star.centre)));
+  }
+
+  bool is_smooth(const Coordinates& p) const {
+    return is_smooth_at(state_.star, p, [this](std::size_t i) { return is_crease(i); });
   }
 
   void move_all(const std::vector<std::pair<Vertex_index, Coordinates>>& targets) {
     for (const auto& [v, target] : targets) {
-      star_.collect(mesh_, v);
-      if (target == place(v) || !is_smooth_at(star_, place(v)))
+      state_.collect(v);
+      if (target == state_.place(v) || !is_smooth(state_.place(v)))
         continue;
-      if (!goes_on())
+      if (!state_.goes_on())
         return;
-      counted(move(v, target), report_.moves);
+      State::counted(move(v, target), state_.report.moves);
     }
   }
 
-  /// As far of the way, of four shares, as the shape allows and is free. \pre star_ is that of v
+  /// As far of the way, of four shares, as the shape allows and is free. \pre the star is that of v
   bool move(Vertex_index v, const Coordinates& target) {
-    const Coordinates from = place(v);
+    const Coordinates from = state_.place(v);
+    const Star<Mesh>& star = state_.star;
+    state_.samples.take(star.faces);
     for (const double share : shares) {
       const Coordinates p = share == 1 ? target : point_of_path(from, target, share);
-      if (is_in_range(p) && shape_after_move(star_, from, p) >= 0 && is_smooth_at(star_, p) &&
-          sculptor_.move_if_free(v, Point(p[0], p[1], p[2]))) {
-        report_.shortened += share != 1;
+      if (is_in_range(state_.points.in_mesh(p)) && shape_after_move(star, from, p) >= 0 && is_smooth(p) &&
+          state_.keeps_near(p) && state_.sculptor.move_if_free(v, state_.point(p))) {
+        state_.samples.put(mesh_, star.faces, [&](std::size_t i) { return star.faces[i]; });
+        state_.report.shortened += share != 1;
         return true;
       }
     }

@@ -2,10 +2,9 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_REMESHING_MARKS_H
 #define HAPTIC_SCULPT_SCULPTING_REMESHING_MARKS_H
 
-#include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
+#include <haptic_sculpt/sculpting/many_vertices/Face_patches.h>
+#include <haptic_sculpt/sculpting/many_vertices/Scaled_points.h>
 #include <haptic_sculpt/surface/Face_corners.h>
-
-#include <boost/property_map/property_map.hpp>
 
 #include <cmath>
 #include <vector>
@@ -14,35 +13,47 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// What a remeshing has to leave as it is: constrained edges, fixed vertices, and all that is not in the range of
-/// faces.
+/// faces; and the patches of the faces, whose borders are constrained.
 ///
-/// A constrained edge that is split hands its constraint on to both halves. The caller's map of edges is kept up to
-/// date, for elements that come and go, too.
-template <class Mesh, class Edge_map>
+/// A constrained edge that is split hands its constraint on to both halves. The caller's maps of edges and patches are
+/// kept up to date, for elements that come and go, too. As in CGAL's, the borders of patches are not written into the
+/// map of edges.
+template <class Mesh, class Edge_map, class Patch_map>
 class Remeshing_marks {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
   using Edge_index = typename Mesh::Edge_index;
   using Halfedge_index = typename Mesh::Halfedge_index;
   using Face_index = typename Mesh::Face_index;
+  using Patches = Face_patches<Mesh, Patch_map>;
+  using Patch = typename Patches::Patch;
+
+  /// Whether an edge is constrained, and whether the caller's map says so.
+  struct Constraint {
+    bool is_on = false, is_in_map = false;
+  };
+  /// What a split of an edge hands on.
+  struct Split {
+    Vertex_index ends[2], corners[2]; ///< the latter opposite to the edge
+    Patch patches[2];                 ///< on the sides of the corners
+    Constraint constraint;
+  };
 
   /// \param faces the range; the edges on its border are constrained and protected
   template <class Faces, class Vertex_map>
-  Remeshing_marks(const Mesh& mesh, const Faces& faces, const Edge_map& edge_map, const Vertex_map& vertex_map)
+  Remeshing_marks(const Mesh& mesh, const Faces& faces, const Edge_map& edge_map, const Vertex_map& vertex_map,
+                  const Patch_map& patch_map)
       : mesh_(&mesh)
       , edge_map_(edge_map)
-      , is_constrained_(mesh.num_edges(), 0)
+      , constraints_(mesh.num_edges())
       , is_fixed_(mesh.num_vertices(), 0)
-      , is_whole_(faces.size() == mesh.number_of_faces()) {
-    if (!is_whole_) {
-      is_in_range_.assign(mesh.num_faces(), 0);
-      for (const Face_index f : faces)
-        is_in_range_[static_cast<std::size_t>(f)] = 1;
-    }
+      , patches_(mesh, faces, patch_map) {
     for (const Edge_index e : mesh.edges()) {
-      if (get(edge_map_, e))
-        note(e, true);
-      if (const Halfedge_index h = mesh.halfedge(e); is_in_range(h) != is_in_range(mesh.opposite(h)))
+      const Halfedge_index h = mesh.halfedge(e);
+      const Patch left = patches_(mesh.face(h)), right = patches_(mesh.face(mesh.opposite(h)));
+      const bool is_in_map = get(edge_map_, e);
+      note(e, {is_in_map || (left != right && is_inside(e)), is_in_map});
+      if (left != right && !is_inside(e))
         is_fixed_[static_cast<std::size_t>(mesh.source(h))] = is_fixed_[static_cast<std::size_t>(mesh.target(h))] = 1;
     }
     for (const Vertex_index v : mesh.vertices())
@@ -51,23 +62,32 @@ public:
   }
 
   /// Constrains the edges of the range at which the normals of the faces differ by more than this angle.
-  void constrain_features(double degrees) {
+  void constrain_features(const Scaled_points<Mesh>& points, double degrees) {
     const double cosine = std::cos(degrees * (3.14159265358979323846 / 180));
     for (const Edge_index e : mesh_->edges()) {
       if (!is_inside(e))
         continue;
-      const Vector n = normalized(normal(mesh_->halfedge(e))),
-                   m = normalized(normal(mesh_->opposite(mesh_->halfedge(e))));
+      const Vector n = normalized(normal(points, mesh_->halfedge(e))),
+                   m = normalized(normal(points, mesh_->opposite(mesh_->halfedge(e))));
       if (quick_dot(n, m) < cosine)
-        constrain(e, true);
+        constrain(e, {true, true});
     }
   }
 
-  bool is_constrained(Edge_index e) const { return is_constrained_[static_cast<std::size_t>(e)] != 0; }
+  /// Once all is constrained. Where no patches were given, they are what constrained edges part.
+  void connect_patches() {
+    patches_.connect([this](Edge_index e) { return is_constrained(e); });
+  }
+
+  const Patches& patches() const { return patches_; }
+  Patch patch(Face_index f) const { return patches_(f); }
+  bool is_in_range(Face_index f) const { return patch(f) != Patches::none; }
+  bool is_constrained(Edge_index e) const { return constraint(e).is_on; }
+  const Constraint& constraint(Edge_index e) const { return constraints_[static_cast<std::size_t>(e)]; }
   /// Whether both of its faces are in the range.
   bool is_inside(Edge_index e) const {
     const Halfedge_index h = mesh_->halfedge(e);
-    return is_in_range(h) && is_in_range(mesh_->opposite(h));
+    return is_in_range(mesh_->face(h)) && is_in_range(mesh_->face(mesh_->opposite(h)));
   }
   /// Whether v is constrained, or on the border of the range.
   bool is_fixed(Vertex_index v) const { return is_fixed_[static_cast<std::size_t>(v)] != 0; }
@@ -79,59 +99,64 @@ public:
         degree += is_constrained(mesh_->edge(h));
     return degree;
   }
-  /// Whether v may go elsewhere than along constrained edges, and in the range.
-  bool is_free(Vertex_index v) const {
-    return !is_fixed(v) && !mesh_->is_isolated(v) && is_in_range(mesh_->halfedge(v)) && constrained_degree(v) == 0;
+  /// Whether v is in the range and may move, be it along constrained edges only.
+  bool may_move(Vertex_index v) const {
+    return !is_fixed(v) && !mesh_->is_isolated(v) && is_in_range(mesh_->face(mesh_->halfedge(v)));
   }
 
-  /// v has been created on the edge from a to b, which was constrained or not.
-  void split(Vertex_index v, Vertex_index a, Vertex_index b, bool was_constrained) {
+  /// Before e is split.
+  Split split_of(Edge_index e) const {
+    const Halfedge_index h = mesh_->halfedge(e), g = mesh_->opposite(h);
+    return {{mesh_->source(h), mesh_->target(h)},
+            {mesh_->target(mesh_->next(h)), mesh_->target(mesh_->next(g))},
+            {patch(mesh_->face(h)), patch(mesh_->face(g))},
+            constraint(e)};
+  }
+  /// v has been created on it.
+  void split(Vertex_index v, const Split& split) {
     grow();
     is_fixed_[static_cast<std::size_t>(v)] = 0;
     for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v))) {
       const Vertex_index w = mesh_->source(h);
-      constrain(mesh_->edge(h), was_constrained && (w == a || w == b));
-      if (!is_whole_)
-        is_in_range_[static_cast<std::size_t>(mesh_->face(h))] = 1;
+      const bool is_half = w == split.ends[0] || w == split.ends[1];
+      constrain(mesh_->edge(h), is_half ? split.constraint : Constraint());
+      // Of the two faces of an edge to an opposite corner both have the patch of its side.
+      for (int i = 0; i < 2; ++i)
+        if (w == split.corners[i]) {
+          patches_.set(mesh_->face(h), split.patches[i]);
+          patches_.set(mesh_->face(mesh_->opposite(h)), split.patches[i]);
+        }
     }
   }
   /// A new edge.
-  void constrain(Edge_index e, bool on) {
+  void constrain(Edge_index e, const Constraint& constraint) {
     grow();
-    if (is_constrained(e) != on || get(edge_map_, e) != on)
-      put(edge_map_, e, on);
-    note(e, on);
+    if (get(edge_map_, e) != constraint.is_in_map)
+      put(edge_map_, e, constraint.is_in_map);
+    note(e, constraint);
   }
-  /// A new face is in the range.
-  void face_created(Face_index f) {
-    grow();
-    if (!is_whole_)
-      is_in_range_[static_cast<std::size_t>(f)] = 1;
-  }
+  /// f is a new face, of this patch.
+  void face_created(Face_index f, Patch patch) { patches_.set(f, patch); }
 
 private:
   const Mesh* mesh_;
   Edge_map edge_map_;
-  std::vector<char> is_constrained_, is_fixed_, is_in_range_; ///< the last one empty where all faces are in the range
-  bool is_whole_, has_constraints_ = false;
+  std::vector<Constraint> constraints_;
+  std::vector<char> is_fixed_;
+  Patches patches_;
+  bool has_constraints_ = false;
 
-  bool is_in_range(Halfedge_index h) const {
-    return is_whole_ || is_in_range_[static_cast<std::size_t>(mesh_->face(h))] != 0;
-  }
-  void note(Edge_index e, bool on) {
-    is_constrained_[static_cast<std::size_t>(e)] = on;
-    has_constraints_ |= on;
+  void note(Edge_index e, const Constraint& constraint) {
+    constraints_[static_cast<std::size_t>(e)] = constraint;
+    has_constraints_ |= constraint.is_on;
   }
   void grow() {
-    is_constrained_.resize(std::max<std::size_t>(is_constrained_.size(), mesh_->num_edges()), 0);
+    constraints_.resize(std::max<std::size_t>(constraints_.size(), mesh_->num_edges()));
     is_fixed_.resize(std::max<std::size_t>(is_fixed_.size(), mesh_->num_vertices()), 0);
-    if (!is_whole_)
-      is_in_range_.resize(std::max<std::size_t>(is_in_range_.size(), mesh_->num_faces()), 1);
   }
-  Vector normal(Halfedge_index h) const {
+  Vector normal(const Scaled_points<Mesh>& points, Halfedge_index h) const {
     const auto corners = corners_of_face(*mesh_, mesh_->face(h));
-    return area_normal(vertex_coordinates(*mesh_, corners[0]), vertex_coordinates(*mesh_, corners[1]),
-                       vertex_coordinates(*mesh_, corners[2]));
+    return area_normal(points(corners[0]), points(corners[1]), points(corners[2]));
   }
 };
 

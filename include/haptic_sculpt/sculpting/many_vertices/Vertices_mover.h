@@ -157,6 +157,7 @@ private:
         motions.push_back({0, k, {vertices_[k].vertex, from, to}});
         whole = plus(whole, minus(to, from));
       }
+    whole = scaled(whole, unit_of(quick_magnitude(whole))); // its products with places stay in range
     for (Motion& motion : motions) {
       const Coordinates &from = motion.moving.source, &to = motion.moving.target;
       motion.advance = aim.axis < 0                      ? quick_dot(whole, minus(from, Coordinates{}))

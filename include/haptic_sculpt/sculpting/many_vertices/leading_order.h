@@ -19,11 +19,15 @@ struct Moving_vertex {
   Coordinates source, target;
 };
 
-/// Between two points; where squares would leave the range of doubles, scaled.
+/// Between two points; where squares would leave the range of doubles, in another unit.
 inline double distance(const Coordinates& p, const Coordinates& q) {
   const Vector d = minus(p, q);
   const double square = quick_dot(d, d);
-  return square > 0x1p-900 && square < 0x1p900 ? std::sqrt(square) : path_length(p, q);
+  if (square > 0x1p-900 && square < 0x1p900)
+    return std::sqrt(square);
+  const double unit = unit_of(quick_magnitude(d));
+  const Vector e = scaled(d, unit);
+  return std::sqrt(quick_dot(e, e)) / unit;
 }
 
 /// Whether no way is longer than a quarter of an edge at its vertex: then the order matters little.
@@ -41,9 +45,13 @@ bool are_ways_short(const Mesh& mesh, const std::vector<Moving_vertex<Mesh>>& ve
 template <class Mesh>
 void order_in_space(std::vector<Moving_vertex<Mesh>>& vertices) {
   std::vector<Face_middle> places(vertices.size());
+  const Box_scale scale([&vertices](const auto& visit) {
+    for (const Moving_vertex<Mesh>& v : vertices)
+      visit(v.source);
+  });
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     for (int i = 0; i < 3; ++i)
-      places[k].middle[i] = static_cast<float>(vertices[k].source[i]);
+      places[k].middle[i] = static_cast<float>(vertices[k].source[i] * scale.factor());
     places[k].face = static_cast<std::uint32_t>(k);
   }
   std::size_t capacity = Box_node::width;
@@ -57,17 +65,22 @@ void order_in_space(std::vector<Moving_vertex<Mesh>>& vertices) {
   vertices = std::move(ordered);
 }
 
-/// Of three corners that go on by `d` together, the one that is between the others as seen along `d`, if that has to
-/// go before both or after both: the face lies along `d`, and would turn over in its own plane.
+/// Of three corners that go on by `way` together, the one that is between the others as seen along it, if that has to
+/// go before both or after both: the face lies along the way, and would turn over in its own plane.
 struct Corner_between {
   int corner;    ///< 0, 1 or 2
   bool is_ahead; ///< of the line through the others, so that it goes first; else last
 };
-inline std::optional<Corner_between> corner_between(const std::array<Coordinates, 3>& p, const Vector& d) {
+inline std::optional<Corner_between> corner_between(const std::array<Coordinates, 3>& p, const Vector& way) {
   /// Square of the sine of the angle between face and motion from which on the face is stretched rather than turned
   /// over; the exact value matters little (doc/many_vertices.md).
   constexpr double steep = 0.5;
-  const Vector sides[3] = {Vector{}, minus(p[1], p[0]), minus(p[2], p[0])};
+  Vector sides[3] = {Vector{}, minus(p[1], p[0]), minus(p[2], p[0])};
+  // Of the sixth degree in them, and the third in the way: each in a unit of its own.
+  const double unit = unit_of(larger(quick_magnitude(sides[1]), quick_magnitude(sides[2])));
+  for (Vector& side : sides)
+    side = scaled(side, unit);
+  const Vector d = scaled(way, unit_of(quick_magnitude(way)));
   const Vector normal = quick_cross(sides[1], sides[2]);
   const double slope = quick_dot(normal, d);
   if (slope * slope > steep * quick_dot(normal, normal) * quick_dot(d, d))

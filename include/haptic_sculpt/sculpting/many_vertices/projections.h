@@ -9,28 +9,33 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Projects onto the faces as they were at first, or nowhere.
+/// Projects onto the faces as they were at first, each vertex onto those of its patch, or nowhere.
 template <class Mesh>
 class Projection_onto_input {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
 
-  template <class Faces>
-  Projection_onto_input(const Mesh& mesh, const Faces& faces, bool is_on) {
+  template <class Patches>
+  Projection_onto_input(const Mesh& mesh, const Scaled_points<Mesh>& points, std::vector<Face_index> faces,
+                        const Patches& patches, bool is_on) {
     if (!is_on)
       return;
-    surface_.emplace(mesh, faces);
+    std::stable_sort(faces.begin(), faces.end(),
+                     [&](Face_index f, Face_index g) { return patches(f) < patches(g); });
+    surface_.emplace(mesh, points, faces, patches);
     near_.assign(mesh.num_vertices(), 0);
     typename Input_surface<Mesh>::Place place = 0;
-    for (const auto f : faces) {
+    for (const Face_index f : faces) {
       for (const Vertex_index v : corners_of_face(mesh, f))
         near_[static_cast<std::size_t>(v)] = place;
       ++place;
     }
   }
 
-  Coordinates operator()(Vertex_index v, const Coordinates& p) {
-    return surface_ ? coordinates(surface_->project({p[0], p[1], p[2]}, near_[static_cast<std::size_t>(v)])) : p;
+  /// \param p and what comes out in the unit of the points
+  Coordinates operator()(Vertex_index v, const Coordinates& p, std::size_t patch) {
+    return surface_ ? surface_->project(p, patch, near_[static_cast<std::size_t>(v)]) : p;
   }
 
   void created(Vertex_index v, Vertex_index beside) {
@@ -54,7 +59,8 @@ public:
 
   explicit Projection_by_function(const Function& function) : function_(&function) {}
 
-  Coordinates operator()(Vertex_index, const Coordinates& p) const { return p; }
+  Coordinates operator()(Vertex_index, const Coordinates& p, std::size_t) const { return p; }
+  /// Of the mesh, in no unit.
   Coordinates of_vertex(Vertex_index v) const { return coordinates((*function_)(v)); }
   void created(Vertex_index, Vertex_index) {}
 

@@ -34,9 +34,9 @@ double shape_after_move(const Star<Mesh>& star, const Coordinates& from, const C
 
 /// Whether no two neighbouring triangles of a star with its vertex at p have normals a right angle or more apart. As
 /// CGAL does, relaxation leaves vertices where they have: they are on a crease, or the rim of a plate, which has no
-/// tangent plane.
-template <class Mesh>
-bool is_smooth_at(const Star<Mesh>& star, const Coordinates& p) {
+/// tangent plane. Constrained edges may be creases: `is_crease(i)` says so of the edge to link[i].
+template <class Mesh, class Is_crease>
+bool is_smooth_at(const Star<Mesh>& star, const Coordinates& p, const Is_crease& is_crease) {
   const std::size_t n = star.valence();
   const auto normal = [&](std::size_t i) {
     return area_normal(p, star.link_points[star.next(i)], star.link_points[i]);
@@ -44,7 +44,7 @@ bool is_smooth_at(const Star<Mesh>& star, const Coordinates& p) {
   Vector last = normal(n - 1);
   for (std::size_t i = 0; i < n; ++i) {
     const Vector next = normal(i);
-    if (!point_alike(last, next))
+    if (!point_alike(last, next) && !is_crease(i))
       return false;
     last = next;
   }

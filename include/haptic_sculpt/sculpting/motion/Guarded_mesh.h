@@ -25,9 +25,10 @@ public:
   using Result = Drag_result<Mesh>;
   using Edited = Edit_result<Mesh>;
 
-  /// \param make_traits is called with the counters, which the traits may refer to
+  /// \param make_traits is called with the counters, which the traits may refer to; the last argument lives as long as this takes
   template <class Make_traits>
-  Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Make_traits& make_traits)
+  Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Make_traits& make_traits,
+               const Rounding_to_nearest& /*rounding*/)
     : parameters(parameters), mesh_(&mesh), watch_(mesh), broad_phase_(checked_scene(mesh, parameters)), corners_(mesh), isolated_(mesh)
     , editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, parameters.probes_are_recorded, std::move(visitor))
     , hand_(mesh, broad_phase_, corners_, isolated_, make_traits(counters_), watch_)
@@ -43,9 +44,12 @@ public:
   auto& editor() { return editor_; }
   const auto& editor() const { return editor_; }
 
-  void release() { hand_.release(); }
+  void release() {
+    const Rounding_to_nearest rounding; // the broad phase is told where a vertex is
+    hand_.release();
+  }
 
-  /// \throw Unknown_vertex, Mesh_changed
+  /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed
   void hold(Vertex_index v) {
     check_vertex(*mesh_, v);
     if (!hand_.holds(v))
@@ -53,7 +57,10 @@ public:
   }
 
   bool expects_single_drags() const { return hand_.expects_single_drags(); }
-  void expect_single_drags(bool on) { hand_.expect_single_drags(on); }
+  void expect_single_drags(bool on) {
+    const Rounding_to_nearest rounding;
+    hand_.expect_single_drags(on);
+  }
 
   Result drag(Vertex_index v, const Point& target, std::vector<Point>* path) {
     const Rounding_to_nearest rounding;
@@ -158,6 +165,7 @@ public:
   }
 
   Edited place(Vertex_index probe, const Point& p) {
+    const Rounding_to_nearest rounding;
     check_point("the place", p);
     scene_.check_clearance_serves(parameters);
     return edited([&] {
@@ -193,7 +201,10 @@ public:
     hand_.reserve(editor_.usual_valence, editor_.usual_candidates);
   }
 
-  void check_unchanged() const { watch_.check_all(corners_); }
+  void check_unchanged() const {
+    const Rounding_to_nearest rounding; // points that differ by a subnormal number differ
+    watch_.check_all(corners_);
+  }
   std::size_t memory() const {
     return broad_phase_.memory() + corners_.memory() + watch_.memory() + isolated_.memory() + editor_.names().memory();
   }

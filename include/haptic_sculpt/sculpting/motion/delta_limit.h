@@ -126,13 +126,18 @@ inline std::array<CGAL::Gmpq, 3> exact(const Coordinates& p) {
 
 /// Bernstein coefficients of q in doubles exceed the rounding error: certainly no violation. The bound adds the
 /// roundings of differences, products and sums, 64 units of 2^-52, relative to sums of magnitudes.
-inline bool certainly_high(const Coordinates& s, const Coordinates& t, const Coordinates& g, const Coordinates& i,
-                           double delta, Altitude_over side) {
-  const Quadratic<double> q = altitude_excess<double>(s, t, g, i, delta, side);
+inline bool certainly_high(Coordinates s, Coordinates t, Coordinates g, Coordinates i, double delta, Altitude_over side) {
   double extent = 0;
   for (int k = 0; k < 3; ++k)
     for (const Coordinates* p : {&t, &g, &i})
       extent = std::fmax(extent, std::abs((*p)[k] - s[k]));
+  if (!(extent > 0x1p-100 && extent < 0x1p+100)) { // in a unit of its own, or else products might leave the range
+    const double unit = unit_of(extent);
+    for (Coordinates* p : {&s, &t, &g, &i})
+      *p = scaled(*p, unit);
+    extent *= unit, delta *= unit;
+  }
+  const Quadratic<double> q = altitude_excess<double>(s, t, g, i, delta, side);
   const double square = extent * extent;
   const double error = 0x1p-38 * square * (square + delta * delta);
   const double lowest = std::fmin(q.c, std::fmin(q.c + q.b / 2, q.a + q.b + q.c));

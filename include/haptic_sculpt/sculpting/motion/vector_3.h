@@ -8,6 +8,8 @@
 /// Every product-sum is an explicit fused multiply-add, so that compilers cannot choose: the same edits give the same
 /// bits in every build.
 
+#include <haptic_sculpt/collision/arithmetic/unit_of.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -177,7 +177,8 @@ private:
   double gain_at(const Vector& y) const {
     const Vector step = minus(y, x_);
     const double left = length(minus(pull_, step));
-    return dot(step, minus(scaled(pull_, 2), step)) / (distance_ + left);
+    const double unit = unit_of(distance_); // else the product of two lengths might leave the range
+    return dot(scaled(step, unit), minus(scaled(pull_, 2), step)) / ((distance_ + left) * unit);
   }
 
   template <class Guard>

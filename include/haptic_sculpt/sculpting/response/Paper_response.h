@@ -150,9 +150,9 @@ private:
     for_each_face(guard, mesh, [&](const std::array<Vertex_index, 3>& corners) {
       const std::array<Vector, 3> p = {vertex_coordinates(mesh, corners[0]), vertex_coordinates(mesh, corners[1]),
                                        vertex_coordinates(mesh, corners[2])};
+      const double unit = unit_of_triangle(p);
       const Vector normal =
-          scaled(normalized(cross(minus(p[1], p[0]), minus(p[2], p[0]))),
-                           touched_.side);
+          scaled(normalized(cross(scaled(minus(p[1], p[0]), unit), scaled(minus(p[2], p[0]), unit))), touched_.side);
       Touched touched;
       const Vector nearest = nearest_on_triangle(target, corners, p, normal, touched_.side, touched);
       const double distance = length(minus(target, nearest));
@@ -169,6 +169,11 @@ private:
     return best;
   }
 
+  /// By which its edges are multiplied, lest products of them leave the range of doubles.
+  static double unit_of_triangle(const std::array<Vector, 3>& p) {
+    return unit_of(std::fmax(largest_magnitude(minus(p[1], p[0])), largest_magnitude(minus(p[2], p[0]))));
+  }
+
   /// Also tells on what feature of the triangle it lies.
   static Vector nearest_on_triangle(const Vector& target, const std::array<Vertex_index, 3>& corners,
                                     const std::array<Vector, 3>& p, const Vector& normal, int side, Touched& touched) {
@@ -176,9 +181,10 @@ private:
     const Vertex_index none;
     const Vector foot = advanced(target, -dot(minus(target, p[0]), normal), normal);
     const Vector up = scaled(normal, side);
+    const double unit = unit_of_triangle(p);
     bool inside = true;
     for (int i = 0; i < 3; ++i)
-      inside = inside && dot(cross(up, minus(p[(i + 1) % 3], p[i])), minus(foot, p[i])) >= 0;
+      inside = inside && dot(cross(up, scaled(minus(p[(i + 1) % 3], p[i]), unit)), minus(foot, p[i])) >= 0;
     if (inside) {
       touched = Touched(corners, 3, side);
       return foot;
@@ -188,7 +194,9 @@ private:
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       const Vector edge = minus(p[j], p[i]);
-      const double along = std::fmin(1.0, std::fmax(0.0, dot(minus(target, p[i]), edge) / dot(edge, edge)));
+      const Vector short_edge = scaled(edge, unit);
+      const double along =
+          std::fmin(1.0, std::fmax(0.0, dot(minus(target, p[i]), short_edge) * unit / dot(short_edge, short_edge)));
       const Vector q = along == 1 ? p[j] : advanced(p[i], along, edge);
       const double distance = length(minus(target, q));
       if (distance >= least)

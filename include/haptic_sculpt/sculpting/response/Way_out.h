@@ -252,7 +252,7 @@ private:
     for (const Vector& direction : directions()) {
       if (dot(direction, pull) < 0)
         continue;
-      for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted()) * std::sqrt(distance)}) {
+      for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted() / distance) * distance}) {
         const Vector end = advanced(walk_->x, reach, direction);
         if (!guard.work().is_due() || walk_->legs() >= most_legs_ || end == walk_->x || nearer_by(target, walk_->x, end) < -gain ||
             !guard.is_free(walk_->x, end, walk_->delta()))

@@ -20,7 +20,8 @@ double kkt_residual(const Vector& pull, const Half_spaces& half_spaces) {
   const double pull_length = length(pull);
   if (pull_length == 0)
     return 0;
-  const Nearest_permitted permitted = nearest_permitted(scaled(pull, 1 / pull_length), half_spaces, slack, slack);
+  const double unit = unit_of(pull_length); // the inverse of a subnormal number overflows
+  const Nearest_permitted permitted = nearest_permitted(scaled(scaled(pull, unit), 1 / (pull_length * unit)), half_spaces, slack, slack);
   return permitted.exists ? std::fmin(1.0, length(permitted.displacement)) : 0;
 }
 

@@ -11,7 +11,8 @@ namespace haptic_sculpt {
 
 /// The default broad phase: an implicit 8-wide tree of boxes over the faces in a spatial order.
 ///
-/// Boxes are floats rounded outward, so that every box contains what it stands for; answers are supersets. Node k of a
+/// Boxes are floats, in a unit of the scene's own (a power of two), rounded outward, so that every box contains what it
+/// stands for; answers are supersets. Node k of a
 /// level has the children 8k ... 8k + 7 of the level below, and the children of the lowest level are the slots, one a
 /// face: no pointers. Moves refit the boxes above the faces that moved, up to the first that does not change. A new
 /// face takes a slot that was freed beside a face it shares an edge with; if there is none it goes to an overflow tree
@@ -24,24 +25,29 @@ class Box_tree_broad_phase {
 public:
   using Face_index = typename Mesh::Face_index; ///< what queries append
 
+  /// Answers for a star name the faces that pass its filter, no others (doc/broad_phase.md, "Which faces count").
+  static constexpr bool answers_are_filtered = true;
+
   /// Builds the tree: n log n. \param mesh has to outlive this
   explicit Box_tree_broad_phase(const Mesh& mesh) : mesh_(&mesh) { build(); }
 
   /// Appends at least every face whose closed box meets the closed box.
   void query(const Box_3& box, std::vector<Face_index>& faces) {
-    const internal::Float_box around = internal::Float_box::query(box);
+    const internal::Float_box around = scale_.query(box);
     descend([&around](const Node& node) { return node.meeting(around); }, faces);
   }
 
   /// Appends at least every face that meets one of the tetrahedra that the star sweeps.
   void query(const Swept_star_3& star, std::vector<Face_index>& faces) { query(star, faces, unlimited); }
 
-  /// The same, given up when there are more than `most` faces, or about as many nodes to read on a level. Returns whether
-  /// the answer is whole.
+  /// The same, given up when there are more than `most` faces. Returns whether the answer is whole.
   bool query(const Swept_star_3& star, std::vector<Face_index>& faces, std::size_t most) {
-    internal::Star_filter filter(star);
+    const internal::Star_filter filter(star, scale_);
     return descend([&filter](const Node& node) { return filter.meeting(node); }, faces, most);
   }
+
+  /// By what coordinates are multiplied in the boxes of nodes.
+  const internal::Box_scale& scale() const { return scale_; }
 
   /// Visits faces about in the order of a lower bound of what is sought, until nothing is left within the limit.
   /// \param bound `bound(node, lowest)` writes a lower bound for each of a node's eight boxes, and returns the bits of
@@ -75,7 +81,7 @@ public:
   void fetch_ahead(const Box_3& box) {
     if (levels_ == 0 || level_begin_[0] < nodes_in_cache)
       return;
-    ahead_ = internal::Float_box::query(box);
+    ahead_ = scale_.query(box);
     to_root();
     while (is_worth_fetching() && level_begin_[level_ - 1] < nodes_in_cache)
       fetch_on();
@@ -91,7 +97,7 @@ public:
   void faces_moved(const Faces& faces) {
     touched_.clear();
     for (const Face_index f : faces)
-      place(slot_of_face_[f], internal::Float_box(face_box(*mesh_, f)));
+      place(slot_of_face_[f], scale_.around(face_box(*mesh_, f)));
     refit();
   }
 
@@ -104,7 +110,7 @@ public:
       slot_of_face_.reserve(size + size / 16); // not doubled: memory is promised
     slot_of_face_.resize(std::max(size, slot_of_face_.size()), no_slot);
     for (const Face_index f : faces) {
-      const internal::Float_box box(face_box(*mesh_, f));
+      const internal::Float_box box = scale_.around(face_box(*mesh_, f));
       std::uint32_t& slot = slot_of_face_[f];
       if (slot == no_slot)
         slot = free_slot_beside(f);
@@ -168,9 +174,9 @@ private:
   static constexpr std::size_t usual_touched = 256, usual_queue = 8192; ///< room is made for so many
 
   static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  static constexpr std::size_t few_nodes = 64; ///< of a level are read, whatever the limit of an answer
 
   const Mesh* mesh_;
+  internal::Box_scale scale_;
   std::vector<Node> nodes_;                              ///< level by level from the root
   std::array<std::uint32_t, most_levels> level_begin_{}; ///< of the lowest level first; the last is the root's, 0
   int levels_ = 0;
@@ -188,7 +194,8 @@ private:
 
   void build() {
     slot_of_face_.assign(mesh_->num_faces(), no_slot);
-    const std::vector<internal::Face_middle> order = internal::faces_in_spatial_order(*mesh_);
+    scale_ = internal::Box_scale::of(*mesh_);
+    const std::vector<internal::Face_middle> order = internal::faces_in_spatial_order(*mesh_, mesh_->faces(), scale_);
     if (order.empty())
       return;
     std::array<std::uint32_t, most_levels> sizes{};
@@ -205,7 +212,7 @@ private:
       const Face_index f(order[slot].face);
       face_of_slot_[slot] = order[slot].face;
       slot_of_face_[f] = slot;
-      nodes_[level_begin_[0] + slot / width].set(slot % width, internal::Float_box(face_box(*mesh_, f)));
+      nodes_[level_begin_[0] + slot / width].set(slot % width, scale_.around(face_box(*mesh_, f)));
     }
     for (int level = 1; level < levels_; ++level)
       for (std::uint32_t k = 0; k < sizes[level - 1]; ++k)
@@ -276,15 +283,11 @@ private:
   /// false where it was given up.
   template <class Passing>
   bool descend(const Passing& passing, std::vector<Face_index>& faces, std::size_t most = unlimited) {
-    const std::size_t most_nodes = most < unlimited - few_nodes ? most + few_nodes : unlimited,
-                      first = faces.size();
+    const std::size_t first = faces.size();
     const auto found = [&faces](std::uint32_t f) { faces.push_back(Face_index(f)); };
     to_root();
-    while (level_ > 0) {
+    while (level_ > 0)
       go_down(passing);
-      if (end_ - begin_ > most_nodes)
-        return false;
-    }
     for (; begin_ != end_; ++begin_) {
       for (unsigned mask = passing(nodes_[level_begin_[0] + queue_[begin_]]); mask != 0; mask &= mask - 1)
         found(face_of_slot_[std::size_t{queue_[begin_]} * width + internal::lowest_bit(mask)]);

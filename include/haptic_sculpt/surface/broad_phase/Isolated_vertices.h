@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_ISOLATED_VERTICES_H
 #define HAPTIC_SCULPT_SURFACE_ISOLATED_VERTICES_H
 
+#include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 #include <haptic_sculpt/surface/broad_phase/Growing_box_tree.h>
 #include <haptic_sculpt/surface/broad_phase/face_box.h>
 
@@ -22,11 +23,13 @@ public:
     for (const Vertex_index v : mesh.vertices())
       if (mesh.is_isolated(v))
         vertices_.push_back(v);
+    if (is_empty())
+      return;
+    scale_ = Box_scale::of(mesh);
     places_.resize(vertices_.size());
     for (std::uint32_t i = 0; i < vertices_.size(); ++i)
       tree_.insert(i, box(i), [this](std::uint32_t item, std::uint32_t place) { places_[item] = place; });
-    if (!is_empty())
-      tree_.reserve(0); // queries allocate nothing
+    tree_.reserve(0); // queries allocate nothing
   }
 
   bool is_empty() const { return vertices_.empty(); }
@@ -48,7 +51,7 @@ public:
     if (is_empty())
       return;
     const std::size_t first = found.size();
-    const Float_box around = Float_box::query(region);
+    const Float_box around = scale_.query(region);
     tree_.visit([&around](const Box_node& node) { return node.meeting(around); },
                 [&](std::uint32_t i) {
                   if (contains(region, vertex_coordinates(*mesh_, vertices_[i])))
@@ -64,11 +67,12 @@ public:
 
 private:
   const Mesh* mesh_;
+  Box_scale scale_;
   std::vector<Vertex_index> vertices_;
   std::vector<std::uint32_t> places_; ///< in the tree
   Growing_box_tree tree_;
 
-  Float_box box(std::uint32_t i) const { return Float_box(Box_3(vertex_coordinates(*mesh_, vertices_[i]))); }
+  Float_box box(std::uint32_t i) const { return scale_.around(Box_3(vertex_coordinates(*mesh_, vertices_[i]))); }
 };
 
 } // namespace internal

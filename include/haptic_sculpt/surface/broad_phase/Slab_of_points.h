@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SURFACE_SLAB_OF_POINTS_H
 
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
+#include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 #include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
 
 namespace haptic_sculpt {
@@ -17,12 +18,12 @@ public:
 
   Slab_of_points() = default; ///< everything
 
-  /// \param normal of the planes; any will do, and of one that is too short or not finite the slab is everything
-  Slab_of_points(const Swept_star_3& star, const Vector& normal) {
+  /// \param scale of the boxes \param normal of the planes; any will do, and of one that is too short or not finite the slab is everything
+  Slab_of_points(const Swept_star_3& star, const Box_scale& scale, const Vector& normal) {
     const double largest = std::fmax(std::fmax(std::abs(normal[0]), std::abs(normal[1])), std::abs(normal[2]));
     if (star.valence == 0 || !(largest > least_normal && largest < 1 / least_normal))
       return;
-    const auto &s = star.source, &t = star.target, &g = star.link[0];
+    const Vector g = scale(star.link[0]);
     double low = 0, high = 0, across = 0;
     for (int i = 0; i < 3; ++i) {
       origin_[i] = static_cast<float>(g[i]); // any origin will do
@@ -40,10 +41,10 @@ public:
       high = is_first || sum + error > high ? sum + error : high;
       across = std::fmax(across, size);
     };
-    include(s, true);
-    include(t, false);
+    include(scale(star.source), true);
+    include(scale(star.target), false);
     for (std::size_t i = 0; i < star.valence; ++i)
-      include(star.link[i], false);
+      include(scale(star.link[i]), false);
     is_thin_ = high - low < across / 8 && across > 0x1p-100 && across < 0x1p+100;
     low_ = -float_above(-low), high_ = float_above(high);
   }
@@ -61,11 +62,11 @@ public:
                     b = (node.bounds[i + 3][j] - origin_[i]) * normal_[i];
         const float small = a < b ? a : b, large = a < b ? b : a;
         least[j] += small, most[j] += large;
-        size[j] += std::abs(a) + std::abs(b);
+        size[j] += std::abs(a) > std::abs(b) ? std::abs(a) : std::abs(b); // grows with the box
       }
     int mask = 0;
     for (int j = 0; j < 8; ++j) {
-      const float error = 0x1p-19f * size[j] + least_error;
+      const float error = 0x1p-18f * size[j] + least_error;
       mask |= ((least[j] - error > high_) | (most[j] + error < low_)) ? 0 : bits[j];
     }
     return static_cast<unsigned>(mask);

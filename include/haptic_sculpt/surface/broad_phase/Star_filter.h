@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_STAR_FILTER_H
 #define HAPTIC_SCULPT_SURFACE_STAR_FILTER_H
 
+#include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 #include <haptic_sculpt/surface/broad_phase/Cone_of_boxes.h>
 #include <haptic_sculpt/surface/broad_phase/Slab_of_points.h>
 
@@ -9,26 +10,31 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Which boxes of a node may meet what a star sweeps: those in the box around it, in the cone from its start to the
-/// target, in that from the end back to the start, in the cone from its link to where its centre is, and, where many
-/// nodes are asked about, in two slabs around all; where these are thin.
+/// target, in that from the end back to the start, in the cone from its link to where its centre is, and in two slabs
+/// around all; where these are thin.
+///
+/// Whether a box passes depends on that box and the star alone, and a box that contains one that passes passes too, as
+/// rounded: what is asked is made of operations that round monotonically. So which boxes pass does not depend on what
+/// tree they are in (doc/broad_phase.md, "Which faces count").
 class Star_filter {
 public:
-  /// \pre the star stays as it is while it is asked
-  explicit Star_filter(const Swept_star_3& star) : star_(&star) {
+  /// \param scale of the boxes \pre the star stays as it is while it is asked
+  Star_filter(const Swept_star_3& star, const Box_scale& scale) : star_(&star), scale_(scale) {
     Box_3 link, around = star.path();
     for (std::size_t i = 0; i < star.valence; ++i)
       link.include(star.link[i]);
     if (star.valence != 0)
-      from_link_ = Cone_of_boxes(link, around, 1);
+      from_link_ = Cone_of_boxes(scale(link), scale(around), 1);
     if (!star.is_box) {
-      from_start_ = Cone_of_boxes(Box_3(link).include(star.source), Box_3(star.target), star.until);
-      from_end_ = Cone_of_boxes(Box_3(link).include(star.target), Box_3(star.source), 1);
+      from_start_ = Cone_of_boxes(scale(Box_3(link).include(star.source)), Box_3(scale(star.target)), star.until);
+      from_end_ = Cone_of_boxes(scale(Box_3(link).include(star.target)), Box_3(scale(star.source)), 1);
     }
+    make_slabs();
     has_cones_ = from_start_.is_long() || from_end_.is_long() || from_link_.is_long();
-    around_ = Float_box::query(around.include(link));
+    around_ = scale.query(around.include(link));
   }
 
-  unsigned meeting(const Box_node& node) {
+  unsigned meeting(const Box_node& node) const {
     unsigned mask = node.meeting(around_);
     if (mask != 0 && has_cones_) { // a box costs less to ask
       if (from_start_.is_long())
@@ -38,26 +44,36 @@ public:
       if (mask != 0 && from_link_.is_long())
         mask &= from_link_.meeting(node);
     }
-    return mask != 0 && ++nodes_ >= many_nodes ? meeting_slabs(node, mask) : mask;
-  }
-
-private:
-  static constexpr std::size_t many_nodes = 32; ///< in the box and the cones; of fewer, slabs cost more than they save
-
-  const Swept_star_3* star_;
-  Cone_of_boxes from_start_, from_end_, from_link_;
-  std::array<Slab_of_points, 2> slabs_;
-  Float_box around_;
-  bool has_cones_ = false;
-  std::size_t nodes_ = 0;
-
-  unsigned meeting_slabs(const Box_node& node, unsigned mask) {
-    if (nodes_ == many_nodes)
-      make_slabs();
     for (const Slab_of_points& slab : slabs_)
       if (mask != 0 && slab.is_thin())
         mask &= slab.meeting(node);
     return mask;
+  }
+
+  /// Boxes of doubles which, rounded outward to floats, pass meet this closed box: to ask a broad phase that knows doubles.
+  Box_3 holding_what_passes() const {
+    Box_3 result;
+    for (int i = 0; i < 3; ++i)
+      result.lower[i] = -above_all(-around_.lower[i]), result.upper[i] = above_all(around_.upper[i]);
+    return result;
+  }
+
+private:
+  const Swept_star_3* star_;
+  Box_scale scale_;
+  Cone_of_boxes from_start_, from_end_, from_link_;
+  std::array<Slab_of_points, 2> slabs_;
+  Float_box around_;
+  bool has_cones_ = false;
+
+  /// Not below any double that Box_scale::below() takes to this float or a smaller one: two floats more are what the
+  /// conversion and its correction take; all doubles where floats end.
+  double above_all(float bound) const {
+    constexpr double largest = std::numeric_limits<double>::max();
+    if (bound >= std::numeric_limits<float>::max())
+      return largest;
+    const double above = -double{next_down(next_down(-bound))} / scale_.factor();
+    return above < largest ? std::nextafter(above, largest) : largest;
   }
 
   /// One about the plane of the source, the target and a point of the link, the other across it and along the line of
@@ -67,15 +83,16 @@ private:
     if (star_->valence == 0 || star_->is_box)
       return;
     const bool goes_there = star_->target == star_->link[0]; // as where an edge collapses: no plane would be known
-    const Vector& point = star_->link[goes_there && star_->valence > 1 ? 1 : 0];
+    const Vector source = scale_(star_->source), target = scale_(star_->target),
+                 point = scale_(star_->link[goes_there && star_->valence > 1 ? 1 : 0]);
     Vector along{}, beside{};
     for (int i = 0; i < 3; ++i)
-      along[i] = star_->source[i] - point[i], beside[i] = star_->target[i] - point[i];
+      along[i] = source[i] - point[i], beside[i] = target[i] - point[i];
     const auto cross = [](const Vector& a, const Vector& b) {
       return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     };
     const Vector normal = cross(along, beside);
-    slabs_ = {Slab_of_points(*star_, normal), Slab_of_points(*star_, cross(normal, along))};
+    slabs_ = {Slab_of_points(*star_, scale_, normal), Slab_of_points(*star_, scale_, cross(normal, along))};
   }
 };
 

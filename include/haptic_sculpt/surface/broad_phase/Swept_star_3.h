@@ -29,7 +29,7 @@ struct Swept_star_3 {
     for (int i = 0; i < 3; ++i) {
       const double s = source[i], t = target[i], size = std::abs(s) + std::abs(t);
       const double p = s + until * (t - s), error = 0x1p-49 * size; // five roundings of 2^-53 of the size
-      const bool is_known = size > 0x1p-900;                        // denormal numbers round by more
+      const bool is_known = size > 0x1p-1000;                       // denormal numbers round by more
       if (t < s)
         result.lower[i] = is_known && p - error > t ? p - error : t;
       else

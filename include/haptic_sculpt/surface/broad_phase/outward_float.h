@@ -32,7 +32,7 @@ inline float float_above(double x) {
   return -float_below(-x);
 }
 
-/// A closed box of floats.
+/// A closed box of floats. Box_scale makes them.
 struct Float_box {
   std::array<float, 3> lower, upper;
 
@@ -40,26 +40,6 @@ struct Float_box {
   Float_box() {
     lower.fill(std::numeric_limits<float>::infinity());
     upper.fill(-std::numeric_limits<float>::infinity());
-  }
-  /// A box around a box of doubles.
-  explicit Float_box(const Box_3& box) {
-    for (int i = 0; i < 3; ++i) {
-      lower[i] = float_below(box.lower[i]);
-      upper[i] = float_above(box.upper[i]);
-    }
-  }
-
-  /// The box to ask with: it meets what Float_box(box) meets, except the box of nothing. For the lower bound of a box
-  /// around finite doubles is never +infinity: no such box is lost where an upper bound asked with is at most the
-  /// largest float.
-  static Float_box query(const Box_3& box) {
-    constexpr float largest = std::numeric_limits<float>::max();
-    Float_box result(box);
-    for (int i = 0; i < 3; ++i) {
-      result.lower[i] = result.lower[i] < -largest ? -largest : result.lower[i];
-      result.upper[i] = result.upper[i] > largest ? largest : result.upper[i];
-    }
-    return result;
   }
 };
 

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SURFACE_SPATIAL_ORDER_H
 
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
+#include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 #include <haptic_sculpt/surface/broad_phase/face_box.h>
 
 #include <algorithm>
@@ -43,16 +44,17 @@ inline void order_in_space(Face_middle* begin, Face_middle* end, std::size_t cap
   order_in_space(middle, end, capacity);
 }
 
-/// The faces of a mesh in such an order. Cost: n log n.
-template <class Mesh>
-std::vector<Face_middle> faces_in_spatial_order(const Mesh& mesh) {
+/// Some faces of a mesh in such an order. Cost: n log n.
+template <class Mesh, class Faces>
+std::vector<Face_middle> faces_in_spatial_order(const Mesh& mesh, const Faces& given,
+                                                const Box_scale& scale = Box_scale()) {
   std::vector<Face_middle> faces;
-  faces.reserve(mesh.number_of_faces());
-  for (const auto f : mesh.faces()) {
+  faces.reserve(given.size());
+  for (const auto f : given) {
     const Box_3 box = face_box(mesh, f);
     Face_middle entry;
     for (int i = 0; i < 3; ++i)
-      entry.middle[i] = static_cast<float>(box.lower[i] / 2 + box.upper[i] / 2);
+      entry.middle[i] = static_cast<float>((box.lower[i] / 2 + box.upper[i] / 2) * scale.factor());
     entry.face = static_cast<std::uint32_t>(f);
     faces.push_back(entry);
   }

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_RESULT_WRITER_H
+#define HAPTIC_SCULPT_EXAMPLES_RESULT_WRITER_H
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace haptic_sculpt::examples {
+
+/// Writes the results of a run, one after the other: what cannot be written is told and does not keep the others from
+/// being written, as the work is done. To write the report last gives it what there is to say of the others.
+class Result_writer {
+public:
+  /// \param program whose name messages begin with
+  explicit Result_writer(std::string program) : program_(std::move(program)) {}
+
+  /// Tells it on standard error, and keeps it for the report.
+  void note(const std::string& text) {
+    std::cerr << program_ << ": " << text << '\n';
+    notes_.push_back(text);
+  }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  /// \param path empty: it was not asked for \param write(path) writes, and returns what of an old file could not be
+  /// kept; what it throws is told
+  template <class Write>
+  void write(const std::string& path, const Write& write) {
+    if (path.empty())
+      return;
+    try {
+      if (const std::string lost = write(path); !lost.empty())
+        note(lost);
+    } catch (const std::bad_alloc&) {
+      fail("cannot write '" + path + "': the memory does not suffice");
+    } catch (const std::exception& error) { // told, and by the exit code
+      fail(error.what());
+    }
+  }
+  bool all_written() const { return all_written_; }
+  /// Something was not written, which has been told.
+  void fail(const std::string& text) {
+    all_written_ = false;
+    note(text);
+  }
+
+private:
+  std::string program_;
+  std::vector<std::string> notes_;
+  bool all_written_ = true;
+};
+
+} // namespace haptic_sculpt::examples
+
+#endif

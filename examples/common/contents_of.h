@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_CONTENTS_OF_H
+#define HAPTIC_SCULPT_EXAMPLES_CONTENTS_OF_H
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace haptic_sculpt::examples {
+
+/// Hands a file to `take`, block by block; a pipe, too. \param what how messages call it, e.g. "the script"
+/// \throw Exception, which says why it cannot be read: not there, a folder, no permission
+template <class Exception, class Take>
+void read_blocks(const std::string& path, const std::string& what, const Take& take) {
+  const auto fail = [&](const char* why) {
+    throw Exception("cannot read " + what + (what.empty() ? "'" : " '") + path + "': " + why);
+  };
+  const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (opened < 0)
+    fail(std::strerror(errno));
+  const auto close = [](const int* file) { ::close(*file); };
+  const std::unique_ptr<const int, decltype(close)> closes(&opened, close);
+  std::array<char, 1 << 16> block;
+  for (;;) {
+    const ssize_t got = ::read(opened, block.data(), block.size());
+    if (got == 0)
+      return;
+    if (got > 0)
+      take(std::string_view(block.data(), static_cast<std::size_t>(got)));
+    else if (errno != EINTR)
+      fail(std::strerror(errno));
+  }
+}
+
+/// All of a file. \throw Exception
+template <class Exception>
+std::string contents_of(const std::string& path, const std::string& what) {
+  std::string text;
+  read_blocks<Exception>(path, what, [&](std::string_view block) { text += block; });
+  return text;
+}
+
+/// Without the byte order mark that some editors put before a text.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  return text.substr(text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0);
+}
+
+} // namespace haptic_sculpt::examples
+
+#endif

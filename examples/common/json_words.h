@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_JSON_WORDS_H
+#define HAPTIC_SCULPT_EXAMPLES_JSON_WORDS_H
+
+#include <nlohmann/json.hpp>
+
+#include <initializer_list>
+#include <string>
+
+namespace haptic_sculpt::examples {
+
+/// What is wrong with a JSON, for people: where it is, and what, without the names of the library that reads it.
+/// E.g. "line 3, column 7: unexpected ','; expected value".
+inline std::string in_words(const nlohmann::json::exception& error) {
+  std::string text = error.what();
+  if (const std::size_t end = text.find("] "); text.substr(0, 1) == "[" && end != std::string::npos)
+    text.erase(0, end + 2); // [json.exception.parse_error.101]
+  for (const std::string begin : {"parse error at ", "parse error: "})
+    if (text.compare(0, begin.size(), begin) == 0)
+      text.erase(0, begin.size());
+  const std::string syntax = "syntax error while parsing ";
+  if (const std::size_t at = text.find(syntax); at != std::string::npos)
+    if (const std::size_t dash = text.find(" - ", at); dash != std::string::npos)
+      text.erase(at, dash + 3 - at);
+  return text;
+}
+
+/// As text that is UTF-8 whatever strings it was given: names of files may be any bytes.
+template <class Json>
+std::string text_of(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace haptic_sculpt::examples
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_MESH_PROGRAM_H
+#define HAPTIC_SCULPT_EXAMPLES_MESH_PROGRAM_H
+
+#include "run_program.h"
+
+#include "../drawing/Scene.h"
+#include "../sculpt/Log_text.h"
+
+#include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/Write_error.h>
+#include <haptic_sculpt/surface/coordinate_range.h>
+
+#include <exception>
+#include <new>
+#include <string>
+
+namespace haptic_sculpt::examples {
+
+/// What people are told of an exception: of a surface that is not valid, advice for those who do not program.
+inline std::string message_of(const std::exception& error) {
+  const auto* const refused = dynamic_cast<const Invalid_surface*>(&error);
+  if (refused == nullptr)
+    return error.what();
+  const std::string said = refused->what();
+  std::string text =
+      said.substr(0, said.find('\n') + 1) + refused->report().message(8, Validity_report::Reader::user);
+  if (!refused->report().non_triangular_faces.empty())
+    text += "`sculpt MESH --triangulate -o OUT` divides polygons into triangles.";
+  while (!text.empty() && text.back() == '\n')
+    text.pop_back();
+  return text;
+}
+
+template <class Exception>
+bool is_a(const std::exception& error) {
+  return dynamic_cast<const Exception*>(&error) != nullptr;
+}
+
+/// The exit code of what a program that sculpts meshes throws. A program looks for its own exceptions first.
+inline int exit_code_of(const std::exception& error) {
+  if (is_a<sculpt_program::Foreign_log>(error))
+    return foreign_log;
+  if (is_a<Read_error>(error) || is_a<Invalid_surface>(error) || is_a<Out_of_range>(error))
+    return mesh_refused;
+  if (is_a<sculpt_program::Script_error>(error))
+    return script_error;
+  if (is_a<Write_error>(error) || is_a<drawing::Picture_error>(error))
+    return cannot_write;
+  return is_a<Error>(error) ? usage : failed; // options, and parameters that do not serve
+}
+
+/// Of what was kept to be told later, as far as it is a std::exception.
+inline int exit_code_of(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::exception& error) {
+    return exit_code_of(error);
+  }
+}
+inline std::string message_of(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::bad_alloc&) {
+    return "the memory does not suffice for this";
+  } catch (const std::exception& error) {
+    return message_of(error);
+  }
+}
+
+/// run_program() of a program that sculpts meshes. \param code_of exit_code_of(), or the program's own, which asks that
+template <class Body, class Code_of>
+int run_mesh_program(const char* name, const Body& body, const Code_of& code_of) {
+  return run_program(name, body, code_of, [](const std::exception& error) { return message_of(error); });
+}
+
+} // namespace haptic_sculpt::examples
+
+#endif

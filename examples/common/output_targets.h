@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_OUTPUT_TARGETS_H
+#define HAPTIC_SCULPT_EXAMPLES_OUTPUT_TARGETS_H
+
+#include "run_program.h"
+
+#include <haptic_sculpt/surface/Mesh_file_format.h>
+#include <haptic_sculpt/surface/Write_error.h>
+#include <haptic_sculpt/surface/io/replace_file.h>
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+/// \file
+/// Looked at before the work begins: no file of a run is written over another one of it, and each can be written.
+
+namespace haptic_sculpt::examples {
+
+/// A file that a program was given, or makes by itself.
+struct Named_file {
+  std::string role; ///< how the command line calls it: "--report", "MESH"
+  std::string path; ///< empty: it was not given
+};
+
+/// Whether two names lead to one file, there or not yet there.
+inline bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error))
+    return true;
+  // Made absolute first: weakly_canonical leaves the name of a file that is not there yet as it is, but not ./name.
+  const auto full = [](const std::filesystem::path& path) {
+    std::error_code ignored; // a name that leads nowhere is told by check_target()
+    try {
+      return std::filesystem::weakly_canonical(std::filesystem::absolute(follow_links(path), ignored), ignored);
+    } catch (const Write_error&) { // links in a circle, told there, too
+      return path;
+    }
+  };
+  return full(a) == full(b);
+}
+
+/// The first of these files that this one is; none where it is empty, or another.
+inline const Named_file* same_file(const std::string& path, const std::vector<Named_file>& files) {
+  for (const Named_file& file : files)
+    if (!path.empty() && !file.path.empty() && are_one_file(path, file.path))
+      return &file;
+  return nullptr;
+}
+
+/// The files of a run.
+struct Run_files {
+  std::vector<Named_file> outputs, inputs;
+  /// Output and input that may be one: that is what one asks of an editor. Empty: none may.
+  std::string replaced_by, replaced;
+
+  /// \throw Usage_error where an output is another output or an input; says which
+  void check_apart() const {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      const Named_file& output = outputs[i];
+      const auto refuse = [&](const Named_file& other) {
+        throw Usage_error("'" + output.path + "' (" + output.role + ") and '" + other.path + "' (" + other.role +
+                          ") are one file; give " + output.role + " another name");
+      };
+      std::vector<Named_file> others(outputs.begin() + static_cast<std::ptrdiff_t>(i) + 1, outputs.end());
+      for (const Named_file& input : inputs)
+        if (!(output.role == replaced_by && input.role == replaced))
+          others.push_back(input);
+      if (const Named_file* const other = same_file(output.path, others))
+        refuse(*other);
+    }
+  }
+};
+
+/// Finds out before hours of work whether a file can be put at `path`, as far as that can be known without writing; a
+/// disk may still be full in the end. \throw Write_error
+inline void check_target(const std::filesystem::path& path) {
+  if (const std::string why = why_not_replaceable(follow_links(path)); !why.empty())
+    throw Write_error("cannot write '" + path.string() + "': " + why);
+}
+
+/// \throw Usage_error unless the name says which format the mesh is to have; none where it is empty
+inline void check_mesh_name(const Named_file& file) {
+  if (!file.path.empty() && !mesh_file_format(file.path))
+    throw Usage_error("'" + file.path + "' (" + file.role + ") does not end in .off, .ply, .obj or .stl");
+}
+
+/// \throw Usage_error unless a picture's name ends in .png, or has no extension; none where it is empty
+inline void check_picture_name(const Named_file& file) {
+  if (const auto extension = std::filesystem::path(file.path).extension();
+      !extension.empty() && extension != ".png" && extension != ".PNG")
+    throw Usage_error("a picture is written as PNG: give " + file.role + " a name that ends in .png instead of '" +
+                      file.path + "'");
+}
+
+} // namespace haptic_sculpt::examples
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_RUN_PROGRAM_H
+#define HAPTIC_SCULPT_EXAMPLES_RUN_PROGRAM_H
+
+#include "Printable_stream.h"
+#include "process_state.h"
+
+#include <haptic_sculpt/Error.h>
+
+#include <iostream>
+#include <new>
+#include <string>
+
+namespace haptic_sculpt::examples {
+
+/// Exit codes that all programs share; a program's own begin at 7. `failed`: the memory does not suffice, or the program
+/// is at fault.
+enum Exit { done = 0, failed = 1, usage = 2, mesh_refused = 3, script_error = 4, cannot_write = 5, foreign_log = 6 };
+
+/// Something that was asked for does not fit together, or cannot be used.
+struct Usage_error : Error {
+  using Error::Error;
+};
+
+/// What every main does: puts the process into order (see process_state.h), says on standard error what was thrown, and
+/// gives the exit code. Messages are written by a Printable_stream.
+/// \param body returns the exit code \param exit_code_of that of an exception; `failed`: it was not foreseen
+/// \param message_of what people are told of an exception, without the program's name
+template <class Body, class Exit_code_of, class Message_of>
+int run_program(const char* name, const Body& body, const Exit_code_of& exit_code_of, const Message_of& message_of) {
+  put_process_in_order(name);
+  const Printable_stream messages(std::cerr);
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    std::cerr << name << ": the memory does not suffice for this\n";
+    return failed;
+  } catch (const std::exception& error) {
+    const std::string text = message_of(error);
+    std::cerr << name << ": " << text << (!text.empty() && text.back() == '\n' ? "" : "\n");
+    const int code = exit_code_of(error);
+    if (code == failed)
+      std::cerr << name << ": this is a fault of the program; please report it with its input\n";
+    return code;
+  }
+}
+
+} // namespace haptic_sculpt::examples
+
+#endif

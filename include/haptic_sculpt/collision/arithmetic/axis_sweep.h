@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_COLLISION_AXIS_SWEEP_H
+#define HAPTIC_SCULPT_COLLISION_AXIS_SWEEP_H
+
+/// \file
+/// Do two features meet while their corners move along one coordinate axis, each at its own speed?
+///
+/// In the projection that drops the axis nothing moves, and every determinant of the corners is affine in time. So all
+/// is decided by signs of the input doubles at the two ends of the motion; see doc/proofs/axis_moves.md.
+
+#include <haptic_sculpt/collision/arithmetic/orientation_filter.h>
+
+#include <initializer_list>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Points at the two ends of a motion along one axis. \pre start and end differ in that coordinate alone.
+template <std::size_t points>
+struct Axis_motion {
+  int axis; ///< 0, 1 or 2
+  std::array<Coordinates, points> start, end;
+
+  /// \param heights along the axis, at the end
+  Axis_motion(int axis, const std::array<Coordinates, points>& start, const std::array<double, points>& heights)
+    : axis(axis), start(start), end(start) {
+    for (std::size_t i = 0; i < points; ++i)
+      end[i][axis] = heights[i];
+  }
+};
+
+/// Whether signs are all the same, and none of them 0.
+class Equal_signs {
+public:
+  void add(int sign) {
+    is_broken_ |= sign == 0 || sign * sign_ < 0;
+    sign_ = sign;
+    is_empty_ = false;
+  }
+  bool is_broken() const { return is_broken_; }
+  /// Features of which nothing lies over the other never meet; else they do where a sign changes or vanishes.
+  bool do_meet() const { return !is_empty_ && is_broken_; }
+
+private:
+  int sign_ = 0;
+  bool is_broken_ = false, is_empty_ = true;
+};
+
+/// The decisions about points of one motion, by index. Those of one decision need not differ.
+template <std::size_t points, class Counters>
+class Axis_sweep {
+public:
+  Axis_sweep(const Axis_motion<points>& motion, Counters& counters) : m_(motion), counters_(counters) {}
+
+  /// Whether point v lies in the closed triangle a, b, c at some time.
+  bool do_vertex_and_face_meet(int v, int a, int b, int c) const {
+    const int side = seen(a, b, c), at_ab = seen(a, b, v), at_bc = seen(b, c, v), at_ca = seen(c, a, v);
+    if (side != 0)
+      return at_ab * side >= 0 && at_bc * side >= 0 && at_ca * side >= 0 && !keep_their_side(a, b, c, v);
+    if (at_ab != 0 || at_bc != 0 || at_ca != 0)
+      return false;
+    const Plane plane = plane_of(v, {a, b, c});
+    Equal_signs signs;
+    add_heights(plane, v, a, b, 1, signs);
+    add_heights(plane, v, b, c, 1, signs);
+    add_heights(plane, v, c, a, 1, signs);
+    return signs.do_meet();
+  }
+
+  /// Whether the closed segments a, b and c, d have a common point at some time.
+  bool do_edges_meet(int a, int b, int c, int d) const {
+    const int at_c = seen(a, b, c), at_d = seen(a, b, d);
+    if (at_c * at_d > 0)
+      return false;
+    const int at_a = seen(c, d, a), at_b = seen(c, d, b);
+    if (at_a * at_b > 0)
+      return false;
+    if ((at_c != 0 || at_d != 0) && (at_a != 0 || at_b != 0)) // they are not parallel: one point is over one
+      return !keep_their_side(a, b, c, d);
+    const Plane plane = plane_of(a, {b, c, d}); // all four signs are 0
+    Equal_signs signs;
+    add_heights(plane, a, c, d, 1, signs);
+    add_heights(plane, b, c, d, 1, signs);
+    add_heights(plane, c, a, b, -1, signs);
+    add_heights(plane, d, a, b, -1, signs);
+    return signs.do_meet();
+  }
+
+  /// Whether points a, b, c lie on one line at some time.
+  bool is_face_degenerate(int a, int b, int c) const {
+    if (seen(a, b, c) != 0)
+      return false;
+    const Plane plane = plane_of(a, {b, c});
+    const int at_start = orientation_2(m_.start[a], m_.start[b], m_.start[c], plane.dropped, counters_);
+    return at_start == 0 || orientation_2(m_.end[a], m_.end[b], m_.end[c], plane.dropped, counters_) != at_start;
+  }
+
+  /// The orientation of a, b, c in the projection along the axis, where nothing moves.
+  int seen(int a, int b, int c) const {
+    return orientation_2(m_.start[a], m_.start[b], m_.start[c], m_.axis, counters_);
+  }
+
+private:
+  /// How to look at a vertical plane: drop a coordinate so that `along` tells points apart that are not above one another.
+  struct Plane {
+    int along, dropped;
+    int up; ///< the sign of orientation_2 of a point above a segment that goes along
+  };
+
+  const Axis_motion<points>& m_;
+  Counters& counters_;
+
+  /// Whether the volume of all four has one sign at both ends, and so between.
+  bool keep_their_side(int a, int b, int c, int d) const {
+    const int sign = orientation_3(m_.start[a], m_.start[b], m_.start[c], m_.start[d], counters_);
+    return sign != 0 && orientation_3(m_.end[a], m_.end[b], m_.end[c], m_.end[d], counters_) == sign;
+  }
+
+  /// \pre all points given are seen on one line
+  Plane plane_of(int first, std::initializer_list<int> others) const {
+    const int i = (m_.axis + 1) % 3, j = (m_.axis + 2) % 3;
+    for (const int k : others)
+      if (m_.start[k][i] != m_.start[first][i])
+        return {i, j, -1}; // orientation_2 without j looks at (axis, i)
+    return {j, i, 1};      // without i at (j, axis)
+  }
+
+  /// The signs of the heights of v above the segment p, q where it is over it: one at each end, or two where the segment
+  /// is vertical.
+  void add_heights(const Plane& plane, int v, int p, int q, int factor, Equal_signs& signs) const {
+    const double at = m_.start[v][plane.along], from = m_.start[p][plane.along], to = m_.start[q][plane.along];
+    if (signs.is_broken() || (at < from && at < to) || (from < at && to < at))
+      return;
+    for (const auto* now : {&m_.start, &m_.end})
+      if (from == to) {
+        for (const int end : {p, q}) {
+          const double height = (*now)[v][m_.axis], other = (*now)[end][m_.axis];
+          signs.add(factor * ((height > other) - (height < other)));
+        }
+      } else {
+        const int side = orientation_2((*now)[p], (*now)[q], (*now)[v], plane.dropped, counters_);
+        signs.add(factor * plane.up * (from < to ? side : -side));
+      }
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

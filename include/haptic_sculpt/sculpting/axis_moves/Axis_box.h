@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_BOX_H
+#define HAPTIC_SCULPT_SCULPTING_AXIS_BOX_H
+
+#include <haptic_sculpt/surface/broad_phase/outward_float.h>
+
+#include <array>
+#include <cstdint>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Where a face is in a motion along one axis: the intervals of the two other coordinates, which do not change, and those
+/// along the axis at the start and at the end. Floats, rounded outward.
+struct Axis_box {
+  std::array<float, 4> lower, upper; ///< of the next coordinate, of the one after, at the start, at the end
+
+  Axis_box() {
+    lower.fill(std::numeric_limits<float>::infinity());
+    upper.fill(-std::numeric_limits<float>::infinity());
+  }
+
+  /// Corners at the start, and their coordinates along the axis at the end.
+  template <std::size_t corners>
+  Axis_box(int axis, const std::array<std::array<double, 3>, corners>& start, const std::array<double, corners>& end)
+    : Axis_box() {
+    for (std::size_t i = 0; i < corners; ++i)
+      include({start[i][(axis + 1) % 3], start[i][(axis + 2) % 3], start[i][axis], end[i]});
+  }
+
+private:
+  void include(const std::array<double, 4>& p) {
+    for (int k = 0; k < 4; ++k) {
+      const float below = float_below(p[k]), above = float_above(p[k]);
+      lower[k] = below < lower[k] ? below : lower[k];
+      upper[k] = above > upper[k] ? above : upper[k];
+    }
+  }
+};
+
+/// The boxes of eight children, bound by bound, so that compilers compare four or eight at once.
+struct alignas(64) Axis_box_node {
+  static constexpr unsigned width = 8;
+
+  float lower[4][width], upper[4][width];
+  std::uint8_t is_there = 0, is_active = 0; ///< bits: which children there are, and which have changed, or hold what has
+
+  void set(unsigned j, const Axis_box& box) {
+    for (int k = 0; k < 4; ++k)
+      lower[k][j] = box.lower[k], upper[k][j] = box.upper[k];
+    is_there = static_cast<std::uint8_t>(is_there | 1u << j);
+  }
+
+  Axis_box box(unsigned j) const {
+    Axis_box result;
+    for (int k = 0; k < 4; ++k)
+      result.lower[k] = lower[k][j], result.upper[k] = upper[k][j];
+    return result;
+  }
+
+  /// Around all of them.
+  Axis_box all() const {
+    Axis_box result;
+    for (unsigned j = 0; j < width; ++j)
+      if ((is_there >> j & 1) != 0)
+        for (int k = 0; k < 4; ++k) {
+          result.lower[k] = lower[k][j] < result.lower[k] ? lower[k][j] : result.lower[k];
+          result.upper[k] = upper[k][j] > result.upper[k] ? upper[k][j] : result.upper[k];
+        }
+    return result;
+  }
+
+  /// Bit j: whether what is in box j may meet what is in the other at some time. Not where their places seen along the
+  /// axis are apart, nor where all of the one is above all of the other both at the start and at the end: heights change
+  /// at constant speed, so then it is so between.
+  unsigned meeting(const Axis_box& other) const {
+    static constexpr int bits[width] = {1, 2, 4, 8, 16, 32, 64, 128};
+    int mask = 0;
+    for (unsigned j = 0; j < width; ++j) {
+      const int over = int(lower[0][j] <= other.upper[0]) & int(upper[0][j] >= other.lower[0]) &
+                       int(lower[1][j] <= other.upper[1]) & int(upper[1][j] >= other.lower[1]);
+      const int above = int(lower[2][j] > other.upper[2]) & int(lower[3][j] > other.upper[3]);
+      const int below = int(upper[2][j] < other.lower[2]) & int(upper[3][j] < other.lower[3]);
+      mask |= (over & ~(above | below) & 1) != 0 ? bits[j] : 0;
+    }
+    return static_cast<unsigned>(mask) & is_there;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

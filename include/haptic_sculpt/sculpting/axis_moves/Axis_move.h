@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_MOVE_H
+#define HAPTIC_SCULPT_SCULPTING_AXIS_MOVE_H
+
+#include <haptic_sculpt/sculpting/axis_moves/Axis_box_tree.h>
+#include <haptic_sculpt/sculpting/axis_moves/Axis_obstacle.h>
+#include <haptic_sculpt/sculpting/axis_moves/axis_delta.h>
+#include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/broad_phase/spatial_order.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Decides whether many vertices of a mesh can go at once along one axis, and holds those back that cannot: it reads the
+/// mesh and changes nothing. The theorem is in doc/proofs/axis_moves.md.
+///
+/// All decisions are exact, and no result depends on the order in which pairs are looked at.
+/// \pre the mesh is closed and embedded
+template <class Mesh>
+class Axis_move {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
+  /// A vertex and where it is to be along the axis.
+  struct Way {
+    Vertex_index vertex;
+    double end;
+  };
+
+  /// \param delta 0: no rule
+  Axis_move(const Mesh& mesh, double delta, Filter_counters& counters)
+    : mesh_(&mesh), counters_(&counters), delta_(delta) {}
+
+  /// Which faces and which vertices without faces are looked at from here on. \param are_all whether these are all;
+  /// else at least those that move and all that these could meet. Cost: n log n, which a few moves of the same pay off.
+  template <class Faces>
+  void take(const Faces& faces, const std::vector<Vertex_index>& isolated, bool are_all) {
+    are_all_ = are_all;
+    items_.clear();
+    slot_of_face_.assign(mesh_->num_faces(), no_slot);
+    for (const Face_middle& f : faces_in_spatial_order(*mesh_, faces)) {
+      slot_of_face_[f.face] = static_cast<std::uint32_t>(items_.size());
+      items_.push_back(item_of(Face_index(f.face)));
+    }
+    first_isolated_ = items_.size();
+    for (const Vertex_index v : isolated)
+      items_.push_back({{index(v), index(v), index(v)}, 1, 0});
+    tree_.resize(items_.size());
+  }
+
+  /// A motion of the vertices given, each once. \pre every face of theirs has been taken
+  void begin(int axis, const std::vector<Way>& ways) {
+    axis_ = axis;
+    vertices_.assign(mesh_->num_vertices(), Vertex{});
+    tree_.begin_round();
+    for (const Way& way : ways)
+      if (way.end != height(index(way.vertex)))
+        vertices_[index(way.vertex)].end = way.end, vertices_[index(way.vertex)].moves = true;
+    active_.clear();
+    for (std::uint32_t slot = 0; slot < items_.size(); ++slot) {
+      Item& item = items_[slot];
+      const Axis_motion<3> motion = motion_of(item.corners);
+      item.side = 0;
+      if (slot < first_isolated_) {
+        item.side = static_cast<std::int8_t>(Axis_sweep<3, Filter_counters>(motion, *counters_).seen(0, 1, 2));
+        for (const std::uint32_t v : item.corners)
+          ++vertices_[v].faces, vertices_[v].sides += item.side;
+      }
+      set(slot, motion, does_move(item));
+    }
+    decide();
+  }
+
+  bool is_free() const { return obstacles_.empty(); }
+  const std::vector<Axis_obstacle>& obstacles() const { return obstacles_; }
+
+  /// Where the vertex is along the axis at the end, as far as it is held back by now.
+  double end(Vertex_index v) const { return end_of(index(v)); }
+
+  /// Holds vertices back until the motion is free: the least that some round proposes, or all. Every round holds one back at
+  /// least, and one held back `most_pulls` times stays where it is; standing still is free.
+  void hold_back() {
+    while (!is_free()) {
+      pull();
+      decide();
+    }
+  }
+
+private:
+  /// A face, or a vertex without faces three times.
+  struct Item {
+    std::array<std::uint32_t, 3> corners;
+    std::uint8_t owned; ///< bits: of the corners 0, 1, 2 and the edges after them, those that are looked at with this face
+    std::int8_t side;   ///< the orientation as seen along the axis
+  };
+  struct Vertex {
+    double end = 0;    ///< where it moves
+    double share = 1;  ///< proposed in this round
+    std::uint16_t faces = 0;
+    std::int16_t sides = 0; ///< the sum of their sides
+    std::uint8_t pulls = 0;
+    bool moves = false, is_pulled = false;
+  };
+  static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
+  static constexpr std::uint8_t most_pulls = 20;
+
+  const Mesh* mesh_;
+  Filter_counters* counters_;
+  double delta_;
+  int axis_ = 0;
+  bool are_all_ = true;
+  std::vector<Item> items_; ///< by slot; faces in the order of space, then vertices without
+  std::size_t first_isolated_ = 0;
+  std::vector<std::uint32_t> slot_of_face_;
+  std::vector<Vertex> vertices_;
+  Axis_box_tree tree_;
+  std::vector<std::uint32_t> active_; ///< slots to be looked at in this round
+  std::vector<Axis_obstacle> obstacles_;
+  std::vector<std::uint32_t> pulled_;
+
+  static std::uint32_t index(Vertex_index v) { return static_cast<std::uint32_t>(v); }
+  Coordinates point(std::uint32_t v) const { return vertex_coordinates(*mesh_, Vertex_index(v)); }
+  double height(std::uint32_t v) const { return point(v)[axis_]; }
+  double end_of(std::uint32_t v) const { return vertices_[v].moves ? vertices_[v].end : height(v); }
+  bool does_move(const Item& item) const {
+    const auto& v = item.corners;
+    return vertices_[v[0]].moves || vertices_[v[1]].moves || vertices_[v[2]].moves;
+  }
+
+  template <std::size_t n>
+  Axis_motion<n> motion_of(const std::array<std::uint32_t, n>& v) const {
+    std::array<Coordinates, n> start;
+    std::array<double, n> ends;
+    for (std::size_t k = 0; k < n; ++k) {
+      start[k] = point(v[k]);
+      ends[k] = vertices_[v[k]].moves ? vertices_[v[k]].end : start[k][axis_];
+    }
+    return {axis_, start, ends};
+  }
+
+  /// Each vertex and each edge is looked at with one of its faces.
+  Item item_of(Face_index f) const {
+    Item item{{}, 0, 0};
+    auto h = mesh_->prev(mesh_->halfedge(f));
+    for (int i = 0; i < 3; ++i) {
+      const Vertex_index v = mesh_->target(h);
+      item.corners[i] = index(v);
+      const auto at = mesh_->halfedge(v);
+      if ((mesh_->is_border(at) ? mesh_->face(mesh_->opposite(at)) : mesh_->face(at)) == f)
+        item.owned = static_cast<std::uint8_t>(item.owned | 1u << i);
+      h = mesh_->next(h);
+      if (mesh_->is_border(mesh_->opposite(h)) || mesh_->halfedge(mesh_->edge(h)) == h)
+        item.owned = static_cast<std::uint8_t>(item.owned | 8u << i);
+    }
+    return item;
+  }
+
+  void set(std::uint32_t slot, const Axis_motion<3>& motion, bool is_active) {
+    std::array<double, 3> ends;
+    for (int k = 0; k < 3; ++k)
+      ends[k] = motion.end[k][axis_];
+    tree_.set(slot, Axis_box(axis_, motion.start, ends), is_active);
+    if (is_active)
+      active_.push_back(slot);
+  }
+
+  /// Whether two faces that share some vertices share no more as seen along the axis: their tests would all be passed.
+  bool are_side_by_side(const Item& f, const Item& g, int shared, std::uint32_t common) const {
+    if (f.side == 0 || f.side != g.side)
+      return false;
+    // A star all of whose faces are seen from one side is seen without a fold: its link, a closed curve that does not cross
+    // itself about an embedded vertex, goes round once.
+    const Vertex& v = vertices_[common];
+    return shared == 2 || ((are_all_ || v.moves) && std::abs(v.sides) == v.faces);
+  }
+
+  void decide() {
+    obstacles_.clear();
+    for (const std::uint32_t slot : active_)
+      if (slot < first_isolated_)
+        decide_face(items_[slot]);
+    tree_.for_each_pair([this](std::uint32_t a, std::uint32_t b) {
+      if (a < first_isolated_ || b < first_isolated_)
+        decide_pair(items_[a], items_[b]);
+    });
+  }
+
+  void decide_face(const Item& f) {
+    if (f.side != 0 && delta_ == 0)
+      return;
+    const Axis_motion<3> motion = motion_of(f.corners);
+    if (f.side == 0 && Axis_sweep<3, Filter_counters>(motion, *counters_).is_face_degenerate(0, 1, 2))
+      add(Axis_obstacle::Kind::flat_face, {f.corners[0], f.corners[1], f.corners[2], f.corners[0]});
+    else if (delta_ > 0 && !is_delta_kept(motion, delta_))
+      add(Axis_obstacle::Kind::delta, {f.corners[0], f.corners[1], f.corners[2], f.corners[0]});
+  }
+
+  void decide_pair(const Item& f, const Item& g) {
+    int shared = 0;
+    std::uint32_t common = 0;
+    std::array<bool, 6> is_shared{};
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k)
+        if (f.corners[i] == g.corners[k]) {
+          is_shared[i] = is_shared[3 + k] = true;
+          common = f.corners[i];
+          ++shared;
+        }
+    if (shared != 0 && are_side_by_side(f, g, shared, common))
+      return;
+    const std::array<std::uint32_t, 6> v{f.corners[0], f.corners[1], f.corners[2], g.corners[0], g.corners[1], g.corners[2]};
+    const Axis_motion<6> motion = motion_of(v);
+    const Axis_sweep<6, Filter_counters> sweep(motion, *counters_);
+    const auto is_face = [&v](int first) { return v[first] != v[first + 1]; };
+    for (int i = 0; i < 3; ++i) {
+      if ((f.owned >> i & 1) != 0 && !is_shared[i] && is_face(3) && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
+        add(Axis_obstacle::Kind::vertex_face, {v[i], v[3], v[4], v[5]});
+      if ((g.owned >> i & 1) != 0 && !is_shared[3 + i] && is_face(0) && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
+        add(Axis_obstacle::Kind::vertex_face, {v[3 + i], v[0], v[1], v[2]});
+    }
+    for (int i = 0; i < 3; ++i) {
+      const int a = i, b = (i + 1) % 3;
+      if ((f.owned >> i & 8) == 0)
+        continue;
+      for (int k = 0; k < 3; ++k) {
+        const int c = 3 + k, d = 3 + (k + 1) % 3;
+        if ((g.owned >> k & 8) == 0 || v[a] == v[c] || v[a] == v[d] || v[b] == v[c] || v[b] == v[d])
+          continue;
+        if (sweep.do_edges_meet(a, b, c, d))
+          add(Axis_obstacle::Kind::edge_edge, {v[a], v[b], v[c], v[d]});
+      }
+    }
+  }
+
+  void add(Axis_obstacle::Kind kind, const std::array<std::uint32_t, 4>& vertices) {
+    obstacles_.push_back({kind, vertices});
+  }
+
+  /// One round: every obstacle proposes a share for some of its vertices, from the state as it is; of several the least holds.
+  void pull() {
+    pulled_.clear();
+    for (const Axis_obstacle& obstacle : obstacles_) {
+      const Axis_pull pull = pull_for(obstacle.kind, motion_of(obstacle.vertices));
+      bool is_any_pulled = false;
+      for (int k = 0; k < obstacle.size(); ++k)
+        is_any_pulled |= pull.is_pulled[k] && vertices_[obstacle.vertices[k]].moves;
+      for (int k = 0; k < obstacle.size(); ++k) {
+        Vertex& v = vertices_[obstacle.vertices[k]];
+        if (!v.moves || (is_any_pulled && !pull.is_pulled[k]))
+          continue;
+        if (!v.is_pulled)
+          pulled_.push_back(obstacle.vertices[k]);
+        v.is_pulled = true;
+        v.share = std::fmin(v.share, is_any_pulled ? pull.share : 0.5);
+      }
+    }
+    std::sort(pulled_.begin(), pulled_.end());
+    for (const std::uint32_t k : pulled_)
+      shorten(k);
+    tree_.begin_round();
+    active_.clear();
+    for (const std::uint32_t k : pulled_) {
+      vertices_[k].is_pulled = false;
+      activate_around(k);
+    }
+    std::sort(active_.begin(), active_.end());
+    active_.erase(std::unique(active_.begin(), active_.end()), active_.end());
+  }
+
+  void shorten(std::uint32_t k) {
+    Vertex& v = vertices_[k];
+    const double start = height(k), end = std::fma(v.share, v.end - start, start);
+    v.end = v.end < start ? std::fmin(std::fmax(end, v.end), start) : std::fmax(std::fmin(end, v.end), start);
+    v.share = 1;
+    if (++v.pulls == most_pulls || v.end == start)
+      v.moves = false;
+  }
+
+  void activate_around(std::uint32_t k) {
+    const Vertex_index v(k);
+    const auto activate = [this](std::uint32_t slot) { set(slot, motion_of(items_[slot].corners), true); };
+    if (mesh_->is_isolated(v)) {
+      for (std::size_t slot = first_isolated_; slot < items_.size(); ++slot)
+        if (items_[slot].corners[0] == k)
+          activate(static_cast<std::uint32_t>(slot));
+      return;
+    }
+    for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
+      if (f != mesh_->null_face())
+        activate(slot_of_face_[static_cast<std::size_t>(f)]);
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

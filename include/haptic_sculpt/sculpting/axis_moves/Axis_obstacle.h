@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_OBSTACLE_H
+#define HAPTIC_SCULPT_SCULPTING_AXIS_OBSTACLE_H
+
+#include <haptic_sculpt/collision/arithmetic/axis_sweep.h>
+
+#include <cmath>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// What makes a motion along an axis not free.
+struct Axis_obstacle {
+  enum class Kind : std::uint8_t {
+    vertex_face, ///< vertex 0 meets the face 1, 2, 3
+    edge_edge,   ///< edge 0, 1 meets edge 2, 3
+    flat_face,   ///< the face 0, 1, 2 becomes degenerate
+    delta        ///< the face 0, 1, 2 gets an altitude below delta
+  };
+  Kind kind;
+  std::array<std::uint32_t, 4> vertices; ///< indices; of a face three, and the last is the first again
+
+  int size() const { return kind == Kind::vertex_face || kind == Kind::edge_edge ? 4 : 3; }
+};
+
+/// What share of their ways vertices may go so that a quarter of a gap is left.
+struct Axis_pull {
+  std::array<bool, 4> is_pulled; ///< those whose ways close the gap; the others may go all of theirs
+  double share;                  ///< in [0, 1)
+};
+
+/// The height of one feature of a pair above the other is a sum of weighted heights of the four corners; the weights do
+/// not change. Rounded, and only a proposal: what is made of it is decided again. Where nothing can be said, in vertical
+/// planes, all go half their ways.
+inline Axis_pull pull_for(Axis_obstacle::Kind kind, const Axis_motion<4>& motion) {
+  Axis_pull pull{{true, true, true, true}, 0.5};
+  const int i = (motion.axis + 1) % 3, j = (motion.axis + 2) % 3;
+  const auto& p = motion.start;
+  // Each product-sum is a fused one, so that compilers cannot choose.
+  const auto minor = [&](int a, int b, int c, int d) { // of b - a and d - c
+    const double x = p[b][i] - p[a][i], y = p[b][j] - p[a][j];
+    return std::fma(x, p[d][j] - p[c][j], -(y * (p[d][i] - p[c][i])));
+  };
+  std::array<double, 4> weights;
+  if (kind == Axis_obstacle::Kind::vertex_face)
+    weights = {minor(1, 2, 1, 3), -minor(0, 2, 0, 3), -minor(0, 3, 0, 1), -minor(0, 1, 0, 2)};
+  else if (kind == Axis_obstacle::Kind::edge_edge) {
+    const double all = minor(0, 1, 2, 3), at_first = minor(0, 2, 2, 3), at_second = minor(0, 2, 0, 1);
+    weights = {all - at_first, at_first, at_second - all, -at_second};
+  } else
+    return pull;
+  double gap = 0;
+  for (int k = 1; k < 4; ++k)
+    gap = std::fma(weights[k], p[k][motion.axis] - p[0][motion.axis], gap);
+  double closing = 0, opening = 0;
+  Axis_pull proposed = pull;
+  for (int k = 0; k < 4; ++k) {
+    const double change = std::copysign(1.0, gap) * weights[k] * (motion.end[k][motion.axis] - p[k][motion.axis]);
+    proposed.is_pulled[k] = change < 0;
+    (change < 0 ? closing : opening) += std::abs(change);
+  }
+  proposed.share = (0.75 * std::abs(gap) + opening) / closing;
+  return proposed.share < 1 ? proposed : pull; // not where it is not a number either
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_ELEMENT_NAMES_H
+#define HAPTIC_SCULPT_SCULPTING_ELEMENT_NAMES_H
+
+#include <haptic_sculpt/sculpting/edits/Edit.h>
+#include <haptic_sculpt/sculpting/edits/Vertex_names.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// An element by the numbers of its vertices, which last: of a face and an edge in ascending order, of a halfedge its
+/// source first.
+using Element_names = std::array<std::size_t, 3>;
+
+inline constexpr std::size_t no_name = static_cast<std::size_t>(-1);
+
+inline Element_names sorted(Element_names names) {
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+template <class Mesh>
+Element_names names_of(const Mesh&, const Vertex_names<Mesh>& names, typename Mesh::Vertex_index v) {
+  return {names.name(v), no_name, no_name};
+}
+template <class Mesh>
+Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typename Mesh::Halfedge_index h) {
+  return {names.name(mesh.source(h)), names.name(mesh.target(h)), no_name};
+}
+template <class Mesh>
+Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typename Mesh::Edge_index e) {
+  return sorted(names_of(mesh, names, mesh.halfedge(e)));
+}
+template <class Mesh>
+Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typename Mesh::Face_index f) {
+  const auto h = mesh.halfedge(f);
+  return sorted({names.name(mesh.source(h)), names.name(mesh.target(h)), names.name(mesh.target(mesh.next(h)))});
+}
+
+/// Which of the elements that an edit takes away one of those it makes comes from, by names. What comes from none is
+/// not in the table.
+///
+/// | edit | new | comes from |
+/// |---|---|---|
+/// | insert on face | face | the old face |
+/// | insert on edge | face, edge, halfedge | the old one that it is a part of |
+/// | collapse of V into P | what has P as a vertex | what had V in the place of P |
+/// | flip | face; edge, halfedge | both old faces; the old edge, halfedge |
+///
+/// Of an edit that is taken back the columns change places.
+class Edit_lineage {
+public:
+  /// \param is_directed whether the names are those of halfedges
+  Edit_lineage(const Edit& edit, bool is_back, bool is_directed)
+      : edit_(&edit), is_back_(is_back), is_directed_(is_directed) {}
+
+  /// Of a collapse, what `created` comes from, if there was one such; of other edits none is said.
+  std::optional<Element_names> only_origin(Element_names created) const {
+    if (edit_->kind != Edit_kind::remove)
+      return std::nullopt;
+    const std::size_t v = edit_->vertex, p = edit_->around[0];
+    std::replace(created.begin(), created.end(), is_back_ ? v : p, is_back_ ? p : v);
+    return is_directed_ ? created : sorted(created);
+  }
+
+  /// Whether `created` comes from `dead`. \pre both are of one kind
+  bool comes_from(const Element_names& created, const Element_names& dead) const {
+    return is_back_ ? is_of(dead, created) : is_of(created, dead);
+  }
+
+private:
+  const Edit* edit_;
+  bool is_back_, is_directed_;
+
+  /// As the edit is made.
+  bool is_of(const Element_names& made, const Element_names& old) const {
+    switch (edit_->kind) {
+    case Edit_kind::insert_on_face:
+      return true; // no edge dies
+    case Edit_kind::insert_on_edge:
+      return is_directed_ ? made[0] == old[0] || made[1] == old[1] : is_part(made, old);
+    case Edit_kind::flip:
+      return !is_directed_ || (made[0] == edit_->around[2]) == (old[0] == edit_->around[0]);
+    default:
+      return only_origin(made) == old;
+    }
+  }
+  /// Whether all vertices of `made` but the new one are those of `old`.
+  bool is_part(const Element_names& made, const Element_names& old) const {
+    return std::all_of(made.begin(), made.end(), [&](std::size_t name) {
+      return name == edit_->vertex || std::find(old.begin(), old.end(), name) != old.end();
+    });
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_KEPT_MAP_H
+#define HAPTIC_SCULPT_SCULPTING_KEPT_MAP_H
+
+#include <haptic_sculpt/sculpting/Property_origin.h>
+#include <haptic_sculpt/sculpting/edits/Element_names.h>
+
+#include <boost/container/small_vector.hpp>
+#include <boost/property_map/property_map.hpp>
+
+#include <map>
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// An edit that is under way, as property maps see it.
+struct Edit_under_way {
+  const Edit* edit;
+  bool is_back;                  ///< whether it is taken back
+  std::array<double, 3> weights; ///< of edit->around, for a vertex that is created in the middle of these
+};
+
+/// A property map whose values live through edits: those of what dies are kept for undo and redo, and new elements get
+/// values of what they come from. Of the four kinds of elements a map takes those that are its keys.
+template <class Mesh>
+class Kept_map {
+public:
+  virtual ~Kept_map() = default;
+
+  using Names = Vertex_names<Mesh>;
+
+  /// \name In this order, for each edit; one that is not made ends with the next begin()
+  ///@{
+  virtual void begin() noexcept = 0;
+  /// Each element that will die, while it is in the mesh.
+  virtual void dies(typename Mesh::Vertex_index, const Element_names&) {}
+  virtual void dies(typename Mesh::Halfedge_index, const Element_names&) {}
+  virtual void dies(typename Mesh::Edge_index, const Element_names&) {}
+  virtual void dies(typename Mesh::Face_index, const Element_names&) {}
+  /// The mesh is about to change: what is to be allocated for the record is allocated here.
+  /// \param first, number of the oldest edit in the history, and of this one; `no_name` where it is not recorded
+  /// \param is_new whether it is made for the first time
+  virtual void prepare(std::size_t first, std::size_t number, bool is_new) = 0;
+  /// Each element that has been created, when the mesh is complete again.
+  virtual void created(typename Mesh::Vertex_index, const Element_names&, const Edit_under_way&, const Names&) {}
+  virtual void created(typename Mesh::Halfedge_index, const Element_names&, const Edit_under_way&, const Names&) {}
+  virtual void created(typename Mesh::Edge_index, const Element_names&, const Edit_under_way&, const Names&) {}
+  virtual void created(typename Mesh::Face_index, const Element_names&, const Edit_under_way&, const Names&) {}
+  virtual void end() noexcept = 0;
+  ///@}
+};
+
+/// One of these. \tparam Carry makes a value of a Property_origin \tparam is_recorded whether undo and redo give the
+/// values back; else what they revive is carried on as what is new
+template <class Mesh, class Map, class Carry, bool is_recorded = true>
+class Kept_map_of : public Kept_map<Mesh> {
+  using Key = typename boost::property_traits<Map>::key_type;
+  using Value = typename boost::property_traits<Map>::value_type;
+  static constexpr bool is_directed = std::is_same<Key, typename Mesh::Halfedge_index>::value;
+  static constexpr bool is_of_vertices = std::is_same<Key, typename Mesh::Vertex_index>::value;
+
+public:
+  Kept_map_of(Map map, Carry carry) : map_(map), carry_(std::move(carry)) {}
+
+  void dies(Key key, const Element_names& names) override { dead_.push_back({names, get(map_, key)}); }
+
+  void prepare(std::size_t first, std::size_t number, bool is_new) override {
+    std::sort(dead_.begin(), dead_.end(), [](const Entry& a, const Entry& b) { return a.names < b.names; });
+    if (!is_recorded || number == no_name)
+      return;
+    store_.erase(store_.begin(), store_.lower_bound(first));
+    if (is_new)
+      store_.erase(store_.lower_bound(number), store_.end());
+    alive_again_ = &store_[number];
+  }
+
+  void created(Key key, const Element_names& names, const Edit_under_way& under_way,
+               const Vertex_names<Mesh>& vertices) override {
+    if (const Entry* saved = alive_again_ ? find(*alive_again_, names) : nullptr) {
+      put(map_, key, saved->value);
+      return;
+    }
+    Property_origin<Value> origin;
+    boost::container::small_vector<Value, 3> around; // values of vertices that stay
+    if constexpr (is_of_vertices) {
+      if (under_way.is_back) // the map was given while it was dead, so nothing is known of it
+        return;
+      const std::size_t n = under_way.edit->kind == Edit_kind::insert_on_face ? 3 : 2;
+      for (std::size_t k = 0; k < n; ++k)
+        around.push_back(get(map_, vertices.vertex(under_way.edit->around[k])));
+      for (std::size_t k = 0; k < n; ++k)
+        origin.add(around[k], under_way.weights[k]);
+    } else {
+      const Edit_lineage lineage(*under_way.edit, under_way.is_back, is_directed);
+      if (const auto same = lineage.only_origin(names)) {
+        if (const Entry* old = find(dead_, *same))
+          origin.add(old->value, 1);
+      } else {
+        for (const Entry& old : dead_)
+          if (origin.size < origin.values.size() && lineage.comes_from(names, old.names))
+            origin.add(old.value, 1);
+      }
+      for (std::size_t k = 0; k < origin.size; ++k)
+        origin.weights[k] = 1.0 / static_cast<double>(origin.size);
+    }
+    if (origin.size != 0)
+      put(map_, key, carry_(static_cast<const Property_origin<Value>&>(origin)));
+  }
+
+  void end() noexcept override {
+    if (alive_again_)
+      alive_again_->swap(dead_);
+    begin();
+  }
+  void begin() noexcept override {
+    dead_.clear();
+    alive_again_ = nullptr;
+  }
+
+private:
+  struct Entry {
+    Element_names names;
+    Value value;
+  };
+  using Entries = std::vector<Entry>;
+
+  Map map_;
+  Carry carry_;
+  Entries dead_; ///< by the edit under way
+  std::map<std::size_t, Entries>
+      store_;                      ///< by number of edit: what it killed, or, while it is taken back, what it had made
+  Entries* alive_again_ = nullptr; ///< that of the edit under way
+
+  static const Entry* find(const Entries& entries, const Element_names& names) {
+    const auto at = std::lower_bound(entries.begin(), entries.end(), names,
+                                     [](const Entry& entry, const Element_names& n) { return entry.names < n; });
+    return at != entries.end() && at->names == names ? &*at : nullptr;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

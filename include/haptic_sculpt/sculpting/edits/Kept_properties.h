@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_KEPT_PROPERTIES_H
+#define HAPTIC_SCULPT_SCULPTING_KEPT_PROPERTIES_H
+
+#include <haptic_sculpt/sculpting/edits/Kept_map.h>
+#include <haptic_sculpt/sculpting/edits/Lineage_teller.h>
+#include <haptic_sculpt/sculpting/motion/vector_3.h>
+
+#include <memory>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// The property maps that a Sculptor keeps. Costs nothing while there is none.
+template <class Mesh>
+class Kept_properties {
+public:
+  using Vertex_index = typename Mesh::Vertex_index;
+  using Face_index = typename Mesh::Face_index;
+  using Edge_index = typename Mesh::Edge_index;
+
+  explicit Kept_properties(const Mesh& mesh) : mesh_(&mesh) {}
+
+  template <class Map, class Carry>
+  void add(Map map, Carry carry) {
+    maps_.push_back(std::make_unique<Kept_map_of<Mesh, Map, Carry>>(map, std::move(carry)));
+  }
+  /// The visitor hears of what comes from what, if it has the functions for that. \param visitor is told as long as
+  /// this lives
+  template <class Visitor>
+  void tell_lineage(Visitor& visitor) {
+    if constexpr (Hears_of_faces<Visitor, Face_index>::value)
+      maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_teller<Visitor, Face_index>, Copy_property, false>>(
+          Lineage_teller<Visitor, Face_index>{&visitor}, Copy_property()));
+    if constexpr (Hears_of_edges<Visitor, Edge_index>::value)
+      maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_teller<Visitor, Edge_index>, Copy_property, false>>(
+          Lineage_teller<Visitor, Edge_index>{&visitor}, Copy_property()));
+  }
+  bool is_empty() const { return maps_.empty(); }
+
+  /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_name` where
+  /// it is not recorded; whether it is made for the first time.
+  struct Place {
+    std::size_t first, number;
+    bool is_new;
+  };
+
+  /// \name In this order, for each edit
+  ///@{
+  void begin(const Edit& edit, bool is_back, const Place& place) {
+    under_way_ = {&edit, is_back, {}};
+    place_ = place;
+    for (const auto& map : maps_)
+      map->begin();
+  }
+  /// \param v the null index where no vertex dies
+  template <class Faces, class Halfedges>
+  void die(const Vertex_names<Mesh>& names, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
+    for_each_element(names, v, faces, halfedges,
+                     [](auto& map, auto element, const Element_names& of) { map.dies(element, of); });
+    for (const auto& map : maps_)
+      map->prepare(place_.first, place_.number, place_.is_new);
+  }
+  /// \param v the null index where no vertex was created
+  template <class Faces, class Halfedges>
+  void create(const Vertex_names<Mesh>& names, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
+    if (v.is_valid() && !under_way_.is_back)
+      under_way_.weights = weights(names, vertex_coordinates(*mesh_, v));
+    for_each_element(names, v, faces, halfedges, [&](auto& map, auto element, const Element_names& of) {
+      map.created(element, of, under_way_, names);
+    });
+    for (const auto& map : maps_)
+      map->end();
+  }
+  ///@}
+
+private:
+  const Mesh* mesh_;
+  std::vector<std::unique_ptr<Kept_map<Mesh>>> maps_;
+  Edit_under_way under_way_{nullptr, false, {}};
+  Place place_{0, no_name, true};
+
+  template <class Faces, class Halfedges, class Function>
+  void for_each_element(const Vertex_names<Mesh>& names, Vertex_index v, const Faces& faces, const Halfedges& halfedges,
+                        const Function& function) {
+    const auto tell = [&](auto element) {
+      const Element_names of = names_of(*mesh_, names, element);
+      for (const auto& map : maps_)
+        function(*map, element, of);
+    };
+    if (v.is_valid())
+      tell(v);
+    for (const auto h : halfedges) {
+      tell(h);
+      tell(mesh_->opposite(h));
+      tell(mesh_->edge(h));
+    }
+    for (const Face_index f : faces)
+      tell(f);
+  }
+
+  /// How near p is to each of the vertices around it: shares of the length of an edge, of the area of a face. Rounded.
+  std::array<double, 3> weights(const Vertex_names<Mesh>& names, const Coordinates& p) const {
+    const std::vector<std::size_t>& around = under_way_.edit->around;
+    const std::size_t n = under_way_.edit->kind == Edit_kind::insert_on_face ? 3 : 2;
+    std::array<Vector, 3> way{}; // in units of the longest, lest squares leave the range
+    double largest = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      way[k] = minus(vertex_coordinates(*mesh_, names.vertex(around[k])), p);
+      largest = std::fmax(largest, largest_magnitude(way[k]));
+    }
+    for (Vector& w : way)
+      for (double& x : w)
+        x /= largest;
+    std::array<double, 3> result{};
+    double sum = 0;
+    for (std::size_t k = 0; k < n; ++k)
+      sum += result[k] = n == 2 ? length(way[1 - k]) : length(cross(way[(k + 1) % 3], way[(k + 2) % 3]));
+    for (std::size_t k = 0; k < n; ++k)
+      result[k] = sum > 0 ? result[k] / sum : 1.0 / static_cast<double>(n);
+    return result;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_CHECK_REMESHING_H
+#define HAPTIC_SCULPT_SCULPTING_CHECK_REMESHING_H
+
+#include <haptic_sculpt/sculpting/Invalid_parameter.h>
+#include <haptic_sculpt/sculpting/many_vertices/Remeshing_state.h>
+
+#include <CGAL/Named_function_parameters.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Refuses what CGAL documents for its isotropic_remeshing(), and ours does not serve.
+template <class Named_parameters>
+constexpr void check_named_parameters() {
+  namespace names = CGAL::internal_np;
+  using CGAL::parameters::is_default_parameter;
+  static_assert(is_default_parameter<Named_parameters, names::vertex_point_t>::value,
+                "isotropic_remeshing: vertex_point_map is not served: the points are those of the Sculptor's mesh");
+  static_assert(is_default_parameter<Named_parameters, names::geom_traits_t>::value,
+                "isotropic_remeshing: geom_traits is not served: what is decided is decided by the Sculptor's traits");
+  static_assert(is_default_parameter<Named_parameters, names::face_index_t>::value,
+                "isotropic_remeshing: face_index_map is not served: faces have the indices of the mesh");
+  static_assert(is_default_parameter<Named_parameters, names::allow_move_functor_t>::value,
+                "isotropic_remeshing: allow_move_functor is not served: constrain vertices, or use the visitor");
+}
+
+/// \throw Out_of_range, Invalid_parameter
+inline void check_remeshing(double target_edge_length, const Remeshing_parameters& parameters) {
+  check_range("the target edge length", target_edge_length);
+  if (!(target_edge_length > 0))
+    throw Invalid_parameter("the target edge length must be > 0, not " + number(target_edge_length));
+  const double angle = parameters.feature_angle_degrees;
+  if (!(angle >= 0 && angle <= 180))
+    throw Invalid_parameter("the feature angle must be from 0 to 180 degrees, not " + number(angle));
+  if (const double distance = parameters.most_distance.value_or(0); !(distance >= 0))
+    throw Invalid_parameter("the distance to the input must be >= 0, not " + number(distance));
+}
+
+/// Refuses a length for which splits alone would make more faces than wanted, where nothing is in the way of a split.
+///
+/// An edge of length l becomes at least l / (4/3 L) edges, and of the edges of a closed surface two thirds are faces. No
+/// triangle with edges of at most 4/3 L has a larger area than the equilateral one.
+/// \throw Invalid_parameter
+template <class Mesh>
+void check_number_of_faces(const Mesh& mesh, const Scaled_points<Mesh>& points,
+                           const std::vector<typename Mesh::Face_index>& faces, const Remeshing_options& options,
+                           double target_edge_length, const Remeshing_parameters& parameters) {
+  const double longest = options.target_edge_length * 4 / 3;
+  const double largest_area = std::sqrt(3.0) / 4 * longest * longest;
+  double area = 0, more_edges = 0;
+  for (const auto f : faces) {
+    const auto corners = corners_of_face(mesh, f);
+    const Vector a = points(corners[0]), b = points(corners[1]), c = points(corners[2]);
+    area += length(area_normal(a, b, c)) / 2;
+    // Each edge is counted at both of its faces.
+    for (const Vector& side : {minus(b, a), minus(c, b), minus(a, c)})
+      more_edges += larger(0, length(side) / longest - 1) / 2;
+  }
+  const double now = static_cast<double>(faces.size()), least = larger(area / largest_area, now + more_edges * 2 / 3),
+               most = static_cast<double>(parameters.most_number_of_faces) -
+                      static_cast<double>(mesh.number_of_faces() - faces.size());
+  if (more_edges <= 0 || least <= most)
+    return;
+  // Where edges are longer than doubles can tell in the unit, their number is not a number.
+  throw Invalid_parameter("the target edge length " + number(target_edge_length) + " is too short: it takes at least " +
+                          (std::isnan(least) ? "2^1000" : number(least)) + " faces, and " + number(most) +
+                          " may be made: give a longer one, or allow for more faces");
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,269 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `sculpt` and `haptic_loop` must not lose, whatever becomes of their streams, readers, disks and inputs, and the words that help.
+Arguments: sculpt, sweep_queries (not used), source folder, haptic_loop."""
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from box_mesh import box
+from program_runs import OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points, run, write
+
+LOOP = os.path.abspath(sys.argv[4])
+BALL = f"{SOURCE}/examples/data/ball_and_moon.off"
+PATH = f"{SOURCE}/examples/data/hand_path.csv"
+DRAGS = "drag 3 0.2 0.2 2\ndrag 3 0.2 0.2 -1\n"
+
+
+def loop(*arguments, **options):
+    return run(*arguments, program=LOOP, **options)
+
+
+def started(*arguments, program=SCULPT, before=None, **streams):
+    """Without streams of its own it says nothing to anybody."""
+    streams = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, **streams}
+    return subprocess.Popen([program, *map(str, arguments)], restore_signals=True, preexec_fn=before, **streams)
+
+
+def waits_for(path, process):
+    """Makes a pipe of `path`; \\return a function that hands it a text once the process reads there."""
+    os.mkfifo(path)
+
+    def give(text):
+        with open(path, "w") as pipe:  # opens when the other side does
+            pipe.write(text)
+
+    return give
+
+
+def closed_streams(folder, mesh):
+    """A log is not what standard output goes to."""
+    def closing(streams):
+        return lambda: [os.close(stream) for stream in streams]
+
+    script, out = write(f"{folder}/drags.script", DRAGS), f"{folder}/out.off"
+    run(mesh, "--script", script, "--log", f"{folder}/sound.log", "-o", f"{folder}/sound.off")
+    for streams in ((0,), (1,), (2,), (1, 2), (0, 1, 2)):
+        log = f"{folder}/{''.join(map(str, streams))}.log"
+        done = subprocess.run([SCULPT, mesh, "--script", script, "--log", log, "-o", out], preexec_fn=closing(streams), timeout=100)
+        check(done.returncode == 0, f"without the streams {streams}: exit {done.returncode}")
+        check(bytes_of(log) == bytes_of(f"{folder}/sound.log") and bytes_of(out) == bytes_of(f"{folder}/sound.off"),
+              f"without the streams {streams} log or result are others")
+    done = subprocess.run([SCULPT, mesh, "--script", "-"], preexec_fn=closing((0,)), capture_output=True, text=True, timeout=100)
+    fails(4, ["script"], done, "a script from a standard input that is closed")
+    log = f"{folder}/loop.log"
+    done = subprocess.run([LOOP, BALL, "--no-wait", "--seconds", "0.1", "--log", log], preexec_fn=closing((1, 2)), timeout=100)
+    check(done.returncode == 0 and run(BALL, "--log", log).returncode == 0, "haptic_loop without streams")
+
+
+def closed_pipe():
+    read, written = os.pipe()
+    os.close(read)
+    return written
+
+
+def readers_that_have_gone(folder, mesh):
+    colours = write(f"{folder}/colours.off", TETRAHEDRON.replace("3 0 2 1", "3 0 2 1 255 0 0"))  # of which something is said
+    out, report = f"{folder}/out.off", f"{folder}/report.json"
+    code = started(colours, "-o", out, "--report", report, stderr=closed_pipe()).wait(100)
+    check(code == 0 and os.path.exists(out) and os.path.exists(report), f"nobody reads the messages: exit {code}")
+    os.remove(out)
+    code = started(mesh, "-o", out, stdout=closed_pipe(), stderr=subprocess.DEVNULL).wait(100)
+    check(code == 5 and os.path.exists(out), f"nobody reads the table: exit {code}")
+    os.remove(out)
+    code = started(BALL, "--no-wait", "--seconds", "1", "-o", out, "--report", report, "--trace", "/dev/stdout", program=LOOP, stdout=closed_pipe()).wait(100)
+    check(code == 5 and os.path.exists(out), f"nobody reads the trace: exit {code}")
+    check("/dev/stdout" in " ".join(json.load(open(report))["notes"]), "the report says which rows did not arrive")
+
+
+def signals(folder, mesh):
+    out, report = f"{folder}/out.off", f"{folder}/report.json"
+    script = f"{folder}/fifo.script"
+    give = waits_for(script, None)
+    process = started(mesh, "--script", script, "-o", out)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGHUP)
+    give(DRAGS)
+    check(process.wait(100) == 0 and os.path.exists(out), f"a terminal that is closed costs the result: exit {process.returncode}")
+    process = started(mesh, "--script", script, stderr=subprocess.PIPE)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGSEGV)
+    words = process.communicate(timeout=100)[1]
+    check(process.returncode == -signal.SIGSEGV and b"sculpt: ended by a fault of its own" in words, f"a crash says so: {process.returncode} {words}")
+
+    def running(seconds, before=None):
+        process = started(BALL, "--seconds", seconds, "-o", out, "--report", report, "--trace", "/dev/stdout", program=LOOP, before=before,
+                          stdout=subprocess.PIPE)
+        for _ in range(200):
+            process.stdout.readline()
+        return process
+
+    for which in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT):
+        for path in (out, report):
+            if os.path.exists(path):
+                os.remove(path)
+        process = running(60)
+        process.send_signal(which)
+        process.communicate(timeout=100)
+        check(process.returncode == 0 and os.path.exists(out), f"{which} costs the mesh: exit {process.returncode}")
+        check(json.load(open(report))["interrupted"] is True, f"{which} in the report")
+    process = running(1, lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))  # as by nohup
+    process.send_signal(signal.SIGHUP)
+    process.communicate(timeout=100)
+    check(process.returncode == 0 and json.load(open(report))["interrupted"] is False, "nohup")
+    process = running(1)
+    process.send_signal(signal.SIGSTOP)
+    time.sleep(0.1)
+    process.send_signal(signal.SIGCONT)
+    process.communicate(timeout=100)
+    told = json.load(open(report))
+    check(told["missed_by_wakeup"] >= 10, f"ticks that came late: {told['missed_by_wakeup']}")
+    loop(BALL, "--no-wait", "--seconds", "0.1", "--report", report)
+    check(json.load(open(report))["missed_by_wakeup"] == 0, "where nothing is waited for, nothing is late")
+
+
+def thrown_while_a_script_runs(folder, mesh):
+    """A line that does not serve any more is refused; what is thrown leaves the results so far."""
+    out, report, log = f"{folder}/out.off", f"{folder}/report.json", f"{folder}/a.log"
+    script = "clearance 1e-12\ndrag 3 0 0 1000000\ndelta 1e-9\ndrag 3 0 0 1\n"
+    done = run(mesh, "--script", "-", "--log", log, "-o", out, "--report", report, script=script)
+    check(done.returncode == 0, f"delta after an outgrown clearance: exit {done.returncode}: {done.stderr}")
+    told = [(edit["line"], edit["op"], edit["status"], edit["reason"], edit["detail"]) for edit in json.load(open(report))["edits"]] if done.returncode == 0 else []
+    check([edit[:4] for edit in told[1:2]] == [(3, "delta", "refused", "clearance-of-no-use")] and "clearance default" in told[1][4], f"it is a refused line: {told}")
+    check(run(mesh, "--log", log, "-o", f"{folder}/again.off").returncode == 0 and bytes_of(out) == bytes_of(f"{folder}/again.off"), "replayed by sculpt")
+    done = loop(mesh, "--no-wait", "--seconds", "0.001", "--log", log, "-o", f"{folder}/loop.off")
+    check(done.returncode == 0 and points(f"{folder}/loop.off") == points(out), f"replayed by haptic_loop: {done.stderr}")
+    # The memory that a line asks for is not there.
+    ball = write(f"{folder}/box.off", box(8))
+    few = lambda: resource.setrlimit(resource.RLIMIT_AS, (200 << 20, 200 << 20))
+    done = subprocess.run([SCULPT, ball, "--script", "-", "-o", out, "--report", report], input="drag 0 -1.25 -1 1\nremesh 0.003\ndrag 0 -1.5 -1 1\n",
+                          capture_output=True, text=True, preexec_fn=few, timeout=300)
+    fails(1, ["line 2", "remesh", "memory"], done, "no memory in a script")
+    check(os.path.exists(out) and run(out).returncode == 0 and (-1.5, -1, 1) not in points(out), "what was done until then is written")
+    check("line 2" in " ".join(json.load(open(report))["notes"]), f"and told in the report: {json.load(open(report))['notes']}")
+
+
+def targets(folder, mesh):
+    """No file of a run is written over another one."""
+    script, plain = write(f"{folder}/a.script", DRAGS), lambda name: f"{folder}/{name}"
+    before = bytes_of(mesh)
+    for options, parts in ((["--report", mesh], ["--report", "MESH"]), (["--log", mesh], ["--log", "MESH"]), (["-o", plain("x.off"), "--report", plain("x.off")], ["-o", "--report"]),
+                           (["--script", script, "--report", script], ["--report", "--script"]), (["--log", script, "--script", script], ["--log", "--script"]),
+                           (["--picture", plain("a.png"), "--compare", plain("a.png"), "--script", script], ["--picture", "--compare"])):
+        fails(2, parts + ["one file"], run(mesh, *options), f"sculpt {options}")
+    fails(2, [".png"], run(mesh, "--picture", mesh), "a picture over the mesh")
+    for options, parts in ((["--report", mesh], ["--report", "MESH"]), (["--trace", mesh], ["--trace", "MESH"]), (["--record", mesh], ["--record", "MESH"]),
+                           (["--trace", plain("t"), "--record", plain("t")], ["--trace", "--record"]), (["--path", script, "--trace", script], ["--trace", "--path"]),
+                           (["--log", plain("l"), "-o", mesh], ["-o", "MESH"]), (["--hand", script, "--report", script], ["--report", "--hand"])):
+        fails(2, parts + ["one file"], loop(mesh, "--no-wait", *options), f"haptic_loop {options}")
+    fails(2, [".png"], loop(mesh, "--no-wait", "--picture", mesh), "a picture over the mesh")
+    check(bytes_of(mesh) == before and open(script).read() == DRAGS, "an input was written over")
+    kept = write(plain("kept.csv"), "kept")
+    fails(3, [], loop(write(plain("open.off"), TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", "")), "--no-wait", "--trace", kept, "--record", plain("r")), "a mesh that is refused")
+    check(open(kept).read() == "kept" and not os.path.exists(plain("r")), "a run that was refused spoils an old trace")
+
+
+def inputs_of_the_loop(folder, mesh):
+    for option in ("--path", "--hand", "--device", "--replay"):
+        fails(2, ["'.'", "directory"], loop(BALL, "--no-wait", option, "."), f"a folder as {option}")
+    rows = open(PATH).read()
+    out, report, picture = (f"{folder}/{name}" for name in ("out.off", "report.json", "picture.png"))
+    done = loop(BALL, "--no-wait", "--seconds", "0.1", "--path", write(f"{folder}/bom.csv", "\ufeff" + rows))
+    check(done.returncode == 0, f"a byte order mark before a path: {done.stderr}")
+    # Torn through a singular pose.
+    torn = write(f"{folder}/torn.csv", "\n".join(rows.splitlines()[:8]) + "\n")
+    last = float(open(torn).read().splitlines()[-1].split(",")[0])
+    write(torn, open(torn).read() + f"{last + 0.5},1e3,0,0.1,0\n")
+    done = loop(BALL, "--no-wait", "--path", torn, "-o", out, "--report", report, "--picture", picture)
+    fails(8, ["torn"], done, "a path that tears the mechanism")
+    for path in (out, report, picture):
+        check(os.path.exists(path), f"a path that tears the mechanism costs {path}")
+    if os.path.exists(report):
+        told = json.load(open(report))
+        check([fault["what"] for fault in told["faults"]][-1] == "torn" and told["valid"] is True, f"torn: {told['faults']}")
+    # No room for the mesh when the work is done.
+    for path in (out, report, picture):
+        if os.path.exists(path):
+            os.remove(path)
+    path, gone = f"{folder}/fifo.csv", f"{folder}/gone"
+    os.mkdir(gone)
+    give = waits_for(path, None)
+    process = started(BALL, "--no-wait", "--seconds", "0.1", "--path", path, "-o", f"{gone}/out.off", "--report", report, "--picture", picture, program=LOOP)
+    time.sleep(0.3)
+    os.rmdir(gone)
+    give(rows)
+    check(process.wait(100) == 5 and os.path.exists(report) and os.path.exists(picture), f"no room for the mesh: exit {process.returncode}, {os.listdir(folder)}")
+    check("out.off" in " ".join(json.load(open(report))["notes"] if os.path.exists(report) else []), "the report says what is missing")
+    # Names are bytes.
+    name = os.fsencode(folder) + b"/\xff\xfe.off"
+    os.mkdir(os.fsencode(folder) + b"/\xff")
+    os.symlink(b"\xff", os.fsencode(folder) + b"/link")
+    write(name, OCTAHEDRON)
+    os.chmod(name, 0o600)
+    done = subprocess.run([LOOP, name, b"--no-wait", b"--seconds", b"0.01", b"-o", os.fsencode(folder) + b"/\xff.off", b"--report", report.encode(), b"--trace",
+                           b"/dev/full", b"--record", os.fsencode(folder) + b"/\xff.rec"], capture_output=True, timeout=100)
+    check(done.returncode == 5 and b"/dev/full" in done.stderr, f"names that are not UTF-8: exit {done.returncode}: {done.stderr}")
+    done = subprocess.run([LOOP, name, b"--no-wait", b"--seconds", b"0.2", b"--report", report.encode(), b"--trace", os.fsencode(folder) + b"/full\xff"],
+                          capture_output=True, timeout=100, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16384, 16384)))
+    check(done.returncode == 5 and b"full\\xff" in done.stderr and "full" in " ".join(json.load(open(report))["notes"]), f"a note with such a name: exit {done.returncode}: {done.stderr}")
+
+
+def recordings(folder, mesh):
+    """Settings of a recording are what options could have given."""
+    recording = f"{folder}/a.rec"
+    check(loop(mesh, "--no-wait", "--seconds", "0.01", "--record", recording).returncode == 0, "a recording")
+    head, rest = open(recording).read().split("\n", 1)
+    for key, value in (("rate", -1.0), ("rate", 5), ("work", 0), ("work", -1), ("work", 1.5), ("map", [1, 2]), ("map", [0, 0, 0, 0]), ("delay", 99), ("stiffness", -1),
+                       ("damping", -1), ("reach", -1), ("virtual_mass", 11), ("compensated_inertia", 2), ("controller", -1)):
+        bad = write(f"{folder}/bad.rec", json.dumps({**json.loads(head), key: value}) + "\n" + rest)
+        fails(6, [key], loop(mesh, "--replay", bad), f"a recording with {key} = {value}")
+    check(loop(mesh, "--replay", recording).returncode == 0, "the recording itself")
+    # The greatest number is no vertex, for a log either.
+    log, out = f"{folder}/a.log", f"{folder}/out.off"
+    run(mesh, "--log", log, "--script", "-", "-o", out, script=f"drag {2**64 - 1} 5 5 5\ndrag {2**64 - 2} 5 5 5\n")
+    done = loop(mesh, "--no-wait", "--seconds", "0.001", "--log", log, "-o", f"{folder}/loop.off")
+    check(done.returncode == 0 and points(f"{folder}/loop.off") == points(mesh) == points(out), "vertex 2^64 - 1 is another one in a replay")
+
+
+def words(folder, mesh):
+    """What is at fault is named, and what to do."""
+    fails(3, ["--delta 9", "smaller"], run(mesh, "--delta", "9"), "a delta that the mesh has not")
+    fails(3, ["boundary"], run(write(f"{folder}/open.off", TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", "")), "--delta", "0.01"), "a mesh that is open")
+    fails(2, ["--nearest", "nan"], run(mesh, "--nearest", "nan", "0", "0"), "--nearest nan")
+    fails(4, ["directory"], run(mesh, "--script", folder), "a folder as script")
+    opened = loop(f"{folder}/open.off", "--no-wait")
+    fails(3, ["holes"], opened, "advice of haptic_loop")
+    check("PMP" not in opened.stderr, f"advice for programmers: {opened.stderr}")
+    for text, parts in (('{"form": nonsense}', ["line 1, column 11"]), ("", ["line 1"]), ('{"form": "ditetra",\n,}', ["line 2, column 1"])):
+        done = loop(BALL, "--no-wait", "--device", write(f"{folder}/device.json", text))
+        fails(2, ["device.json", *parts], done, f"the device {text!r}")
+        check("json.exception" not in done.stderr and "syntax error while parsing" not in done.stderr, f"words of a library: {done.stderr}")
+    rigid = {"form": "ditetra", "R": 0.03, "l1": 0.07, "l2": 0.1, "m1": 0.02, "m2": 0.02, "M": 0.05}
+    fails(7, ["friction"], loop(BALL, "--no-wait", "--device", write(f"{folder}/device.json", json.dumps(rigid))), "a device without friction")
+    for options in (["--picture-at", "@nan,0,0"], ["--picture-at", "@inf,0,0"], ["--picture-at", "@ 1,0,0"], ["--picture-zoom", "nan"], ["--picture-zoom", "1e9"],
+                    ["--picture-view", "nan", "0", "1"], ["--picture-view", "inf", "0", "1"]):
+        fails(2, [options[0]], run(mesh, "--picture", f"{folder}/never.png", *options), f"{options}")
+    pictures = []
+    for place in ("@1,0,0", "@0x1p0,0,0", "@0,1,0"):
+        done = run(mesh, "--picture", f"{folder}/a.png", "--picture-at", place)
+        pictures.append(bytes_of(f"{folder}/a.png") if done.returncode == 0 else None)
+    if pictures[0]:
+        check(pictures[0] == pictures[1] != pictures[2], "--picture-at reads hexadecimal numbers as scripts do")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = write(f"{folder}/mesh.off", TETRAHEDRON)
+        for part in (closed_streams, readers_that_have_gone, signals, thrown_while_a_script_runs, targets, inputs_of_the_loop, recordings, words):
+            inner = f"{folder}/{part.__name__}"
+            os.mkdir(inner)
+            part(inner, mesh)
+    end()
+
+
+main()

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_SCALED_SCENE_H
+#define HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_SCALED_SCENE_H
+
+#include "sculpting/public_functions/Outcome.h"
+
+namespace haptic_sculpt::test {
+
+/// An uneven ball, a moon beside it and a probe, in coordinates of 20 binary places times a power of two. So all of it is
+/// exact, down to subnormal numbers, and no coordinate is larger than twice the unit. What is asked of it is worked out in the
+/// usual mode, whatever that of the caller.
+struct Scaled_scene {
+  double unit;
+  Mesh mesh;
+  Vertex_index probe;
+
+  explicit Scaled_scene(double unit) : unit(unit) {
+    const internal::Rounding_to_nearest rounding;
+    meshes::Triangle_list list = meshes::bumpy_sphere(1, 0.2);
+    list += meshes::tetrahedron(0.5).transform([](const Point_3& p) { return Point_3(p.x() + 1.25, p.y(), p.z() + 0.125); });
+    mesh = meshes::to_mesh(list);
+    for (const Vertex_index v : mesh.vertices()) {
+      const Point_3 p = mesh.point(v);
+      mesh.point(v) = at(on_grid(p.x()), on_grid(p.y()), on_grid(p.z()));
+    }
+    probe = mesh.add_vertex(at(0.125, 1.75, 0.25));
+  }
+
+  double length(double x) const {
+    const internal::Rounding_to_nearest rounding;
+    return x * unit;
+  }
+  Point_3 at(double x, double y, double z) const { return {length(x), length(y), length(z)}; }
+  Point_3 middle(Vertex_index v, Vertex_index w) const {
+    const internal::Rounding_to_nearest rounding;
+    return CGAL::midpoint(mesh.point(v), mesh.point(w));
+  }
+  /// Where a vertex of the ball would be, so many times as far from the origin, and so many units along x.
+  Point_3 beyond(Vertex_index v, double share, double along = 0) const {
+    const internal::Rounding_to_nearest rounding;
+    const Point_3& p = mesh.point(v);
+    return {p.x() * share + along * unit, p.y() * share, p.z() * share};
+  }
+  static Vertex_index vertex(std::size_t i) { return Vertex_index(static_cast<Mesh::size_type>(i)); }
+  static constexpr std::size_t ball_size = 42;
+
+private:
+  static double on_grid(double x) { return std::ldexp(std::rint(std::ldexp(0.75 * x, 20)), -20); }
+};
+
+} // namespace haptic_sculpt::test
+
+#endif

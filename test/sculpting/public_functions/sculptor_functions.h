@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_SCULPTOR_FUNCTIONS_H
+#define HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_SCULPTOR_FUNCTIONS_H
+
+#include "sculpting/public_functions/Scaled_scene.h"
+
+namespace haptic_sculpt::test {
+
+/// Those of a Sculptor, and of what it gives: Grab and Stroke.
+inline std::vector<Public_function> sculptor_functions() {
+  std::vector<Public_function> all;
+  for (const Response response : {Response::slide, Response::stop, Response::paper})
+    for (const double share : {1.25, 0.25, -1.75})
+      all.push_back({"Sculptor::Sculptor Sculptor::grab Sculptor::mesh Sculptor::set_response Grab::drag_to Grab::vertex Grab::release",
+                     [=](double unit, Outcome& outcome) {
+                       Scaled_scene scene(unit);
+                       Sculptor<Mesh> sculptor(scene.mesh);
+                       sculptor.set_response(response);
+                       for (std::size_t i = 0; i < Scaled_scene::ball_size; i += 4) {
+                         const Vertex_index v = Scaled_scene::vertex(i);
+                         auto grab = sculptor.grab(v);
+                         std::vector<Point_3> path;
+                         outcome.drag(grab.drag_to(scene.beyond(v, share), path));
+                         for (const Point_3& p : path)
+                           outcome.point(p);
+                         outcome.drag(grab.drag_to(scene.at(1.25, 0, 0.125)));
+                         outcome.index(grab.vertex());
+                         grab.release();
+                       }
+                       outcome.mesh(sculptor.mesh());
+                     }});
+  all.push_back({"Sculptor::expect_single_drags Sculptor::expects_single_drags Sculptor::move_if_free Sculptor::release",
+                 [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   sculptor.expect_single_drags(true);
+                   outcome.number(sculptor.expects_single_drags());
+                   for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i) {
+                     const Vertex_index v = Scaled_scene::vertex(i);
+                     for (const double share : {1.5, 0.75, -2.0})
+                       outcome.number(sculptor.move_if_free(v, scene.beyond(v, share)));
+                   }
+                   sculptor.release();
+                   outcome.mesh(scene.mesh);
+                 }});
+  all.push_back({"Sculptor::first_impact", [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   for (std::size_t i = 0; i < Scaled_scene::ball_size; i += 3) {
+                     const auto first = sculptor.first_impact(Scaled_scene::vertex(i), scene.beyond(Scaled_scene::vertex(i), -1.5));
+                     outcome.number(first.has_value());
+                     if (first)
+                       outcome.impact(first->impact());
+                   }
+                 }});
+  all.push_back({"Sculptor::nearest_vertex Sculptor::first_hit", [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   for (const double within : {0.0, 0.25, 1.0, 4.0, std::numeric_limits<double>::infinity()})
+                     for (const double x : {-2.0, -0.5, 0.0, 0.125, 1.25})
+                       outcome.index(sculptor.nearest_vertex(scene.at(x, 0.25, -x / 2), scene.length(within)));
+                   for (const double x : {-1.0, -0.5, 0.0, 0.25, 1.25, 2.0}) {
+                     const auto hit = sculptor.first_hit(scene.at(x, 0.25, 2), scene.at(0.125, x, -1.5));
+                     outcome.number(hit.has_value());
+                     if (!hit)
+                       continue;
+                     outcome.index(hit->vertex), outcome.index(hit->edge), outcome.index(hit->face);
+                     outcome.number(hit->time), outcome.point(hit->point);
+                   }
+                 }});
+  all.push_back({"Sculptor::probe Sculptor::place", [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   for (const double x : {-0.5, 0.0, 0.25, 1.0, 1.75}) {
+                     std::vector<Point_3> path;
+                     outcome.drag(sculptor.probe(scene.at(x, 1.75, 0.5), scene.at(x / 2, -1.5, 0.25), &path));
+                     for (const Point_3& p : path)
+                       outcome.point(p);
+                     outcome.edit(sculptor.place(scene.probe, scene.at(x, 0.125, 0.25)));
+                     outcome.drag(sculptor.grab(scene.probe).drag_to(scene.at(x, 0, 0)));
+                   }
+                   outcome.edit(sculptor.place(scene.probe, scene.mesh.point(Scaled_scene::vertex(0))));
+                   outcome.mesh(scene.mesh);
+                 }});
+  all.push_back({"Sculptor::insert_on_face Sculptor::insert_on_edge Sculptor::remove Sculptor::collapse Sculptor::flip Sculptor::undo "
+                 "Sculptor::redo Sculptor::reserve",
+                 [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   sculptor.reserve(10, 10);
+                   const Mesh& mesh = sculptor.mesh();
+                   for (int round = 0; round < 4; ++round) {
+                     const auto f = *std::next(mesh.faces().begin(), 7 * round + 1);
+                     const auto c = internal::corners_of_face(mesh, f);
+                     outcome.edit(sculptor.insert_on_face(f, scene.beyond(c[0], 1.125)));
+                     outcome.edit(sculptor.insert_on_face(f, scene.beyond(c[0], 0.875)));
+                     const auto e = *std::next(mesh.edges().begin(), 11 * round + 2);
+                     outcome.edit(sculptor.insert_on_edge(e, scene.middle(mesh.vertex(e, 0), mesh.vertex(e, 1))));
+                     for (int k = 0; k < 4; ++k) {
+                       outcome.edit(sculptor.remove(Scaled_scene::vertex(5 * round + k)));
+                       outcome.edit(sculptor.flip(*std::next(mesh.edges().begin(), 13 * round + 3 * k)));
+                       outcome.edit(sculptor.collapse(*std::next(mesh.halfedges().begin(), 17 * round + 5 * k)));
+                     }
+                     outcome.edit(sculptor.undo());
+                     outcome.edit(sculptor.undo());
+                     outcome.edit(sculptor.redo());
+                     outcome.mesh(mesh);
+                   }
+                 }});
+  all.push_back({"Sculptor::set_delta Sculptor::set_clearance Sculptor::set_default_clearance Sculptor::clearance Sculptor::options "
+                 "Sculptor::set_work_limit",
+                 [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh, parameters::response(Response::stop));
+                   sculptor.set_delta(scene.length(0.015625));
+                   outcome.length(sculptor.options().delta_length);
+                   sculptor.set_work_limit(300);
+                   const auto drags = [&](double share) {
+                     for (std::size_t i = 1; i < Scaled_scene::ball_size; i += 5)
+                       outcome.drag(sculptor.grab(Scaled_scene::vertex(i)).drag_to(scene.beyond(Scaled_scene::vertex(i), share)));
+                   };
+                   drags(-1);
+                   sculptor.set_clearance(scene.length(0x1p-12));
+                   outcome.length(sculptor.clearance(scene.at(1, 0, 0)));
+                   sculptor.set_response(Response::slide);
+                   drags(-0.5);
+                   sculptor.set_default_clearance();
+                   outcome.length(sculptor.clearance(scene.at(1, 0.5, 0)));
+                   drags(1.25);
+                   bool is_refused = false;
+                   try {
+                     sculptor.set_delta(scene.length(0.25));
+                   } catch (const Invalid_surface&) {
+                     is_refused = true;
+                   }
+                   outcome.number(is_refused);
+                   outcome.mesh(scene.mesh);
+                 }});
+  all.push_back({"Sculptor::stroke Sculptor::history Sculptor::set_history_limit Sculptor::check_unchanged Stroke::end Stroke::is_open "
+                 "Sculptor::name Sculptor::vertex Sculptor::number_of_names Sculptor::face_of Sculptor::edge_of Sculptor::visitor "
+                 "Sculptor::filter_counters Sculptor::memory",
+                 [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   sculptor.set_history_limit(History_limit{10});
+                   auto stroke = sculptor.stroke();
+                   sculptor.grab(Scaled_scene::vertex(3)).drag_to(scene.beyond(Scaled_scene::vertex(3), 1.25));
+                   sculptor.grab(Scaled_scene::vertex(9)).drag_to(scene.beyond(Scaled_scene::vertex(9), 0.5));
+                   outcome.number(stroke.is_open());
+                   stroke.end();
+                   outcome.number(stroke.is_open());
+                   outcome.number(static_cast<double>(sculptor.history().number_of_undo_steps()));
+                   outcome.number(static_cast<double>(sculptor.name(sculptor.vertex(5)) + sculptor.number_of_names()));
+                   outcome.index(sculptor.edge_of(0, 1)), outcome.index(sculptor.face_of(0, 1, 2));
+                   sculptor.visitor().vertex_moved(Scaled_scene::vertex(0));
+                   outcome.number(sculptor.memory() > 0);
+                   sculptor.filter_counters();
+                   sculptor.check_unchanged();
+                   sculptor.undo();
+                   outcome.mesh(scene.mesh);
+                 }});
+  return all;
+}
+
+} // namespace haptic_sculpt::test
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every public function that reads coordinates, at both ends of their range and in every mode that a caller's processor may be in.
+// check_public_functions.py sees to it that none is missing.
+#include <boost/test/unit_test.hpp>
+
+#include "sculpting/public_functions/free_functions.h"
+#include "sculpting/public_functions/sculptor_functions.h"
+
+#include <cfenv>
+#include <set>
+#include <string>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+std::vector<Public_function> public_functions() {
+  std::vector<Public_function> all = sculptor_functions();
+  for (auto& function : free_functions())
+    all.push_back(std::move(function));
+  return all;
+}
+
+/// As long as it lives, doubles are rounded so, and subnormal numbers are zeros or not, as a caller's program may have it.
+class Callers_mode {
+public:
+  Callers_mode(int rounding, bool flushes) {
+    std::fesetround(rounding);
+#if defined(__SSE2__)
+    if (flushes)
+      _mm_setcsr(_mm_getcsr() | 0x8040);
+#else
+    (void)flushes;
+#endif
+    at_first_ = control();
+  }
+  ~Callers_mode() {
+#if defined(__SSE2__)
+    _mm_setcsr(_mm_getcsr() & ~0x8040u);
+#endif
+    std::fesetround(FE_TONEAREST);
+  }
+
+  /// Whether all is as it was: the bits for what is rounded how, and what is flushed, not those that tell what has happened.
+  bool stands() const { return control() == at_first_; }
+
+private:
+  std::pair<int, unsigned> at_first_;
+
+  static std::pair<int, unsigned> control() {
+#if defined(__SSE2__)
+    return {std::fegetround(), _mm_getcsr() & ~0x3fu};
+#else
+    return {std::fegetround(), 0};
+#endif
+  }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(functions_give_the_same_at_both_ends_of_the_range) {
+  // Below 2^-900 clearances are subnormal, as are what is measured there: then results need not be the same, but are finite.
+  constexpr int least_exact = -900;
+  for (const Public_function& function : public_functions()) {
+    if (std::getenv("SKIP") && function.names == "isotropic_remeshing") continue;
+    Outcome at_scale_1;
+    function.call(1, at_scale_1);
+    BOOST_TEST(at_scale_1.is_finite(), function.names);
+    for (const int k : {-1050, -1000, -900, -600, -511, -300, -153, -1, 1, 199, 300, 498, 511, 900, 999}) {
+      Outcome outcome;
+      std::string error;
+      try {
+        function.call(std::ldexp(1.0, k), outcome);
+      } catch (const std::exception& caught) {
+        error = caught.what();
+      }
+      BOOST_TEST(error == "", function.names << " at 2^" << k << ": " << error);
+      BOOST_TEST(outcome.is_finite(), function.names << " at 2^" << k);
+      if (k < least_exact)
+        continue;
+      const std::size_t first = outcome.first_difference(at_scale_1, k);
+      BOOST_TEST(first == at_scale_1.size(), function.names << " at 2^" << k << ": number " << first << " of " << outcome.size() << " is "
+                                                           << outcome.value(first) << " where it is " << at_scale_1.value(first)
+                                                           << " at scale 1");
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(functions_give_the_same_in_every_mode_and_leave_it_as_it_was) {
+  // With subnormal numbers about, which flushing would take away.
+  for (const double unit : {1.0, 0x1p-1050})
+    for (const Public_function& function : public_functions()) {
+      Outcome usual;
+      function.call(unit, usual);
+      for (const int rounding : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
+        for (const bool flushes : {false, true}) {
+          Outcome outcome;
+          std::string error;
+          bool stands = false;
+          {
+            const Callers_mode mode(rounding, flushes);
+            try {
+              function.call(unit, outcome);
+            } catch (const std::exception& caught) {
+              error = caught.what();
+            }
+            stands = mode.stands();
+          }
+          const std::string where = function.names + " in mode " + std::to_string(rounding) + (flushes ? ", flushing" : "") +
+                                    (unit == 1 ? "" : ", subnormal") + (error.empty() ? "" : ": " + error);
+          BOOST_TEST(error == "", where);
+          BOOST_TEST(stands, where);
+          const std::size_t first = outcome.first_difference(usual, 0);
+          BOOST_TEST(first == usual.size(), where << ": number " << first << " of " << outcome.size() << " is " << outcome.value(first)
+                                                 << ", not " << usual.value(first));
+        }
+    }
+}
