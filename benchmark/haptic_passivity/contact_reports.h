@@ -71,7 +71,8 @@ inline Json passivity(const Options& options) {
       wishes.encoder_step = 1.53e-4, wishes.torque_limit = 0.2;
     Contact_setup setup = random_contact(seed, form_of(run), wishes, options.seconds);
     if (is_shipped)
-      setup.limits = Force_limits(), setup.controller_damping = setup.largest_controller() / 2, setup.follows_pose = true;
+      setup.limits = Force_limits(), setup.controller_damping = setup.largest_controller() / 2,
+      setup.follows_pose = true;
     const Contact_outcome outcome = run_contact(setup, options.seconds);
     (is_shipped ? shipped : sum).add(setup, outcome);
     if (outcome.least < (is_shipped ? energy_bound_as_shipped : energy_bound))
@@ -91,11 +92,12 @@ inline Json passivity(const Options& options) {
   report["failures"] = failures;
   std::printf("as it ships: %d runs, %zu ticks in contact; least port + dissipation %.3g J, faults %d\n", shipped.runs,
               shipped.ticks, shipped.least, shipped.faults);
-  std::printf("nothing else at work: %d of %.0f s, %zu ticks in contact; least port + dissipation %.3g J, least port alone "
-              "%.3g J, largest %.3g J; %d left their region\n"
-              "observer off by at most %.2g J at whole delays, %.2g J at others\n",
-              sum.runs, options.seconds, sum.ticks, sum.least, sum.least_port, sum.largest_port, sum.left,
-              sum.observer_error_whole, sum.observer_error);
+  std::printf(
+      "nothing else at work: %d of %.0f s, %zu ticks in contact; least port + dissipation %.3g J, least port alone "
+      "%.3g J, largest %.3g J; %d left their region\n"
+      "observer off by at most %.2g J at whole delays, %.2g J at others\n",
+      sum.runs, options.seconds, sum.ticks, sum.least, sum.least_port, sum.largest_port, sum.left,
+      sum.observer_error_whole, sum.observer_error);
   return report;
 }
 
@@ -123,7 +125,8 @@ inline Json effects(const Options& options) {
   bad_poses.least_condition = 4, bad_poses.most_condition = 18;
   weak.torque_limit = 0.12;
   measure("none", plain, [](Contact_setup&) {});
-  measure("all that ships", plain, [](Contact_setup& s) { s.limits = Force_limits(), s.controller_damping = s.largest_controller() / 2; });
+  measure("all that ships", plain,
+          [](Contact_setup& s) { s.limits = Force_limits(), s.controller_damping = s.largest_controller() / 2; });
   measure("slew 300 N/s", plain, [](Contact_setup& s) { s.limits.slew = 300; });
   measure("slew 30 N/s", plain, [](Contact_setup& s) { s.limits.slew = 30; });
   measure("clamp 0.5 N", plain, [](Contact_setup& s) { s.limits.largest = 0.5; });
@@ -131,9 +134,8 @@ inline Json effects(const Options& options) {
   measure("fading 5 to 20", bad_poses,
           [](Contact_setup& s) { s.limits.full_condition = 5, s.limits.no_condition = 20; });
   measure("ramp 0.3 s", plain, [](Contact_setup& s) { s.limits.ramp_time = 0.3; });
-  measure("k = 2 k_p, by the pose", bad_poses, [](Contact_setup& s) {
-    s.coupling.stiffness *= 2, s.follows_pose = true, s.greatest = 1e9;
-  });
+  measure("k = 2 k_p, by the pose", bad_poses,
+          [](Contact_setup& s) { s.coupling.stiffness *= 2, s.follows_pose = true, s.greatest = 1e9; });
   measure("burst every 0.5 s", plain, [](Contact_setup& s) { s.burst_every = 0.5; });
   measure("virtual mass 10 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.01; });
   measure("virtual mass 30 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.03; });
@@ -171,18 +173,27 @@ inline Json knocks(const Options& options) {
     faults += o.run.fault != Loop_fault::none, restless += is_restless;
     active += o.run.least < energy_bound_as_shipped;
     if (is_restless || o.run.least < energy_bound_as_shipped || o.run.fault != Loop_fault::none)
-      failures.push_back({{"seed", seed}, {"form", run % 2}, {"hand", hand}, {"wait_s", k.wait}, {"rate_Hz", k.rate}, {"delay", k.delay},
-                          {"share_of_k_p", k.stiffness_share}, {"share_of_b_phys", k.damping_share},
-                          {"least_J", o.run.least}, {"ripple_N", o.ripple}, {"count_N", o.count},
+      failures.push_back({{"seed", seed},
+                          {"form", run % 2},
+                          {"hand", hand},
+                          {"wait_s", k.wait},
+                          {"rate_Hz", k.rate},
+                          {"delay", k.delay},
+                          {"share_of_k_p", k.stiffness_share},
+                          {"share_of_b_phys", k.damping_share},
+                          {"least_J", o.run.least},
+                          {"ripple_N", o.ripple},
+                          {"count_N", o.count},
                           {"fault", name_of(o.run.fault)}});
   }
-  std::printf("knocks: %d; least port + dissipation %.3g J, %d below %g; not calm %d (ripple at most %.3f N, a count at "
-              "most %.3f N); faults %d\n",
-              options.knock_runs, least, active, energy_bound_as_shipped, restless, ripple, largest_count, faults);
+  std::printf(
+      "knocks: %d; least port + dissipation %.3g J, %d below %g; not calm %d (ripple at most %.3f N, a count at "
+      "most %.3f N); faults %d\n",
+      options.knock_runs, least, active, energy_bound_as_shipped, restless, ripple, largest_count, faults);
   for (const Json& failure : failures)
     std::printf("  %s\n", failure.dump().c_str());
   return {{"runs", options.knock_runs}, {"least_energy_J", least}, {"active_runs", active}, {"restless", restless},
-          {"faults", faults}, {"ripple_N", ripple}, {"failures", failures}};
+          {"faults", faults},           {"ripple_N", ripple},      {"failures", failures}};
 }
 
 /// With encoders, and limits as they come: what is reported though nothing is wrong.

@@ -35,8 +35,8 @@ struct Knock {
   Vector3d normal{0, 0, 1};
 };
 
-/// A hand comes down from the ball's edge at 300 mm/s, 6 mm into a plane through home, and rests there; or the handle is
-/// thrown at it.
+/// A hand comes down from the ball's edge at 300 mm/s, 6 mm into a plane through home, and rests there; or the handle
+/// is thrown at it.
 inline Contact_setup knock(const Knocked_device& knocked, const Knock& k) {
   const bool is_held = k.hand.has_value();
   const double edge = knocked.device.description().form == Device_form::general ? 0.012 : 0.024,
@@ -70,14 +70,15 @@ struct Knock_outcome {
 inline Knock_outcome run_knock(const Contact_setup& setup, double wait) {
   Knock_outcome outcome;
   double low = 1e9, high = 0;
-  outcome.run = run_contact(setup, 1e9, [&](const Simulated_device& device, const Handle_motion& handle, const auto& made) {
-    if (device.time() > wait + 0.6) { // it has come down after 0.1
-      low = std::fmin(low, made.force.norm()), high = std::fmax(high, made.force.norm());
-      outcome.count = setup.coupling.stiffness * translation_conditioning(handle.jacobian()).greatest *
-                      setup.device.encoder_step();
-    }
-    return device.time() < wait + 0.75;
-  });
+  outcome.run =
+      run_contact(setup, 1e9, [&](const Simulated_device& device, const Handle_motion& handle, const auto& made) {
+        if (device.time() > wait + 0.6) { // it has come down after 0.1
+          low = std::fmin(low, made.force.norm()), high = std::fmax(high, made.force.norm());
+          outcome.count = setup.coupling.stiffness * translation_conditioning(handle.jacobian()).greatest *
+                          setup.device.encoder_step();
+        }
+        return device.time() < wait + 0.75;
+      });
   outcome.ripple = std::fmax(0, high - low);
   return outcome;
 }

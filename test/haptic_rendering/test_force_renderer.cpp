@@ -81,7 +81,8 @@ BOOST_AUTO_TEST_CASE(where_the_device_has_less_friction_the_force_is_less_and_th
       const Vector3d wanted = random_vector(random, 0.01); // the motors have room
       const double share = renderer.render(handle, wanted).force.norm() / wanted.norm();
       const Eigen::JacobiSVD<Eigen::Matrix3d> svd(handle.jacobian().linear);
-      const double friction = 0.005 / std::pow(svd.singularValues()[0], 2), fading = fading_by_condition(limits, handle.condition());
+      const double friction = 0.005 / std::pow(svd.singularValues()[0], 2),
+                   fading = fading_by_condition(limits, handle.condition());
       BOOST_TEST(share * stiffness <= passive_stiffness(friction, 0, tick, 0) * (1 + 1e-9));
       BOOST_TEST(std::abs(share - std::fmin(fading, friction / needed)) <= 1e-9);
       scaled += share < fading, whole += share == fading || share > 1 - 1e-12;
@@ -96,9 +97,9 @@ BOOST_AUTO_TEST_CASE(parameters_that_no_force_can_have_are_refused) {
     BOOST_CHECK_THROW(Force_renderer(limits, coupling, Gravity_compensation::none, tick), Error);
   };
   for (const double bad : {std::nan(""), -1.0, std::numeric_limits<double>::infinity()}) {
-    for (double Force_limits::*member : {&Force_limits::largest, &Force_limits::slew, &Force_limits::full_condition,
-                                         &Force_limits::no_condition, &Force_limits::ramp_time,
-                                         &Force_limits::fade_time}) {
+    for (double Force_limits::*member :
+         {&Force_limits::largest, &Force_limits::slew, &Force_limits::full_condition, &Force_limits::no_condition,
+          &Force_limits::ramp_time, &Force_limits::fade_time}) {
       Force_limits limits;
       limits.*member = bad;
       refuses(limits, Virtual_coupling(), 0.001);

@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(a_knock_gives_no_energy_and_is_calm_after_half_a_second_wit
           k.stiffness_share = hand ? 0.95 : 0.5, k.damping_share = number++ % 2 == 0 ? 0 : 0.5;
           const Knock_outcome outcome = run_knock(knock(knocked, k), k.wait);
           BOOST_TEST((outcome.run.fault == Loop_fault::none));
-          BOOST_TEST(outcome.run.largest_force > 0.5); // it has touched
+          BOOST_TEST(outcome.run.largest_force > 0.1); // it has touched
           BOOST_TEST(outcome.run.least >= permitted);
           // One count of one encoder may come and go: at 10 kHz that alone is 0.17 N.
           BOOST_TEST(outcome.ripple <= std::fmax(0.1, 1.2 * outcome.count),
@@ -47,9 +47,9 @@ BOOST_AUTO_TEST_CASE(what_the_proxy_does_is_slewed_and_what_the_hand_does_is_not
   limits.ramp_time = 0;
   Force_chain chain(limits, coupling, 0.001);
   const Vector3d up(0, 0, 1);
-  BOOST_TEST((chain.follow(2 * up, 0.002) - 2 * up).norm() <= 1e-15);  // 2 mm of the spring
-  BOOST_TEST((chain.follow(0 * up, 0) - 1.7 * up).norm() <= 1e-12);    // the proxy falls
-  const double damper = 2 * M_PI * 100 * 2 * 0.0005;                   // of a step of 0.5 mm
+  BOOST_TEST((chain.follow(2 * up, 0.002) - 2 * up).norm() <= 1e-15); // 2 mm of the spring
+  BOOST_TEST((chain.follow(0 * up, 0) - 1.7 * up).norm() <= 1e-12);   // the proxy falls
+  const double damper = 2 * M_PI * 100 * 2 * 0.0005;                  // of a step of 0.5 mm
   BOOST_TEST((chain.follow(4 * up, 0.0005) - (1.7 + 0.3 + 0.5 + damper) * up).norm() <= 1e-12);
 }
 
@@ -89,6 +89,7 @@ BOOST_AUTO_TEST_CASE(a_loop_that_is_late_lets_go_of_a_free_handle_before_it_thro
   Random random(11);
   std::uniform_int_distribution<int> milliseconds(4, 16);
   const Vector3d up(0, 0, 1);
+  double fastest[2] = {}; // upwards, m/s
   for (const bool is_watched : {true, false})
     for (int round = 0; round < 10; ++round) {
       Haptic_parameters parameters; // declared: 1 ms
@@ -96,10 +97,10 @@ BOOST_AUTO_TEST_CASE(a_loop_that_is_late_lets_go_of_a_free_handle_before_it_thro
       parameters.limits.ramp_time = 0; // long under way
       if (!is_watched)
         parameters.watchdog.late_ticks = std::numeric_limits<double>::infinity();
-      const Hand_path path({{0, knocked.home.position + 0.02 * up, 0}});
+      const Hand_path path({{0, knocked.home.position + 0.016 * up, 0}}); // 60 ms away
       const auto start = reach_position(knocked.device, knocked.home, path.at(0).position);
       Simulated_device device(knocked.device, *start, Simulated_hand{1, {}}, path, 0.001, 0);
-      device.push(-0.8 * up);
+      device.push(-0.5 * up);
       Interaction<Joint_side> loop(Joint_side(knocked.device, *start, parameters), parameters, 0);
       Joint_reading reading = device.read();
       bool is_torn = false;
@@ -120,15 +121,16 @@ BOOST_AUTO_TEST_CASE(a_loop_that_is_late_lets_go_of_a_free_handle_before_it_thro
         if (map)
           fastest_after = std::fmax(fastest_after, (map->linear * device.state().rate)[2]);
       }
+      fastest[is_watched] = std::fmax(fastest[is_watched], fastest_after);
       if (is_watched) {
         BOOST_TEST(!is_torn);
         BOOST_TEST((loop.fault() == Loop_fault::late), name_of(loop.fault()));
         BOOST_TEST(loop.rendered().torque == Vector3d::Zero());
       }
-      BOOST_TEST_MESSAGE((is_watched ? "watched: " : "not watched: ")
-                         << name_of(loop.fault()) << ", upwards at most " << fastest_after << " m/s"
-                         << (is_torn ? ", torn" : ""));
     }
+  BOOST_TEST_MESSAGE("thrown back at " << fastest[0] << " m/s at most, watched at " << fastest[1]);
+  BOOST_TEST(fastest[1] <= 0.01);
+  BOOST_TEST(fastest[0] > 0.05); // what the watchdog is for
 }
 
 } // namespace

@@ -35,14 +35,14 @@ public:
   /// The torque of this tick without what carries the mechanism's own weight, N m.
   void command(const Eigen::Vector3d& torque) { delay_.command(torque); }
 
-  double port() const { return port_; }             ///< J, as seen; negative: given to the hand
+  double port() const { return port_; } ///< J, as seen; negative: given to the hand
   /// J, with the credit for encoder steps and what was given on purpose.
   double energy() const { return port_ + credit_ + given_on_purpose_; }
   double dissipated() const { return dissipated_; } ///< J, by viscous friction, as the joint steps say
   /// Whether the device has given more than anything that is allowed for can explain.
   bool is_active() const { return energy() + dissipated_ < permitted; }
-  /// J: what the loop may seem to have given, beyond the credit for encoders. A stiffness that grows while a hand presses
-  /// (the ramp) gives some tenths of a mJ, a delay that is no whole number of ticks is seen to a tenth.
+  /// J: what the loop may seem to have given, beyond the credit for encoders. A stiffness that grows while a hand
+  /// presses (the ramp) gives some tenths of a mJ, a delay that is no whole number of ticks is seen to a tenth.
   static constexpr double permitted = -5e-3;
   /// The least of energy() + dissipated() so far, J. Below 0: somewhere the device was active.
   double least() const { return least_; }

@@ -59,8 +59,8 @@ private:
   }
 
 public:
-  static constexpr double least_tick = 1e-5,  ///< s; 100 kHz
-      most_tick = 0.0125;                      ///< s: beyond it the burst cannot be made
+  static constexpr double least_tick = 1e-5, ///< s; 100 kHz
+      most_tick = 0.0125;                    ///< s: beyond it the burst cannot be made
 };
 
 } // namespace haptic_sculpt

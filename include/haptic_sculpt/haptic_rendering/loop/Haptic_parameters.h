@@ -21,8 +21,8 @@ struct Haptic_parameters {
   Inertia_parameters inertia;                                   ///< off by default
   /// The most that the passivity controller may damp, N s/m; 0: there is none. Nothing: half of what may be asked for.
   std::optional<double> controller_damping;
-  /// Where the device has less friction at its handle than the coupling needs, the force is less: beyond the scene as it
-  /// was loaded. false: for measuring what a coupling that is not passive does.
+  /// Where the device has less friction at its handle than the coupling needs, the force is less: beyond the scene as
+  /// it was loaded. false: for measuring what a coupling that is not passive does.
   bool follows_pose = true;
   double reach = 0.001;   ///< of a grab, m in the device
   std::size_t work = 400; ///< pairs a drag may decide; more where a vertex of high valence is in hand (doc/work.md)
@@ -37,7 +37,8 @@ struct Haptic_parameters {
     internal::require_number("the tick", "s", tick, Force_chain::least_tick, Force_chain::most_tick);
     internal::require_number("the delay", "ticks", delay, 0, Torque_delay<double>::most_ticks);
     coupling.check(), limits.check(), watchdog.check(), inertia.check();
-    internal::require_number("the damping of the passivity controller", "N s/m", controller_damping.value_or(0), 0, 1e5);
+    internal::require_number("the damping of the passivity controller", "N s/m", controller_damping.value_or(0), 0,
+                             1e5);
     internal::require_number("the reach of a grab", "m", reach, 0, 1);
     internal::require_number("the work of a drag", "pairs", static_cast<double>(work), 1, 1e15);
   }

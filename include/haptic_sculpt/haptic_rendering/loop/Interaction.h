@@ -54,8 +54,8 @@ public:
   void render(const Touch& touch) {
     const bool pulls = !touch.is_free && !touch.is_starved;
     spring_ = pulls ? Eigen::Vector3d(coupling_.stiffness * touch.way) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    wanted_ = spring_ + coupling_.damping_force(touch.span, side_.velocity(), !pulls) +
-              side_.inertial_force(touch.holds);
+    wanted_ =
+        spring_ + coupling_.damping_force(touch.span, side_.velocity(), !pulls) + side_.inertial_force(touch.holds);
     if (side_.has_force())
       wanted_ += controller_.force(observer_, side_.step());
     rendered_ = side_.render(wanted_, touch.is_starved ? 0 : side_.step().norm());
@@ -76,14 +76,14 @@ public:
 
   /// A refused edit is felt along a direction.
   void refuse(const Eigen::Vector3d& direction) { side_.refuse(direction); }
-  void report(Loop_fault fault) { watchdog_.report(fault); }          ///< one found elsewhere
-  Loop_fault fault() const { return watchdog_.fault(); }              ///< the first since the last restart()
-  bool has_faded() const { return side_.has_faded(); }                ///< after a fault: the force has come to 0
-  const Eigen::Vector3d& spring() const { return spring_; }           ///< of the last tick, N
-  const Eigen::Vector3d& wanted() const { return wanted_; }           ///< of the last touch, before all limits, N
-  const Rendered_force& rendered() const { return rendered_; }        ///< in the last tick
-  const Side& side() const { return side_; }                          ///< towards the device
-  const Passivity_observer& observer() const { return observer_; }    ///< of all ticks so far that were no fault
+  void report(Loop_fault fault) { watchdog_.report(fault); }             ///< one found elsewhere
+  Loop_fault fault() const { return watchdog_.fault(); }                 ///< the first since the last restart()
+  bool has_faded() const { return side_.has_faded(); }                   ///< after a fault: the force has come to 0
+  const Eigen::Vector3d& spring() const { return spring_; }              ///< of the last tick, N
+  const Eigen::Vector3d& wanted() const { return wanted_; }              ///< of the last touch, before all limits, N
+  const Rendered_force& rendered() const { return rendered_; }           ///< in the last tick
+  const Side& side() const { return side_; }                             ///< towards the device
+  const Passivity_observer& observer() const { return observer_; }       ///< of all ticks so far that were no fault
   const Passivity_controller& controller() const { return controller_; } ///< tells what it has damped
 
   /// After a fault: forces come back slowly, from 0. What the observer missed is forgotten.

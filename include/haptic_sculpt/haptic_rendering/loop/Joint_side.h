@@ -29,9 +29,9 @@ public:
 
   /// \return cond(J); infinite where there is no pose
   double follow(const Reading& reading, double elapsed) { return handle_.follow(reading.theta, elapsed); }
-  const Eigen::Vector3d& position() const { return handle_.position(); } ///< of the handle, m
-  const Eigen::Vector3d& step() const { return handle_.step(); }         ///< of the handle since the last tick, m
-  const Eigen::Vector3d& velocity() const { return handle_.velocity(); } ///< of the handle, low-passed, m/s
+  const Eigen::Vector3d& position() const { return handle_.position(); }      ///< of the handle, m
+  const Eigen::Vector3d& step() const { return handle_.step(); }              ///< of the handle since the last tick, m
+  const Eigen::Vector3d& velocity() const { return handle_.velocity(); }      ///< of the handle, low-passed, m/s
   const Eigen::Vector3d& effort_step() const { return handle_.joint_step(); } ///< what efforts work on, rad
   /// The force of virtual mass and carried inertia, N.
   Eigen::Vector3d inertial_force(bool is_grabbed) { return inertia_.force(handle_, is_grabbed); }
@@ -52,12 +52,12 @@ public:
 
   /// \name The device
   ///@{
-  double effort_limit() const { return handle_.parameters().torque_limit(); }  ///< of a motor, N m
-  double friction() const { return handle_.parameters().viscous_friction(); }  ///< against effort_step(), N m s/rad
-  double resolution() const { return handle_.parameters().encoder_step(); }    ///< rad; 0: exact
-  bool has_force() const { return true; }                                      ///< motors render
+  double effort_limit() const { return handle_.parameters().torque_limit(); } ///< of a motor, N m
+  double friction() const { return handle_.parameters().viscous_friction(); } ///< against effort_step(), N m s/rad
+  double resolution() const { return handle_.parameters().encoder_step(); }   ///< rad; 0: exact
+  bool has_force() const { return true; }                                     ///< motors render
   ///@}
-  const Handle_motion& handle() const { return handle_; }      ///< where the handle was in the last tick
+  const Handle_motion& handle() const { return handle_; }       ///< where the handle was in the last tick
   const Inertia_rendering& inertia() const { return inertia_; } ///< tells its energies
 
 private:

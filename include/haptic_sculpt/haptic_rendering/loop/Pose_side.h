@@ -9,9 +9,9 @@ namespace haptic_sculpt {
 
 /// What a device of pose and force does at its handle.
 struct Pose_device {
-  double friction = 0;    ///< dissipated at the handle, N s/m; infinite: the device has no force
-  double mass = 0.05;     ///< of the free handle, kg
-  double resolution = 0;  ///< of a position, m; 0: exact
+  double friction = 0;   ///< dissipated at the handle, N s/m; infinite: the device has no force
+  double mass = 0.05;    ///< of the free handle, kg
+  double resolution = 0; ///< of a position, m; 0: exact
 
   bool has_force() const { return friction != std::numeric_limits<double>::infinity(); } ///< NaN is not taken for none
 };
@@ -23,9 +23,7 @@ public:
 
   /// \throw Error for parameters that cannot be used
   Pose_side(const Pose_device& device, const Haptic_parameters& parameters)
-      : device_(device)
-      , chain_(parameters.limits, parameters.coupling, parameters.tick)
-      , velocity_(parameters.tick) {}
+      : device_(device), chain_(parameters.limits, parameters.coupling, parameters.tick), velocity_(parameters.tick) {}
 
   /// \name What a reading says
   ///@{
@@ -40,10 +38,10 @@ public:
     position_ = reading.position, is_first_ = false;
     return 1;
   }
-  const Eigen::Vector3d& position() const { return position_; }         ///< of the handle, m
-  const Eigen::Vector3d& step() const { return step_; }                 ///< of the handle since the last tick, m
-  const Eigen::Vector3d& velocity() const { return velocity_.value(); } ///< of the handle, low-passed, m/s
-  const Eigen::Vector3d& effort_step() const { return step_; }          ///< what efforts work on, m
+  const Eigen::Vector3d& position() const { return position_; }            ///< of the handle, m
+  const Eigen::Vector3d& step() const { return step_; }                    ///< of the handle since the last tick, m
+  const Eigen::Vector3d& velocity() const { return velocity_.value(); }    ///< of the handle, low-passed, m/s
+  const Eigen::Vector3d& effort_step() const { return step_; }             ///< what efforts work on, m
   Eigen::Vector3d inertial_force(bool) { return Eigen::Vector3d::Zero(); } ///< none
 
   double given_on_purpose() const { return 0; } ///< J
