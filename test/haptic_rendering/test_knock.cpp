@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(what_the_proxy_does_is_slewed_and_what_the_hand_does_is_not
   BOOST_TEST((chain.follow(4 * up, 0.0005) - (1.7 + 0.3 + 0.5 + damper) * up).norm() <= 1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_given_on_purpose_is_no_fault_and_not_damped) {
+BOOST_AUTO_TEST_CASE(inertia_that_motors_carry_in_free_space_is_no_fault) {
   const Knocked_device knocked(Device_form::general);
   Knock k;
   k.stiffness_share = 0.5, k.hand = Simulated_hand::finger(), k.damping_share = 0;

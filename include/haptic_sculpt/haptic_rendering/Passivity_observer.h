@@ -28,16 +28,13 @@ public:
       credit_ += stiffness * handle_step.squaredNorm() / 12;
     least_ = std::fmin(least_, energy() + dissipated_);
   }
-  /// What was given on purpose so far, J, such as by motors that carry the mechanism's inertia: it is not missed.
-  void allow(double given) { given_on_purpose_ = given; }
   /// Begins anew with nothing taken or given.
   void restart() { *this = Passivity_observer(delay_.ticks(), tick_, friction_, encoder_step_); }
   /// The torque of this tick without what carries the mechanism's own weight, N m.
   void command(const Eigen::Vector3d& torque) { delay_.command(torque); }
 
   double port() const { return port_; } ///< J, as seen; negative: given to the hand
-  /// J, with the credit for encoder steps and what was given on purpose.
-  double energy() const { return port_ + credit_ + given_on_purpose_; }
+  double energy() const { return port_ + credit_; } ///< J, with the credit for encoder steps
   double dissipated() const { return dissipated_; } ///< J, by viscous friction, as the joint steps say
   /// Whether the device has given more than anything that is allowed for can explain.
   bool is_active() const { return energy() + dissipated_ < permitted; }
@@ -50,7 +47,7 @@ public:
 private:
   Torque_delay<double> delay_;
   double tick_, friction_, encoder_step_;
-  double port_ = 0, credit_ = 0, given_on_purpose_ = 0, dissipated_ = 0, least_ = 0;
+  double port_ = 0, credit_ = 0, dissipated_ = 0, least_ = 0;
 };
 
 } // namespace haptic_sculpt

@@ -43,7 +43,6 @@ public:
     if (!watchdog_.check(Side::coordinates(reading), Side::efforts(reading), reading.elapsed) ||
         !watchdog_.check_condition(side_.follow(reading, reading.elapsed)))
       return false;
-    observer_.allow(side_.given_on_purpose());
     observer_.add_step(side_.effort_step(), coupling_.stiffness, side_.step());
     if (side_.has_force() && observer_.is_active())
       watchdog_.report(Loop_fault::energy);

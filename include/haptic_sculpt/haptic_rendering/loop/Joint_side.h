@@ -36,9 +36,6 @@ public:
   /// The force of virtual mass and carried inertia, N.
   Eigen::Vector3d inertial_force(bool is_grabbed) { return inertia_.force(handle_, is_grabbed); }
 
-  /// To carry the mechanism's inertia, J so far.
-  double given_on_purpose() const { return std::fmax(0, -inertia_.compensation_energy()); }
-
   /// \param wanted N \param way of the handle that made it, m
   const Rendered_force& render(const Eigen::Vector3d& wanted, double way) {
     return renderer_.render(handle_, wanted, way);

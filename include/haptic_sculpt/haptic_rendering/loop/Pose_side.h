@@ -44,8 +44,6 @@ public:
   const Eigen::Vector3d& effort_step() const { return step_; }             ///< what efforts work on, m
   Eigen::Vector3d inertial_force(bool) { return Eigen::Vector3d::Zero(); } ///< none
 
-  double given_on_purpose() const { return 0; } ///< J
-
   /// \param wanted N \param way of the handle that made it, m
   const Rendered_force& render(const Eigen::Vector3d& wanted, double way) {
     last_.force = last_.interaction_torque = chain_.follow(wanted, way);
