@@ -19,7 +19,6 @@ figure, (by_damping, by_tick, by_rate) = plt.subplots(1, 3, figsize=(15, 4.6))
 def draw(axes, rows, x, colour, label):
     rows = sorted(rows, key=x)
     axes.plot([x(r) for r in rows], [r["passive_formula"] if r["passive_formula"] > 0 else None for r in rows], "-", color=colour, label=label)
-    axes.plot([x(r) for r in rows], [r["stable_formula"] for r in rows], "--", color=colour)
     active = [r for r in rows if "active_from" in r]
     axes.plot([x(r) for r in active], [r["active_from"] for r in active], "o", color=colour, markersize=7, fillstyle="none")
     axes.plot([x(r) for r in rows], [r["stable_to"] for r in rows], "^", color=colour, markersize=5)
@@ -30,7 +29,7 @@ for delay, colour in zip((0.0, 0.5, 1.0), ("tab:blue", "tab:orange", "tab:green"
          lambda r: r["damping"] / friction, colour, f"d = {delay:g} ticks")
 by_damping.set_xlabel("b / b_phys")
 by_damping.set_title("T = 1 ms")
-for share, colour in zip((0.0, 1.0, 4.0), ("tab:blue", "tab:red", "tab:purple")):
+for share, colour in zip((0.0, 0.5, 0.95), ("tab:blue", "tab:red", "tab:purple")):
     draw(by_tick, [r for r in chart["rows"] if r["delay"] == 0 and abs(r["damping"] - share * friction) < 1e-9],
          lambda r: 1 / r["tick_s"], colour, f"b = {share:g} b_phys")
 by_tick.set_xscale("log")
@@ -39,7 +38,7 @@ by_tick.set_xlabel("rate, Hz")
 by_tick.set_title("d = 0")
 for axes in (by_damping, by_tick):
     axes.set_ylabel("k, N/m")
-    axes.legend(fontsize=8, title="lines: k_p, dashed k_s;\ncircles: activity from,\ntriangles: stable to", title_fontsize=8)
+    axes.legend(fontsize=8, title="lines: k_p;\ncircles: activity from,\ntriangles: calm to", title_fontsize=8)
 for delay, colour in zip((0.0, 0.5, 1.0), ("tab:blue", "tab:orange", "tab:green")):
     rows = [r for r in report["rate"] if r["delay"] == delay]
     exact = [r for r in rows if r["encoder_step"] == 0]

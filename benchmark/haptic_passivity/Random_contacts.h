@@ -2,13 +2,15 @@
 #ifndef HAPTIC_SCULPT_BENCHMARK_RANDOM_CONTACTS_H
 #define HAPTIC_SCULPT_BENCHMARK_RANDOM_CONTACTS_H
 
-#include "haptic_passivity/Contact_run.h"
+#include "haptic_rendering/Contact_run.h"
 
 #include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
 
 #include <random>
 
 namespace haptic_sculpt::passivity_benchmark {
+
+using namespace haptic_rendering_tests;
 
 /// Draws of numbers that are the same on every machine.
 class Draw {

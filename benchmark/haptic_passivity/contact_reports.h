@@ -4,6 +4,7 @@
 
 #include "haptic_passivity/Options.h"
 #include "haptic_passivity/Random_contacts.h"
+#include "haptic_rendering/knock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,18 +54,28 @@ struct Sum {
   }
 };
 
-/// Random runs within the passive limit.
+/// Of the same with all that ships, J: what a stiffness that grows with the ramp gives who presses meanwhile.
+constexpr double energy_bound_as_shipped = -1e-3;
+
+/// Random runs within the passive limit: every second with nothing else at work and exact angles, the others with all
+/// that ships.
 inline Json passivity(const Options& options) {
-  Sum sum;
+  Sum sum, shipped;
   Json failures = Json::array();
   for (int run = options.first; run < options.first + options.runs; ++run) {
     const std::uint64_t seed = options.seed * 1000003 + run;
     Contact_wishes wishes;
     wishes.is_at_limit = run % 5 == 0;
-    const Contact_setup setup = random_contact(seed, form_of(run), wishes, options.seconds);
+    const bool is_shipped = run / 2 % 2 == 1;
+    if (is_shipped)
+      wishes.encoder_step = 1.53e-4, wishes.torque_limit = 0.2;
+    Contact_setup setup = random_contact(seed, form_of(run), wishes, options.seconds);
+    if (is_shipped)
+      setup.limits = Force_limits(), setup.controller_damping = setup.largest_controller() / 2,
+      setup.follows_pose = true;
     const Contact_outcome outcome = run_contact(setup, options.seconds);
-    sum.add(setup, outcome);
-    if (outcome.least < energy_bound)
+    (is_shipped ? shipped : sum).add(setup, outcome);
+    if (outcome.least < (is_shipped ? energy_bound_as_shipped : energy_bound))
       failures.push_back({{"seed", seed},
                           {"form", run % 2 == 0 ? "ditetrahedral" : "general"},
                           {"least_J", outcome.least},
@@ -76,12 +87,17 @@ inline Json passivity(const Options& options) {
       std::fprintf(stderr, "passive runs: %d of %d\r", run + 1 - options.first, options.runs);
   }
   Json report = sum.json();
+  report["as_shipped"] = shipped.json();
+  report["active_runs"] = failures.size();
   report["failures"] = failures;
-  std::printf("passive runs: %d of %.0f s, %zu ticks in contact; least port + dissipation %.3g J, least port alone "
-              "%.3g J, largest %.3g J; %d left their region\n"
-              "observer off by at most %.2g J at whole delays, %.2g J at others\n",
-              sum.runs, options.seconds, sum.ticks, sum.least, sum.least_port, sum.largest_port, sum.left,
-              sum.observer_error_whole, sum.observer_error);
+  std::printf("as it ships: %d runs, %zu ticks in contact; least port + dissipation %.3g J, faults %d\n", shipped.runs,
+              shipped.ticks, shipped.least, shipped.faults);
+  std::printf(
+      "nothing else at work: %d of %.0f s, %zu ticks in contact; least port + dissipation %.3g J, least port alone "
+      "%.3g J, largest %.3g J; %d left their region\n"
+      "observer off by at most %.2g J at whole delays, %.2g J at others\n",
+      sum.runs, options.seconds, sum.ticks, sum.least, sum.least_port, sum.largest_port, sum.left,
+      sum.observer_error_whole, sum.observer_error);
   return report;
 }
 
@@ -109,6 +125,8 @@ inline Json effects(const Options& options) {
   bad_poses.least_condition = 4, bad_poses.most_condition = 18;
   weak.torque_limit = 0.12;
   measure("none", plain, [](Contact_setup&) {});
+  measure("all that ships", plain,
+          [](Contact_setup& s) { s.limits = Force_limits(), s.controller_damping = s.largest_controller() / 2; });
   measure("slew 300 N/s", plain, [](Contact_setup& s) { s.limits.slew = 300; });
   measure("slew 30 N/s", plain, [](Contact_setup& s) { s.limits.slew = 30; });
   measure("clamp 0.5 N", plain, [](Contact_setup& s) { s.limits.largest = 0.5; });
@@ -116,6 +134,8 @@ inline Json effects(const Options& options) {
   measure("fading 5 to 20", bad_poses,
           [](Contact_setup& s) { s.limits.full_condition = 5, s.limits.no_condition = 20; });
   measure("ramp 0.3 s", plain, [](Contact_setup& s) { s.limits.ramp_time = 0.3; });
+  measure("k = 2 k_p, by the pose", bad_poses,
+          [](Contact_setup& s) { s.coupling.stiffness *= 2, s.follows_pose = true, s.greatest = 1e9; });
   measure("burst every 0.5 s", plain, [](Contact_setup& s) { s.burst_every = 0.5; });
   measure("virtual mass 10 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.01; });
   measure("virtual mass 30 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.03; });
@@ -125,6 +145,55 @@ inline Json effects(const Options& options) {
   measure("k = 10 k_p, controller", plain,
           [](Contact_setup& s) { s.coupling.stiffness *= 10, s.controller_damping = 10; });
   return rows;
+}
+
+/// Knocks at random: both forms, 0.5 to 10 kHz, delay to 2 ticks, k to 0.95 k_p, b to 0.95 b_phys, named hands and
+/// thrown, along any direction; all that ships.
+inline Json knocks(const Options& options) {
+  const Knocked_device devices[] = {Knocked_device(form_of(0)), Knocked_device(form_of(1))};
+  const std::optional<Simulated_hand> hands[] = {Simulated_hand::finger(), Simulated_hand::arm(),
+                                                 Simulated_hand::measured_arm(), std::nullopt};
+  double least = 0, ripple = 0, largest_count = 0;
+  int faults = 0, restless = 0, active = 0;
+  Json failures = Json::array();
+  for (int run = options.first; run < options.first + options.knock_runs; ++run) {
+    const std::uint64_t seed = options.seed * 1000003 + 900000 + run;
+    Draw draw(seed);
+    Knock k;
+    const int hand = run / 2 % 4;
+    k.rate = draw.logarithmic(500, 10000), k.delay = draw.chance(0.3) ? 0 : draw(0, 2), k.hand = hands[hand];
+    k.stiffness_share = draw(0.1, k.hand ? 0.95 : 0.5), k.damping_share = draw.chance(0.4) ? 0 : draw(0, 0.95);
+    k.normal = draw.direction();
+    k.wait = draw.chance(0.2) ? 0 : 0.35; // while the ramp is under way, and after it
+    const Knock_outcome o = run_knock(knock(devices[run % 2], k), k.wait);
+    const bool swings = hand == 2; // on its own arm, for a second
+    const bool is_restless = !swings && o.ripple > std::fmax(0.1, 1.5 * o.count);
+    least = std::fmin(least, o.run.least), largest_count = std::fmax(largest_count, o.count);
+    ripple = swings ? ripple : std::fmax(ripple, o.ripple);
+    faults += o.run.fault != Loop_fault::none, restless += is_restless;
+    active += o.run.least < energy_bound_as_shipped;
+    if (is_restless || o.run.least < energy_bound_as_shipped || o.run.fault != Loop_fault::none)
+      failures.push_back({{"seed", seed},
+                          {"form", run % 2},
+                          {"hand", hand},
+                          {"wait_s", k.wait},
+                          {"rate_Hz", k.rate},
+                          {"delay", k.delay},
+                          {"share_of_k_p", k.stiffness_share},
+                          {"share_of_b_phys", k.damping_share},
+                          {"least_J", o.run.least},
+                          {"ripple_N", o.ripple},
+                          {"count_N", o.count},
+                          {"fault", name_of(o.run.fault)}});
+  }
+  std::printf(
+      "knocks: %d; least port + dissipation %.3g J, %d below %g; not calm %d (ripple at most %.3f N, a count at "
+      "most %.3f N); faults %d\n",
+      options.knock_runs, least, active, energy_bound_as_shipped, restless, ripple, largest_count, faults);
+  for (const Json& failure : failures)
+    std::printf("  %s\n", failure.dump().c_str());
+  return {{"runs", options.knock_runs}, {"least_energy_J", least}, {"active_runs", active}, {"restless", restless},
+          {"faults", faults},           {"ripple_N", ripple},      {"failures", failures}};
 }
 
 /// With encoders, and limits as they come: what is reported though nothing is wrong.

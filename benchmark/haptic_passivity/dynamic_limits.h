@@ -46,18 +46,21 @@ inline Dynamic_limits dynamic_limits(Device_form form, double tick, double delay
   const auto is_calm_with = [&](double stiffness, double damping, double mass, double controller) {
     return is_calm_in_every_hand(device, l.lightest.pose, {stiffness, damping}, mass, controller, tick, delay);
   };
-  const double k_s = l.stable_stiffness, k_b = stable_stiffness(l.apparent_mass, l.friction, l.largest_damping, tick, delay);
-  found.holds = is_calm_with(0, 0, l.largest_mass, 0) && is_calm_with(k_s, 0, l.largest_mass, 0) &&
-                is_calm_with(k_b, l.largest_damping, 0, 0) && is_calm_with(k_s, l.largest_damping, 0, 0) &&
-                is_calm_with(k_s, l.largest_damping, l.largest_mass, l.largest_controller);
+  const double k = l.recommended_stiffness(), b = 0.5 * l.largest_damping,
+               k_b = passive_stiffness(l.friction, b, tick, delay);
+  found.holds = is_calm_with(0, 0, l.largest_mass, 0) && is_calm_with(k, 0, l.largest_mass, 0) &&
+                is_calm_with(k_b, b, 0, 0) && is_calm_with(k_b, b, l.largest_mass, l.default_controller());
+  for (const Simulated_hand& hand : stiff_hands())
+    found.holds = found.holds &&
+                  is_calm(pressed(device, l.lightest.pose, hand, {0, l.largest_damping}, tick, delay)) &&
+                  is_calm(pressed(device, l.lightest.pose, hand, {k_b, b}, tick, delay));
   found.mass_is_calm_below = is_calm_with(0, 0, 0.8 * found.critical_mass, 0);
   found.mass_swings_above = !is_calm_with(0, 0, 1.2 * found.critical_mass, 0);
-  // Where the lag of the velocity allows less, far below what is critical: a wall throws the handle off.
   found.damping_is_calm_below =
-      is_calm_with(k_s, std::fmin(0.6 * found.critical_damping, 2 * l.largest_damping), 0, 0);
+      is_calm_with(k, std::fmin(0.6 * found.critical_damping, 2 * l.largest_damping), 0, 0);
   // A wall that damps far too much throws the handle off, and it may come to rest beside it.
   found.damping_swings_above =
-      !is_calm_with(k_s, 1.3 * found.critical_damping, 0, 0) || !is_calm_with(k_s, 2 * found.critical_damping, 0, 0);
+      !is_calm_with(k, 1.3 * found.critical_damping, 0, 0) || !is_calm_with(k, 2 * found.critical_damping, 0, 0);
   return found;
 }
 

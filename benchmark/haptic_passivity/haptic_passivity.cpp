@@ -20,6 +20,8 @@ std::vector<std::string> broken_bounds(const Json& report) {
   std::vector<std::string> broken;
   if (report.contains("passive") && report["passive"]["active_runs"] != 0)
     broken.push_back("a run within the passive limit was given energy; its seed is in the report");
+  if (report.contains("knocks") && !report["knocks"]["failures"].empty())
+    broken.push_back("a knock gave energy, was not calm after half a second, or ended as a fault; its seed is in the report");
   for (const Json& row : report.value("activity", Json::array()))
     if (row["delay"] == 0.0 && (row["least_over_formula"] < 0.9 || row["largest"] > 1.1))
       broken.push_back("activity does not begin within 10 % of the formula");
@@ -53,6 +55,9 @@ int main(int argc, char** argv) {
   app.add_option("--first", options.first, "Number of the first of them: shares of one large set add up to it")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  app.add_option("--knock-runs", options.knock_runs, "Of a hand that comes down fast, or a handle that is thrown")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--seconds", options.seconds, "Of contact in each")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--effect-runs", options.effect_runs, "For each effect")
       ->check(CLI::PositiveNumber)
@@ -74,7 +79,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--parts", options.parts, "What to measure")
       ->delimiter(',')
-      ->check(CLI::IsMember({"activity", "gravity", "rate", "effects", "alarms", "dynamics", "passive"}))
+      ->check(CLI::IsMember({"activity", "gravity", "rate", "effects", "alarms", "dynamics", "knocks", "passive"}))
       ->capture_default_str();
   app.add_flag("--chart", options.chart, "Where activity and instability begin, over tick, delay and damping; minutes");
   app.add_option("--seed", options.seed, "Of everything random")->capture_default_str();
@@ -93,7 +98,7 @@ int main(int argc, char** argv) {
   };
   part("activity", activity_report), part("gravity", gravity), part("rate", rates), part("effects", effects),
       part("alarms", alarms), part("dynamics", dynamics_report);
-  part("passive", passivity);
+  part("knocks", knocks), part("passive", passivity);
   if (options.chart)
     report["chart"] = chart();
   const std::vector<std::string> broken = broken_bounds(report);

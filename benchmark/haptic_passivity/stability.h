@@ -15,6 +15,11 @@ inline std::vector<Simulated_hand> hands_of_chart() {
           {1, {{{0.1, 800, 4}}}}};
 }
 
+/// Such as hold a handle in a clamp, with hardly any damping.
+inline std::vector<Simulated_hand> stiff_hands() {
+  return {{1, {{{0, 1000, 0.3}}}}, {1, {{{0, 3000, 0.3}}}}, {1, {{{0, 3000, 3}}}}};
+}
+
 /// Whether a handle that a hand presses on a plane does not buzz: in the last quarter of a second its acceleration from
 /// tick to tick is below 1 m/s^2 in the mean, or has fallen by a tenth since the quarter before. How a slow hand swings
 /// on its own arm, some tenths of a m/s^2, does not count.
@@ -40,7 +45,7 @@ inline Contact_setup pressed(const Device_parameters<double>& device, const Devi
   const Hand_path path({{0, pose.position + 0.0005 * normal, 0}, {0.1, pose.position - 0.006 * normal, 0}});
   const auto start = reach_position(device, pose, path.rows().front().position);
   Contact_setup setup{device, *start, pose.position, normal, path, hand};
-  setup.tick = tick, setup.delay = delay, setup.coupling = coupling, setup.limits = no_limits();
+  setup.tick = tick, setup.delay = delay, setup.coupling = coupling;
   setup.greatest = 1e9, setup.most_condition = 100;
   return setup;
 }

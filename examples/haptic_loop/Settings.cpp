@@ -149,7 +149,7 @@ json json_of(const Settings& s) {
           {"work", s.work},
           {"virtual_mass", s.virtual_mass},
           {"compensated_inertia", s.compensated_inertia},
-          {"controller", s.controller},
+          {"controller", s.controller ? json(*s.controller) : json()},
           {"map", s.map},
           {"device", json_of(s.device)}};
 }
@@ -161,7 +161,9 @@ Settings settings_of(const json& j) {
     s.reach = j.at("reach"), s.map = j.at("map").get<std::vector<double>>();
     s.work = j.at("work").is_number_unsigned() ? j.at("work").get<std::size_t>() : 0; // 0 is refused below
     s.virtual_mass = j.value("virtual_mass", 0.0); // older recordings have none
-    s.compensated_inertia = j.value("compensated_inertia", 0.0), s.controller = j.value("controller", 0.0);
+    s.compensated_inertia = j.value("compensated_inertia", 0.0);
+    const json controller = j.value("controller", json(0.0));
+    s.controller = controller.is_null() ? std::nullopt : std::optional<double>(controller.get<double>());
     s.device = device_of(j.at("device"));
     if (const auto bad = bad_setting(s)) {
       std::string key = bad->option;
@@ -192,7 +194,7 @@ std::optional<Bad_setting> bad_setting(const Settings& s) {
     return Bad_setting{"virtual-mass", "must be from 0 to 10 kg"};
   if (!(s.compensated_inertia >= 0 && s.compensated_inertia <= 1))
     return Bad_setting{"compensated-inertia", "must be from 0 to 1"};
-  if (!is_length(s.controller))
+  if (!is_length(s.controller.value_or(0)))
     return Bad_setting{"controller", "must be a finite number >= 0, N s/m"};
   if (!is_length(s.reach))
     return Bad_setting{"reach", "must be a finite length >= 0, m"};

@@ -14,6 +14,11 @@ inline void write_columns(std::FILE* file) {
              file);
 }
 
+/// How the drag of a tick ended.
+inline const char* end_of(const Tool_step& tool) {
+  return tool.starved ? "starved" : tool.end ? name_of(*tool.end) : "none";
+}
+
 /// A tick. \param time s \param cpu ns
 inline void write_row(std::FILE* file, const Joint_reading& reading, const Haptic_tick& made, double time,
                       std::uint64_t cpu) {
@@ -21,7 +26,7 @@ inline void write_row(std::FILE* file, const Joint_reading& reading, const Hapti
   std::fprintf(file, "%.17g", time);
   put(reading.theta), put(made.tool.target), put(made.tool.proxy), put(made.coupling), put(made.rendered.force),
       put(made.rendered.torque);
-  std::fprintf(file, ",%s,%d,%zu,%llu\n", made.tool.end ? name_of(*made.tool.end) : "none", made.tool.contacts,
+  std::fprintf(file, ",%s,%d,%zu,%llu\n", end_of(made.tool), made.tool.contacts,
                made.tool.pairs, static_cast<unsigned long long>(cpu));
 }
 

@@ -132,7 +132,8 @@ private:
   /// \throw Unstable_coupling that says more where the device is the reason
   void check(const Haptic_parameters& parameters, const Passivity_limits& limits) const {
     try {
-      check_dynamics(parameters.coupling.damping, parameters.inertia, parameters.controller_damping, limits);
+      check_dynamics(parameters.coupling.damping, parameters.inertia,
+                     parameters.controller_damping.value_or(0), limits);
       check_coupling(parameters.coupling, limits);
     } catch (const Unstable_coupling& error) {
       if (settings_.device.viscous_friction > 0)
@@ -150,13 +151,13 @@ private:
       throw Usage_error("the map leads to no place that the device can reach; see --map");
     result_.friction = limits.friction;
     result_.passive_stiffness = limits.passive_stiffness;
-    result_.stable_stiffness = limits.stable_stiffness;
     result_.largest_damping = limits.largest_damping, result_.largest_mass = limits.largest_mass;
     result_.largest_controller = limits.largest_controller;
-    if (limits.permits(parameters.coupling) && !limits.is_passive(parameters.coupling))
+    if (limits.permits(parameters.coupling) && settings_.damping == 0 &&
+        settings_.stiffness > limits.recommended_stiffness())
       writer_.note("the stiffness " + internal::number(settings_.stiffness) +
-                       " N/m is stable, but not passive: that ends at " +
-                       internal::number(std::fmax(0.0, limits.passive_stiffness)) + " N/m");
+                       " N/m is passive, but a handle that nobody holds rings on it; recommended are at most " +
+                       internal::number(limits.recommended_stiffness()) + " N/m, or a damping");
     return limits;
   }
 

@@ -52,7 +52,7 @@ private:
 
   /// A mouse may jump, and dissipates nothing: it has no force.
   static Pose_loop_parameters parameters() {
-    Pose_loop_parameters parameters;
+    Pose_loop_parameters parameters = Pose_loop_parameters::without_force();
     parameters.speed = std::numeric_limits<double>::infinity();
     return parameters;
   }
@@ -143,7 +143,7 @@ private:
     const bool pulls = status_.hold != Hold::nothing;
     status_.vertex = tool.holds_vertex() ? model.number(tool.vertex()) : 0;
     status_.target = place(made.tool.target), status_.proxy = place(made.tool.proxy);
-    status_.force = pulls ? place(made.force) : Place{}; // what fades after that is not felt
+    status_.force = pulls ? place(made.rendered.force) : Place{}; // what fades after that is not felt
     status_.reached = made.tool.reached;
     status_.end = made.tool.end ? name_of(*made.tool.end) : "";
     status_.contacts = 0;

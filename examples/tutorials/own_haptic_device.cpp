@@ -45,13 +45,12 @@ int main(int argc, char** argv) {
   Scene scene(read_surface<Mesh>(argv[1]), [](const auto& lower, const auto& upper) {
     return Workspace_map::fitted(lower, upper, Eigen::Vector3d::Zero(), 0.04); // a ball of 40 mm holds the mesh
   });
-  Pose_loop_parameters parameters;
-  parameters.friction = 3; // N s/m that the device itself has: it bounds the stiffness
+  const Pose_loop_parameters parameters(3); // N s/m that the device itself has: it bounds the stiffness
   Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.probe, scene.map, parameters);
   Driver driver;
   auto next = std::chrono::steady_clock::now();
   for (int tick = 0; tick < 1500 && !loop.has_stopped(); ++tick) {
-    driver.write_force(loop.tick(driver.read_pose()).force);
+    driver.write_force(loop.tick(driver.read_pose()).rendered.force);
     std::this_thread::sleep_until(next += std::chrono::milliseconds(1));
   }
   std::cout << "the handle rests at " << vendor::z << " m; pushed up by " << vendor::force[2] << " N\n";

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     return std::cerr << "usage: talking_to_a_loop MESH\n", 2;
   const Eigen::Vector3d home = Eigen::Vector3d::Zero();
   const double radius = 0.04; // m: a ball about home that the hand reaches
-  const Pose_loop_parameters parameters;
+  const auto parameters = Pose_loop_parameters::without_force();
   Mouse mouse;
 
   Scene scene(read_surface<Mesh>(argv[1]),
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   std::atomic<bool> ends{false};
   std::thread loop_thread([&] {
     while (!ends) { // the loop's thread
-      mouse.write_force(session.tick(mouse.read_pose()).force);
+      mouse.write_force(session.tick(mouse.read_pose()).rendered.force);
       std::this_thread::sleep_for(std::chrono::microseconds(200)); // a device has a clock
     }
     session.end();

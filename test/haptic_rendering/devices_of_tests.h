@@ -28,6 +28,7 @@ inline Handle_motion handle_at(const Device_parameters<double>& parameters, cons
 inline Force_limits no_limits() {
   Force_limits limits;
   limits.slew = limits.largest = 1e9, limits.ramp_time = 1e-9;
+  limits.full_condition = limits.no_condition = 1e9;
   return limits;
 }
 

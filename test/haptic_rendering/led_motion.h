@@ -41,10 +41,10 @@ inline Force_error error_of(const Led_motion& led, std::uint64_t seed) {
     direction = (direction + 0.5 * random_vector(random).cross(normal).normalized()).normalized();
   Haptic_parameters parameters;
   parameters.tick = 1 / led.rate, parameters.delay = led.delay, parameters.coupling = {stiffness, 0};
-  parameters.gravity = Gravity_compensation::none;
+  parameters.gravity = Gravity_compensation::none, parameters.follows_pose = false;
   parameters.limits.slew = parameters.limits.largest = 1e9, parameters.limits.ramp_time = 1e-9;
   Passivity_limits limits;
-  limits.passive_stiffness = 1e9;
+  limits.passive_stiffness = 1e7, limits.tick = parameters.tick, limits.delay = led.delay;
   const double before = 0.001 + 3 * led.speed / led.rate,
                after = std::max(0.003, 8 * led.speed / led.rate); // metres before and behind the plane
   const auto start = reach_position(device, *home, Vector3d(home->position - before * direction));

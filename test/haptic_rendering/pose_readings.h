@@ -33,7 +33,7 @@ inline Pose_reading reading_at(std::uint64_t tick) {
 }
 
 inline Pose_loop_parameters parameters_of_tests() {
-  Pose_loop_parameters parameters;
+  Pose_loop_parameters parameters(2); // N s/m
   parameters.reach = 0.003;
   return parameters;
 }

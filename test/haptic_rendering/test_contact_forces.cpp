@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(what_is_grabbed_is_heavy_and_nothing_else_is) {
   Haptic_parameters parameters;
   parameters.inertia.mass = 0.05, parameters.limits.ramp_time = 1e-9, parameters.reach = 0.002;
   Passivity_limits limits;
-  limits.passive_stiffness = 1e9, limits.largest_mass = parameters.inertia.mass;
+  limits.passive_stiffness = 1e7, limits.tick = parameters.tick, limits.largest_mass = parameters.inertia.mass;
   Haptic_loop<Sculptor<Mesh>> loop(sculptor, probe, device, *home, map, parameters, limits);
   const Vector3d away = -map.direction_to_device(Vector3d(1, 1, 1)).normalized();
   const double omega = 2 * M_PI * 3, amplitude = 0.002;

@@ -93,39 +93,6 @@ BOOST_AUTO_TEST_CASE(a_free_mass_swings_by_itself_beyond_the_critical_gains_and_
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_sprung_mass_swings_by_itself_beyond_the_critical_stiffness_and_not_below) {
-  Random random(6);
-  std::uniform_real_distribution<double> delays(0, 3), exponents(-4, -2.4), lost(-2.3, -1), dampings(0.02, 0.9);
-  for (int round = 0; round < 60; ++round) {
-    const double tick = std::pow(10, exponents(random)), delay = round % 2 == 0 ? round / 2 % 4 : delays(random);
-    const double friction = round % 5 == 0 ? 0 : std::pow(10, lost(random)) / tick;
-    const double damping =
-        round % 3 == 1 && friction > 0 ? 0 : dampings(random) * critical_damping_rate(tick, delay);
-    const double stiffness = critical_stiffness(1, friction, damping, tick, delay);
-    BOOST_TEST(critical_stiffness(0.03, 0.03 * friction, 0.03 * damping, tick, delay) == 0.03 * stiffness,
-               boost::test_tools::tolerance(1e-9));
-    for (const double share : {0.5, 0.9, 1.1}) {
-      Velocity_estimate velocity(tick);
-      const double grown = growth(tick, delay, friction, [&](double step, double place) {
-        return -share * stiffness * place - damping * velocity.add(Vector3d(step, 0, 0))[0];
-      });
-      BOOST_TEST((grown < 1) == (share < 1), "a share of " << share << " of " << stiffness << " at T = " << tick
-                                                           << " s, d = " << delay << ", friction " << friction
-                                                           << ", damping " << damping << " grows by " << grown);
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(of_a_spring_alone_the_critical_stiffness_is_that_of_the_passive_limit_where_friction_is_small) {
-  for (const double tick : {0.0001, 0.001, 0.004})
-    for (const double delay : {0.0, 0.3, 1.0, 2.5})
-      for (const double lost : {1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 0.99e-4, 1.01e-4, 1e-3}) {
-        const double friction = lost * 0.03 / tick;
-        BOOST_TEST(critical_stiffness(0.03, friction, 0, tick, delay) == passive_stiffness(friction, 0, tick, delay),
-                   boost::test_tools::tolerance(0.002));
-      }
-}
-
 /// A mass of 1 kg that meets a wall with a damper in it. \param phase of the tick in which it meets it
 /// \return its speed when it has left, over that with which it came; 0 if it stays
 double thrown_off(double tick, double delay, double damping, double phase) {

@@ -4,8 +4,11 @@
 
 #include <haptic_sculpt/haptic_rendering/Force_limit.h>
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
+#include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
 
 #include <boost/test/unit_test.hpp>
+
+#include <Eigen/SVD>
 
 #include <cmath>
 #include <limits>
@@ -47,7 +50,7 @@ BOOST_AUTO_TEST_CASE(limits_keep_the_direction_and_the_torques_are_those_of_the_
         continue;
       Force_limits limits;
       limits.slew = 1e9, limits.ramp_time = 1e-9, limits.largest = 1e3;
-      Force_renderer renderer(limits, Gravity_compensation::spatial, 0.001);
+      Force_renderer renderer(limits, Virtual_coupling(), Gravity_compensation::spatial, 0.001);
       const Vector3d wanted = random_vector(random, 5);
       const Rendered_force rendered = renderer.render(handle, wanted);
       BOOST_TEST(rendered.force.cross(wanted).norm() <= 1e-14 * rendered.force.norm() * wanted.norm());
@@ -58,6 +61,68 @@ BOOST_AUTO_TEST_CASE(limits_keep_the_direction_and_the_torques_are_those_of_the_
     }
   }
   BOOST_TEST(limited > 100u);
+}
+
+BOOST_AUTO_TEST_CASE(where_the_device_has_less_friction_the_force_is_less_and_the_coupling_passive) {
+  Random random(14);
+  std::uniform_real_distribution<double> angle(0.2, 1.9);
+  const double tick = 0.001, stiffness = 1500, needed = stiffness * tick / 2;
+  int scaled = 0, whole = 0;
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
+    const Device_parameters<double> parameters = device(form, 0.005);
+    Force_limits limits;
+    limits.ramp_time = 0, limits.slew = 1e9;
+    for (int i = 0; i < 500; ++i) {
+      const double a = angle(random), b = angle(random), c = angle(random);
+      const Handle_motion handle = handle_at(parameters, Vector3d(a, b, c));
+      if (!(handle.condition() < 19))
+        continue;
+      Force_renderer renderer(limits, {stiffness, 0}, Gravity_compensation::none, tick, needed);
+      const Vector3d wanted = random_vector(random, 0.01); // the motors have room
+      const double share = renderer.render(handle, wanted).force.norm() / wanted.norm();
+      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(handle.jacobian().linear);
+      const double friction = 0.005 / std::pow(svd.singularValues()[0], 2),
+                   fading = fading_by_condition(limits, handle.condition());
+      BOOST_TEST(share * stiffness <= passive_stiffness(friction, 0, tick, 0) * (1 + 1e-9));
+      BOOST_TEST(std::abs(share - std::fmin(fading, friction / needed)) <= 1e-9);
+      scaled += share < fading, whole += share == fading || share > 1 - 1e-12;
+    }
+  }
+  BOOST_TEST(scaled > 50);
+  BOOST_TEST(whole > 50);
+}
+
+BOOST_AUTO_TEST_CASE(parameters_that_no_force_can_have_are_refused) {
+  const auto refuses = [](const Force_limits& limits, const Virtual_coupling& coupling, double tick) {
+    BOOST_CHECK_THROW(Force_renderer(limits, coupling, Gravity_compensation::none, tick), Error);
+  };
+  for (const double bad : {std::nan(""), -1.0, std::numeric_limits<double>::infinity()}) {
+    for (double Force_limits::*member :
+         {&Force_limits::largest, &Force_limits::slew, &Force_limits::full_condition, &Force_limits::no_condition,
+          &Force_limits::ramp_time, &Force_limits::fade_time}) {
+      Force_limits limits;
+      limits.*member = bad;
+      refuses(limits, Virtual_coupling(), 0.001);
+    }
+    refuses(Force_limits(), {bad, 0}, 0.001);
+    refuses(Force_limits(), {500, bad}, 0.001);
+    refuses(Force_limits(), Virtual_coupling(), bad);
+  }
+  refuses(Force_limits(), Virtual_coupling(), 0);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_force_is_none_and_said) {
+  const Device_parameters<double> parameters = device(Device_form::ditetrahedral, 0.005);
+  const Handle_motion handle = handle_at(parameters, Vector3d(1, 1.1, 0.9));
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Force_renderer renderer(Force_limits(), Virtual_coupling(), Gravity_compensation::spatial, 0.001);
+    renderer.render(handle, Vector3d(0, 0, 1));
+    const Rendered_force made = renderer.render(handle, Vector3d(0, bad, 1));
+    BOOST_TEST(!made.is_finite);
+    BOOST_TEST(made.force == Vector3d::Zero());
+    BOOST_TEST(made.torque == Vector3d::Zero());
+    BOOST_TEST(renderer.fade_out().torque == Vector3d::Zero());
+  }
 }
 
 BOOST_AUTO_TEST_CASE(forces_fade_where_the_jacobian_is_bad) {
@@ -89,7 +154,7 @@ BOOST_AUTO_TEST_CASE(a_fault_fades_to_exactly_nothing_in_its_time) {
   const Device_parameters<double> parameters = device(Device_form::ditetrahedral, 0.005);
   const Handle_motion handle = handle_at(parameters, Vector3d(1, 1.1, 0.9));
   for (const double rate : {250.0, 1000.0, 10000.0}) {
-    Force_renderer renderer(Force_limits(), Gravity_compensation::spatial, 1 / rate);
+    Force_renderer renderer(Force_limits(), Virtual_coupling(), Gravity_compensation::spatial, 1 / rate);
     Rendered_force last;
     for (int k = 0; k < rate; ++k)
       last = renderer.render(handle, Vector3d(0, 0, 2));

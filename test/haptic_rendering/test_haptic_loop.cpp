@@ -168,6 +168,7 @@ BOOST_AUTO_TEST_CASE(a_button_creates_where_the_probe_touches_and_removes_and_is
 struct Loop_run {
   std::vector<Joint_reading> readings;
   std::vector<Vector3d> torques, forces;
+  std::vector<double> ways; // of the handle, m
   std::vector<Mesh::Point> points;
   Loop_fault fault = Loop_fault::none;
   bool has_stopped = false, is_valid = false, has_touched = false;
@@ -209,6 +210,7 @@ Loop_run run_loop(double seconds, const Spoil& spoil, const std::vector<Joint_re
       spoil(reading, k);
     const Haptic_tick& tick = loop.tick(reading);
     run.readings.push_back(reading);
+    run.ways.push_back(loop.handle().step().norm());
     run.torques.push_back(tick.rendered.torque), run.forces.push_back(tick.rendered.force);
     run.has_touched = run.has_touched || !tick.tool.reached;
     run.fault = tick.fault, run.has_stopped = loop.has_stopped();
@@ -233,12 +235,12 @@ BOOST_AUTO_TEST_CASE(a_run_that_is_replayed_has_the_same_bits) {
   BOOST_TEST((first.points == second.points));
   BOOST_TEST((first.torques == second.torques));
   BOOST_TEST((first.forces == second.forces));
-  double largest = 0, change = 0;
+  double largest = 0, change = 0; // beside what the handle's way makes of the spring
   for (std::size_t k = 1; k < first.forces.size(); ++k)
     largest = std::max(largest, first.forces[k].norm()),
-    change = std::max(change, (first.forces[k] - first.forces[k - 1]).norm());
+    change = std::max(change, (first.forces[k] - first.forces[k - 1]).norm() - 500 * first.ways[k]);
   BOOST_TEST(largest > 0.1);
-  BOOST_TEST(change <= 0.301); // the slew limit
+  BOOST_TEST(change <= 0.304); // the slew limit, and a tick of the ramp of at most 2 N
 }
 
 BOOST_AUTO_TEST_CASE(every_fault_ends_at_no_force_with_a_valid_mesh) {
@@ -262,12 +264,12 @@ BOOST_AUTO_TEST_CASE(every_fault_ends_at_no_force_with_a_valid_mesh) {
   check(Loop_fault::torque, [](Joint_reading& r) { r.torque[0] = 0.4; });
 }
 
-BOOST_AUTO_TEST_CASE(a_coupling_that_is_not_stable_is_refused) {
+BOOST_AUTO_TEST_CASE(a_coupling_that_is_not_passive_is_refused) {
   Passivity_limits limits;
-  limits.passive_stiffness = 400, limits.stable_stiffness = 600;
-  BOOST_CHECK_THROW(check_coupling({601, 0}, limits), Unstable_coupling);
-  check_coupling({599, 0}, limits);
-  BOOST_TEST(!limits.is_passive({599, 0}));
+  limits.passive_stiffness = 400;
+  BOOST_CHECK_THROW(check_coupling({401, 0}, limits), Unstable_coupling);
+  BOOST_CHECK_THROW(check_coupling({NAN, 0}, limits), Unstable_coupling);
+  check_coupling({400, 0}, limits);
 }
 
 } // namespace

@@ -25,7 +25,7 @@ double error_of_mass(const Device_parameters<double>& parameters, double rate, d
   Inertia_parameters wanted;
   wanted.mass = mass, wanted.cutoff = cutoff;
   Inertia_rendering inertia(wanted, parameters, 1 / rate, 0);
-  Force_renderer renderer(no_limits(), Gravity_compensation::none, 1 / rate);
+  Force_renderer renderer(no_limits(), Virtual_coupling(), Gravity_compensation::none, 1 / rate);
   Device_pose<double> pose = *home;
   const double settled = 0.5, periods = std::max(1.0, std::floor(frequency)), end = settled + periods / frequency;
   double square = 0, all = 0, largest = 0;

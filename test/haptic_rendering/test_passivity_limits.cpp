@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(a_device_within_the_passive_limit_gives_no_energy) {
       Handle_motion handle(parameters, *start, tick);
       Simulated_device simulated(parameters, *start, run % 4 < 2 ? Simulated_hand::finger() : Simulated_hand::arm(),
                                  path, tick, delay);
-      Force_renderer renderer(no_limits(), Gravity_compensation::spatial, tick);
+      Force_renderer renderer(no_limits(), Virtual_coupling(), Gravity_compensation::spatial, tick);
       Contact_span span;
       span.add(normal);
       while (simulated.time() < 1) {

@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(the_observer_counts_the_true_energy_of_the_port) {
       Handle_motion handle(parameters, *home_pose(parameters), 0.001);
       Simulated_device simulated(parameters, *home_pose(parameters), Simulated_hand::arm(), path, 0.001, delay);
       Passivity_observer observer(delay, 0.001, 0.005, 0);
-      Force_renderer renderer(Force_limits(), Gravity_compensation::spatial, 0.001);
+      Force_renderer renderer(Force_limits(), Virtual_coupling(), Gravity_compensation::spatial, 0.001);
       double worst = 0, turnover = 0;
       for (int k = 0; k < 1000; ++k) {
         handle.follow(simulated.read().theta);
@@ -59,7 +59,7 @@ Pressed press(double times, double most_damping) {
   const auto start = reach_position(parameters, *home, path.at(0).position);
   Simulated_device simulated(parameters, *start, Simulated_hand::finger(), path, tick, 0);
   Handle_motion handle(parameters, *start, tick);
-  Force_renderer renderer(no_limits(), Gravity_compensation::spatial, tick);
+  Force_renderer renderer(no_limits(), Virtual_coupling(), Gravity_compensation::spatial, tick);
   Passivity_observer observer(0, tick, 0.005, 0);
   Passivity_controller controller(most_damping, tick);
   Pressed pressed;
@@ -69,7 +69,7 @@ Pressed press(double times, double most_damping) {
     observer.add_step(handle.joint_step(), stiffness, handle.step());
     const double depth = home->position[2] - handle.position()[2];
     const Vector3d wall(0, 0, stiffness * std::max(0.0, depth));
-    const Rendered_force rendered = renderer.render(handle, wall + controller.force(observer, handle));
+    const Rendered_force rendered = renderer.render(handle, wall + controller.force(observer, handle.step()));
     observer.command(rendered.interaction_torque);
     if (simulated.write(rendered.torque, rendered.interaction_torque) != Device_status::success)
       break;

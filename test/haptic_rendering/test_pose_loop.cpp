@@ -7,6 +7,10 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace haptic_sculpt;
 using namespace exchange_tests;
@@ -20,7 +24,7 @@ BOOST_AUTO_TEST_CASE(a_device_of_pose_and_force_feels_a_wall_and_its_faults_end_
     const auto probe = mesh.add_vertex(Mesh::Point(0.5, 0.4, 3));
     Sculptor<Mesh> sculptor(mesh);
     Pose_loop_parameters parameters = parameters_of_tests();
-    parameters.friction = 2, parameters.coupling.stiffness = 4001;
+    parameters.coupling.stiffness = 4001;
     BOOST_CHECK_THROW(Pose_loop<Sculptor<Mesh>>(sculptor, probe, map_of_tests, parameters), Error);
     parameters.coupling.stiffness = 700;
     Pose_loop<Sculptor<Mesh>> loop(sculptor, probe, map_of_tests, parameters);
@@ -30,13 +34,13 @@ BOOST_AUTO_TEST_CASE(a_device_of_pose_and_force_feels_a_wall_and_its_faults_end_
       return loop.tick(reading);
     };
     for (int k = 0; k < 400; ++k)
-      BOOST_TEST(go(1.4).force == Vector3d::Zero());
+      BOOST_TEST(go(1.4).rendered.force == Vector3d::Zero());
     Pose_tick tick;
     for (int k = 0; k <= 200; ++k)
       tick = go(1.4 - 0.0025 * k);
     for (int k = 0; k < 50; ++k)
       tick = go(0.9);
-    BOOST_TEST((tick.force - Vector3d(0, 0, 700 * 0.1 / 50)).norm() <= 1e-9);
+    BOOST_TEST((tick.rendered.force - Vector3d(0, 0, 700 * 0.1 / 50)).norm() <= 1e-9);
     reading.position[0] += fault == 0 ? NAN : fault == 1 ? 0.5 : 0, reading.elapsed = fault == 2 ? 0.1 : 0.001;
     tick = loop.tick(reading);
     BOOST_TEST((tick.fault == (fault == 0   ? Loop_fault::not_finite
@@ -44,12 +48,175 @@ BOOST_AUTO_TEST_CASE(a_device_of_pose_and_force_feels_a_wall_and_its_faults_end_
                                             : Loop_fault::stall)));
     for (int k = 0; k < 101; ++k)
       tick = go(0.9);
-    BOOST_TEST(tick.force == Vector3d::Zero());
+    BOOST_TEST(tick.rendered.force == Vector3d::Zero());
     BOOST_TEST(loop.has_stopped());
     loop.restart();
-    BOOST_TEST(go(0.9).force == Vector3d::Zero()); // anchored
+    BOOST_TEST(go(0.9).rendered.force == Vector3d::Zero()); // anchored
     BOOST_TEST(!loop.has_stopped());
   }
+}
+
+struct Ball_loop {
+  Mesh mesh = meshes::to_mesh(meshes::box(1, 1)); // [0, 1]^3
+  Mesh::Vertex_index probe = mesh.add_vertex(Mesh::Point(0.5, 0.4, 3));
+  Sculptor<Mesh> sculptor{mesh};
+  Pose_loop<Sculptor<Mesh>> loop;
+  explicit Ball_loop(const Pose_loop_parameters& parameters) : loop(sculptor, probe, map_of_tests, parameters) {}
+  const Haptic_tick& go(double z, double elapsed = 0.001) {
+    Pose_reading reading;
+    reading.position = map_of_tests.to_device(Vector3d(0.5, 0.4, z)), reading.elapsed = elapsed;
+    return loop.tick(reading);
+  }
+};
+
+BOOST_AUTO_TEST_CASE(what_throws_in_a_tick_is_a_fault_that_fades) {
+  Ball_loop b(parameters_of_tests());
+  static_assert(noexcept(b.loop.tick(std::declval<const Pose_reading&>())), "a driver may call it from C");
+  for (int k = 0; k < 500; ++k)
+    b.go(1.4 - 0.001 * k);
+  for (int k = 0; k < 400; ++k)
+    b.go(0.9);
+  const double before = b.go(0.9).rendered.force.norm();
+  BOOST_TEST(before > 0.5);
+  b.mesh.point(*b.mesh.vertices_begin()) = Mesh::Point(-0.1, -0.1, -0.1); // by others: drags throw
+  const Mesh::Vertex_index extra = b.mesh.add_vertex(Mesh::Point(9, 9, 9));
+  (void)extra;
+  const Haptic_tick& tick = b.go(0.9);
+  BOOST_TEST((tick.fault == Loop_fault::error));
+  BOOST_TEST(std::string(b.loop.failure()) != "");
+  BOOST_TEST(tick.rendered.force.norm() < before);
+  BOOST_TEST(tick.rendered.force.norm() > 0.9 * before);
+  for (int k = 0; k < 101; ++k)
+    b.go(0.9);
+  BOOST_TEST(tick.rendered.force == Vector3d::Zero());
+  BOOST_TEST(b.loop.has_stopped());
+}
+
+BOOST_AUTO_TEST_CASE(places_beyond_all_numbers_are_faults_also_where_no_speed_is_a_jump) {
+  for (const double z : {1e305, -1e305, 1e308}) {
+    Pose_loop_parameters parameters = Pose_loop_parameters::without_force();
+    parameters.speed = std::numeric_limits<double>::infinity();
+    Ball_loop b(parameters);
+    for (int k = 0; k < 10; ++k)
+      b.go(1.4);
+    const Haptic_tick& tick = b.go(z);
+    BOOST_TEST((tick.fault == Loop_fault::error || tick.fault == Loop_fault::not_finite), name_of(tick.fault));
+    BOOST_TEST(tick.rendered.force.allFinite());
+    b.loop.restart();
+    BOOST_TEST((b.go(1.4).fault == Loop_fault::none));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(parameters_are_checked_where_they_are_given) {
+  const double inf = std::numeric_limits<double>::infinity();
+  const auto refuses = [](const auto& change) {
+    Pose_loop_parameters parameters(2);
+    change(parameters);
+    BOOST_CHECK_THROW(Ball_loop{parameters}, Error);
+  };
+  using P = Pose_loop_parameters;
+  for (const double bad : {std::nan(""), inf, -1.0}) {
+    refuses([&](P& p) { p.tick = bad; });
+    refuses([&](P& p) { p.coupling.stiffness = bad; });
+    refuses([&](P& p) { p.coupling.damping = bad; });
+    refuses([&](P& p) { p.limits.slew = bad; });
+    refuses([&](P& p) { p.limits.largest = bad; });
+    refuses([&](P& p) { p.limits.ramp_time = bad; });
+    refuses([&](P& p) { p.limits.fade_time = bad; });
+    refuses([&](P& p) { p.device.mass = bad; });
+    refuses([&](P& p) { p.device.resolution = bad; });
+    refuses([&](P& p) { p.delay = bad; });
+    refuses([&](P& p) { p.stall_time = bad; });
+    refuses([&](P& p) { p.controller_damping = bad; });
+    refuses([&](P& p) { p.reach = bad; });
+  }
+  refuses([](P& p) { p.tick = 0; });
+  refuses([](P& p) { p.work = 0; });
+  refuses([](P& p) { p.device.friction = -1; });
+  refuses([](P& p) { p.device.friction = NAN; });
+  refuses([](P& p) { p.speed = NAN; });
+  refuses([](P& p) { p.coupling.damping = 2.1; }); // more than the friction
+  Ball_loop{Pose_loop_parameters(2)};
+}
+
+BOOST_AUTO_TEST_CASE(a_clock_that_says_no_time_and_ticks_that_are_late_are_faults) {
+  for (const double elapsed : {0.0, -0.001, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Ball_loop b(parameters_of_tests());
+    BOOST_TEST((b.go(1.4, elapsed).fault == Loop_fault::none)); // the first has none before it
+    BOOST_TEST((b.go(1.4, elapsed).fault == Loop_fault::clock));
+    b.loop.restart();
+    BOOST_TEST((b.go(1.4, elapsed).fault == Loop_fault::none));
+  }
+  Ball_loop late(parameters_of_tests());
+  int ticks = 0;
+  while (late.go(1.4, 0.01).fault == Loop_fault::none && ticks < 100)
+    ++ticks;
+  BOOST_TEST(ticks <= 6);
+  BOOST_TEST((late.go(1.4).fault == Loop_fault::late));
+  Ball_loop hiccup(parameters_of_tests()), mouse(Pose_loop_parameters::without_force());
+  for (int k = 0; k < 2000; ++k) {
+    BOOST_TEST((hiccup.go(1.4, k % 100 == 99 ? 0.019 : 0.0011).fault == Loop_fault::none));
+    BOOST_TEST((mouse.go(1.4, 0.015).fault == Loop_fault::none)); // without force nothing can swing
+  }
+}
+
+/// Two cones over one ring of so many vertices; the upper tip is (0, 0, 1), the first vertex.
+Mesh double_cone(int valence) {
+  Mesh mesh;
+  std::vector<Mesh::Vertex_index> ring;
+  const auto tip = mesh.add_vertex(Mesh::Point(0, 0, 1)), bottom = mesh.add_vertex(Mesh::Point(0, 0, -1));
+  for (int i = 0; i < valence; ++i) {
+    const double angle = 2 * M_PI * i / valence;
+    ring.push_back(mesh.add_vertex(Mesh::Point(std::cos(angle), std::sin(angle), 0)));
+  }
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const auto a = ring[i], b = ring[(i + 1) % ring.size()];
+    mesh.add_face(tip, a, b), mesh.add_face(bottom, b, a);
+  }
+  return mesh;
+}
+
+BOOST_AUTO_TEST_CASE(a_vertex_of_any_valence_follows_the_hand_and_one_that_is_cut_short_has_no_spring) {
+  for (const int valence : {6, 300, 1000})
+    for (const bool is_bound : {false, true}) {
+      Mesh mesh = double_cone(valence);
+      const auto tip = *mesh.vertices().begin(), probe = mesh.add_vertex(Mesh::Point(0, 0, 3));
+      Sculptor<Mesh> sculptor(mesh);
+      Pose_loop<Sculptor<Mesh>> loop(sculptor, probe, map_of_tests, parameters_of_tests());
+      Pose_reading reading;
+      reading.elapsed = 0.001;
+      int starved = 0;
+      std::size_t most_pairs = 0;
+      double largest_jump = 0;
+      Vector3d last = Vector3d::Zero();
+      for (int k = 0; k < 900; ++k) {
+        const double z = k < 300 ? 1.05 : k < 500 ? 1.05 + 0.002 * (k - 300) : 1.45;
+        reading.position = map_of_tests.to_device(Vector3d(0.1 * (z - 1.05), 0, z)), reading.button = k < 100 ? 0 : 1;
+        const Haptic_tick& made = loop.tick(reading);
+        BOOST_REQUIRE((made.fault == Loop_fault::none));
+        if (k == 100) {
+          BOOST_REQUIRE((made.tool.event == Tool_event::grabbed));
+          BOOST_REQUIRE((loop.tool().vertex() == tip));
+        }
+        if (k >= 100 && is_bound)
+          sculptor.set_work_limit(valence / 2); // as if it did not grow with the valence
+        starved += made.tool.starved, most_pairs = std::max(most_pairs, made.tool.pairs);
+        if (made.tool.starved)
+          BOOST_TEST(made.coupling == Vector3d::Zero());
+        largest_jump = std::max(largest_jump, (made.rendered.force - last).norm());
+        last = made.rendered.force;
+      }
+      BOOST_TEST_MESSAGE("valence " << valence << (is_bound ? ", too little work" : "") << ": starved in " << starved
+                                    << " ticks, at most " << most_pairs << " pairs, at z = " << mesh.point(tip).z());
+      BOOST_TEST(last == Vector3d::Zero());
+      if (!is_bound) {
+        BOOST_TEST(starved == 0);
+        BOOST_TEST(mesh.point(tip).z() > 1.39);
+      } else if (valence > 6) {
+        BOOST_TEST(starved > 100); // and the hand feels nothing of it
+        BOOST_TEST(largest_jump == 0);
+      }
+    }
 }
 
 } // namespace

@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(the_force_that_is_held_lags_by_no_more_than_the_rate_explai
   for (const double rate : {250.0, 1000.0, 4000.0, 10000.0})
     for (const double delay : {0.0, 0.5, 1.0}) {
       Handle_motion handle(parameters, *home, 1 / rate);
-      Force_renderer renderer(no_limits(), Gravity_compensation::none, 1 / rate);
+      Force_renderer renderer(no_limits(), Virtual_coupling(), Gravity_compensation::none, 1 / rate);
       Torque_delay<double> held(delay);
       double sum = 0, largest = 0;
       int samples = 0;

@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_FORCE_LIMIT_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_FORCE_LIMIT_H
 
-#include <Eigen/Core>
+#include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,21 @@ namespace haptic_sculpt {
 /// What may reach the hand.
 struct Force_limits {
   double largest = 5;         ///< norm of the force, N
-  double slew = 300;          ///< its change, N/s; serves hands whose speed times the stiffness is no more
+  double slew = 300;          ///< its change, N/s, beside what the hand's own way changes: Force_chain
   double full_condition = 10; ///< cond(J) up to which the whole force is rendered
   double no_condition = 20;   ///< cond(J) from which nothing is: encoder steps turn the force by degrees there
   double ramp_time = 0.3;     ///< from 0 to the whole force after a start, s
   double fade_time = 0.1;     ///< to 0 on a fault, s
+
+  /// \throw Error naming what cannot be used; `infinite` is a bound that there is not
+  void check() const {
+    internal::require_number("the largest force", "N", largest, 0, 1e9);
+    internal::require_number("the slew limit", "N/s", slew, 1e-3, 1e12);
+    internal::require_number("cond(J) of the whole force", "", full_condition, 1, 1e12);
+    internal::require_number("cond(J) of no force", "", no_condition, full_condition, 1e12);
+    internal::require_number("the ramp's time", "s", ramp_time, 0, 60);
+    internal::require_number("the time to fade", "s", fade_time, 0, 60);
+  }
 };
 
 /// The share of the force that is rendered at a pose: 1 to 0, linear in cond(J).

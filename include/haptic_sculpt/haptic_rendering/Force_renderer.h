@@ -5,10 +5,8 @@
 #include <haptic_sculpt/device/gravity_torque.h>
 #include <haptic_sculpt/device/spatial_dynamics.h>
 #include <haptic_sculpt/device/planar_dynamics.h>
-#include <haptic_sculpt/haptic_rendering/Force_limit.h>
+#include <haptic_sculpt/haptic_rendering/loop/Force_chain.h>
 #include <haptic_sculpt/haptic_rendering/Handle_motion.h>
-#include <haptic_sculpt/haptic_rendering/Refusal_burst.h>
-#include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
 
 namespace haptic_sculpt {
 
@@ -21,52 +19,64 @@ struct Rendered_force {
   Eigen::Vector3d interaction_torque = Eigen::Vector3d::Zero(); ///< J^T force
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();             ///< with gravity compensation
   bool is_overloaded = false;                                   ///< the weight alone takes more than a motor may give
+  bool is_finite = true; ///< false: what was asked for is no force, and none is given
 };
 
-/// From a wanted force to torques: slew limit, burst, clamp, fading by cond(J), ramp, gravity compensation, room of the
+/// From a wanted force to torques: the chain of all devices, fading by cond(J), gravity compensation, room of the
 /// motors. No allocation.
 class Force_renderer {
 public:
-  /// Begins at a force of 0. \param tick s
-  Force_renderer(const Force_limits& limits, Gravity_compensation compensation, double tick)
-      : limits_(limits), compensation_(compensation), tick_(tick), burst_(tick) {}
+  /// Begins at a force of 0. \param tick s \param friction that the coupling needs at the handle, N s/m: where the
+  /// device has less the force is scaled down \throw Error for limits, a coupling or a tick that cannot be used
+  Force_renderer(const Force_limits& limits, const Virtual_coupling& coupling, Gravity_compensation compensation,
+                 double tick, double friction = 0)
+      : chain_(limits, coupling, tick), compensation_(compensation), friction_(friction) {}
 
   /// The force and torques of this tick; once a tick. \param wanted N, in axes of the device
-  Rendered_force render(const Handle_motion& handle, const Eigen::Vector3d& wanted) {
-    ramp_ = std::fmin(1.0, ramp_ + tick_ / limits_.ramp_time);
-    const Eigen::Vector3d followed = slew_.follow(clamped(wanted, limits_.largest), limits_.slew * tick_);
-    const Eigen::Vector3d force = clamped(followed + burst_.next(), limits_.largest);
-    return in_room(handle, force * (ramp_ * fading_by_condition(limits_, handle.condition())));
+  const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted) {
+    return render(handle, wanted, handle.step().norm());
+  }
+  /// \param way of the handle that made it what it is, m
+  const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted, double way) {
+    const Eigen::Vector3d force = chain_.follow(wanted, way);
+    in_room(handle, force * share_at(handle));
+    if (!last_.force.allFinite() || !last_.torque.allFinite())
+      last_ = Rendered_force(), last_.is_finite = false;
+    return last_;
   }
 
   /// After a fault: the last torques, less each tick, and 0 once the time to fade has passed. Uses nothing that a
-  /// device says.
-  Rendered_force fade_out() {
-    const double share = fade_.next(tick_ / limits_.fade_time);
+  /// device says. \param elapsed since the last tick, s
+  Rendered_force fade_out(double elapsed = 0) {
+    const double share = chain_.fade(elapsed);
     Rendered_force faded = last_;
     faded.force *= share, faded.interaction_torque *= share, faded.torque *= share;
     return faded;
   }
-  bool has_faded() const { return fade_.is_over(); } ///< fade_out() has come to 0
+  bool has_faded() const { return chain_.has_faded(); } ///< fade_out() has come to 0
 
   /// A refused edit is felt, the less the lighter the mechanism is there. \param direction in axes of the device
   void refuse(const Handle_motion& handle, const Eigen::Vector3d& direction) {
-    burst_.begin(direction, mobility(handle, direction.normalized()));
+    chain_.refuse(direction, mobility(handle, direction.normalized()));
   }
   /// Forces begin at 0 and come back slowly.
-  void restart() { ramp_ = 0, fade_.reset(), slew_.reset(), burst_.cut(), last_ = Rendered_force(); }
+  void restart() { chain_.restart(), last_ = Rendered_force(); }
 
-  double ramp() const { return ramp_; }                  ///< share of the force since the last start, 0 to 1
-  const Force_limits& limits() const { return limits_; } ///< those that were given
+  double ramp() const { return chain_.ramp(); }                  ///< share of the force since the last start, 0 to 1
+  const Force_limits& limits() const { return chain_.limits(); } ///< those that were given
 
 private:
-  Force_limits limits_;
+  Force_chain chain_;
   Gravity_compensation compensation_;
-  double tick_, ramp_ = 0;
-  Fade_out fade_;
-  Slew_limit slew_;
-  Refusal_burst burst_;
+  double friction_;
   Rendered_force last_;
+
+  /// By cond(J), and by the friction that is left at the handle, as the coupling is passive with.
+  double share_at(const Handle_motion& handle) const {
+    const double fading = fading_by_condition(chain_.limits(), handle.condition());
+    const double there = handle.parameters().viscous_friction() / (handle.greatest() * handle.greatest());
+    return there < friction_ * fading ? there / friction_ : fading;
+  }
 
   /// How fast the free handle is accelerated by a newton along a direction, 1/kg; infinite where that is not known.
   static double mobility(const Handle_motion& handle, const Eigen::Vector3d& direction) {
@@ -79,14 +89,13 @@ private:
     return (linear * spatial_dynamics(handle.parameters(), *motion).solve_mass(torque)).norm();
   }
 
-  Rendered_force in_room(const Handle_motion& handle, const Eigen::Vector3d& force) {
+  void in_room(const Handle_motion& handle, const Eigen::Vector3d& force) {
     const Eigen::Vector3d weight = weight_torque(handle), torque = handle.jacobian().linear.transpose() * force;
     const double limit = handle.parameters().torque_limit(), share = share_in_room(torque, weight, limit);
     last_.force = share * force;
     last_.interaction_torque = share * torque;
     last_.torque = (weight + last_.interaction_torque).cwiseMax(-limit).cwiseMin(limit);
-    last_.is_overloaded = weight.cwiseAbs().maxCoeff() > limit;
-    return last_;
+    last_.is_overloaded = weight.cwiseAbs().maxCoeff() > limit, last_.is_finite = true;
   }
 
   Eigen::Vector3d weight_torque(const Handle_motion& handle) const {

@@ -13,10 +13,12 @@ class Handle_motion {
 public:
   /// \param start a pose near the first angles
   Handle_motion(const Device_parameters<double>& parameters, const Device_pose<double>& start, double tick)
-      : parameters_(parameters), pose_(start), velocity_(tick) {}
+      : parameters_(parameters), pose_(start), tick_(tick), velocity_(tick) {}
 
   /// \return the condition number of the position Jacobian; infinite where there is none, and the last pose stays
-  double follow(const Eigen::Vector3d& theta) {
+  double follow(const Eigen::Vector3d& theta) { return follow(theta, tick_); }
+  /// The same where the tick has truly taken so long. \param elapsed s, > 0; does not count at the first angles
+  double follow(const Eigen::Vector3d& theta, double elapsed) {
     const auto pose = forward_kinematics(parameters_, theta, pose_);
     if (!pose)
       return std::numeric_limits<double>::infinity();
@@ -27,8 +29,9 @@ public:
     step_ = is_first_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(pose->position - pose_.position);
     has_step_ = !is_first_, is_first_ = false;
     pose_ = *pose, jacobian_ = *map;
-    velocity_.add(step_);
-    condition_ = translation_conditioning(jacobian_).condition;
+    velocity_.add(step_, has_step_ ? elapsed : tick_);
+    const auto conditioning = translation_conditioning(jacobian_);
+    condition_ = conditioning.condition, greatest_ = conditioning.greatest;
     return condition_;
   }
 
@@ -41,6 +44,7 @@ public:
   const Eigen::Vector3d& joint_step() const { return joint_step_; }  ///< since the last tick, rad
   const Eigen::Vector3d& velocity() const { return velocity_.value(); } ///< of the handle, low-passed, m/s
   double condition() const { return condition_; } ///< cond(J) of the last pose found; infinite before
+  double greatest() const { return greatest_; }   ///< sigma_max(J) of the last pose found, m/rad; 0 before
   /// Whether the last angles were not the first: then the steps above are steps.
   bool has_step() const { return has_step_; }
 
@@ -51,9 +55,10 @@ private:
   Device_parameters<double> parameters_;
   Device_pose<double> pose_;
   Device_jacobian<double> jacobian_{};
+  double tick_;
   Velocity_estimate velocity_;
   Eigen::Vector3d step_ = Eigen::Vector3d::Zero(), joint_step_ = Eigen::Vector3d::Zero();
-  double condition_ = std::numeric_limits<double>::infinity();
+  double condition_ = std::numeric_limits<double>::infinity(), greatest_ = 0;
   bool is_first_ = true, has_step_ = false;
 };
 

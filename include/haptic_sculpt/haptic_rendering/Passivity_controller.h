@@ -2,7 +2,6 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_CONTROLLER_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_CONTROLLER_H
 
-#include <haptic_sculpt/haptic_rendering/Handle_motion.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
 
 namespace haptic_sculpt {
@@ -20,9 +19,10 @@ public:
   Passivity_controller(double most_damping, double tick) : most_damping_(most_damping), tick_(tick) {}
 
   /// The force on the hand, N; exactly 0 where nothing is missing.
-  Eigen::Vector3d force(const Passivity_observer& observer, const Handle_motion& handle) {
+  /// \param step of the handle since the last tick, m
+  Eigen::Vector3d force(const Passivity_observer& observer, const Eigen::Vector3d& step) {
     const double missing = -(observer.energy() + observer.dissipated());
-    const Eigen::Vector3d velocity = handle.step() / tick_; // a low-pass would come too late for what buzzes
+    const Eigen::Vector3d velocity = step / tick_; // a low-pass would come too late for what buzzes
     const double square = velocity.squaredNorm();
     damping_ = 0;
     if (!(most_damping_ > 0 && missing > 0) || !(square > least_speed * least_speed))

@@ -24,12 +24,6 @@ inline double passive_stiffness(double friction, double damping, double tick, do
   return 2 * (friction - std::abs(damping)) / (tick * (1 + 2 * delay));
 }
 
-/// The largest stiffness, N/m, that was found stable in all hands: 0.6 of what makes the free mechanism swing, which is
-/// 2 b_phys / (T (1 + 2 d)) without a damper. \param mass least apparent mass at the handle, kg
-inline double stable_stiffness(double mass, double friction, double damping, double tick, double delay) {
-  return friction + damping > 0 ? 0.6 * critical_stiffness(mass, friction, damping, tick, delay) : 0;
-}
-
 /// Where the device gives least friction, or has least mass, at the handle, for what is rendered there.
 struct Worst_pose {
   Device_pose<double> pose; ///< of no meaning unless `is_found`
@@ -147,23 +141,33 @@ Worst_pose lightest_pose(const Device_parameters<double>& parameters, const Forc
       parameters, limits, contains, [&](const Worst_pose& p) { return 1 / p.apparent_mass(parameters); }, per_joint);
 }
 
-/// What may be asked of a loop.
+/// What may be asked of a loop, and what these limits were made for.
 struct Passivity_limits {
   double friction = 0;           ///< b_phys at the worst pose, N s/m
-  double passive_stiffness = 0;  ///< k_p at the damping asked for, N/m
-  double stable_stiffness = 0;   ///< k_s; 0 where the damping is more than may be asked for
+  double passive_stiffness = 0;  ///< k_p at the damping asked for, N/m; < 0 where that alone is too much
   double apparent_mass = 0;      ///< the least in the workspace, kg
   double largest_damping = 0;    ///< b that may be asked for, N s/m
   double largest_mass = 0;       ///< virtual mass that may be asked for, kg
   double largest_controller = 0; ///< damping of a passivity controller that may be asked for, N s/m
   Worst_pose worst,              ///< that of least friction
       lightest;                  ///< that of least apparent mass
+  double damping = 0, tick = 0, delay = 0,             ///< for which they were made, N s/m, s, ticks
+      cutoff = Acceleration_estimate::default_cutoff; ///< of the acceleration, Hz
 
-  double largest_stiffness() const { return std::max({passive_stiffness, stable_stiffness, 0.0}); } ///< N/m; never < 0
-  /// Whether the stiffness is passive or stable; check_dynamics() looks at the damping.
+  double largest_stiffness() const { return std::fmax(passive_stiffness, 0.0); } ///< N/m; never < 0
+  /// Without a damper and without a hand a handle rings on a stiffer wall: half of the largest, N/m.
+  double recommended_stiffness() const { return 0.5 * largest_stiffness(); }
+  /// Of the passivity controller where nothing else is asked for, N s/m: half of the largest.
+  double default_controller() const { return 0.5 * largest_controller; }
+  /// Whether the coupling can give no energy to any hand. \pre the damping is the one that the limits were made for
   bool permits(const Virtual_coupling& coupling) const { return coupling.stiffness <= largest_stiffness(); }
-  /// Whether the stiffness can give no energy to any hand. \pre the damping is the one that the limits were made for
-  bool is_passive(const Virtual_coupling& coupling) const { return coupling.stiffness <= passive_stiffness; }
+  /// Whether they were made for these, N s/m, s, ticks, Hz, and a device with the Jacobian and friction of this one.
+  bool are_for(const Device_parameters<double>& device, double b, double seconds, double ticks, double hertz) const {
+    if (damping != b || tick != seconds || delay != ticks || cutoff != hertz || worst.friction(device) != friction)
+      return false;
+    const auto map = worst.is_found ? jacobian(device, worst.pose) : Outcome<Device_jacobian<double>>();
+    return !worst.is_found || (map && translation_conditioning(*map).greatest == worst.greatest);
+  }
 };
 
 /// The limits over the device's places whose scene is in a box. \param delay ticks
@@ -183,11 +187,11 @@ inline Passivity_limits passivity_limits(const Device_parameters<double>& parame
   found.lightest = lightest_pose(parameters, limits, is_in_scene);
   found.apparent_mass = found.lightest.apparent_mass(parameters);
   found.largest_mass = stable_share * found.apparent_mass * critical_mass_ratio(tick, delay, cutoff);
-  found.largest_damping = found.apparent_mass * largest_damping_rate(tick, delay);
+  // Beyond the friction it is not passive, whatever the stiffness, and a stiff hand may swing with it.
+  found.largest_damping = std::fmin(found.friction, found.apparent_mass * largest_damping_rate(tick, delay));
   found.largest_controller =
       found.apparent_mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity());
-  if (found.lightest.is_found && damping <= found.largest_damping)
-    found.stable_stiffness = stable_stiffness(found.apparent_mass, found.friction, damping, tick, delay);
+  found.damping = damping, found.tick = tick, found.delay = delay, found.cutoff = cutoff;
   return found;
 }
 

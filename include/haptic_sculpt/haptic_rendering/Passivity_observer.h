@@ -28,12 +28,19 @@ public:
       credit_ += stiffness * handle_step.squaredNorm() / 12;
     least_ = std::fmin(least_, energy() + dissipated_);
   }
+  /// Begins anew with nothing taken or given.
+  void restart() { *this = Passivity_observer(delay_.ticks(), tick_, friction_, encoder_step_); }
   /// The torque of this tick without what carries the mechanism's own weight, N m.
   void command(const Eigen::Vector3d& torque) { delay_.command(torque); }
 
-  double port() const { return port_; }             ///< J, as seen; negative: given to the hand
+  double port() const { return port_; } ///< J, as seen; negative: given to the hand
   double energy() const { return port_ + credit_; } ///< J, with the credit for encoder steps
   double dissipated() const { return dissipated_; } ///< J, by viscous friction, as the joint steps say
+  /// Whether the device has given more than anything that is allowed for can explain.
+  bool is_active() const { return energy() + dissipated_ < permitted; }
+  /// J: what the loop may seem to have given, beyond the credit for encoders. A stiffness that grows while a hand
+  /// presses (the ramp) gives some tenths of a mJ, a delay that is no whole number of ticks is seen to a tenth.
+  static constexpr double permitted = -5e-3;
   /// The least of energy() + dissipated() so far, J. Below 0: somewhere the device was active.
   double least() const { return least_; }
 

@@ -14,7 +14,7 @@ namespace haptic_sculpt {
 struct Pose_reading {
   Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< of the handle, m, in axes of the device
   int button = 0;                                     ///< 0: none, 1: grab or create, 2: remove
-  double elapsed = 0;                                 ///< since the last reading, s
+  double elapsed = 0; ///< since the last reading, s, by a clock; does not count at the first
 };
 
 } // namespace haptic_sculpt

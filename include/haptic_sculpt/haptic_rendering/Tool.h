@@ -91,14 +91,11 @@ public:
   Edited create_and_take(const Journal_entry& wanted) {
     const internal::Rounding_to_nearest rounding;
     let_go();
-    const Eigen::Vector3d probe = place_of(probe_), away = last_push_;
-    const bool was_placed = is_probe_placed_;
-    park_probe(away);
+    const Eigen::Vector3d away = last_push_;
+    Parked_probe parked(*this);
     auto made = mesh_edits_.make_in_stroke(wanted);
     if (made)
-      hold(*made.vertex, away);
-    else
-      is_probe_placed_ = was_placed && internal::put_probe(*sculptor_, probe_, probe);
+      parked.stays(), hold(*made.vertex, away);
     return made;
   }
   /// Puts the probe somewhere, whatever is on the way, and takes it. \return false where that is not outside
@@ -116,12 +113,8 @@ public:
   Edited edit(const Journal_entry& wanted) {
     const internal::Rounding_to_nearest rounding;
     let_go();
-    const Eigen::Vector3d probe = place_of(probe_);
-    const bool was_placed = is_probe_placed_;
-    park_probe(last_push_);
-    auto made = mesh_edits_.make(wanted);
-    is_probe_placed_ = was_placed && internal::put_probe(*sculptor_, probe_, probe);
-    return made;
+    const Parked_probe parked(*this);
+    return mesh_edits_.make(wanted);
   }
   /// What move_many() does from here on is one step of undo, until something lets go.
   void begin_stroke() {
@@ -166,6 +159,27 @@ public:
   const Eigen::Vector3d& last_push() const { return last_push_; }
 
 private:
+  /// The probe is out of the way of an edit as long as this lives, and then where it was, also where the edit throws.
+  class Parked_probe {
+  public:
+    explicit Parked_probe(Tool& tool)
+        : tool_(tool), place_(tool.place_of(tool.probe_)), comes_back_(tool.is_probe_placed_) {
+      tool.park_probe(tool.last_push_);
+    }
+    ~Parked_probe() noexcept(false) { // put_probe() throws where the mesh was changed by others
+      if (comes_back_)
+        tool_.is_probe_placed_ = internal::put_probe(*tool_.sculptor_, tool_.probe_, place_);
+    }
+    Parked_probe(const Parked_probe&) = delete;
+    Parked_probe& operator=(const Parked_probe&) = delete;
+    void stays() { comes_back_ = false; } // something else is in hand
+
+  private:
+    Tool& tool_;
+    Eigen::Vector3d place_;
+    bool comes_back_;
+  };
+
   Sculptor* sculptor_;
   Vertex_index probe_;
   Workspace_map map_;
@@ -206,6 +220,8 @@ private:
     step.end = result.end;
     step.pairs = result.work;
     step.contacts = static_cast<int>(result.contacts.size());
+    step.starved =
+        result.contacts.empty() && (result.end == Drag_end::work_limit || result.end == Drag_end::leg_limit);
     if (!held_)
       touched_.reset();
     for (const auto& contact : result.contacts) {

@@ -17,6 +17,7 @@ struct Tool_step {
   Eigen::Vector3d target = Eigen::Vector3d::Zero(), ///< where the hand wants it, in the scene
       proxy = Eigen::Vector3d::Zero();              ///< where it is, in the scene
   bool reached = true;                              ///< the proxy is at the target: then the coupling has no force
+  bool starved = false; ///< the drag was cut short before any contact was found: nothing is known to hold it
   std::optional<Drag_end> end;                      ///< none: nothing is held, and there is no probe
   std::size_t pairs = 0;                            ///< of the drag's work
   int contacts = 0;                                 ///< that hold it; 0 in free motion

@@ -20,11 +20,14 @@ public:
 
   /// \param tick s \param cutoff of the low-pass, Hz
   explicit Velocity_estimate(double tick, double cutoff = default_cutoff)
-      : tick_(tick), share_(-std::expm1(-2 * 3.14159265358979323846 * cutoff * tick)) {}
+      : tick_(tick), rate_(2 * 3.14159265358979323846 * cutoff), share_(-std::expm1(-rate_ * tick)) {}
 
   /// Takes the handle's step in one tick, m. \return m/s
-  const Eigen::Vector3d& add(const Eigen::Vector3d& step) {
-    value_ += share_ * (step / tick_ - value_);
+  const Eigen::Vector3d& add(const Eigen::Vector3d& step) { return add(step, tick_); }
+  /// The same where the tick has truly taken so long. \param elapsed s, > 0
+  const Eigen::Vector3d& add(const Eigen::Vector3d& step, double elapsed) {
+    const double share = elapsed == tick_ ? share_ : -std::expm1(-rate_ * elapsed);
+    value_ += share * (step / elapsed - value_);
     return value_;
   }
   const Eigen::Vector3d& value() const { return value_; } ///< what the last add() gave, m/s; 0 before
@@ -33,7 +36,7 @@ public:
   void reset() { value_.setZero(); } ///< to 0 at once
 
 private:
-  double tick_, share_;
+  double tick_, rate_, share_;
   Eigen::Vector3d value_ = Eigen::Vector3d::Zero();
 };
 

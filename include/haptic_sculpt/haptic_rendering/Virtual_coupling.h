@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_VIRTUAL_COUPLING_H
 
 #include <haptic_sculpt/haptic_rendering/Workspace_map.h>
+#include <haptic_sculpt/haptic_rendering/loop/require_number.h>
 
 namespace haptic_sculpt {
 
@@ -42,6 +43,12 @@ private:
 struct Virtual_coupling {
   double stiffness = 500; ///< k, N/m
   double damping = 0;     ///< b, N s/m
+
+  /// \throw Error for a number that no coupling has; whether a device can give it, its limits say
+  void check() const {
+    internal::require_number("the stiffness of the coupling", "N/m", stiffness, 0, 1e7);
+    internal::require_number("the damping of the coupling", "N s/m", damping, 0, 1e5);
+  }
 
   /// The force of the spring on the hand, N, in axes of the device: k R^T (proxy - target) / scale. Exactly 0 where the
   /// drag has reached its target.

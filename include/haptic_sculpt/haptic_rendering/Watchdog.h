@@ -3,6 +3,10 @@
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_WATCHDOG_H
 
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
+#include <haptic_sculpt/haptic_rendering/loop/require_number.h>
+
+#include <cmath>
+#include <limits>
 
 namespace haptic_sculpt {
 
@@ -14,12 +18,17 @@ enum class Loop_fault {
   stall,      ///< the last tick is too long ago: what the device did meanwhile is not known
   singular,   ///< the pose has no usable Jacobian: forces cannot be rendered, and the branch may be lost
   torque,     ///< a motor gives more than its limit, or the mechanism's weight alone takes more
-  log         ///< what is done cannot be written down in time: the journal has overrun
+  log,        ///< what is done cannot be written down in time: the journal has overrun
+  late,       ///< ticks take longer than what stiffness and damping were chosen for
+  clock,      ///< the time since the last reading is not a time
+  energy,     ///< the observer says that the device gives energy: something in or about it is not as it was taken to be
+  error       ///< an exception in the tick; the loop's failure() has what it says
 };
 
 /// The word used in reports and by `--fault`.
 inline const char* name_of(Loop_fault fault) {
-  constexpr const char* names[] = {"none", "nan", "jump", "stall", "singular", "torque", "log"};
+  constexpr const char* names[] = {"none", "nan", "jump", "stall", "singular", "torque", "log",
+                                   "late", "clock", "energy", "error"};
   return names[static_cast<int>(fault)];
 }
 
@@ -29,35 +38,49 @@ struct Watchdog_limits {
   double stall_time = 0.02;    ///< s between two ticks; a device has to let go by itself about then
   double condition = 200;      ///< cond(J); forces have faded to 0 long before
   double torque_margin = 1.05; ///< times the limit of a motor, for what a sensor is off
+  double late_ticks = 1.5;     ///< running mean of the time between two ticks, in ticks; infinite: any
+
+  /// \throw Error naming what cannot be used
+  void check() const {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    internal::require_number("the rate that is a jump", "per s", joint_rate, 1e-3, none);
+    internal::require_number("the time that is a stall", "s", stall_time, 1e-4, 10);
+    internal::require_number("cond(J) that is singular", "", condition, 1, 1e12);
+    internal::require_number("the margin of the torques", "", torque_margin, 1, none);
+    internal::require_number("the mean time of a tick that is late", "ticks", late_ticks, 1, none);
+  }
 };
 
 /// Looks at each reading before it is used. The first fault stays.
 class Watchdog {
 public:
   /// \param tick s \param torque_limit of a motor, N m; may be infinite
+  /// \throw Error for limits that cannot be used
   Watchdog(const Watchdog_limits& limits, double tick, double torque_limit)
-      : limits_(limits), tick_(tick), torque_limit_(torque_limit) {}
+      : limits_(limits), tick_(tick), torque_limit_(torque_limit) {
+    limits.check();
+  }
 
   Loop_fault fault() const { return fault_; } ///< the first one since the last reset()
   /// A fault that was found elsewhere; ignored where there is one already.
   void report(Loop_fault fault) { fault_ = fault_ == Loop_fault::none ? fault : fault_; }
-  /// After a fault has been seen to; the next angles are taken as they are.
-  void reset() { fault_ = Loop_fault::none, has_last_ = false; }
+  /// After a fault has been seen to; the next angles are taken as they are, whenever they come.
+  void reset() { fault_ = Loop_fault::none, has_last_ = false, mean_ = 1; }
 
   /// \return whether the reading may be used
-  bool check(const Joint_reading& reading) {
-    if (!reading.theta.allFinite() || !reading.torque.allFinite())
+  bool check(const Joint_reading& reading) { return check(reading.theta, reading.torque, reading.elapsed); }
+  /// The same of any device. \param coordinates of what moves, rad or m \param elapsed since the last ones, s; does not
+  /// count at the first
+  bool check(const Eigen::Vector3d& coordinates, const Eigen::Vector3d& torque, double elapsed) {
+    if (!coordinates.allFinite() || !torque.allFinite())
       report(Loop_fault::not_finite);
-    else if (!(reading.elapsed <= limits_.stall_time))
-      report(Loop_fault::stall);
-    else if (has_last_ &&
-             (reading.theta - last_).cwiseAbs().maxCoeff() > limits_.joint_rate * std::fmax(reading.elapsed, tick_))
-      report(Loop_fault::jump);
-    else if (reading.torque.cwiseAbs().maxCoeff() > limits_.torque_margin * torque_limit_)
+    else if (has_last_)
+      compare(coordinates, elapsed);
+    if (torque.cwiseAbs().maxCoeff() > limits_.torque_margin * torque_limit_)
       report(Loop_fault::torque);
     if (fault_ != Loop_fault::none)
       return false;
-    last_ = reading.theta, has_last_ = true;
+    last_ = coordinates, has_last_ = true;
     return true;
   }
 
@@ -73,7 +96,26 @@ private:
   double tick_, torque_limit_;
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
   bool has_last_ = false;
+  double mean_ = 1; ///< running mean of the time between two readings, ticks
   Loop_fault fault_ = Loop_fault::none;
+
+  /// Ticks over which the mean runs: ticks of ten times the time are seen in the fourth, and one stall of twenty times
+  /// it alone is none.
+  static constexpr double memory = 64, longest = 20; ///< ticks; so much of one reading counts
+
+  void compare(const Eigen::Vector3d& coordinates, double elapsed) {
+    if (!(elapsed > 0) || !std::isfinite(elapsed)) {
+      report(Loop_fault::clock);
+      return;
+    }
+    mean_ += (std::fmin(elapsed / tick_, longest) - mean_) / memory;
+    if (elapsed > limits_.stall_time)
+      report(Loop_fault::stall);
+    else if ((coordinates - last_).cwiseAbs().maxCoeff() > limits_.joint_rate * std::fmax(elapsed, tick_))
+      report(Loop_fault::jump);
+    else if (mean_ > limits_.late_ticks)
+      report(Loop_fault::late);
+  }
 };
 
 } // namespace haptic_sculpt

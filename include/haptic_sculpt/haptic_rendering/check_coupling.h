@@ -2,11 +2,12 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_CHECK_COUPLING_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_CHECK_COUPLING_H
 
+#include <haptic_sculpt/haptic_rendering/loop/Haptic_parameters.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
 
 namespace haptic_sculpt {
 
-/// Thrown where a coupling is neither passive nor stable on a device; says what would be.
+/// Thrown where a coupling is not passive on a device, or something else too strong for it; says what would serve.
 class Unstable_coupling : public Error {
 public:
   /// Takes the whole message.
@@ -17,18 +18,17 @@ public:
 inline void check_coupling(const Virtual_coupling& coupling, const Passivity_limits& limits) {
   if (limits.permits(coupling))
     return;
-  throw Unstable_coupling("the stiffness " + internal::number(coupling.stiffness) + " N/m is neither passive (up to " +
-                          internal::number(std::max(0.0, limits.passive_stiffness)) + ") nor stable (up to " +
-                          internal::number(std::max(0.0, limits.stable_stiffness)) +
-                          ") on this device with the damping " + internal::number(coupling.damping) +
-                          " N s/m; ask for less, for a higher rate or for a shorter delay");
+  throw Unstable_coupling("the stiffness " + internal::number(coupling.stiffness) +
+                          " N/m is not passive on this device with the damping " + internal::number(coupling.damping) +
+                          " N s/m: that ends at " + internal::number(limits.largest_stiffness()) +
+                          "; ask for less, for a higher rate or for a shorter delay");
 }
 
-/// \throw Unstable_coupling for a damping, virtual mass or controller that is larger than what is stable
+/// \throw Unstable_coupling for a damping, virtual mass or controller that is larger than what serves
 inline void check_dynamics(double damping, const Inertia_parameters& inertia, double controller,
                            const Passivity_limits& limits) {
   const auto check = [](const char* what, const char* unit, double asked, double largest) {
-    if (asked > largest)
+    if (!(asked <= largest))
       throw Unstable_coupling("the " + std::string(what) + ' ' + internal::number(asked) + ' ' + unit +
                               " is not stable on this device; the largest that serves at this rate and delay is " +
                               internal::number(largest) + ' ' + unit);
@@ -36,6 +36,19 @@ inline void check_dynamics(double damping, const Inertia_parameters& inertia, do
   check("damping", "N s/m", damping, limits.largest_damping);
   check("virtual mass", "kg", inertia.mass, limits.largest_mass);
   check("damping of the passivity controller", "N s/m", controller, limits.largest_controller);
+}
+
+/// All of the above for a device of joints. \throw Unstable_coupling; Error for limits made for another device, tick,
+/// delay, damping or cutoff
+inline void check_limits(const Passivity_limits& limits, const Device_parameters<double>& device,
+                         const Haptic_parameters& parameters) {
+  parameters.check();
+  if (!limits.are_for(device, parameters.coupling.damping, parameters.tick, parameters.delay,
+                      parameters.inertia.cutoff))
+    throw Error("the limits of passivity were made for another device, tick, delay, damping or cutoff; make them anew "
+                "with passivity_limits()");
+  check_dynamics(parameters.coupling.damping, parameters.inertia, parameters.controller_damping.value_or(0), limits);
+  check_coupling(parameters.coupling, limits);
 }
 
 } // namespace haptic_sculpt

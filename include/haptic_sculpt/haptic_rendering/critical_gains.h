@@ -12,22 +12,13 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// (exp(-x) - 1 + x) / x^2, also near 0.
-inline double lack_of_speed(double x) {
-  constexpr double near = 1e-4; // no unit; below it the series is off by 4e-10 at most, above it rounding by 1e-12
-  return x < near ? 0.5 - x / 6 : (std::expm1(-x) + x) / (x * x);
-}
-
-/// The response of a mass (kg) with viscous friction (N s/m) to a force that is held from tick to tick and late by
-/// `delay` ticks: its place over the force, m/N, at q = exp(-i angle), angle being that of one tick.
-inline std::complex<double> held_force_response(double mass, double friction, double tick, double delay, double angle) {
+/// The response of a free mass of 1 kg to a force that is held from tick to tick and late by `delay` ticks: its place
+/// over the force, m/N, at q = exp(-i angle), angle being that of one tick.
+inline std::complex<double> held_force_response(double tick, double delay, double angle) {
   const double whole = std::floor(delay), early = 1 - (delay - whole); // what the first tick sees of the force
-  const double lost = friction * tick / mass;                         // share of the speed that a tick takes
-  const double kept = -std::expm1(-lost), first = early * early * lack_of_speed(early * lost);
   const std::complex<double> q = std::polar(1.0, -angle), u = 1.0 - q;
-  const double mean = lost > 0 ? kept / lost : 1;
-  return std::polar(1.0, -angle * whole) * (tick * tick / mass) * q *
-         (first * u * u + lack_of_speed(lost) * q * u + mean * q * (early * u + q)) / (u * (u + kept * q));
+  return std::polar(1.0, -angle * whole) * (tick * tick) * q *
+         (0.5 * early * early * u * u + 0.5 * q * u + q * (early * u + q)) / (u * u);
 }
 
 /// The largest gain below which a loop of this response is stable, as Nyquist tells it: the response is that of a
@@ -66,7 +57,7 @@ inline double critical_mass_ratio(double tick, double delay, double cutoff) {
   return internal::critical_gain([&](double angle) {
     const std::complex<double> step = 1.0 - std::polar(1.0, -angle);
     return estimate.response(angle) * step * step / (tick * tick) *
-           internal::held_force_response(1, 0, tick, delay, angle);
+           internal::held_force_response(tick, delay, angle);
   });
 }
 
@@ -76,7 +67,7 @@ inline double critical_damping_rate(double tick, double delay, double cutoff = V
   const Velocity_estimate estimate(tick, cutoff);
   return internal::critical_gain([&](double angle) {
     return estimate.response(angle) * (1.0 - std::polar(1.0, -angle)) / tick *
-           internal::held_force_response(1, 0, tick, delay, angle);
+           internal::held_force_response(tick, delay, angle);
   });
 }
 
@@ -89,17 +80,6 @@ constexpr double stable_share = 1.0 / 3;
 /// it came.
 inline double largest_damping_rate(double tick, double delay, double cutoff = Velocity_estimate::default_cutoff) {
   return std::fmin(stable_share * critical_damping_rate(tick, delay, cutoff), 2 * 3.14159265358979323846 * cutoff);
-}
-
-/// The stiffness, N/m, at which a free mass (kg) with viscous friction (N s/m), held by that spring and a damper, begins
-/// to swing by itself. \pre the damping is less than critical, mass > 0, and friction + damping > 0
-inline double critical_stiffness(double mass, double friction, double damping, double tick, double delay,
-                                 double cutoff = Velocity_estimate::default_cutoff) {
-  const Velocity_estimate estimate(tick, cutoff);
-  return internal::critical_gain([&](double angle) {
-    const std::complex<double> place = internal::held_force_response(mass, friction, tick, delay, angle);
-    return place / (1.0 + damping * estimate.response(angle) * (1.0 - std::polar(1.0, -angle)) / tick * place);
-  });
 }
 
 } // namespace haptic_sculpt

@@ -4,6 +4,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
+#include <limits>
+#include <string>
+
 using namespace haptic_sculpt;
 using namespace exchange_tests;
 
@@ -107,7 +111,7 @@ BOOST_AUTO_TEST_CASE(another_scene_is_entered_once_no_task_is_under_way_and_with
   BOOST_TEST(!d.journal_of_other.take(entry));
 }
 
-BOOST_AUTO_TEST_CASE(copies_are_made_one_after_the_other_and_a_task_that_throws_is_called_again) {
+BOOST_AUTO_TEST_CASE(copies_are_made_one_after_the_other) {
   Desk d;
   Copy_task<Scene> first(4000, 8000), second(4000, 8000), small(10, 8000);
   d.ask(Command::Kind::task, 1, &first);
@@ -118,19 +122,54 @@ BOOST_AUTO_TEST_CASE(copies_are_made_one_after_the_other_and_a_task_that_throws_
   BOOST_TEST((d.answers() == Tickets{1, 2, 3}));
   BOOST_TEST((first.copy.is_whole() && second.copy.is_whole() && !small.copy.is_whole()));
   BOOST_TEST((surface_of(second.copy) == surface_of(*d.scene)));
+}
+
+BOOST_AUTO_TEST_CASE(what_throws_is_answered_with_its_reason_and_the_desk_and_the_force_go_on) {
+  Desk d;
   struct Throwing : Counting {
     using Counting::Counting;
     bool go_on(Scene& scene, Tool_type& tool) override {
-      if (!Counting::go_on(scene, tool))
-        throw Error("not yet");
-      return true;
+      if (Counting::go_on(scene, tool))
+        throw Error("that will not do");
+      return false;
     }
-  } throwing(3);
-  d.ask(Command::Kind::task, 4, &throwing);
-  BOOST_CHECK_THROW(d.tick(), Error);
-  BOOST_CHECK_THROW(d.tick(), Error);
-  d.tick();
-  BOOST_TEST((d.answers() == Tickets{4}));
+  } at_once(1), later(3);
+  struct Odd : Counting {
+    using Counting::Counting;
+    bool go_on(Scene&, Tool_type&) override { throw 7; }
+  } odd(1);
+  Counting last(2);
+  d.ask(Command::Kind::task, 1, &at_once);
+  d.ask(Command::Kind::task, 2, &later);
+  d.ask(Command::Kind::task, 3, &odd);
+  for (int k = 0; k < 4; ++k)
+    d.tick();
+  BOOST_TEST((d.answers() == Tickets{1, 3, 2}));
+  BOOST_TEST(!d.last.done);
+  BOOST_TEST(std::string(d.last.failure.data()) == "that will not do");
+  BOOST_TEST(d.last.task == &later);
+  const auto face = *d.scene->mesh.faces().begin();
+  const auto probe_before = d.scene->mesh.point(d.scene->probe);
+  for (const double x : {std::nan(""), 1e305, -std::numeric_limits<double>::infinity()})
+    for (const auto kind : {Command::Kind::insert_on_face, Command::Kind::insert_on_edge}) {
+      Command command;
+      command.kind = kind, command.ticket = 5, command.point = {x, 0, 0};
+      int i = 0;
+      for (const auto v : d.scene->mesh.vertices_around_face(d.scene->mesh.halfedge(face)))
+        command.vertices[static_cast<std::size_t>(i++)] = d.scene->sculptor.name(v);
+      BOOST_TEST(d.desk.ask(command));
+      const Haptic_tick& made = d.session.tick(reading_at(0));
+      BOOST_TEST((d.answers() == Tickets{5}));
+      BOOST_TEST(!d.last.done);
+      BOOST_TEST((made.fault == Loop_fault::none));
+      BOOST_TEST(d.loop.tool().holds_probe());
+    }
+  BOOST_TEST((d.scene->mesh.point(d.scene->probe) == probe_before)); // where it was before each of them
+  d.ask(Command::Kind::task, 6, &last);
+  d.tick(), d.tick();
+  BOOST_TEST((d.answers() == Tickets{6}));
+  BOOST_TEST(d.last.done);
+  BOOST_TEST(d.last.failure[0] == '\0');
 }
 
 } // namespace

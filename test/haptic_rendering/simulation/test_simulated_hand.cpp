@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(a_hand_comes_to_rest_where_it_wants_to_be) {
     const Device_parameters<double> parameters = device(Device_form::ditetrahedral, 0.005);
     Simulated_device simulated(parameters, *home_pose(parameters), hand, path, 0.001, 0);
     Handle_motion handle(parameters, *home_pose(parameters), 0.001);
-    Force_renderer renderer(Force_limits(), Gravity_compensation::spatial, 0.001);
+    Force_renderer renderer(Force_limits(), Virtual_coupling(), Gravity_compensation::spatial, 0.001);
     for (int k = 0; k < 3000; ++k) {
       handle.follow(simulated.read().theta);
       const Rendered_force rendered = renderer.render(handle, Vector3d::Zero());

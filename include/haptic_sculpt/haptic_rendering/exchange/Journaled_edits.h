@@ -53,15 +53,14 @@ public:
       note(wanted, made);
     return made;
   }
-  /// Makes an edit and begins a stroke with it. Where it is refused there is no stroke.
+  /// Makes an edit and begins a stroke with it. Where it is refused, or throws, there is no stroke.
   Edited make_in_stroke(const Journal_entry& wanted) {
-    stroke_.emplace(sculptor_->stroke());
+    std::optional<typename Sculptor::Stroke_type> begun(sculptor_->stroke());
     auto made = edit(wanted);
     if (made) {
+      stroke_.emplace(std::move(*begun));
       add(Kind::stroke);
       note(wanted, made);
-    } else {
-      stroke_.reset(); // nothing is in it
     }
     return made;
   }

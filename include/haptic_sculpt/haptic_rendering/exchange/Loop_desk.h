@@ -17,8 +17,8 @@ public:
 
   virtual ~Loop_task() = default;
   /// Called before each tick, until it says that it is done. The mesh is changed through the tool only, so that strokes
-  /// and journal stay right; a setting of the Sculptor may be changed while nothing is held. What it throws goes on to
-  /// the caller of the tick, and it is called again before the next. \return whether it is done
+  /// and journal stay right; a setting of the Sculptor may be changed while nothing is held. Where it throws it is
+  /// not called again: the answer says what was thrown. \return whether it is done
   virtual bool go_on(Scene& scene, Tool_type& tool) = 0;
 };
 
@@ -56,6 +56,8 @@ struct Loop_answer {
       tick = 0;                              ///< the first tick after it
   bool done = false;                         ///< false: refused
   Refusal_reason reason{};                   ///< where an edit was refused
+  /// Where something was thrown, what it says, cut at some hundred letters; empty else.
+  std::array<char, 192> failure{};
   std::uint64_t vertex = 0;                  ///< of an edit: the vertex that it says, `Sculptor::name()`
   Loop_task<Scene>* task = nullptr;          ///< the asking thread's again
   Scene* left = nullptr;                     ///< the asking thread's again, to be destroyed there

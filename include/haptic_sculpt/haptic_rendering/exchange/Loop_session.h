@@ -5,6 +5,8 @@
 #include <haptic_sculpt/haptic_rendering/exchange/Copy_task.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
 
+#include <cstring>
+
 namespace haptic_sculpt {
 
 /// A loop that others may talk to: takes a command before a tick, at most one, goes on with tasks, tells a viewer of
@@ -34,9 +36,9 @@ public:
   Loop_session(const Loop_session&) = delete;
   Loop_session& operator=(const Loop_session&) = delete;
 
-  /// \throw what drags throw: Mesh_changed, Out_of_range
+  /// What a command or task throws is its answer, what the loop throws a fault of the loop: the force is given anyway.
   template <class Reading>
-  const auto& tick(const Reading& reading) {
+  const auto& tick(const Reading& reading) noexcept {
     if (desk_ != nullptr)
       serve();
     const auto& made = loop_->tick(reading);
@@ -75,13 +77,15 @@ private:
     Loop_command<Scene> command;
     if (!next_ && tasks_.size() < most_tasks && desk_->take(command))
       next_ = command;
-    for (std::size_t i = 0; i < tasks_.size();)
-      if (tasks_[i].task->go_on(*scene_, loop_->tool())) {
-        desk_->answer(answer_to(tasks_[i], true));
+    for (std::size_t i = 0; i < tasks_.size();) {
+      Loop_answer<Scene> answer = answer_to(tasks_[i], true);
+      if (attempt(answer, [&] { return tasks_[i].task->go_on(*scene_, loop_->tool()); })) {
+        desk_->answer(answer);
         tasks_.erase(tasks_.begin() + static_cast<std::ptrdiff_t>(i));
       } else {
         ++i;
       }
+    }
     if (!next_ || (next_->kind == Kind::enter && !tasks_.empty())) // a task is of this scene
       return;
     command = *next_;
@@ -96,8 +100,31 @@ private:
     return answer;
   }
 
+  /// The one place where what commands throw ends. \return what the function gives; true where it throws
+  template <class Function>
+  static bool attempt(Loop_answer<Scene>& answer, const Function& function) noexcept {
+    const auto fail = [&](const char* what) {
+      answer.done = false;
+      std::strncpy(answer.failure.data(), what, answer.failure.size() - 1);
+      return true;
+    };
+    try {
+      return function();
+    } catch (const std::exception& error) {
+      return fail(error.what());
+    } catch (...) { // of a task: not of this library, and yet the desk has to go on
+      return fail("something was thrown that is no std::exception");
+    }
+  }
+
   void carry_out(const Loop_command<Scene>& command) {
     Loop_answer<Scene> answer = answer_to(command, true);
+    if (attempt(answer, [&] { return is_done(command, answer); }))
+      desk_->answer(answer);
+  }
+
+  /// \return false for a task that is to go on: answered when it is done
+  bool is_done(const Loop_command<Scene>& command, Loop_answer<Scene>& answer) {
     switch (command.kind) {
     case Kind::let_go:
       loop_->tool().let_go();
@@ -106,19 +133,21 @@ private:
       loop_->restart();
       break;
     case Kind::task:
-      tasks_.push_back(command); // also where the first call throws
-      if (!command.task->go_on(*scene_, loop_->tool()))
-        return; // answered when it is done
-      tasks_.pop_back();
+      if (!command.task->go_on(*scene_, loop_->tool())) {
+        tasks_.push_back(command);
+        return false;
+      }
       break;
     case Kind::enter:
+      answer.left = command.scene; // where it is refused or throws
       answer.done = journal_ == nullptr || command.journal != nullptr;
-      answer.left = answer.done ? enter(*command.scene, command.journal) : command.scene;
+      if (answer.done)
+        answer.left = enter(*command.scene, command.journal);
       break;
     default:
       edit(command, answer);
     }
-    desk_->answer(answer);
+    return true;
   }
 
   Scene* enter(Scene& scene, Edit_journal* journal) {
@@ -160,20 +189,12 @@ private:
     const auto array = [](const Eigen::Vector3d& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
     Tick_view view;
     view.tick = ticks_;
-    view.target = array(made.tool.target), view.proxy = array(made.tool.proxy), view.force = array(force_of(made, 0));
-    view.reached = made.tool.reached, view.contacts = made.tool.contacts;
+    view.target = array(made.tool.target), view.proxy = array(made.tool.proxy), view.force = array(made.rendered.force);
+    view.reached = made.tool.reached, view.starved = made.tool.starved, view.contacts = made.tool.contacts;
     view.event = made.tool.event, view.fault = made.fault;
     view.holds_vertex = loop_->tool().holds_vertex();
     view.vertex = view.holds_vertex ? scene_->sculptor.name(loop_->tool().vertex()) : 0;
     return view;
-  }
-  template <class Tick>
-  static auto force_of(const Tick& made, int) -> decltype(made.rendered.force) {
-    return made.rendered.force;
-  }
-  template <class Tick>
-  static auto force_of(const Tick& made, long) -> decltype(made.force) {
-    return made.force;
   }
 };
 

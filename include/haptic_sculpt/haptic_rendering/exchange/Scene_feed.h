@@ -39,6 +39,7 @@ struct Tick_view {
       proxy{},                         ///< where that is
       force{};                         ///< rendered
   bool reached = true;                 ///< the proxy is at the target
+  bool starved = false;                ///< the drag was cut short before any contact was found: no force stands for it
   bool holds_vertex = false;           ///< one of the surface; else the probe is in hand, or nothing
   std::uint64_t vertex = 0;            ///< held: its number that lasts
   int contacts = 0;                    ///< that hold the proxy

@@ -9,6 +9,8 @@
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Simulated_hand.h>
 
+#include <Eigen/LU>
+
 namespace haptic_sculpt {
 
 /// The mechanism, simulated, in a simulated hand: a model of the concept of a device with joints (Joint_reading).
@@ -59,6 +61,12 @@ public:
                     interaction_.after());
     ++ticks_;
     return status;
+  }
+
+  /// Gives the handle a velocity, m/s; where the Jacobian is singular nothing.
+  void push(const Eigen::Vector3d& velocity) {
+    if (const auto map = jacobian(parameters_, state_.device.pose))
+      state_.device.rate = map->linear.fullPivLu().solve(velocity);
   }
 
   double time() const { return static_cast<double>(ticks_) * tick_; } ///< s since the start

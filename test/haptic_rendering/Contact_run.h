@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_CONTACT_RUN_H
-#define HAPTIC_SCULPT_BENCHMARK_CONTACT_RUN_H
+#ifndef HAPTIC_SCULPT_TEST_CONTACT_RUN_H
+#define HAPTIC_SCULPT_TEST_CONTACT_RUN_H
 
-#include <haptic_sculpt/haptic_rendering/Force_renderer.h>
-#include <haptic_sculpt/haptic_rendering/Inertia_rendering.h>
-#include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
+#include "haptic_rendering/devices_of_tests.h"
+
+#include <haptic_sculpt/haptic_rendering/loop/Interaction.h>
+#include <haptic_sculpt/haptic_rendering/critical_gains.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
-#include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
-#include <haptic_sculpt/haptic_rendering/Watchdog.h>
 
-namespace haptic_sculpt::passivity_benchmark {
+#include <Eigen/Eigenvalues>
+
+namespace haptic_rendering_tests {
 
 /// A mechanism in a hand beside a plane: what a run is made of. The plane stands for a surface that answers exactly,
 /// so that a simulated second costs the mechanism and not the mesh.
@@ -26,16 +27,25 @@ struct Contact_setup {
   Force_limits limits{};
   Inertia_parameters inertia{};
   double controller_damping = 0; ///< N s/m
+  bool follows_pose = false;     ///< Haptic_parameters::follows_pose; couplings are chosen for the poses of a run
   double burst_every = 0;        ///< s; 0: no edits are refused
-};
+  Eigen::Vector3d speed = Eigen::Vector3d::Zero(); ///< that the handle is given, m/s
+  double push_time = 1e300;                        ///< when, s
 
-/// Nothing between the wanted force and the motors.
-inline Force_limits no_limits() {
-  Force_limits limits{};
-  limits.slew = limits.largest = 1e9, limits.ramp_time = 1e-9;
-  limits.full_condition = limits.no_condition = 1e9;
-  return limits;
-}
+  /// That may be asked for, N s/m, at the pose of the start.
+  double largest_controller() const {
+    const auto terms = dynamics(device, Dynamics_model::spatial, start, Device_vector<double>(0, 0, 0));
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> mass(
+        apparent_mass(terms->mass, jacobian(device, start)->linear), Eigen::EigenvaluesOnly);
+    return mass.eigenvalues()[0] * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity());
+  }
+  Haptic_parameters parameters() const {
+    Haptic_parameters all;
+    all.tick = tick, all.delay = delay, all.coupling = coupling, all.limits = limits, all.inertia = inertia;
+    all.follows_pose = follows_pose;
+    return all;
+  }
+};
 
 /// Energies in J.
 struct Contact_outcome {
@@ -56,40 +66,37 @@ struct Contact_outcome {
 /// Until `seconds` of contact have been, or three times as long has passed.
 /// \param each called after every tick with the handle; returns false to end
 template <class Each>
-Contact_outcome run_contact(const Contact_setup& setup, double seconds, const Each& each) {
+Contact_outcome run_contact(Contact_setup setup, double seconds, const Each& each) {
   const Device_parameters<double>& device = setup.device;
   Simulated_device simulated(device, setup.start, setup.hand, setup.path, setup.tick, setup.delay);
-  Handle_motion handle(device, setup.start, setup.tick);
-  Force_renderer renderer(setup.limits, Gravity_compensation::spatial, setup.tick);
-  Inertia_rendering inertia(setup.inertia, device, setup.tick, setup.delay);
-  Passivity_observer observer(setup.delay, setup.tick, device.viscous_friction(), device.encoder_step());
-  Passivity_controller controller(setup.controller_damping, setup.tick);
-  Watchdog watchdog(Watchdog_limits(), setup.tick, device.torque_limit());
-  Contact_span span;
-  span.add(setup.normal);
+  Interaction<Joint_side> loop(Joint_side(device, setup.start, setup.parameters()), setup.parameters(),
+                               setup.controller_damping);
+  const Handle_motion& handle = loop.side().handle();
+  const Passivity_observer& observer = loop.observer();
+  Touch touch;
+  touch.span.add(setup.normal), touch.holds = true;
   Contact_outcome outcome;
   double next_burst = setup.burst_every, limited = 0;
   while (outcome.contact < seconds && outcome.time < 3 * seconds) {
+    if (outcome.time >= setup.push_time)
+      simulated.push(setup.speed), setup.push_time = 1e300;
     const Joint_reading reading = simulated.read();
-    if (!watchdog.check(reading) || !watchdog.check_condition(handle.follow(reading.theta)))
+    if (!loop.follow(reading))
       break;
     const auto conditioning = translation_conditioning(handle.jacobian());
     outcome.has_left = conditioning.greatest > setup.greatest || conditioning.condition > setup.most_condition;
     if (outcome.has_left)
       break;
-    observer.add_step(handle.joint_step(), setup.coupling.stiffness, handle.step());
     outcome.observer_error = std::fmax(outcome.observer_error, std::abs(observer.port() - simulated.port()));
     const double depth = -setup.normal.dot(handle.position() - setup.on_plane);
     const bool reached = depth <= 0;
-    const Eigen::Vector3d spring =
-        reached ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(setup.coupling.stiffness * depth * setup.normal);
+    touch.is_free = reached, touch.way = std::fmax(0, depth) * setup.normal;
     if (setup.burst_every > 0 && outcome.time >= next_burst)
-      renderer.refuse(handle, setup.normal), next_burst += setup.burst_every;
-    const Eigen::Vector3d wanted = spring + setup.coupling.damping_force(span, handle.velocity(), reached) +
-                                   inertia.force(handle, true) + controller.force(observer, handle);
-    const Rendered_force rendered = renderer.render(handle, wanted);
-    limited += (rendered.force - wanted).norm() > 1e-9 * (1 + wanted.norm());
-    observer.command(rendered.interaction_torque);
+      loop.refuse(setup.normal), next_burst += setup.burst_every;
+    loop.render(touch);
+    loop.end_tick();
+    const Rendered_force& rendered = loop.rendered();
+    limited += (rendered.force - loop.wanted()).norm() > 1e-9 * (1 + loop.wanted().norm());
     if (simulated.write(rendered.torque, rendered.interaction_torque) != Device_status::success) {
       outcome.has_left = true;
       break;
@@ -104,9 +111,9 @@ Contact_outcome run_contact(const Contact_setup& setup, double seconds, const Ea
       break;
   }
   outcome.least_observed = observer.least();
-  outcome.inertia_energy = inertia.mass_energy() + inertia.compensation_energy();
+  outcome.inertia_energy = loop.side().inertia().mass_energy() + loop.side().inertia().compensation_energy();
   outcome.limited = limited / std::fmax(1, outcome.time / setup.tick);
-  outcome.fault = watchdog.fault();
+  outcome.fault = loop.fault();
   return outcome;
 }
 
@@ -114,6 +121,6 @@ inline Contact_outcome run_contact(const Contact_setup& setup, double seconds) {
   return run_contact(setup, seconds, [](const auto&...) { return true; });
 }
 
-} // namespace haptic_sculpt::passivity_benchmark
+} // namespace haptic_rendering_tests
 
 #endif

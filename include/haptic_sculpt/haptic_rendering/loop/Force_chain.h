@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_FORCE_CHAIN_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_FORCE_CHAIN_H
+
+#include <haptic_sculpt/haptic_rendering/Force_limit.h>
+#include <haptic_sculpt/haptic_rendering/Refusal_burst.h>
+#include <haptic_sculpt/haptic_rendering/Velocity_estimate.h>
+
+namespace haptic_sculpt {
+
+/// From the force that is wanted to the one that a hand may feel, in axes of the device: clamp, slew limit, burst,
+/// ramp; after a fault a share that fades. No allocation.
+///
+/// The slew limit is for what the *proxy* did: where it falls off an edge the force changes within milliseconds. What
+/// the hand's own way makes of the coupling comes at once, or the spring would be late, and a spring that is late gives
+/// energy: k |step| of the spring, and 2 pi f b |step| of the damper, whose velocity is behind a low-pass of f Hz.
+class Force_chain {
+public:
+  /// Begins at a force of 0. \param tick s \throw Error for limits or a coupling that cannot be used
+  Force_chain(const Force_limits& limits, const Virtual_coupling& coupling, double tick)
+      : limits_(limits), tick_(tick), burst_(checked(tick)), change_of_way_(change_of_way(coupling)) {
+    limits.check(), coupling.check();
+  }
+
+  /// The force of this tick, N; once a tick. \param wanted N \param way of the handle since the last tick, m
+  Eigen::Vector3d follow(const Eigen::Vector3d& wanted, double way) {
+    ramp_ = std::fmin(1.0, ramp_ + tick_ / limits_.ramp_time);
+    const double change = limits_.slew * tick_ + change_of_way_ * way;
+    const Eigen::Vector3d& followed = slew_.follow(clamped(wanted, limits_.largest), change);
+    return ramp_ * clamped(followed + burst_.next(), limits_.largest);
+  }
+  /// The share of the last force that is left, one tick after a fault later. \param elapsed s; at least a tick counts
+  double fade(double elapsed) { return fade_.next(std::fmax(tick_, elapsed) / limits_.fade_time); }
+  bool has_faded() const { return fade_.is_over(); } ///< the share has come to 0
+
+  /// A refused edit is felt. \param direction in axes of the device \param mobility of the free handle there, 1/kg
+  void refuse(const Eigen::Vector3d& direction, double mobility) { burst_.begin(direction, mobility); }
+  /// Forces begin at 0 and come back slowly.
+  void restart() { ramp_ = 0, fade_.reset(), slew_.reset(), burst_.cut(); }
+
+  double ramp() const { return ramp_; }                  ///< share of the force since the last start, 0 to 1
+  const Force_limits& limits() const { return limits_; } ///< those that were given
+  double tick() const { return tick_; }                  ///< s
+
+private:
+  Force_limits limits_;
+  double tick_, ramp_ = 0;
+  Fade_out fade_;
+  Slew_limit slew_;
+  Refusal_burst burst_;
+  double change_of_way_; ///< N/m
+
+  static double change_of_way(const Virtual_coupling& coupling) {
+    return coupling.stiffness + 2 * 3.14159265358979323846 * Velocity_estimate::default_cutoff * coupling.damping;
+  }
+  static double checked(double tick) {
+    internal::require_number("the tick", "s", tick, least_tick, most_tick);
+    return tick;
+  }
+
+public:
+  static constexpr double least_tick = 1e-5, ///< s; 100 kHz
+      most_tick = 0.0125;                    ///< s: beyond it the burst cannot be made
+};
+
+} // namespace haptic_sculpt
+
+#endif

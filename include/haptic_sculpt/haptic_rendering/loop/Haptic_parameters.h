@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_HAPTIC_PARAMETERS_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_HAPTIC_PARAMETERS_H
+
+#include <haptic_sculpt/haptic_rendering/Force_renderer.h>
+#include <haptic_sculpt/haptic_rendering/Inertia_rendering.h>
+#include <haptic_sculpt/haptic_rendering/Watchdog.h>
+
+#include <optional>
+
+namespace haptic_sculpt {
+
+/// How a loop runs.
+struct Haptic_parameters {
+  double tick = 0.001;       ///< s
+  double delay = 0;          ///< from a command to its torque, ticks
+  Virtual_coupling coupling; ///< between hand and tool; refused where it is not passive
+  Force_limits limits;       ///< of what reaches the hand
+  Watchdog_limits watchdog;  ///< beyond them the loop lets go
+  Gravity_compensation gravity = Gravity_compensation::spatial; ///< by the full model, unless it is changed
+  Inertia_parameters inertia;                                   ///< off by default
+  /// The most that the passivity controller may damp, N s/m; 0: there is none. Nothing: half of what may be asked for.
+  std::optional<double> controller_damping;
+  /// Where the device has less friction at its handle than the coupling needs, the force is less: beyond the scene as
+  /// it was loaded. false: for measuring what a coupling that is not passive does.
+  bool follows_pose = true;
+  double reach = 0.001;   ///< of a grab, m in the device
+  std::size_t work = 400; ///< pairs a drag may decide; more where a vertex of high valence is in hand (doc/work.md)
+
+  /// That the coupling needs at the handle to be passive, N s/m.
+  double needed_friction() const {
+    return coupling.stiffness * tick * (1 + 2 * delay) / 2 + std::abs(coupling.damping);
+  }
+
+  /// \throw Error naming what no device can use
+  void check() const {
+    internal::require_number("the tick", "s", tick, Force_chain::least_tick, Force_chain::most_tick);
+    internal::require_number("the delay", "ticks", delay, 0, Torque_delay<double>::most_ticks);
+    coupling.check(), limits.check(), watchdog.check(), inertia.check();
+    internal::require_number("the damping of the passivity controller", "N s/m", controller_damping.value_or(0), 0,
+                             1e5);
+    internal::require_number("the reach of a grab", "m", reach, 0, 1);
+    internal::require_number("the work of a drag", "pairs", static_cast<double>(work), 1, 1e15);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_INTERACTION_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_INTERACTION_H
+
+#include <haptic_sculpt/haptic_rendering/loop/Joint_side.h>
+#include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
+
+namespace haptic_sculpt {
+
+/// What a scene does to the hand in a tick, in axes of the device.
+struct Touch {
+  Eigen::Vector3d way = Eigen::Vector3d::Zero(); ///< from where the hand wants what it holds to where that is, m
+  Contact_span span;                             ///< of what pushes
+  bool is_free = true;                           ///< what is held is where it is wanted
+  bool is_starved = false; ///< work was cut short before anything was found to push: no spring can be rendered
+  bool holds = false;      ///< something that may have a virtual mass is in hand
+};
+
+/// A loop without the sculpture: what stands between the readings of a device and the force of a touch. Every loop has
+/// this one chain: watchdog, motion of the handle, observer; spring, damper, virtual mass, controller; clamp, slew
+/// limit, burst, ramp; what the side adds; and, after a fault, the fade. No allocation.
+/// \tparam Side_ of the device: Joint_side or Pose_side
+template <class Side_>
+class Interaction {
+public:
+  using Side = Side_;                      ///< towards the device
+  using Reading = typename Side_::Reading; ///< of the device
+
+  /// \param controller_damping the most that the passivity controller may damp, N s/m
+  /// \throw Error for parameters that cannot be used
+  Interaction(const Side& side, const Haptic_parameters& parameters, double controller_damping)
+      : side_(side)
+      , coupling_(parameters.coupling)
+      , watchdog_(limits_for(side, parameters.watchdog), parameters.tick, side.effort_limit())
+      , observer_(parameters.delay, parameters.tick, side.has_force() ? side.friction() : 0, side.resolution())
+      , controller_(controller_damping, parameters.tick) {
+    parameters.check();
+  }
+
+  /// Begins a tick. \return whether the reading may be used; false where there is a fault
+  bool follow(const Reading& reading) {
+    elapsed_ = std::isfinite(reading.elapsed) ? reading.elapsed : 0;
+    if (!watchdog_.check(Side::coordinates(reading), Side::efforts(reading), reading.elapsed) ||
+        !watchdog_.check_condition(side_.follow(reading, reading.elapsed)))
+      return false;
+    observer_.add_step(side_.effort_step(), coupling_.stiffness, side_.step());
+    if (side_.has_force() && observer_.is_active())
+      watchdog_.report(Loop_fault::energy);
+    return watchdog_.fault() == Loop_fault::none;
+  }
+
+  /// The force of a touch, after follow().
+  void render(const Touch& touch) {
+    const bool pulls = !touch.is_free && !touch.is_starved;
+    spring_ = pulls ? Eigen::Vector3d(coupling_.stiffness * touch.way) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    wanted_ =
+        spring_ + coupling_.damping_force(touch.span, side_.velocity(), !pulls) + side_.inertial_force(touch.holds);
+    if (side_.has_force())
+      wanted_ += controller_.force(observer_, side_.step());
+    rendered_ = side_.render(wanted_, touch.is_starved ? 0 : side_.step().norm());
+    if (rendered_.is_overloaded)
+      watchdog_.report(Loop_fault::torque);
+    if (!rendered_.is_finite)
+      watchdog_.report(Loop_fault::not_finite);
+  }
+
+  /// Ends a tick: after a fault the force is what is left of the last one.
+  void end_tick() {
+    if (watchdog_.fault() != Loop_fault::none) {
+      rendered_ = side_.fade_out(elapsed_);
+      spring_.setZero();
+    }
+    observer_.command(rendered_.interaction_torque);
+  }
+
+  /// A refused edit is felt along a direction.
+  void refuse(const Eigen::Vector3d& direction) { side_.refuse(direction); }
+  void report(Loop_fault fault) { watchdog_.report(fault); }             ///< one found elsewhere
+  Loop_fault fault() const { return watchdog_.fault(); }                 ///< the first since the last restart()
+  bool has_faded() const { return side_.has_faded(); }                   ///< after a fault: the force has come to 0
+  const Eigen::Vector3d& spring() const { return spring_; }              ///< of the last tick, N
+  const Eigen::Vector3d& wanted() const { return wanted_; }              ///< of the last touch, before all limits, N
+  const Rendered_force& rendered() const { return rendered_; }           ///< in the last tick
+  const Side& side() const { return side_; }                             ///< towards the device
+  const Passivity_observer& observer() const { return observer_; }       ///< of all ticks so far that were no fault
+  const Passivity_controller& controller() const { return controller_; } ///< tells what it has damped
+
+  /// After a fault: forces come back slowly, from 0. What the observer missed is forgotten.
+  void restart() {
+    if (watchdog_.fault() == Loop_fault::energy)
+      observer_.restart();
+    watchdog_.reset(), side_.restart();
+    spring_.setZero(), rendered_ = Rendered_force();
+  }
+
+private:
+  Side side_;
+  Virtual_coupling coupling_;
+  Watchdog watchdog_;
+  Passivity_observer observer_;
+  Passivity_controller controller_;
+  Eigen::Vector3d spring_ = Eigen::Vector3d::Zero(), wanted_ = Eigen::Vector3d::Zero();
+  Rendered_force rendered_;
+  double elapsed_ = 0;
+
+  /// A device that gives no force may come when it likes.
+  static Watchdog_limits limits_for(const Side& side, Watchdog_limits limits) {
+    if (!side.has_force())
+      limits.late_ticks = std::numeric_limits<double>::infinity();
+    return limits;
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_INTERACTION_LOOP_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_INTERACTION_LOOP_H
+
+#include <haptic_sculpt/haptic_rendering/loop/Interaction.h>
+#include <haptic_sculpt/haptic_rendering/Tool.h>
+
+#include <array>
+#include <cstring>
+
+namespace haptic_sculpt {
+
+/// What a tick did; places in the scene, forces on the hand in axes of the device.
+struct Haptic_tick {
+  Tool_step tool;                                     ///< what the tool did; after a fault nothing, at the last proxy
+  Eigen::Vector3d coupling = Eigen::Vector3d::Zero(); ///< N, of the spring alone
+  Rendered_force rendered;                            ///< what the device is to give; fades at a fault
+  Loop_fault fault = Loop_fault::none;                ///< why the loop has let go; stays until restart()
+  bool is_new_fault = false;                          ///< true in the one tick in which the fault was found
+};
+
+/// What stands between a device and a sculpture: at each tick a reading in, a force out. doc/haptic_rendering.md has
+/// the way of a tick. Haptic_loop and Pose_loop are made of it.
+///
+/// Deterministic: the same readings give the same mesh and forces, bit for bit. Reads no clock, waits for nothing, and
+/// allocates only where edits do.
+/// \tparam Sculptor_ whose mesh is sculpted \tparam Side_ Joint_side or Pose_side
+template <class Sculptor_, class Side_>
+class Interaction_loop {
+public:
+  using Sculptor = Sculptor_;                           ///< whose mesh is sculpted
+  using Side = Side_;                                   ///< towards the device
+  using Vertex_index = typename Sculptor::Vertex_index; ///< of that mesh
+  using Reading = typename Side::Reading;               ///< what tick() takes
+  using Tick = Haptic_tick;                             ///< what tick() gives
+
+  /// What throws in a tick is a fault, and failure() has what it says: a driver may call this from C.
+  const Haptic_tick& tick(const Reading& reading) noexcept {
+    const internal::Rounding_to_nearest rounding;
+    tick_.is_new_fault = false;
+    if (tick_.fault == Loop_fault::none)
+      attempt([&] { run(reading); });
+    if (tick_.fault == Loop_fault::none && interaction_.fault() != Loop_fault::none) {
+      tick_.fault = interaction_.fault(), tick_.is_new_fault = true;
+      attempt([&] { tool_.let_go(); });
+    }
+    interaction_.end_tick();
+    if (tick_.fault != Loop_fault::none) {
+      const Eigen::Vector3d held = tick_.tool.proxy;
+      tick_.tool = Tool_step();
+      tick_.tool.target = tick_.tool.proxy = held;
+    }
+    tick_.coupling = interaction_.spring(), tick_.rendered = interaction_.rendered();
+    return tick_;
+  }
+
+  /// Ends the run at the next tick, in order, for a reason that the loop itself does not see.
+  void end_by(Loop_fault fault) { interaction_.report(fault); }
+
+  /// After a fault: forces come back slowly, from 0, from where everything is.
+  void restart() {
+    interaction_.restart(), tool_.let_go();
+    tick_ = Haptic_tick(), failure_[0] = '\0';
+  }
+
+  /// From here on in another sculpture; forces begin at 0. The old one is let go of, and may be destroyed.
+  void enter(Sculptor& sculptor, Vertex_index probe, const Workspace_map& map) {
+    tool_.enter(sculptor, probe, map);
+    sculptor_ = &sculptor, map_ = map, held_ = Vertex_index();
+    sculptor.set_work_limit(parameters_.work);
+    restart();
+  }
+
+  /// Whether a fault has let go of the hand altogether: the force is 0.
+  bool has_stopped() const { return tick_.fault != Loop_fault::none && interaction_.has_faded(); }
+  /// What was thrown where the fault is `error`; cut at some hundred letters, empty else.
+  const char* failure() const { return failure_.data(); }
+  const Tool<Sculptor>& tool() const { return tool_; } ///< what the hand does in the scene
+  Tool<Sculptor>& tool() { return tool_; }             ///< for edits between two ticks, in the thread that calls tick()
+  const Passivity_observer& observer() const { return interaction_.observer(); } ///< of all ticks that were no fault
+  const Interaction<Side>& interaction() const { return interaction_; }          ///< all but the sculpture
+  const Haptic_parameters& parameters() const { return parameters_; } ///< those that were given, and the controller's
+  const Workspace_map& map() const { return map_; }                   ///< of the scene that is sculpted now
+
+protected:
+  /// \param controller what nothing in `parameters` stands for, N s/m
+  Interaction_loop(Sculptor& sculptor, Vertex_index probe, const Side& side, const Workspace_map& map,
+                   const Haptic_parameters& parameters, double controller)
+      : sculptor_(&sculptor)
+      , parameters_(parameters)
+      , map_(map)
+      , interaction_(side, parameters, parameters.controller_damping.value_or(controller))
+      , tool_(sculptor, probe, map, parameters.reach, parameters.tick) {
+    parameters_.controller_damping = parameters.controller_damping.value_or(controller);
+    sculptor.set_work_limit(parameters.work);
+  }
+
+private:
+  Sculptor* sculptor_;
+  Haptic_parameters parameters_;
+  Workspace_map map_;
+  Interaction<Side> interaction_;
+  Tool<Sculptor> tool_;
+  Haptic_tick tick_;
+  Vertex_index held_;
+  std::array<char, 256> failure_{};
+
+  /// Pairs for each face about what is held, beside Haptic_parameters::work: to decide whether a step of a vertex is
+  /// free takes some of each.
+  static constexpr std::size_t work_of_a_face = 4;
+
+  void run(const Reading& reading) {
+    if (!interaction_.follow(reading))
+      return;
+    tick_.tool = tool_.move(interaction_.side().position(), reading.button);
+    const Tool_step& tool = tick_.tool;
+    if (tool.event == Tool_event::refused)
+      interaction_.refuse(map_.direction_to_device(tool_.last_push()));
+    if (tool_.vertex() != held_)
+      bound_work(held_ = tool_.vertex());
+    Touch touch;
+    touch.way = map_.way_to_device(tool.proxy - tool.target), touch.span = tool.span;
+    touch.is_free = tool.reached, touch.is_starved = tool.starved, touch.holds = tool_.holds_vertex();
+    interaction_.render(touch);
+  }
+
+  void bound_work(Vertex_index v) {
+    std::size_t work = parameters_.work;
+    if (tool_.holds_vertex() && v.is_valid())
+      work += work_of_a_face * sculptor_->mesh().degree(v);
+    sculptor_->set_work_limit(work);
+  }
+
+  /// The one place where exceptions end: each becomes a fault.
+  template <class Function>
+  void attempt(const Function& function) noexcept {
+    try {
+      function();
+    } catch (const std::exception& error) {
+      fail(error.what());
+    } catch (...) { // of a visitor or a task: not of this library, and yet the force has to fade
+      fail("something was thrown that is no std::exception");
+    }
+  }
+  void fail(const char* what) {
+    std::strncpy(failure_.data(), what, failure_.size() - 1);
+    interaction_.report(Loop_fault::error);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_POSE_SIDE_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_POSE_SIDE_H
+
+#include <haptic_sculpt/haptic_rendering/loop/Haptic_parameters.h>
+#include <haptic_sculpt/haptic_rendering/Pose_reading.h>
+
+namespace haptic_sculpt {
+
+/// What a device of pose and force does at its handle.
+struct Pose_device {
+  double friction = 0;   ///< dissipated at the handle, N s/m; infinite: the device has no force
+  double mass = 0.05;    ///< of the free handle, kg
+  double resolution = 0; ///< of a position, m; 0: exact
+
+  bool has_force() const { return friction != std::numeric_limits<double>::infinity(); } ///< NaN is not taken for none
+};
+
+/// A loop's side towards a device of pose and force (Interaction; Joint_side is the one of joints).
+class Pose_side {
+public:
+  using Reading = Pose_reading; ///< what the device says
+
+  /// \throw Error for parameters that cannot be used
+  Pose_side(const Pose_device& device, const Haptic_parameters& parameters)
+      : device_(device), chain_(parameters.limits, parameters.coupling, parameters.tick), velocity_(parameters.tick) {}
+
+  /// \name What a reading says
+  ///@{
+  static const Eigen::Vector3d& coordinates(const Reading& reading) { return reading.position; } ///< m
+  static Eigen::Vector3d efforts(const Reading&) { return Eigen::Vector3d::Zero(); }             ///< not measured
+  ///@}
+
+  /// \return 1: every place is as good as any
+  double follow(const Reading& reading, double elapsed) {
+    step_ = is_first_ ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(reading.position - position_);
+    velocity_.add(step_, is_first_ ? chain_.tick() : elapsed);
+    position_ = reading.position, is_first_ = false;
+    return 1;
+  }
+  const Eigen::Vector3d& position() const { return position_; }            ///< of the handle, m
+  const Eigen::Vector3d& step() const { return step_; }                    ///< of the handle since the last tick, m
+  const Eigen::Vector3d& velocity() const { return velocity_.value(); }    ///< of the handle, low-passed, m/s
+  const Eigen::Vector3d& effort_step() const { return step_; }             ///< what efforts work on, m
+  Eigen::Vector3d inertial_force(bool) { return Eigen::Vector3d::Zero(); } ///< none
+
+  /// \param wanted N \param way of the handle that made it, m
+  const Rendered_force& render(const Eigen::Vector3d& wanted, double way) {
+    last_.force = last_.interaction_torque = chain_.follow(wanted, way);
+    if (!last_.force.allFinite())
+      last_ = Rendered_force(), last_.is_finite = false;
+    return last_;
+  }
+  /// After a fault.
+  Rendered_force fade_out(double elapsed) {
+    Rendered_force faded = last_;
+    faded.force *= chain_.fade(elapsed);
+    faded.interaction_torque = faded.force;
+    return faded;
+  }
+  bool has_faded() const { return chain_.has_faded(); } ///< to nothing
+  /// A refused edit is felt along a direction.
+  void refuse(const Eigen::Vector3d& direction) { chain_.refuse(direction, 1 / device_.mass); }
+  /// Forces begin at 0; no step leads to the next reading.
+  void restart() { is_first_ = true, velocity_.reset(), chain_.restart(), last_ = Rendered_force(); }
+
+  /// \name The device
+  ///@{
+  double effort_limit() const { return std::numeric_limits<double>::infinity(); } ///< not known
+  double friction() const { return device_.friction; }                            ///< against effort_step(), N s/m
+  double resolution() const { return device_.resolution; }                        ///< m; 0: exact
+  bool has_force() const { return device_.has_force(); }                          ///< a mouse has none
+  ///@}
+
+private:
+  Pose_device device_;
+  Force_chain chain_;
+  Velocity_estimate velocity_;
+  Rendered_force last_;
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero(), step_ = Eigen::Vector3d::Zero();
+  bool is_first_ = true;
+};
+
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_REQUIRE_NUMBER_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_REQUIRE_NUMBER_H
+
+#include <haptic_sculpt/Error.h>
+
+namespace haptic_sculpt::internal {
+
+/// \throw Error naming the number, unless it is from `least` to `most`; NaN never is
+inline void require_number(const char* what, const char* unit, double x, double least, double most) {
+  if (x >= least && x <= most)
+    return;
+  const std::string in_unit = *unit == '\0' ? "" : ' ' + std::string(unit);
+  throw Error(std::string(what) + " must be from " + number(least) + " to " + number(most) + in_unit + ", not " +
+              number(x));
+}
+
+} // namespace haptic_sculpt::internal
+
+#endif

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A hand that comes down on a wall fast, and a handle that is thrown at it: no energy, and calm soon, with every limit
+// of the force as it comes.
+#include "haptic_rendering/knock.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <limits>
+#include <random>
+#include <vector>
+
+using namespace haptic_sculpt;
+using namespace haptic_rendering_tests;
+
+namespace {
+
+/// J: of port plus dissipation; what a spring that comes late gives is hundreds of times as much.
+constexpr double permitted = -1e-3;
+
+BOOST_AUTO_TEST_CASE(a_knock_gives_no_energy_and_is_calm_after_half_a_second_with_all_that_ships) {
+  int number = 0;
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
+    const Knocked_device knocked(form);
+    for (const double rate : {1000.0, 4000.0, 10000.0})
+      for (const double delay : {0.0, 1.0})
+        for (const std::optional<Simulated_hand>& hand :
+             {std::optional(Simulated_hand::finger()), std::optional(Simulated_hand::arm()),
+              std::optional<Simulated_hand>()}) {
+          Knock k;
+          k.rate = rate, k.delay = delay, k.hand = hand;
+          k.stiffness_share = hand ? 0.95 : 0.5, k.damping_share = number++ % 2 == 0 ? 0 : 0.5;
+          const Knock_outcome outcome = run_knock(knock(knocked, k), k.wait);
+          BOOST_TEST((outcome.run.fault == Loop_fault::none));
+          BOOST_TEST(outcome.run.largest_force > 0.1); // it has touched
+          BOOST_TEST(outcome.run.least >= permitted);
+          // One count of one encoder may come and go: at 10 kHz that alone is 0.17 N.
+          BOOST_TEST(outcome.ripple <= std::fmax(0.1, 1.2 * outcome.count),
+                     "a ripple of " << outcome.ripple << " N at " << rate << " Hz, delay " << delay << ", a count "
+                                    << outcome.count << " N");
+        }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_the_proxy_does_is_slewed_and_what_the_hand_does_is_not) {
+  const Virtual_coupling coupling{1000, 2};
+  Force_limits limits;
+  limits.ramp_time = 0;
+  Force_chain chain(limits, coupling, 0.001);
+  const Vector3d up(0, 0, 1);
+  BOOST_TEST((chain.follow(2 * up, 0.002) - 2 * up).norm() <= 1e-15); // 2 mm of the spring
+  BOOST_TEST((chain.follow(0 * up, 0) - 1.7 * up).norm() <= 1e-12);   // the proxy falls
+  const double damper = 2 * M_PI * 100 * 2 * 0.0005;                  // of a step of 0.5 mm
+  BOOST_TEST((chain.follow(4 * up, 0.0005) - (1.7 + 0.3 + 0.5 + damper) * up).norm() <= 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(inertia_that_motors_carry_in_free_space_is_no_fault) {
+  const Knocked_device knocked(Device_form::general);
+  Knock k;
+  k.stiffness_share = 0.5, k.hand = Simulated_hand::finger(), k.damping_share = 0;
+  std::vector<Hand_path::Row> rows{{0, knocked.home.position + 0.01 * k.normal, 0}};
+  for (int i = 1; i < 40; ++i) // shaken in free space
+    rows.push_back({0.1 * i, knocked.home.position + (i % 2 == 0 ? 0.01 : 0.002) * k.normal, 0});
+  Contact_setup setup = knock(knocked, k);
+  setup.path = Hand_path(rows), setup.inertia.compensated = 0.5;
+  setup.start = *reach_position(knocked.device, knocked.home, rows[0].position);
+  const Contact_outcome outcome = run_contact(setup, 4.0 / 3);
+  BOOST_TEST((outcome.fault == Loop_fault::none), name_of(outcome.fault));
+  BOOST_TEST_MESSAGE("compensated inertia gave " << -1e3 * outcome.inertia_energy << " mJ");
+}
+
+BOOST_AUTO_TEST_CASE(a_device_that_gives_energy_ends_as_a_fault) {
+  const Knocked_device knocked(Device_form::ditetrahedral);
+  for (const double times : {20.0, 40.0}) { // what nobody foresaw: the device is not what it was taken to be
+    Knock k;
+    k.stiffness_share = times, k.hand = Simulated_hand::finger();
+    Contact_setup setup = knock(knocked, k);
+    setup.controller_damping = 0;
+    const Contact_outcome outcome = run_contact(setup, 3);
+    BOOST_TEST_MESSAGE(times << " k_p: least energy " << 1e3 * outcome.least << " mJ, force at most "
+                             << outcome.largest_force << " N, " << name_of(outcome.fault) << " at " << outcome.time
+                             << " s");
+    BOOST_TEST((outcome.fault == Loop_fault::energy));
+    BOOST_TEST(outcome.least >= -30e-3); // J: it ends within few swings
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_that_is_late_lets_go_of_a_free_handle_before_it_throws_it) {
+  const Knocked_device knocked(Device_form::ditetrahedral);
+  Random random(11);
+  std::uniform_int_distribution<int> milliseconds(4, 16);
+  const Vector3d up(0, 0, 1);
+  double fastest[2] = {}; // upwards, m/s
+  for (const bool is_watched : {true, false})
+    for (int round = 0; round < 10; ++round) {
+      Haptic_parameters parameters; // declared: 1 ms
+      parameters.coupling.stiffness = 0.5 * passive_stiffness(knocked.friction, 0, parameters.tick, 0);
+      parameters.limits.ramp_time = 0; // long under way
+      if (!is_watched)
+        parameters.watchdog.late_ticks = std::numeric_limits<double>::infinity();
+      const Hand_path path({{0, knocked.home.position + 0.016 * up, 0}}); // 60 ms away
+      const auto start = reach_position(knocked.device, knocked.home, path.at(0).position);
+      Simulated_device device(knocked.device, *start, Simulated_hand{1, {}}, path, 0.001, 0);
+      device.push(-0.5 * up);
+      Interaction<Joint_side> loop(Joint_side(knocked.device, *start, parameters), parameters, 0);
+      Joint_reading reading = device.read();
+      bool is_torn = false;
+      double fastest_after = 0;
+      for (int k = 0; k < 40 && !is_torn; ++k) {
+        if (loop.fault() == Loop_fault::none && loop.follow(reading)) {
+          const double depth = (knocked.home.position - loop.side().position())[2];
+          Touch touch;
+          touch.way = std::fmax(0, depth) * up, touch.is_free = depth <= 0, touch.span.add(up);
+          loop.render(touch);
+        }
+        loop.end_tick();
+        const int late = milliseconds(random);
+        for (int held = 0; held < late && !is_torn; ++held)
+          is_torn = device.write(loop.rendered().torque, loop.rendered().interaction_torque) != Device_status::success;
+        reading = device.read(), reading.elapsed = 0.001 * late;
+        const auto map = jacobian(knocked.device, device.state().pose);
+        if (map)
+          fastest_after = std::fmax(fastest_after, (map->linear * device.state().rate)[2]);
+      }
+      fastest[is_watched] = std::fmax(fastest[is_watched], fastest_after);
+      if (is_watched) {
+        BOOST_TEST(!is_torn);
+        BOOST_TEST((loop.fault() == Loop_fault::late), name_of(loop.fault()));
+        BOOST_TEST(loop.rendered().torque == Vector3d::Zero());
+      }
+    }
+  BOOST_TEST_MESSAGE("thrown back at " << fastest[0] << " m/s at most, watched at " << fastest[1]);
+  BOOST_TEST(fastest[1] <= 0.01);
+  BOOST_TEST(fastest[0] > 0.05); // what the watchdog is for
+}
+
+} // namespace
