@@ -19,8 +19,8 @@ namespace haptic_sculpt {
 ///   `edge_created`, `face_created` of what it has made. Each element once.
 /// - A face or edge is the triangle or segment of its vertices: one that is replaced has died, though one of the new ones may have
 ///   got its descriptor, as Surface_mesh uses them again, within one edit too. What died has to be forgotten before the new is noted.
-/// - Nothing is told of what was refused, of a drag that did not move, of Sculptor::probe(), of set_delta() and the like; of an undo
-///   that a probe in its way refused halfway, what was taken back and made again.
+/// - Nothing is told of what was refused, or lacked memory, of a drag that did not move, of Sculptor::probe(), of set_delta() and the
+///   like; of an undo of several changes that ended so halfway, what was taken back and made again.
 ///
 /// - An exception goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`, the change is
 ///   not made, though some of what it would have killed has been told; thrown in another function, it stands, and the rest of
