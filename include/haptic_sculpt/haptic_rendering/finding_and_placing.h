@@ -68,7 +68,7 @@ Eigen::Vector3d vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
   const auto around = CGAL::halfedges_around_target(mesh.halfedge(v), mesh);
   double size = 0; // of the star: in a unit of its own areas stay in the range of doubles
   for (const auto h : around)
-    size = std::fmax(size, (vector_of(mesh.point(mesh.source(h))) - p).lpNorm<Eigen::Infinity>());
+    size = std::fmax(size, (vector_of(mesh.point(mesh.source(h))) - p).template lpNorm<Eigen::Infinity>());
   const double unit = unit_of(size);
   const auto edge_to = [&](typename Mesh::Vertex_index w) -> Eigen::Vector3d { return unit * (vector_of(mesh.point(w)) - p); };
   for (const auto h : around)
@@ -91,8 +91,8 @@ Journal_entry creation_at(const Sculptor& sculptor, const std::array<typename Sc
   const auto place_of = [&](int i) { return vector_of(sculptor.mesh().point(face[i])); };
   const Eigen::Vector3d corners[3] = {place_of(0), place_of(1), place_of(2)};
   // Products of four lengths: in a unit of the face's own.
-  const double unit = unit_of(std::fmax((corners[1] - corners[0]).lpNorm<Eigen::Infinity>(),
-                                        (corners[2] - corners[0]).lpNorm<Eigen::Infinity>()));
+  const double unit = unit_of(std::fmax((corners[1] - corners[0]).template lpNorm<Eigen::Infinity>(),
+                                        (corners[2] - corners[0]).template lpNorm<Eigen::Infinity>()));
   const auto way = [unit](const Eigen::Vector3d& from, const Eigen::Vector3d& to) -> Eigen::Vector3d { return unit * (to - from); };
   const Eigen::Vector3d normal = way(corners[0], corners[1]).cross(way(corners[0], corners[2]));
   for (int i = 0; i < 3; ++i) {

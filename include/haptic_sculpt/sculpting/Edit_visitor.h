@@ -23,8 +23,8 @@ namespace haptic_sculpt {
 /// - A visitor that has data of its own for faces or edges may also have `face_replaces(created, dead)` and
 ///   `edge_replaces(created, dead)`: before `vertex_created`, for each new element that comes from an old one, with the descriptor
 ///   that the old one had (doc/properties.md says which comes from which). Undo and redo tell it, too.
-/// - Nothing is told of what was refused, of a drag that did not move, of Sculptor::probe(), of set_delta() and the like; of an undo
-///   that a probe in its way refused halfway, what was taken back and made again.
+/// - Nothing is told of what was refused, or lacked memory, of a drag that did not move, of Sculptor::probe(), of set_delta() and the
+///   like; of an undo of several changes that ended so halfway, what was taken back and made again.
 ///
 /// - An exception goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`, the change is
 ///   not made, though some of what it would have killed has been told; thrown in another function, it stands, and the rest of

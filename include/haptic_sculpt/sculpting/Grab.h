@@ -93,10 +93,10 @@ private:
     if (sculptor_ != nullptr)
       sculptor_->set_hand(this);
   }
+  /// Allocates nothing: the broad phase is told by what comes next.
   void let_go() noexcept {
-    release();
     if (sculptor_ != nullptr)
-      sculptor_->set_hand(nullptr);
+      sculptor_->let_go();
     sculptor_ = nullptr;
   }
 };

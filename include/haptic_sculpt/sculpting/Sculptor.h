@@ -26,6 +26,10 @@ namespace haptic_sculpt {
 /// Several objects are several components of the one mesh. Orientation does not matter: an inside-out component is guarded
 /// like any other. An isolated vertex is a probe: it touches faces, and no face passes over it (doc/probes.md).
 ///
+/// An exception leaves everything as it was, std::bad_alloc included, or the change complete where it came from the visitor. Where it
+/// could not, every later call throws Unfinished_change but those that only tell: mesh(), options(), visitor(), filter_counters(),
+/// history(), memory() (doc/edits.md, "Memory that runs out").
+///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
 template <class Mesh_, class Broad_phase_ = Box_tree_broad_phase<Mesh_>, class Visitor_ = Default_edit_visitor,
@@ -130,7 +134,7 @@ public:
   Edited insert_on_face(Face_index f, const Point& p) {
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
-    if (!f.is_valid() || static_cast<std::size_t>(f) >= mesh().num_faces() || mesh().is_removed(f))
+    if (is_unknown(f, mesh().num_faces()))
       return Edited::refused(Refusal_reason::unknown_element);
     return guarded_.edited([&] { return guarded_.editor().insert_on_face(f, internal::coordinates(p), delta()); });
   }
@@ -140,7 +144,7 @@ public:
   Edited insert_on_edge(Edge_index e, const Point& p) {
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
-    if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh().num_edges() || mesh().is_removed(e))
+    if (is_unknown(e, mesh().num_edges()))
       return Edited::refused(Refusal_reason::unknown_element);
     return guarded_.edited([&] { return guarded_.editor().insert_on_edge(mesh().halfedge(e), internal::coordinates(p), delta()); });
   }
@@ -149,7 +153,7 @@ public:
   /// triangles they leave, best first (doc/edits.md).
   /// \post v has died, and so have the edges and faces of its star; its neighbours have not.
   Edited remove(Vertex_index v) {
-    if (!v.is_valid() || static_cast<std::size_t>(v) >= mesh().num_vertices() || mesh().is_removed(v))
+    if (is_unknown(v, mesh().num_vertices()))
       return Edited::refused(Refusal_reason::unknown_element);
     return guarded_.edited([&] { return guarded_.editor().remove(v, delta()); });
   }
@@ -157,7 +161,7 @@ public:
   /// Draws the source of h into its target and lets the edge between them collapse.
   /// \post The source has died, and so have the edges and faces of its star; its neighbours have not.
   Edited collapse(Halfedge_index h) {
-    if (!h.is_valid() || static_cast<std::size_t>(h) >= mesh().num_halfedges() || mesh().is_removed(h))
+    if (is_unknown(h, mesh().num_halfedges()))
       return Edited::refused(Refusal_reason::unknown_element);
     return guarded_.edited([&] { return guarded_.editor().collapse(h, delta()); });
   }
@@ -166,7 +170,7 @@ public:
   /// embedded, or breaks the delta rule, or for which anything is in the closed tetrahedron of the four corners.
   /// \post e and its two faces have died, and the new ones have their descriptors; no vertex has.
   Edited flip(Edge_index e) {
-    if (!e.is_valid() || static_cast<std::size_t>(e) >= mesh().num_edges() || mesh().is_removed(e))
+    if (is_unknown(e, mesh().num_edges()))
       return Edited::refused(Refusal_reason::unknown_element);
     return guarded_.edited([&] { return guarded_.editor().flip(mesh().halfedge(e), delta()); });
   }
@@ -175,7 +179,7 @@ public:
   /// clearance, or inside of a solid, in a cavity of it not. Decided exactly. To be undone like a drag. \post Nothing has died.
   /// \throw Out_of_range, Invalid_parameter. Cost: log n and the faces whose boxes a ray meets.
   Edited place(Vertex_index probe, const Point& p) {
-    if (!probe.is_valid() || static_cast<std::size_t>(probe) >= mesh().num_vertices() || mesh().is_removed(probe))
+    if (is_unknown(probe, mesh().num_vertices()))
       return Edited::refused(Refusal_reason::unknown_element);
     return guarded_.place(probe, p);
   }
@@ -190,8 +194,8 @@ public:
   }
 
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as the history
-  /// keeps. Ends the stroke under way first. A new change clears what could be redone. Only where probes are not recorded can a step
-  /// be refused because it would jump over one; undo is possible again when that has moved away.
+  /// keeps. Ends the stroke under way first. A new change clears what could be redone. Restores what was, whatever delta is now. Only
+  /// where probes are not recorded can a step be refused because it would jump over one; undo is possible again when that has moved away.
   /// \post What the step had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
   Edited undo() { return guarded_.restored([&] { return guarded_.editor().undo(); }); }
   /// Makes the step that was taken back last again. \post The same have died as when it was first made.
@@ -202,11 +206,11 @@ public:
 
   /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the moves of a vertex
   /// between two other edits are kept as one.
-  Stroke_type stroke() { return Stroke_type(*this, guarded_.editor().history().begin_stroke(number_of_names())); }
+  Stroke_type stroke() { return Stroke_type(*this, whole_editor().history().begin_stroke(number_of_names())); }
 
   /// Bounds the history, in steps or bytes (`history().bytes()`), or turns it off; without limit at first. The oldest steps are
   /// forgotten; a stroke that alone is larger is not kept, nor is anything before it.
-  void set_history_limit(const History_limit& limit) { guarded_.editor().history().set_limit(limit); }
+  void set_history_limit(const History_limit& limit) { whole_editor().history().set_limit(limit); }
 
   /// Makes room, in the mesh too: after it so many edits (flips, collapses, creations, removals) and so many moves allocate nothing,
   /// nor do undo and redo, as long as no vertex has more than 28 neighbours, no star has more than 512 faces about it, and no
@@ -237,16 +241,16 @@ public:
   /// \name Numbers of vertices that last
   /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo revives it.
   ///@{
-  std::size_t name(Vertex_index v) const { return guarded_.editor().names().name(v); } ///< the number of v. \pre v is in the mesh
+  std::size_t name(Vertex_index v) const { return whole_editor().names().name(v); } ///< the number of v. \pre v is in the mesh
   /// The null index where the vertex is dead, or the number was never given.
-  Vertex_index vertex(std::size_t name) const { return guarded_.editor().names().vertex(name); }
+  Vertex_index vertex(std::size_t name) const { return whole_editor().names().vertex(name); }
   /// One more than the largest number given.
-  std::size_t number_of_names() const { return guarded_.editor().names().size(); }
+  std::size_t number_of_names() const { return whole_editor().names().size(); }
   /// The face of three corners, by number and in any order; the null index where there is none.
-  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return guarded_.editor().face_of(a, b, c); }
+  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return whole_editor().face_of(a, b, c); }
   /// The edge between two vertices, by number; the null index where there is none.
   Edge_index edge_of(std::size_t a, std::size_t b) const {
-    const auto h = guarded_.editor().halfedge_of(a, b);
+    const auto h = whole_editor().halfedge_of(a, b);
     return h.is_valid() ? mesh().edge(h) : Edge_index();
   }
   ///@}
@@ -270,6 +274,7 @@ public:
   /// nothing changes. Cost: reads every point.
   void set_clearance(double length) {
     const internal::Rounding_to_nearest rounding;
+    guarded_.check_is_whole();
     const Sculptor_parameters changed = Sculptor_parameters(options()).clearance(length);
     internal::check_parameters(changed);
     internal::check_clearance(mesh(), changed);
@@ -277,14 +282,18 @@ public:
   }
 
   /// From here on the default of each contact.
-  void set_default_clearance() { guarded_.parameters.clearance_length.reset(); }
+  void set_default_clearance() {
+    guarded_.check_is_whole();
+    guarded_.parameters.clearance_length.reset();
+  }
 
+  /// Of drags and edits from here on; undo and redo restore what was, and altitudes that are lower then may only grow (doc/stop.md).
   /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
   /// of validate().
   void set_delta(double length) {
     const internal::Rounding_to_nearest rounding;
-    const Sculptor_parameters changed = Sculptor_parameters(options()).delta(length);
     release();
+    const Sculptor_parameters changed = Sculptor_parameters(options()).delta(length);
     internal::checked_scene(mesh(), changed);
     guarded_.parameters = changed;
   }
@@ -296,7 +305,10 @@ public:
   }
 
   /// Of each drag from here on; nothing: a drag takes what it takes.
-  void set_work_limit(std::optional<std::size_t> pairs) { guarded_.parameters.work_bound = pairs; }
+  void set_work_limit(std::optional<std::size_t> pairs) {
+    guarded_.check_is_whole();
+    guarded_.parameters.work_bound = pairs;
+  }
 
   /// \throw Mesh_changed if anything was changed by others, points or connectivity. Cost: reads all of the mesh.
   void check_unchanged() const { guarded_.check_unchanged(); }
@@ -317,6 +329,23 @@ private:
 
   double delta() const { return options().delta_length; }
 
+  /// \throw Unfinished_change
+  template <class Index>
+  bool is_unknown(Index element, std::size_t slots) const {
+    guarded_.check_is_whole();
+    return !element.is_valid() || static_cast<std::size_t>(element) >= slots || mesh().is_removed(element);
+  }
+
+  /// \throw Unfinished_change
+  auto& whole_editor() {
+    guarded_.check_is_whole();
+    return guarded_.editor();
+  }
+  const auto& whole_editor() const {
+    guarded_.check_is_whole();
+    return guarded_.editor();
+  }
+
   /// The exact ones count; others are made by default.
   static Traits traits_that_count(Filter_counters& counters) {
     if constexpr (std::is_same<Traits, Exact_sweep_traits<Mesh_type>>::value)
@@ -336,6 +365,10 @@ private:
   }
 
   /// For the Grab.
+  void let_go() noexcept {
+    guarded_.let_go();
+    set_hand(nullptr);
+  }
   Result drag(Vertex_index v, const Point& target, std::vector<Point>* path = nullptr) { return guarded_.drag(v, target, path); }
 };
 

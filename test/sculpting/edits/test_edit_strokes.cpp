@@ -260,3 +260,31 @@ BOOST_AUTO_TEST_CASE(edits_in_strokes_keep_every_promise_and_undo_to_the_bit) {
   for (int kind = Random_edit::drag; kind <= Random_edit::redo; ++kind)
     BOOST_TEST(done[kind] > 100u);
 }
+
+// A stroke of which something was done while nothing was kept is not kept at all: undo would take back a part of it.
+BOOST_AUTO_TEST_CASE(a_stroke_begun_while_the_history_is_off) {
+  for (const bool changes_before : {true, false}) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.05));
+    Sculptor<Mesh> sculptor(mesh);
+    const Mesh_snapshot begin = snapshot(sculptor);
+    const auto drag = [&](std::size_t v) {
+      BOOST_TEST(sculptor.grab(Vertex_index(v)).drag_to(moved_by(mesh, Vertex_index(v), 0.01)).reached);
+    };
+    sculptor.set_history_limit({0, 0});
+    {
+      const auto stroke = sculptor.stroke();
+      if (changes_before)
+        drag(3);
+      sculptor.set_history_limit({});
+      drag(50);
+      BOOST_REQUIRE(static_cast<bool>(sculptor.insert_on_face(Mesh::Face_index(7), in_face(mesh, Mesh::Face_index(7), 0.3, 0.3))));
+    }
+    const Mesh_snapshot end = snapshot(sculptor);
+    BOOST_TEST(sculptor.history().number_of_undo_steps() == (changes_before ? 0u : 1u));
+    BOOST_TEST(static_cast<bool>(sculptor.undo()) == !changes_before);
+    BOOST_TEST((snapshot(sculptor) == (changes_before ? end : begin)));
+    drag(60); // what follows is kept
+    BOOST_TEST(static_cast<bool>(sculptor.undo()));
+    BOOST_TEST((snapshot(sculptor) == (changes_before ? end : begin)));
+  }
+}

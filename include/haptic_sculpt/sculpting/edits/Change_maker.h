@@ -4,9 +4,10 @@
 
 #include <haptic_sculpt/sculpting/Edit_visitor.h>
 #include <haptic_sculpt/sculpting/edits/Edit.h>
+#include <haptic_sculpt/sculpting/edits/Element_room.h>
 #include <haptic_sculpt/sculpting/edits/Kept_properties.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
-#include <haptic_sculpt/sculpting/edits/Vertex_names.h>
+#include <haptic_sculpt/sculpting/edits/Write_state.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
 #include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 
@@ -21,8 +22,9 @@ namespace internal {
 /// Every change but a move, a shift and a flip replaces the fan of one vertex over a polygon by the star of another, or the other way round.
 /// Cost: the size of the polygon, the degree of the fan's vertex to find it, and the broad phase.
 ///
-/// The visitor is told of what dies before anything is changed, and of what was made when all is, `noted` included: an
-/// exception of it leaves a change not begun, or complete.
+/// In this order: what is to be replaced is looked up and compared with what is known; room is made for all that will be written; the
+/// visitor is told of what dies; all is written, `noted` included; the visitor is told of what was made. So an exception leaves a change
+/// not begun, or complete. One that comes while all is written leaves the Write_state saying so (doc/edits.md, "Memory that runs out").
 template <class Mesh, class Broad_phase, class Visitor>
 class Change_maker {
 public:
@@ -31,12 +33,12 @@ public:
   using Halfedge_index = typename Mesh::Halfedge_index;
 
   Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, internal::Isolated_vertices<Mesh>& isolated,
-               Visitor visitor)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(&isolated), names_(mesh),
-      kept_(mesh), visitor_(std::move(visitor)) {
+               Mesh_watch<Mesh>& watch, Write_state& writing, Visitor visitor)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(&isolated), writing_(&writing)
+    , names_(mesh), room_(mesh, broad_phase, corners, watch, names_), kept_(mesh), visitor_(std::move(visitor)) {
     kept_.tell_lineage(visitor_);
   }
-  Change_maker(const Change_maker&) = delete; // what is kept refers to the visitor
+  Change_maker(const Change_maker&) = delete; // its parts refer to each other
   Change_maker& operator=(const Change_maker&) = delete;
 
   const Vertex_names<Mesh>& names() const { return names_; }
@@ -45,9 +47,10 @@ public:
   using Place = typename Kept_properties<Mesh>::Place;
 
   /// \param place where it stands in the history
-  /// \param noted called as `noted(v)` when the change is made and the visitor has not been told yet; v has moved or is new, or is the null index
+  /// \param noted called as `noted(v)` when the change is made and the visitor has not been told yet; v has moved or is new, or is the
+  /// null index. May not throw: room for what it writes has to be there
   /// \return the vertex moved or created; of a removal, the neighbour it went into; of a flip, an end of the new edge
-  /// \throw Mesh_changed where the faces to be replaced are not those known
+  /// \throw Mesh_changed where the faces to be replaced are not those known; std::bad_alloc; and nothing has changed
   template <class Noted>
   Vertex_index make(const Edit& edit, const Place& place, const Noted& noted) {
     begin(edit, false, place);
@@ -85,12 +88,16 @@ public:
     }
   }
 
+  /// Whether a change since expect_change() has had all it needed: an exception came from the visitor then, or broke it off.
+  bool was_ready() const { return is_ready_; }
+  void expect_change() { is_ready_ = false; }
+
   /// The visitor is told of a move that was made elsewhere.
   void tell_moved(Vertex_index v) { visitor_.vertex_moved(v); }
 
-  /// Room for so many more vertices.
-  void reserve(std::size_t vertices, std::size_t usual_valence) {
-    names_.reserve(vertices);
+  /// Room for so many edits.
+  void reserve(std::size_t edits, std::size_t usual_valence) {
+    room_.reserve(edits);
     star_.reserve(usual_valence);
     fan_.reserve(usual_valence);
     link_.reserve(usual_valence);
@@ -98,19 +105,23 @@ public:
   }
 
 private:
+  using Elements = typename Element_room<Mesh, Broad_phase>::Elements;
   static constexpr bool has_visitor = !std::is_same<Visitor, Default_edit_visitor>::value;
 
   Mesh* mesh_;
   Broad_phase* broad_phase_;
   Face_corners<Mesh>* corners_of_;
   internal::Isolated_vertices<Mesh>* isolated_;
+  Write_state* writing_;
   Vertex_names<Mesh> names_;
+  Element_room<Mesh, Broad_phase> room_;
   Kept_properties<Mesh> kept_;
   Visitor visitor_;
   Star<Mesh> star_;
   Fan<Mesh> fan_;
   std::vector<Vertex_index> link_;
   std::vector<Face_index> faces_;
+  bool is_ready_ = false;
 
   Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
   void begin(const Edit& edit, bool is_back, const Place& place) {
@@ -131,11 +142,14 @@ private:
   template <class Noted>
   Vertex_index put(std::size_t name, const Coordinates& p, const Noted& noted) {
     const Vertex_index v = vertex(name);
-    mesh_->point(v) = to_point(p);
     star_.collect(*mesh_, v);
+    is_ready_ = true;
+    writing_->begin();
+    mesh_->point(v) = to_point(p);
     broad_phase_->faces_moved(star_.faces);
     isolated_->moved(v);
     noted(v);
+    writing_->end();
     visitor_.vertex_moved(v);
     return v;
   }
@@ -150,6 +164,8 @@ private:
           faces_.push_back(f);
     std::sort(faces_.begin(), faces_.end());
     faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+    is_ready_ = true;
+    writing_->begin();
     for (std::size_t k = 0; k < edit.around.size(); ++k) {
       const Vertex_index v = vertex(edit.around[k]);
       Coordinates p = vertex_coordinates(*mesh_, v);
@@ -159,6 +175,7 @@ private:
     }
     broad_phase_->faces_moved(faces_);
     noted(Vertex_index());
+    writing_->end();
     if constexpr (has_visitor)
       for (const std::size_t name : edit.around)
         visitor_.vertex_moved(vertex(name));
@@ -169,6 +186,7 @@ private:
   Vertex_index create_on_face(const Edit& edit, const Noted& noted) {
     const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
     fan_.assign(1, h);
+    make_room_for_star(edit, 3, {1, 3, 2}, {});
     fan_dies();
     return star_created(insert_star_in_face(*mesh_, h, to_point(edit.after)), edit, noted);
   }
@@ -178,6 +196,7 @@ private:
     const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
     fan_.assign(1, mesh_->opposite(h));
     fan_.push_back(h);
+    make_room_for_star(edit, 4, {1, 3, 2}, {});
     fan_dies();
     return star_created(insert_star_in_edge(*mesh_, h, to_point(edit.after)), edit, noted);
   }
@@ -187,7 +206,9 @@ private:
     link_.clear();
     for (const std::size_t name : edit.around)
       link_.push_back(vertex(name));
-    find_fan(*mesh_, halfedge(link_[1], link_[0]), link_.size() - 2, fan_);
+    const std::size_t n = link_.size();
+    find_fan(*mesh_, halfedge(link_[1], link_[0]), n - 2, fan_);
+    make_room_for_star(edit, n, {1, n, n - 1}, {0, n - 3, n - 3});
     fan_dies();
     return star_created(insert_star_in_face(*mesh_, merge_fan(*mesh_, fan_), to_point(edit.before)), edit, noted);
   }
@@ -195,6 +216,12 @@ private:
   template <class Noted>
   Vertex_index fan_instead_of_star(const Edit& edit, const Noted& noted) {
     const Vertex_index v = vertex(edit.vertex), apex = vertex(edit.around[0]);
+    star_.collect(*mesh_, v);
+    Mesh_watch<Mesh>::check_faces(*corners_of_, star_.faces);
+    const std::size_t n = star_.valence();
+    fan_.reserve(n - 2);
+    faces_.reserve(n - 2);
+    room_.make({0, n - 3, n - 3}, {1, n, n - 1}, n - 2);
     star_dies(v);
     names_.take(edit.vertex);
     fill_with_fan(*mesh_, remove_star(*mesh_, v), apex, fan_);
@@ -209,17 +236,20 @@ private:
     faces_.assign(1, mesh_->face(h));
     faces_.push_back(mesh_->face(mesh_->opposite(h)));
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
+    if (!kept_.is_empty())
+      kept_.die(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
+    is_ready_ = true;
     if constexpr (has_visitor) {
       for (const Face_index f : faces_)
         visitor_.face_dies(f);
       visitor_.edge_dies(mesh_->edge(h));
     }
-    if (!kept_.is_empty())
-      kept_.die(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
+    writing_->begin();
     CGAL::Euler::flip_edge(h, *mesh_);
     corners_of_->update(faces_);
     broad_phase_->faces_moved(faces_); // they keep their descriptors
     noted(Vertex_index());
+    writing_->end();
     if (!kept_.is_empty())
       kept_.create(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
     if constexpr (has_visitor) {
@@ -238,17 +268,26 @@ private:
 
   auto inside_of_fan() const { return CGAL::make_range(fan_.begin() + 1, fan_.end()); }
 
-  void fan_dies() {
+  /// Looks up and compares the fan that a star of this valence is to replace, and makes room for all that will be written.
+  void make_room_for_star(const Edit& edit, std::size_t valence, const Elements& born, const Elements& dead) {
     collect_fan_faces();
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
+    star_.reserve(valence);
+    names_.make_room_for(edit.vertex);
+    room_.make(born, dead, valence);
+  }
+
+  void fan_dies() {
+    if (!kept_.is_empty())
+      kept_.die(names_, Vertex_index(), faces_, inside_of_fan());
+    is_ready_ = true;
     if constexpr (has_visitor) {
       for (const Face_index f : faces_)
         visitor_.face_dies(f);
       for (std::size_t i = 1; i < fan_.size(); ++i)
         visitor_.edge_dies(mesh_->edge(fan_[i]));
     }
-    if (!kept_.is_empty())
-      kept_.die(names_, Vertex_index(), faces_, inside_of_fan());
+    writing_->begin();
     broad_phase_->faces_removed(faces_);
     corners_of_->forget(faces_);
   }
@@ -259,6 +298,7 @@ private:
     corners_of_->update(faces_);
     broad_phase_->faces_inserted(faces_);
     noted(Vertex_index());
+    writing_->end();
     if (!kept_.is_empty())
       kept_.create(names_, Vertex_index(), faces_, inside_of_fan());
     if constexpr (has_visitor) {
@@ -270,8 +310,9 @@ private:
   }
 
   void star_dies(Vertex_index v) {
-    star_.collect(*mesh_, v);
-    Mesh_watch<Mesh>::check_faces(*corners_of_, star_.faces);
+    if (!kept_.is_empty())
+      kept_.die(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
+    is_ready_ = true;
     if constexpr (has_visitor) {
       for (const Face_index f : star_.faces)
         visitor_.face_dies(f);
@@ -279,8 +320,7 @@ private:
         visitor_.edge_dies(mesh_->edge(h));
       visitor_.vertex_dies(v, names_.name(v));
     }
-    if (!kept_.is_empty())
-      kept_.die(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
+    writing_->begin();
     broad_phase_->faces_removed(star_.faces);
     corners_of_->forget(star_.faces);
   }
@@ -292,6 +332,7 @@ private:
     corners_of_->update(star_.faces);
     broad_phase_->faces_inserted(star_.faces);
     noted(v);
+    writing_->end();
     if (!kept_.is_empty())
       kept_.create(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
     if constexpr (has_visitor) {

@@ -51,13 +51,13 @@ public:
   /// Begins a stroke, or joins the one under way. \return its number \param names how many numbers of vertices there
   /// are
   std::size_t begin_stroke(std::size_t names) {
+    if (!is_off() && latest_.size() < names)
+      latest_.resize(names, no_move);
     if (open_++ == 0) {
       ++stroke_;
       has_step_ = is_lost_ = false;
       first_of_run_ = moves_done_;
     }
-    if (!is_off() && latest_.size() < names)
-      latest_.resize(names, no_move);
     return stroke_;
   }
   /// Of those that began it, one ends the stroke of this number. Nothing, where it has ended already.
@@ -71,13 +71,31 @@ public:
   bool is_in_stroke(std::size_t number) const { return open_ != 0 && number == stroke_; }
   ///@}
 
-  /// A new change. Clears what could be redone. Allocates nothing while there is room.
+  /// Room for the record of a change: to be called before it is made, so that push() allocates nothing.
+  /// \param names how many numbers of vertices there are \throw std::bad_alloc, and no record has changed
+  void make_room_for_move(std::size_t names) {
+    if (is_off())
+      return;
+    moves_.reserve(1);
+    steps_.reserve(1);
+    if (is_in_stroke() && latest_.size() < names)
+      latest_.resize(names, no_move);
+  }
+  void make_room_for(const Edit& edit) {
+    if (edit.kind == Edit_kind::move)
+      return make_room_for_move(edit.vertex + 1);
+    if (is_off())
+      return;
+    edits_.reserve(1);
+    around_.reserve(words_of(edit));
+    steps_.reserve(1);
+  }
+
+  /// A new change. Clears what could be redone. Allocates nothing. \pre room has been made for it
   void push_move(std::size_t vertex, const Coordinates& before, const Coordinates& after) {
     if (!begin_record())
       return;
     if (is_in_stroke()) {
-      if (latest_.size() <= vertex)
-        latest_.resize(vertex + 1, no_move);
       const std::size_t latest = latest_[vertex]; // maybe of another time
       if (latest >= first_of_run_ && latest < moves_.end() && moves_[latest].vertex == vertex) {
         moves_[latest].after = after;
@@ -106,15 +124,6 @@ public:
     ++edits_done_;
     first_of_run_ = moves_done_;
     end_record();
-  }
-
-  /// Room for the record of an edit: to be called before it is made.
-  void make_room_for(const Edit& edit) {
-    if (is_off())
-      return;
-    edits_.reserve(1);
-    around_.reserve(words_of(edit));
-    steps_.reserve(1);
   }
 
   /// \name Going back and forth, change by change
@@ -199,7 +208,7 @@ private:
 
   std::size_t open_ = 0;                    ///< how many began the stroke under way and have not ended it
   std::size_t stroke_ = 0;                  ///< its number
-  bool has_step_ = false, is_lost_ = false; ///< whether it is the last step; whether it was too large to be kept
+  bool has_step_ = false, is_lost_ = false; ///< whether it is the last step; whether it is not kept
   std::size_t first_of_run_ = 0;            ///< the first move of the stroke since its last other edit
   std::vector<std::size_t> latest_;         ///< by number of vertex, its last move; maybe one that is no more
 
@@ -257,6 +266,7 @@ private:
   /// \return false where nothing is to be kept of it
   bool begin_record() {
     forget_redo();
+    is_lost_ |= is_in_stroke() && is_off(); // else what follows would be undone without this
     return !is_off() && !(is_in_stroke() && is_lost_);
   }
 

@@ -27,11 +27,11 @@ public:
   using Point = typename Mesh::Point;
   using Result = Edit_result<Mesh>;
 
-  /// \param watch is told of what has changed \param isolated of probes that have moved
+  /// \param watch is told of what has changed \param isolated of probes that have moved \param writing while anything is written
   /// \param records_probes whether the moves of probes are kept in the history
   Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters, Mesh_watch<Mesh>& watch,
-         Isolated_vertices<Mesh>& isolated, bool records_probes, Visitor visitor = Visitor())
-    : mesh_(&mesh), watch_(&watch), changes_(mesh, broad_phase, corners, isolated, std::move(visitor)),
+         Isolated_vertices<Mesh>& isolated, Write_state& writing, bool records_probes, Visitor visitor = Visitor())
+    : mesh_(&mesh), watch_(&watch), writing_(&writing), changes_(mesh, broad_phase, corners, isolated, watch, writing, std::move(visitor)),
       creation_(mesh, broad_phase, corners, counters), collapse_(mesh, broad_phase, corners, counters),
       flip_(mesh, broad_phase, corners, counters), placement_(mesh, broad_phase, counters),
       restoration_(mesh, isolated, counters), isolated_(isolated.all()), records_probes_(records_probes) {}
@@ -57,12 +57,15 @@ public:
     edit_.around.reserve(usual_valence);
   }
 
-  /// A drag that has been made.
+  /// Room to note a drag, to be made before it is. \throw std::bad_alloc
+  void make_room_for_move() { history_.make_room_for_move(names().size()); }
+  /// A drag that has been made. Allocates nothing.
   void note_move(Vertex_index v, const Coordinates& before, const Coordinates& after) {
     if (records_probes_ || !mesh_->is_isolated(v))
       history_.push_move(names().name(v), before, after);
-    changes_.tell_moved(v);
   }
+  /// The visitor is told of it.
+  void tell_moved(Vertex_index v) { changes_.tell_moved(v); }
 
   /// Puts a probe elsewhere, whatever is on the way. \param largest_coordinate bounds those of all vertices
   Result place(Vertex_index probe, const Coordinates& p, const Clearance_rule& rule, double largest_coordinate) {
@@ -76,6 +79,7 @@ public:
     edit_.before = before;
     edit_.after = p;
     edit_.around.clear();
+    history_.make_room_for(edit_);
     return Result::done(changes_.make(edit_, place(history_.number_of_next(), true), [this](Vertex_index changed) {
       watch(changed);
       if (records_probes_)
@@ -158,38 +162,14 @@ public:
   }
 
   /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. Only probes
-  /// that move outside of the history may be elsewhere now: a step that would jump over one is refused.
+  /// that move outside of the history may be elsewhere now: a step that would jump over one is refused. What delta is now does not matter.
   Result undo() {
-    history_.end_stroke();
-    if (history_.to_undo() == nullptr)
-      return Result::refused(Refusal_reason::nothing_to_undo);
-    for (std::size_t changes = 1;; ++changes) {
-      if (auto refusal = refuse_restoration(*history_.to_undo(), true)) {
-        while (--changes != 0)
-          make_again();
-        return {std::nullopt, std::move(refusal)};
-      }
-      const Vertex_index v = take_back();
-      if (history_.is_between_steps())
-        return Result::done(v);
-    }
+    return go_through_step(Refusal_reason::nothing_to_undo, [this] { return history_.to_undo(); }, true);
   }
 
   /// Makes the last step that was taken back again.
   Result redo() {
-    history_.end_stroke();
-    if (history_.to_redo() == nullptr)
-      return Result::refused(Refusal_reason::nothing_to_redo);
-    for (std::size_t changes = 1;; ++changes) {
-      if (auto refusal = refuse_restoration(*history_.to_redo(), false)) {
-        while (--changes != 0)
-          take_back();
-        return {std::nullopt, std::move(refusal)};
-      }
-      const Vertex_index v = make_again();
-      if (history_.is_between_steps())
-        return Result::done(v);
-    }
+    return go_through_step(Refusal_reason::nothing_to_redo, [this] { return history_.to_redo(); }, false);
   }
 
   /// The face with these three corners, by number and in any order; the null index where there is none.
@@ -216,9 +196,9 @@ public:
   static constexpr std::size_t usual_valence = Star_runs<Mesh>::most_undivided, usual_candidates = 512;
 
 private:
-
   Mesh* mesh_;
   Mesh_watch<Mesh>* watch_;
+  Write_state* writing_;
   Change_maker<Mesh, Broad_phase, Visitor> changes_;
   Edit_history history_;
   Creation_proof<Mesh, Broad_phase> creation_;
@@ -234,6 +214,49 @@ private:
   std::optional<Refusal<Mesh>> refuse_restoration(const Edit& edit, bool is_back) {
     return records_probes_ ? std::nullopt : restoration_.refuse(edit, names(), is_back);
   }
+
+  /// Takes a step back or makes it again, all of its changes or none: where one is refused, or lacks memory, those before it are made
+  /// undone. \param next gives the next change
+  template <class Next>
+  Result go_through_step(Refusal_reason nothing, const Next& next, bool is_back) {
+    history_.end_stroke();
+    if (next() == nullptr)
+      return Result::refused(nothing);
+    for (std::size_t changes = 0;; ++changes) {
+      std::optional<Refusal<Mesh>> refusal;
+      changes_.expect_change();
+      try {
+        refusal = refuse_restoration(*next(), is_back);
+        if (!refusal) {
+          const Vertex_index v = is_back ? take_back() : make_again();
+          if (history_.is_between_steps())
+            return Result::done(v);
+          continue;
+        }
+      } catch (...) { // the visitor's comes when a change could be made; then the next call goes on
+        if (!changes_.was_ready())
+          reverse(changes, is_back);
+        throw;
+      }
+      reverse(changes, is_back);
+      return {std::nullopt, std::move(refusal)};
+    }
+  }
+
+  /// Makes so many changes undone that were taken back or made again last.
+  void reverse(std::size_t changes, bool is_back) {
+    try {
+      while (changes-- != 0) {
+        changes_.expect_change();
+        is_back ? make_again() : take_back();
+      }
+    } catch (...) {
+      if (!changes_.was_ready())
+        writing_->begin(); // for good: a step done in part is not embedded
+      throw;
+    }
+  }
+
   Vertex_index take_back() {
     const auto at = place(history_.number_to_undo(), false);
     const Edit& edit = *history_.to_undo();
@@ -273,6 +296,7 @@ private:
   }
 
   Result make() {
+    history_.make_room_for(edit_);
     return Result::done(changes_.make(edit_, place(history_.number_of_next(), true), [this](Vertex_index changed) {
       watch(changed);
       history_.push(edit_);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace haptic_sculpt {
@@ -47,12 +48,13 @@ public:
     base_ += empty * block_size;
   }
 
-  /// So many additions allocate nothing.
+  /// So many additions allocate nothing. \throw std::bad_alloc, and no record has changed
   void reserve(std::size_t additions) {
     const std::size_t blocks = (end_ - base_ + additions + block_size - 1) / block_size;
     while (blocks_.size() < blocks) {
-      blocks_.emplace_back();
-      blocks_.back().reserve(block_size);
+      std::vector<Record> block;
+      block.reserve(block_size);
+      blocks_.push_back(std::move(block));
     }
   }
 

@@ -2,7 +2,8 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_VERTEX_NAMES_H
 #define HAPTIC_SCULPT_SCULPTING_VERTEX_NAMES_H
 
-#include <cstddef>
+#include <haptic_sculpt/surface/make_room.h>
+
 #include <vector>
 
 namespace haptic_sculpt {
@@ -48,11 +49,12 @@ public:
 
   void take(std::size_t name) { vertices_[name] = Vertex_index(); }
 
-  /// Room for so many more vertices.
-  void reserve(std::size_t vertices) {
-    vertices_.reserve(vertices_.size() + vertices);
-    names_.reserve(names_.size() + vertices);
-  }
+  /// Room to give this number: where it is the next never used, it is one more.
+  void make_room_for(std::size_t name) { make_room(vertices_, name + 1); }
+  /// Room for so many numbers more.
+  void reserve(std::size_t numbers) { vertices_.reserve(vertices_.size() + numbers); }
+  /// Room for the numbers of so many slots of vertices in the mesh, in all.
+  void reserve_slots(std::size_t slots) { names_.reserve(slots); }
 
   /// Bytes held, capacity included.
   std::size_t memory() const { return vertices_.capacity() * sizeof(Vertex_index) + names_.capacity() * sizeof(std::size_t); }

@@ -47,11 +47,15 @@ public:
     return time;
   }
 
-  /// The least of their altitudes when J is at p.
-  double least_altitude(const Star<Mesh>& star, const Coordinates& p) const {
+  /// The least of what their altitudes are above what they may not fall below, when J has come from the source to p.
+  double least_excess(const Star<Mesh>& star, const Coordinates& source, const Coordinates& p, double delta) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const Limit& limit : limits_)
-      least = std::fmin(least, altitude(p, star.link_points[limit.face], star.link_points[star.next(limit.face)], limit.side));
+    for (const Limit& limit : limits_) {
+      const auto altitude_at = [&](const Coordinates& j) {
+        return altitude(j, star.link_points[limit.face], star.link_points[star.next(limit.face)], limit.side);
+      };
+      least = std::fmin(least, altitude_at(p) - std::fmin(delta, altitude_at(source)));
+    }
     return least;
   }
 

@@ -10,7 +10,6 @@
 #include <haptic_sculpt/sculpting/finding/find_face_within.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/motion/Hand.h>
-#include <haptic_sculpt/surface/broad_phase/reserve_faces.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -31,7 +30,7 @@ public:
   Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Make_traits& make_traits,
                const Rounding_to_nearest& /*rounding*/)
     : parameters(parameters), mesh_(&mesh), watch_(mesh), broad_phase_(checked_scene(mesh, parameters)), corners_(mesh), isolated_(mesh)
-    , editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, parameters.probes_are_recorded, std::move(visitor))
+    , editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, writing_, parameters.probes_are_recorded, std::move(visitor))
     , hand_(mesh, broad_phase_, corners_, isolated_, make_traits(counters_), watch_)
     , probe_(mesh, broad_phase_, corners_, isolated_, make_traits(counters_), watch_)
     , finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh) {}
@@ -45,13 +44,19 @@ public:
   auto& editor() { return editor_; }
   const auto& editor() const { return editor_; }
 
+  /// \throw Unfinished_change if a change was broken off: every way in begins with this.
+  void check_is_whole() const { writing_.check(); }
+
   void release() {
     const Rounding_to_nearest rounding; // the broad phase is told where a vertex is
+    check_is_whole();
     hand_.release();
   }
+  void let_go() noexcept { hand_.let_go(); }
 
   /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed
   void hold(Vertex_index v) {
+    check_is_whole();
     check_vertex(*mesh_, v);
     if (!hand_.holds(v))
       hand_.take(v, [this] { editor_.prepare_for_moves(); });
@@ -60,22 +65,25 @@ public:
   bool expects_single_drags() const { return hand_.expects_single_drags(); }
   void expect_single_drags(bool on) {
     const Rounding_to_nearest rounding;
+    check_is_whole();
     hand_.expect_single_drags(on);
   }
 
   /// \pre v is in the mesh
   Result drag(Vertex_index v, const Point& target, std::vector<Point>* path) {
     const Rounding_to_nearest rounding;
+    check_is_whole();
     check_point("the target", target);
     scene_.check_clearance_serves(parameters);
     hold(v);
+    editor_.make_room_for_move();
     const Coordinates s = vertex_coordinates(*mesh_, v), t = coordinates(target);
     Result result;
     settle_result(s, t, t, result); // where there is no way to go
     const Coordinates end = s == t ? t : hand_.move(s, t, parameters, result);
-    hand_.check_candidates();
     if (path != nullptr)
       hand_.write_path(parameters.response_rule, s, end, *path);
+    hand_.check_candidates();
     if (end != s)
       put(v, s, end);
     return result;
@@ -85,6 +93,7 @@ public:
     const Rounding_to_nearest rounding;
     check_point("the target", target);
     hold(v);
+    editor_.make_room_for_move();
     const Coordinates s = vertex_coordinates(*mesh_, v), t = coordinates(target);
     if (s == t)
       return true;
@@ -142,6 +151,7 @@ public:
     check_point("the point", p);
     if (!(within >= 0))
       throw Invalid_parameter("the distance within which a vertex is sought must be >= 0, not " + number(within));
+    check_is_whole();
     hand_.tell_where_it_is();
     look_for_changes();
     const Vertex_index v = finder_.nearest_vertex(coordinates(p), within);
@@ -154,6 +164,7 @@ public:
     const Rounding_to_nearest rounding;
     check_point("the source", source);
     check_point("the target", target);
+    check_is_whole();
     hand_.tell_where_it_is();
     look_for_changes();
     const auto hit = finder_.first_hit(coordinates(source), coordinates(target));
@@ -224,17 +235,14 @@ public:
   Axis_move<Mesh> axis_move() { return Axis_move<Mesh>(*mesh_, parameters.delta_length, counters_); }
 
   void reserve(std::size_t edits, std::size_t moves) {
-    const auto n = static_cast<typename Mesh::size_type>(edits);
-    mesh_->reserve(mesh_->num_vertices() + n, mesh_->num_edges() + 3 * n, mesh_->num_faces() + 2 * n);
-    watch_.reserve(mesh_->num_vertices() + edits);
-    corners_.reserve(mesh_->num_faces() + 2 * edits);
-    reserve_faces(broad_phase_, mesh_->num_faces() + 2 * edits, 4 * edits);
+    check_is_whole();
     editor_.reserve(edits, moves);
     hand_.reserve(editor_.usual_valence, editor_.usual_candidates);
   }
 
   void check_unchanged() const {
     const Rounding_to_nearest rounding; // points that differ by a subnormal number differ
+    check_is_whole();
     watch_.check_all(corners_);
   }
   std::size_t memory() const {
@@ -243,6 +251,7 @@ public:
 
 private:
   Mesh* mesh_;
+  Write_state writing_;
   Mesh_watch<Mesh> watch_;
   Filter_counters counters_;
   Broad_phase broad_phase_;
@@ -260,15 +269,18 @@ private:
   }
 
   /// The one place where a drag writes the mesh. Whatever the response has proposed: each leg has been proven by the sweeps, which
-  /// take no end that is not in range.
+  /// take no end that is not in range. Nothing is allocated: room to note the move was made before it was decided.
   void put(Vertex_index v, const Coordinates& from, const Coordinates& to) {
     if (!is_in_range(to))
       throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");
+    writing_.begin();
     mesh_->point(v) = Point(to[0], to[1], to[2]);
     watch_.remember(v);
     scene_.include(to);
     hand_.note_moved();
     editor_.note_move(v, from, to);
+    writing_.end();
+    editor_.tell_moved(v);
   }
 };
 

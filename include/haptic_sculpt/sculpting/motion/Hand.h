@@ -32,10 +32,10 @@ public:
 
   void reserve(std::size_t valence, std::size_t faces) { guard_.reserve(valence, faces); }
 
-  /// Whether v is held already; its place is compared then. \throw Mesh_changed
+  /// Whether v is held and ready to be dragged on; its place is compared then. \throw Mesh_changed
   bool holds(Vertex_index v) const {
     watch_->check_counts();
-    if (held_ != v)
+    if (held_ != v || !is_ready_)
       return false;
     watch_->check(v);
     return true;
@@ -56,10 +56,12 @@ public:
     for (const Vertex_index neighbour : guard_.star().link)
       watch_->check(neighbour);
     held_ = v;
+    is_ready_ = true;
   }
 
-  /// Takes a point that is no vertex, for one way: release() before and after.
+  /// Takes a point that is no vertex, for one way: release() after.
   void take_point() {
+    release();
     guard_.star().clear();
     guard_.invalidate();
   }
@@ -71,6 +73,9 @@ public:
     responses_.forget();
     guard_.work().forget();
   }
+
+  /// The same where nothing may throw: asks nobody. Whatever comes next lets go first, or tells where the vertex is.
+  void let_go() noexcept { is_ready_ = false; }
 
   /// Tells the broad phase where the vertex has come to: it may be asked by others then.
   void tell_where_it_is() {
@@ -84,7 +89,7 @@ public:
   /// Goes from source towards target as the response tells; the mesh is not written. \pre source != target
   Coordinates move(const Coordinates& source, const Coordinates& target, const Sculptor_parameters& parameters,
                    Drag_result<Mesh>& result) {
-    guard_.work().begin(parameters.work_bound.value_or(Work::unbounded));
+    begin_to_decide(parameters.work_bound);
     const Drag_rules rules = {Clearance_rule(parameters.clearance_length), parameters.delta_length};
     const Coordinates end = responses_.move(parameters.response_rule, guard_, *mesh_, source, target, rules, result);
     result.work = guard_.work().done();
@@ -103,27 +108,23 @@ public:
 
   /// Whether the straight way is free, and that has been decided within the bound on the work.
   bool is_free(const Coordinates& source, const Coordinates& target, const Sculptor_parameters& parameters) {
-    guard_.work().begin(parameters.work_bound.value_or(Work::unbounded));
+    begin_to_decide(parameters.work_bound);
     return guard_.is_free(source, target, parameters.delta_length);
   }
 
   auto first_impact(const Coordinates& source, const Coordinates& target) {
-    guard_.work().begin(Work::unbounded);
+    begin_to_decide(std::nullopt);
     return guard_.decide(source, target, 0).first_impact();
   }
 
   /// The mesh has been written: v has moved.
   void note_moved() { has_moved_ = true; }
 
-  /// Compares candidates with where they were left: all where they have just been looked up, else some of them in turn.
-  /// \throw Mesh_changed, and what was looked up is not used any more.
+  /// Compares candidates with where they were left: all where they have just been looked up, else some of them in turn. To be called
+  /// when a motion has been decided. \throw Mesh_changed, and what was looked up is not used any more.
   void check_candidates() {
-    try {
-      compare_candidates();
-    } catch (const Mesh_changed&) {
-      release();
-      throw;
-    }
+    compare_candidates();
+    is_ready_ = true;
   }
 
 private:
@@ -142,11 +143,18 @@ private:
   Responses<Mesh> responses_;
   Vertex_index held_;      ///< whose star guard_ has; invalid when none
   bool expects_single_drags_ = false;
+  /// Whether what was looked up about the held vertex is whole: not while a motion is decided, nor where an exception has ended that.
+  bool is_ready_ = false;
   bool has_moved_ = false; ///< the broad phase has not been told yet where the held star is
   std::size_t compared_look_ = 0, next_compared_ = 0;
 
   /// So many candidates are compared at every drag; a list that holds for long is seen whole soon.
   static constexpr std::size_t candidates_per_drag = 4;
+
+  void begin_to_decide(const std::optional<std::size_t>& work_bound) {
+    guard_.work().begin(work_bound.value_or(Work::unbounded));
+    is_ready_ = false;
+  }
 
   void compare_candidates() {
     if (expects_single_drags_) // whatever is near is the vertex or a neighbour at another drag

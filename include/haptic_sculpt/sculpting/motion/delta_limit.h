@@ -7,7 +7,8 @@
 ///
 /// With J(u) = S + u (T - S) the doubled area vector n(u) = (G - J) x (I - J) is affine in u, so over each side of length
 /// L the condition "altitude >= delta" is q(u) = |n|^2 - delta^2 L^2 >= 0 with q quadratic. The limit is inf { u : q < 0 }:
-/// 0, a rational, or a root of a quadratic with rational coefficients. See doc/stop.md, "The delta rule".
+/// 0, a rational, or a root of a quadratic with rational coefficients. An altitude that is below delta at the start may not get lower
+/// than it is there: then q(u) = |n(u)|^2 L(0)^2 - |n(0)|^2 L(u)^2. See doc/stop.md, "The delta rule".
 
 #include <haptic_sculpt/collision/Impact_3.h>
 #include <haptic_sculpt/sculpting/motion/vector_3.h>
@@ -42,11 +43,21 @@ struct Quadratic {
   Number at(const Number& u) const { return (a * u + b) * u + c; }
 };
 
-/// q for one triangle and one of its sides.
+/// The square of an altitude of the moving triangle: |n|^2 over L^2.
 template <class Number>
-Quadratic<Number> altitude_excess(const std::array<Number, 3>& s, const std::array<Number, 3>& t,
-                                  const std::array<Number, 3>& g, const std::array<Number, 3>& i, Number delta,
-                                  Altitude_over side) {
+struct Squared_altitude {
+  Quadratic<Number> area, side;
+
+  /// area / side - level / unit, times side and unit.
+  Quadratic<Number> over(const Number& level, const Number& unit) const {
+    return {area.a * unit - level * side.a, area.b * unit - level * side.b, area.c * unit - level * side.c};
+  }
+};
+
+/// That of one triangle over one of its sides.
+template <class Number>
+Squared_altitude<Number> squared_altitude(const std::array<Number, 3>& s, const std::array<Number, 3>& t,
+                                          const std::array<Number, 3>& g, const std::array<Number, 3>& i, Altitude_over side) {
   const auto area = [&](const std::array<Number, 3>& j) {
     std::array<Number, 3> n;
     for (int k = 0; k < 3; ++k) {
@@ -63,14 +74,13 @@ Quadratic<Number> altitude_excess(const std::array<Number, 3>& s, const std::arr
     slope += 2 * n0[k] * d;
     curvature += d * d;
   }
-  const Number square = delta * delta;
   // The squared side is quadratic in u too; it follows from its values at 0 and 1 and its leading coefficient |T - S|^2.
   const Number side0 = squared_side(s, g, i, side), side1 = squared_side(t, g, i, side);
   Number leading = 0;
   if (side != Altitude_over::gi)
     for (int k = 0; k < 3; ++k)
       leading += (t[k] - s[k]) * (t[k] - s[k]);
-  return {curvature - square * leading, slope - square * (side1 - side0 - leading), start - square * side0};
+  return {{curvature, slope, start}, {leading, side1 - side0 - leading, side0}};
 }
 
 using Limit_time = CGAL::Root_of_traits<CGAL::Gmpq>::Root_of_2;
@@ -126,7 +136,8 @@ inline std::array<CGAL::Gmpq, 3> exact(const Coordinates& p) {
 
 /// Bernstein coefficients of q in doubles exceed the rounding error: certainly no violation. The bound adds the
 /// roundings of differences, products and sums, 64 units of 2^-52, relative to sums of magnitudes.
-inline bool certainly_high(Coordinates s, Coordinates t, Coordinates g, Coordinates i, double delta, Altitude_over side) {
+inline bool certainly_high(Coordinates s, Coordinates t, Coordinates g, Coordinates i, double delta,
+                           Altitude_over side) {
   double extent = 0;
   for (int k = 0; k < 3; ++k)
     for (const Coordinates* p : {&t, &g, &i})
@@ -137,20 +148,24 @@ inline bool certainly_high(Coordinates s, Coordinates t, Coordinates g, Coordina
       *p = scaled(*p, unit);
     extent *= unit, delta *= unit;
   }
-  const Quadratic<double> q = altitude_excess<double>(s, t, g, i, delta, side);
+  const Quadratic<double> q = squared_altitude<double>(s, t, g, i, side).over(delta * delta, 1);
   const double square = extent * extent;
   const double error = 0x1p-38 * square * (square + delta * delta);
   const double lowest = std::fmin(q.c, std::fmin(q.c + q.b / 2, q.a + q.b + q.c));
   return extent > 0x1p-200 && extent < 0x1p+200 && delta > 0x1p-200 && delta < 0x1p+200 && lowest > error;
 }
 
-/// When the triangle J, G, I first gets the altitude over `side` below delta, exactly, or nothing.
+/// When the triangle J, G, I first gets the altitude over `side` below delta, or below what it is at the start where that is less;
+/// exactly, or nothing.
 inline std::optional<Limit_time> delta_limit(const Coordinates& s, const Coordinates& t, const Coordinates& g,
                                              const Coordinates& i, double delta, Altitude_over side) {
   if (certainly_high(s, t, g, i, delta, side))
     return std::nullopt;
-  return first_negative(
-      scaled_to_one(altitude_excess<CGAL::Gmpq>(exact(s), exact(t), exact(g), exact(i), CGAL::Gmpq(delta), side)));
+  const auto h = squared_altitude<CGAL::Gmpq>(exact(s), exact(t), exact(g), exact(i), side);
+  Quadratic<CGAL::Gmpq> q = h.over(CGAL::Gmpq(delta) * CGAL::Gmpq(delta), CGAL::Gmpq(1));
+  if (CGAL::sign(q.c) == CGAL::NEGATIVE)
+    q = h.over(h.area.c, h.side.c);
+  return first_negative(scaled_to_one(q));
 }
 
 /// The gradient of the altitude where J is: how much it grows when J moves. Floating point.

@@ -29,7 +29,10 @@ public:
   static constexpr bool answers_are_filtered = true;
 
   /// Builds the tree: n log n. \param mesh has to outlive this
-  explicit Box_tree_broad_phase(const Mesh& mesh) : mesh_(&mesh) { build(); }
+  explicit Box_tree_broad_phase(const Mesh& mesh) : mesh_(&mesh) {
+    touched_.reserve(most_touched + 1);
+    build();
+  }
 
   /// Appends at least every face whose closed box meets the closed box.
   void query(const Box_3& box, std::vector<Face_index>& faces) {
@@ -141,11 +144,11 @@ public:
     refit();
   }
 
-  /// Makes room for so many faces in all, and so many insertions: none allocates, nor does a removal.
+  /// Makes room for so many faces in all, and so many insertions: none allocates. Moves and removals never do.
   void reserve(std::size_t faces, std::size_t insertions) {
     slot_of_face_.reserve(faces);
-    overflow_.reserve(insertions);
-    touched_.reserve(std::max(touched_.capacity(), usual_touched));
+    if (insertions != 0)
+      overflow_.reserve(insertions);
     nearest_.reserve(std::size_t{width} * (most_levels + 1));
     if (queue_.size() < usual_queue)
       queue_.resize(usual_queue);
@@ -171,7 +174,8 @@ private:
   /// nothing is fetched: what was guessed is much too large.
   static constexpr std::uint32_t nodes_in_cache = 1024, most_ahead = 64;
 
-  static constexpr std::size_t usual_touched = 256, usual_queue = 8192; ///< room is made for so many
+  static constexpr std::size_t usual_queue = 8192;  ///< room is made for so many
+  static constexpr std::size_t most_touched = 256;  ///< before they are refitted: there is room for so many
 
   static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
@@ -224,6 +228,10 @@ private:
     if (is_in_overflow(slot)) {
       overflow_.set(slot - first_overflow, box);
     } else {
+      if (touched_.size() == most_touched) {
+        refit();
+        touched_.clear();
+      }
       touched_.push_back(0);
       touched_.resize(set(0, slot, box, touched_.size() - 1));
     }

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SURFACE_GROWING_BOX_TREE_H
 
 #include <haptic_sculpt/surface/broad_phase/nearest_first.h>
+#include <haptic_sculpt/surface/make_room.h>
 
 #include <algorithm>
 #include <memory>
@@ -26,6 +27,7 @@ public:
   /// Puts an item near others. `put(item, place)` is called for it and for every item that changes its place.
   template <class Put>
   void insert(std::uint32_t item, const Float_box& box, const Put& put) {
+    reserve_nodes(height() + 3); // one a level, and a root: what throws has changed nothing
     if (root_ == none)
       root_ = new_node(0);
     if (node(root_).count == Box_node::width) {
@@ -112,18 +114,15 @@ public:
     return limit;
   }
 
-  /// Makes room for so many insertions, whatever is removed meanwhile.
+  /// Makes room for so many insertions, whatever is removed meanwhile. Removals never need any.
   ///
   /// Nodes come by halving alone, and by a new root. A full node is halved at once, another only after at least four more children have
   /// come: of n insertions n / 4 halve leaves, n / 16 the nodes above, ... together n / 3, besides those that were full before, and
   /// what these bring about above, a third more. No insertion halves more than one node a level.
   void reserve(std::size_t insertions) {
-    const std::size_t height = root_ == none ? 0 : node(root_).height;
-    const std::size_t full = std::min<std::size_t>(used_ + used_ / 3, insertions * (height + 1));
-    const std::size_t nodes = used_ + full + insertions / 3 + most_height;
-    while (blocks_.size() * block_size < nodes)
-      blocks_.push_back(std::make_unique<Node[]>(block_size));
-    free_nodes_.reserve(blocks_.size() * block_size);
+    const std::size_t in_use = used_ - free_nodes_.size();
+    const std::size_t full = std::min<std::size_t>(in_use + in_use / 3, insertions * (height() + 1));
+    reserve_nodes(full + insertions / 3 + most_height);
     stack_.reserve(Box_node::width * most_height);
     nearest_.reserve(Box_node::width * most_height);
   }
@@ -148,6 +147,16 @@ private:
   std::vector<std::uint32_t> free_nodes_, stack_;
   Nearest_first_stack nearest_;
 
+  std::size_t height() { return root_ == none ? 0 : node(root_).height; }
+
+  /// Makes room for so many new nodes, and to keep the numbers of all that may be freed.
+  void reserve_nodes(std::size_t nodes) {
+    while (blocks_.size() * block_size - used_ + free_nodes_.size() < nodes) {
+      make_room(free_nodes_, (blocks_.size() + 1) * block_size);
+      blocks_.push_back(std::make_unique<Node[]>(block_size));
+    }
+  }
+
   Node& node(std::uint32_t k) { return blocks_[k / block_size][k % block_size]; }
 
   std::uint32_t new_node(std::uint32_t height) {
@@ -156,9 +165,7 @@ private:
       k = free_nodes_.back();
       free_nodes_.pop_back();
     } else {
-      if (used_ == blocks_.size() * block_size)
-        blocks_.push_back(std::make_unique<Node[]>(block_size));
-      ++used_;
+      ++used_; // there is room
     }
     Node& n = node(k);
     n.boxes = Box_node();

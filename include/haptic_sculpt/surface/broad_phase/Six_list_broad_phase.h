@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
 #include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/make_room.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -75,6 +76,17 @@ public:
       remove(f);
   }
 
+  /// Makes room for so many faces in all: insertions allocate nothing then. Moves, removals and queries of few faces never do.
+  void reserve(std::size_t faces, std::size_t /*insertions*/) {
+    boxes_.reserve(faces);
+    alive_.reserve(faces);
+    holding_.reserve(faces);
+    place_.reserve(faces);
+    for (auto& list : lists_)
+      list.reserve(faces);
+    checklist_.reserve(faces);
+  }
+
 private:
   /// A bound and its face; sorted by the bound first.
   using Entry = std::pair<double, std::uint32_t>;
@@ -87,7 +99,7 @@ private:
   std::vector<Box_3> boxes_;
   std::vector<char> alive_;
   std::vector<std::uint8_t> holding_;    ///< how many of the six comparisons hold for a face
-  std::vector<std::uint32_t> checklist_; ///< faces for which all six hold
+  std::vector<std::uint32_t> checklist_; ///< faces for which all six hold; there is always room for all
   std::vector<std::uint32_t> place_;     ///< of a face in the checklist
 
   static double bound(int list, const Box_3& box) { return list < 3 ? box.lower[list] : box.upper[list - 3]; }
@@ -100,6 +112,8 @@ private:
   void make_room(std::size_t faces) {
     if (boxes_.size() >= faces)
       return;
+    if (faces > checklist_.capacity())
+      reserve(std::max(faces, internal::grown(boxes_.size())), 0);
     boxes_.resize(faces);
     alive_.resize(faces, false);
     holding_.resize(faces, 0);

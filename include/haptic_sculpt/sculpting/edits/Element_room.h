@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_ELEMENT_ROOM_H
+#define HAPTIC_SCULPT_SCULPTING_ELEMENT_ROOM_H
+
+#include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
+#include <haptic_sculpt/sculpting/edits/Vertex_names.h>
+#include <haptic_sculpt/surface/broad_phase/reserve_faces.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Makes room in a mesh, and in all that is kept for each of its elements, for an edit that is about to begin: no array grows in the
+/// middle of it.
+///
+/// Surface_mesh does not say how much room it has, so what was asked for last is kept here. Cost: a few comparisons; where there is no
+/// room all arrays grow by half.
+template <class Mesh, class Broad_phase>
+class Element_room {
+public:
+  /// Numbers of elements.
+  struct Elements {
+    std::size_t vertices = 0, edges = 0, faces = 0;
+  };
+
+  Element_room(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Mesh_watch<Mesh>& watch,
+               Vertex_names<Mesh>& names)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), watch_(&watch), names_(&names)
+    , room_{mesh.num_vertices(), mesh.num_edges(), mesh.num_faces()}, points_(points()) {}
+
+  /// Room for an edit that makes `born` after `dead` have died, and tells the broad phase of so many insertions.
+  /// \throw std::bad_alloc, and nothing has changed but room
+  void make(const Elements& born, const Elements& dead, std::size_t insertions) {
+    Elements free; // slots of elements that are no more
+    if (mesh_->does_recycle_garbage())
+      free = {mesh_->number_of_removed_vertices() + dead.vertices, mesh_->number_of_removed_edges() + dead.edges,
+              mesh_->number_of_removed_faces() + dead.faces};
+    const auto slots = [](std::size_t all, std::size_t made, std::size_t found) {
+      return made > found ? all + (made - found) : all;
+    };
+    const Elements needed = {slots(mesh_->num_vertices(), born.vertices, free.vertices),
+                             slots(mesh_->num_edges(), born.edges, free.edges),
+                             slots(mesh_->num_faces(), born.faces, free.faces)};
+    if (needed.vertices > room_.vertices || needed.edges > room_.edges || needed.faces > room_.faces || points() != points_)
+      reserve({std::max(needed.vertices, grown(mesh_->num_vertices())), std::max(needed.edges, grown(mesh_->num_edges())),
+               std::max(needed.faces, grown(mesh_->num_faces()))});
+    if (insertions > insertions_)
+      reserve_insertions(std::max(insertions, usual_insertions));
+    insertions_ -= insertions;
+  }
+
+  /// Room for so many edits of usual size.
+  void reserve(std::size_t edits) {
+    reserve({mesh_->num_vertices() + edits, mesh_->num_edges() + 3 * edits, mesh_->num_faces() + 2 * edits});
+    names_->reserve(edits);
+    reserve_insertions(4 * edits);
+  }
+
+private:
+  static constexpr std::size_t usual_insertions = 64; ///< asked for at once
+
+  Mesh* mesh_;
+  Broad_phase* broad_phase_;
+  Face_corners<Mesh>* corners_;
+  Mesh_watch<Mesh>* watch_;
+  Vertex_names<Mesh>* names_;
+  Elements room_;              ///< for so many the arrays have been reserved
+  std::size_t insertions_ = 0; ///< for so many more the broad phase has
+  const void* points_;         ///< the array of points then: another one has the room that others gave it
+
+  const void* points() const { return mesh_->num_vertices() != 0 ? mesh_->points().data() : nullptr; }
+
+  void reserve(const Elements& room) {
+    using Size = typename Mesh::size_type;
+    mesh_->reserve(static_cast<Size>(room.vertices), static_cast<Size>(room.edges), static_cast<Size>(room.faces));
+    corners_->reserve(room.faces);
+    watch_->reserve(room.vertices);
+    names_->reserve_slots(room.vertices);
+    reserve_faces(*broad_phase_, room.faces, 0);
+    room_ = room;
+    points_ = points();
+  }
+
+  void reserve_insertions(std::size_t insertions) {
+    reserve_faces(*broad_phase_, room_.faces, insertions);
+    insertions_ = insertions;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

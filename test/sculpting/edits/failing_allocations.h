@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_FAILING_ALLOCATIONS_H
+#define HAPTIC_SCULPT_TEST_FAILING_ALLOCATIONS_H
+
+/// \file
+/// Memory that runs out when it is told to: replaces the global operator new. To be included by one source file of a program.
+
+#include <cstdlib>
+#include <new>
+
+namespace haptic_sculpt::test {
+
+/// While one lives, the n-th request for memory fails, and those after it where it fails for good.
+class Failing_allocations {
+public:
+  Failing_allocations(std::size_t n, bool for_good) {
+    left_ = n;
+    for_good_ = for_good;
+  }
+  ~Failing_allocations() { left_ = 0; }
+  Failing_allocations(const Failing_allocations&) = delete;
+  Failing_allocations& operator=(const Failing_allocations&) = delete;
+
+  static void* allocate(std::size_t size, std::size_t alignment) {
+    if (left_ == 1 && for_good_)
+      throw std::bad_alloc();
+    if (left_ != 0 && --left_ == 0)
+      throw std::bad_alloc();
+    void* const p = alignment == 0 ? std::malloc(size != 0 ? size : 1)
+                                   : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    if (p == nullptr)
+      throw std::bad_alloc();
+    return p;
+  }
+
+private:
+  static inline std::size_t left_ = 0; ///< until one fails; 0: none does
+  static inline bool for_good_ = false;
+};
+
+} // namespace haptic_sculpt::test
+
+// Not inlined, or g++ sees free() meet operator new and warns. The array and nothrow forms call these.
+__attribute__((noinline)) void* operator new(std::size_t size) {
+  return haptic_sculpt::test::Failing_allocations::allocate(size, 0);
+}
+__attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {
+  return haptic_sculpt::test::Failing_allocations::allocate(size, static_cast<std::size_t>(alignment));
+}
+__attribute__((noinline)) void operator delete(void* p) noexcept { std::free(p); }
+__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+__attribute__((noinline)) void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+__attribute__((noinline)) void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+#endif

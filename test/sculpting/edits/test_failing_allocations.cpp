@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each allocation of each call fails in turn: everything is as it was then, or the Sculptor refuses all later calls for good.
+#include "sculpting/edits/failing_allocations.h"
+
+#include "sculpting/Mesh_snapshot.h"
+#include "sculpting/edits/random_edits.h"
+
+#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <functional>
+#include <map>
+#include <optional>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+using Vector_3 = meshes::Kernel::Vector_3;
+
+/// A broad phase as users write one: it allocates in whatever it is told, and has no room made for it.
+template <class Mesh_>
+class Allocating_broad_phase : public Brute_force_broad_phase<Mesh_> {
+public:
+  using Brute_force_broad_phase<Mesh_>::Brute_force_broad_phase;
+  template <class Faces>
+  void faces_moved(const Faces& faces) { told(faces); }
+  template <class Faces>
+  void faces_inserted(const Faces& faces) { told(faces); }
+  template <class Faces>
+  void faces_removed(const Faces& faces) { told(faces); }
+
+private:
+  std::vector<std::size_t> last_;
+
+  template <class Faces>
+  void told(const Faces& faces) {
+    std::vector<std::size_t> now;
+    for (const auto f : faces)
+      now.push_back(f);
+    last_ = now;
+  }
+};
+
+/// A mesh with all that is held of its Sculptor.
+template <class Broad_phase>
+struct World {
+  using Sculptor_type = Sculptor<Mesh, Broad_phase>;
+
+  Mesh mesh; ///< a copy: its arrays are exactly full
+  Sculptor_type sculptor;
+  std::optional<typename Sculptor_type::Grab_type> grab;
+  std::optional<typename Sculptor_type::Stroke_type> stroke;
+
+  World(const Mesh& original, const Sculptor_parameters& parameters) : mesh(original), sculptor(mesh, parameters) {}
+
+  Point_3 beside(std::size_t v, double by) const { return mesh.point(Vertex_index(v)) + by * Vector_3(0.3, -0.2, 0.25); }
+  void drag(std::size_t v, double by) { sculptor.grab(Vertex_index(v)).drag_to(beside(v, by)); }
+  Mesh::Halfedge_index halfedge(std::size_t v) const { return mesh.halfedge(Vertex_index(v)); }
+};
+
+/// What is tried: `act` has each of its allocations fail, after `prepare`.
+template <class World>
+struct Case {
+  const char* name;
+  std::function<void(World&)> prepare, act;
+  /// Whether it is several calls: then some may have been made.
+  bool is_compound = false;
+};
+
+template <class World>
+void nothing(World&) {}
+
+/// Many changes of all kinds.
+template <class World>
+void change_much(World& w) {
+  Random random(99);
+  for (int i = 0; i < 60; ++i) {
+    const std::size_t kind = random() % 6;
+    const Vertex_index v = pick(w.mesh.vertices(), w.mesh.number_of_vertices(), random);
+    const auto e = pick(w.mesh.edges(), w.mesh.number_of_edges(), random);
+    const auto f = pick(w.mesh.faces(), w.mesh.number_of_faces(), random);
+    switch (kind) {
+    case 0: w.drag(v, 0.1); break;
+    case 1: w.sculptor.insert_on_face(f, in_face(w.mesh, f, 0.3, 0.35)); break;
+    case 2: w.sculptor.insert_on_edge(e, CGAL::midpoint(w.mesh.point(w.mesh.vertex(e, 0)), w.mesh.point(w.mesh.vertex(e, 1)))); break;
+    case 3: w.sculptor.remove(v); break;
+    case 4: w.sculptor.collapse(w.mesh.halfedge(v)); break;
+    default: w.sculptor.flip(e);
+    }
+  }
+}
+
+template <class World>
+std::vector<Case<World>> all_cases() {
+  const auto insert_on_face = [](World& w) { w.sculptor.insert_on_face(Mesh::Face_index(5), in_face(w.mesh, Mesh::Face_index(5), 0.3, 0.3)); };
+  const auto insert_on_edge = [](World& w) {
+    const auto e = w.mesh.edge(w.halfedge(7));
+    w.sculptor.insert_on_edge(e, CGAL::midpoint(w.mesh.point(w.mesh.vertex(e, 0)), w.mesh.point(w.mesh.vertex(e, 1))));
+  };
+  const auto remove = [](World& w) { w.sculptor.remove(Vertex_index(13)); };
+  const auto collapse = [](World& w) { w.sculptor.collapse(w.halfedge(9)); };
+  const auto flip = [](World& w) { w.sculptor.flip(w.mesh.edge(w.halfedge(9))); };
+  const auto drag = [](World& w) { w.drag(8, 0.1); };
+  const auto push = [](World& w) { w.drag(8, -40); };
+  const auto move = [](World& w) { w.sculptor.move_if_free(Vertex_index(8), w.beside(8, 0.05)); };
+  const auto place = [](World& w) { w.sculptor.place(Vertex_index(42), Point_3(2.5, 0.1, 0.2)); };
+  const auto take = [](World& w) { w.grab.emplace(w.sculptor.grab(Vertex_index(8))); };
+  const auto undo = [](World& w) { w.sculptor.undo(); };
+  const auto redo = [](World& w) { w.sculptor.redo(); };
+  const auto begin_stroke = [](World& w) { w.stroke.emplace(w.sculptor.stroke()); };
+  const auto stroke_of_much = [](World& w) {
+    const auto stroke = w.sculptor.stroke();
+    change_much(w);
+  };
+  using F = std::function<void(World&)>;
+  const auto both = [](const F& a, const F& b) { return F([a, b](World& w) { a(w), b(w); }); };
+  std::vector<Case<World>> cases = {
+      {"grab", nothing<World>, take}, {"begin of a stroke", nothing<World>, begin_stroke},
+      {"drag in hand", take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }},
+      {"long drag in hand", take, [](World& w) { w.grab->drag_to(w.beside(8, -40)); }},
+      {"drag on", both(take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }), [](World& w) { w.grab->drag_to(w.beside(8, 0.3)); }},
+      {"drag with its path", take, [](World& w) { std::vector<Point_3> path; w.grab->drag_to(w.beside(8, -40), path); }},
+      {"end of a grab", both(take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }), [](World& w) { w.grab.reset(); }},
+      {"release", both(take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }), [](World& w) { w.grab->release(); }},
+      {"first impact", nothing<World>, [](World& w) { w.sculptor.first_impact(Vertex_index(8), w.beside(8, -40)); }},
+      {"nearest vertex", drag, [](World& w) { w.sculptor.nearest_vertex(Point_3(2, 0, 0), 1e9); }},
+      {"first hit", drag, [](World& w) { w.sculptor.first_hit(Point_3(2, 0, 0), Point_3(0, 0, 0)); }},
+      {"probe", drag, [](World& w) { w.sculptor.probe(Point_3(2, 0.1, 0), Point_3(0, 0, 0.1)); }},
+      {"set delta", drag, [](World& w) { w.sculptor.set_delta(1e-6); }},
+      {"reserve", drag, [](World& w) { w.sculptor.reserve(50, 50); }},
+      {"whole drag", nothing<World>, drag, true},
+      {"whole push", nothing<World>, push, true},
+      {"undo of many", stroke_of_much, undo}, {"redo of many", both(stroke_of_much, undo), redo},
+  };
+  const std::pair<const char*, F> edits[] = {{"insert on face", insert_on_face}, {"insert on edge", insert_on_edge}, {"remove", remove},
+                                             {"collapse", collapse}, {"flip", flip}, {"move if free", move}, {"place", place}};
+  for (const auto& [name, edit] : edits) {
+    cases.push_back({name, nothing<World>, edit});
+    cases.push_back({name, begin_stroke, edit});
+    cases.push_back({name, both(take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }), edit});
+    cases.push_back({name, change_much<World>, edit});
+    cases.push_back({"undo", edit, undo});
+    cases.push_back({"undo", both(edit, [](World& w) { w.mesh.shrink_to_fit(); }), undo});
+    cases.push_back({"redo", both(edit, undo), redo});
+  }
+  return cases;
+}
+
+struct Outcome {
+  std::size_t tries = 0, as_it_was = 0, made = 0, refused = 0;
+};
+
+/// Whether every later call is refused by name.
+template <class World>
+bool is_refused_for_good(World& w) {
+  const std::function<void()> calls[] = {
+      [&] { w.sculptor.check_unchanged(); }, [&] { w.sculptor.undo(); }, [&] { w.sculptor.redo(); },
+      [&] { w.sculptor.grab(Vertex_index(3)); }, [&] { w.sculptor.flip(Mesh::Edge_index(1)); },
+      [&] { w.sculptor.insert_on_face(Mesh::Face_index(1), Point_3(0, 0, 0)); },
+      [&] { w.sculptor.insert_on_edge(Mesh::Edge_index(1), Point_3(0, 0, 0)); },
+      [&] { w.sculptor.remove(Vertex_index(1)); }, [&] { w.sculptor.collapse(Mesh::Halfedge_index(1)); },
+      [&] { w.sculptor.move_if_free(Vertex_index(1), Point_3(0, 0, 0)); },
+      [&] { w.sculptor.place(Vertex_index(42), Point_3(9, 0, 0)); },
+      [&] { w.sculptor.first_impact(Vertex_index(1), Point_3(0, 0, 0)); },
+      [&] { w.sculptor.probe(Point_3(9, 0, 0), Point_3(8, 0, 0)); }, [&] { w.sculptor.nearest_vertex(Point_3(9, 0, 0), 1); },
+      [&] { w.sculptor.first_hit(Point_3(9, 0, 0), Point_3(8, 0, 0)); }, [&] { w.sculptor.release(); },
+      [&] { w.sculptor.reserve(1, 1); }, [&] { w.stroke.emplace(w.sculptor.stroke()); }, [&] { w.sculptor.set_delta(0); },
+      [&] { w.sculptor.set_clearance(1e-3); }, [&] { w.sculptor.set_default_clearance(); },
+      [&] { w.sculptor.set_response(Response::stop); }, [&] { w.sculptor.set_work_limit(5); },
+      [&] { w.sculptor.set_history_limit({}); }, [&] { w.sculptor.expect_single_drags(true); },
+      [&] { w.sculptor.name(Vertex_index(1)); }, [&] { w.sculptor.vertex(1); }, [&] { w.sculptor.number_of_names(); },
+      [&] { w.sculptor.face_of(0, 1, 2); }, [&] { w.sculptor.edge_of(0, 1); }};
+  for (const auto& call : calls)
+    try {
+      call();
+      return false;
+    } catch (const Unfinished_change&) {
+    }
+  return true;
+}
+
+template <class World>
+Outcome try_case(const Case<World>& c, const Mesh& original, const Sculptor_parameters& parameters) {
+  Outcome outcome;
+  for (const bool for_good : {false, true}) {
+    bool has_failed = true;
+    for (std::size_t n = 1; has_failed; ++n) {
+      World w(original, parameters);
+      const Mesh_snapshot begin = snapshot(w.sculptor);
+      c.prepare(w);
+      const Mesh_snapshot before = snapshot(w.sculptor);
+      const auto steps = [&w] { return std::pair(w.sculptor.history().number_of_undo_steps(), w.sculptor.history().number_of_redo_steps()); };
+      const auto steps_before = steps();
+      has_failed = false;
+      try {
+        const Failing_allocations failing(n, for_good);
+        c.act(w);
+      } catch (const std::bad_alloc&) {
+        has_failed = true;
+      }
+      if (!has_failed)
+        continue;
+      ++outcome.tries;
+      try {
+        w.sculptor.check_unchanged();
+      } catch (const Unfinished_change&) {
+        ++outcome.refused;
+        BOOST_TEST(is_refused_for_good(w));
+        continue;
+      }
+      const bool is_before = snapshot(w.sculptor) == before;
+      ++(is_before ? outcome.as_it_was : outcome.made);
+      BOOST_TEST((is_before || c.is_compound));
+      if (is_before)
+        BOOST_TEST((steps() == steps_before));
+      BOOST_TEST(w.mesh.is_valid(false));
+      // It works on, as if nothing had been, and all is undone to the bit.
+      if (!c.is_compound)
+        c.act(w);
+      Random random(n);
+      for (int i = 0; i < 12; ++i)
+        random_edit(w.sculptor, random);
+      w.sculptor.check_unchanged();
+      BOOST_TEST(validate(w.mesh).is_valid());
+      while (w.sculptor.undo())
+        ;
+      if (parameters.probes_are_recorded) // else one may stand in the way, or elsewhere
+        BOOST_TEST((snapshot(w.sculptor) == begin));
+    }
+  }
+  return outcome;
+}
+
+template <class Broad_phase>
+void try_all(const char* broad_phase, bool is_ready, const Sculptor_parameters& parameters, const Mesh& original) {
+  using W = World<Broad_phase>;
+  std::map<std::string, Outcome> outcomes;
+  for (const Case<W>& c : all_cases<W>()) {
+    BOOST_TEST_INFO_SCOPE(broad_phase << ", " << c.name);
+    const Outcome outcome = try_case(c, original, parameters);
+    Outcome& sum = outcomes[c.name];
+    sum.tries += outcome.tries, sum.as_it_was += outcome.as_it_was, sum.made += outcome.made, sum.refused += outcome.refused;
+  }
+  std::size_t tries = 0, refused = 0;
+  for (const auto& [name, o] : outcomes) {
+    BOOST_TEST_MESSAGE(broad_phase << ", " << name << ": " << o.tries << " failed allocations, " << o.as_it_was << " as it was, " << o.made
+                                   << " made in part of several calls, " << o.refused << " refused for good");
+    tries += o.tries, refused += o.refused;
+  }
+  BOOST_TEST_MESSAGE(broad_phase << ": " << tries << " failed allocations, " << refused << " refused for good");
+  BOOST_TEST(tries > 500u);
+  BOOST_TEST(outcomes["end of a grab"].tries == 0u); // a destructor that allocates nothing
+  if (is_ready)
+    BOOST_TEST(refused == 0u);
+  else
+    BOOST_TEST(refused > 0u);
+}
+
+/// A sphere of 42 vertices and a probe.
+Mesh scene() {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05));
+  mesh.add_vertex(Point_3(3, 0, 0));
+  return mesh;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(each_allocation_of_each_call_fails_in_turn) {
+  try_all<Box_tree_broad_phase<Mesh>>("tree", true, {}, scene());
+  try_all<Six_list_broad_phase<Mesh>>("six lists", true, parameters::response(Response::stop), scene());
+  try_all<Brute_force_broad_phase<Mesh>>("brute force", true, parameters::record_probes(false), scene());
+}
+
+BOOST_AUTO_TEST_CASE(a_broad_phase_that_no_room_can_be_made_for) {
+  try_all<Allocating_broad_phase<Mesh>>("of a user", false, {}, scene());
+}
+
+BOOST_AUTO_TEST_CASE(a_property_whose_values_allocate) {
+  Mesh mesh = scene();
+  mesh.add_property_map<Mesh::Face_index, std::string>("f:label", std::string(100, 'a'));
+  try_all<Box_tree_broad_phase<Mesh>>("labelled faces", false, {}, mesh);
+}
