@@ -151,8 +151,10 @@ struct Passivity_limits {
   double largest_controller = 0; ///< damping of a passivity controller that may be asked for, N s/m
   Worst_pose worst,              ///< that of least friction
       lightest;                  ///< that of least apparent mass
-  double damping = 0, tick = 0, delay = 0,             ///< for which they were made, N s/m, s, ticks
-      cutoff = Acceleration_estimate::default_cutoff; ///< of the acceleration, Hz
+  double damping = 0; ///< for which they were made, N s/m
+  double tick = 0;    ///< for which they were made, s
+  double delay = 0;   ///< for which they were made, ticks
+  double cutoff = Acceleration_estimate::default_cutoff; ///< of the acceleration, Hz
 
   double largest_stiffness() const { return std::fmax(passive_stiffness, 0.0); } ///< N/m; never < 0
   /// Without a damper and without a hand a handle rings on a stiffer wall: half of the largest, N/m.

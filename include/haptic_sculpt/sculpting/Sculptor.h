@@ -134,9 +134,7 @@ public:
   Edited insert_on_face(Face_index f, const Point& p) {
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
-    if (is_unknown(f, mesh().num_faces()))
-      return Edited::refused(Refusal_reason::unknown_element);
-    return guarded_.edited([&] { return guarded_.editor().insert_on_face(f, internal::coordinates(p), delta()); });
+    return edited(f, mesh().num_faces(), [&](auto& editor) { return editor.insert_on_face(f, internal::coordinates(p), delta()); });
   }
 
   /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of two.
@@ -144,44 +142,36 @@ public:
   Edited insert_on_edge(Edge_index e, const Point& p) {
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
-    if (is_unknown(e, mesh().num_edges()))
-      return Edited::refused(Refusal_reason::unknown_element);
-    return guarded_.edited([&] { return guarded_.editor().insert_on_edge(mesh().halfedge(e), internal::coordinates(p), delta()); });
+    return edited(e, mesh().num_edges(), [&](auto& editor) {
+      return editor.insert_on_edge(mesh().halfedge(e), internal::coordinates(p), delta());
+    });
   }
 
   /// Draws v into one of its neighbours and lets the edge between them collapse. The neighbours are tried in the order of the
   /// triangles they leave, best first (doc/edits.md).
   /// \post v has died, and so have the edges and faces of its star; its neighbours have not.
   Edited remove(Vertex_index v) {
-    if (is_unknown(v, mesh().num_vertices()))
-      return Edited::refused(Refusal_reason::unknown_element);
-    return guarded_.edited([&] { return guarded_.editor().remove(v, delta()); });
+    return edited(v, mesh().num_vertices(), [&](auto& editor) { return editor.remove(v, delta()); });
   }
 
   /// Draws the source of h into its target and lets the edge between them collapse.
   /// \post The source has died, and so have the edges and faces of its star; its neighbours have not.
   Edited collapse(Halfedge_index h) {
-    if (is_unknown(h, mesh().num_halfedges()))
-      return Edited::refused(Refusal_reason::unknown_element);
-    return guarded_.edited([&] { return guarded_.editor().collapse(h, delta()); });
+    return edited(h, mesh().num_halfedges(), [&](auto& editor) { return editor.collapse(h, delta()); });
   }
 
   /// Joins the two corners opposite to e by an edge in its place. Exactly those flips are refused after which the mesh is not
   /// embedded, or breaks the delta rule, or for which anything is in the closed tetrahedron of the four corners.
   /// \post e and its two faces have died, and the new ones have their descriptors; no vertex has.
   Edited flip(Edge_index e) {
-    if (is_unknown(e, mesh().num_edges()))
-      return Edited::refused(Refusal_reason::unknown_element);
-    return guarded_.edited([&] { return guarded_.editor().flip(mesh().halfedge(e), delta()); });
+    return edited(e, mesh().num_edges(), [&](auto& editor) { return editor.flip(mesh().halfedge(e), delta()); });
   }
 
   /// Puts a probe, a vertex without faces, to `p`, whatever is on the way: refused where that is on a face, nearer to it than the
   /// clearance, or inside of a solid, in a cavity of it not. Decided exactly. To be undone like a drag. \post Nothing has died.
   /// \throw Out_of_range, Invalid_parameter. Cost: log n and the faces whose boxes a ray meets.
   Edited place(Vertex_index probe, const Point& p) {
-    if (is_unknown(probe, mesh().num_vertices()))
-      return Edited::refused(Refusal_reason::unknown_element);
-    return guarded_.place(probe, p);
+    return is_unknown(probe, mesh().num_vertices()) ? Edited::refused(Refusal_reason::unknown_element) : guarded_.place(probe, p);
   }
 
   /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one that is
@@ -206,11 +196,11 @@ public:
 
   /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the moves of a vertex
   /// between two other edits are kept as one.
-  Stroke_type stroke() { return Stroke_type(*this, whole_editor().history().begin_stroke(number_of_names())); }
+  Stroke_type stroke() { return Stroke_type(*this, guarded_.whole_editor().history().begin_stroke(number_of_names())); }
 
   /// Bounds the history, in steps or bytes (`history().bytes()`), or turns it off; without limit at first. The oldest steps are
   /// forgotten; a stroke that alone is larger is not kept, nor is anything before it.
-  void set_history_limit(const History_limit& limit) { whole_editor().history().set_limit(limit); }
+  void set_history_limit(const History_limit& limit) { guarded_.whole_editor().history().set_limit(limit); }
 
   /// Makes room, in the mesh too: after it so many edits (flips, collapses, creations, removals) and so many moves allocate nothing,
   /// nor do undo and redo, as long as no vertex has more than 28 neighbours, no star has more than 512 faces about it, and no
@@ -231,26 +221,22 @@ public:
   /// n in the valence; the history keeps the values of what dies, which `history().bytes()` does not count.
   template <class Map, class Carry = Copy_property>
   void keep(Map map, Carry carry = Carry()) {
-    using Key = typename boost::property_traits<Map>::key_type;
-    static_assert(std::is_same<Key, Vertex_index>::value || std::is_same<Key, Halfedge_index>::value ||
-                    std::is_same<Key, Edge_index>::value || std::is_same<Key, Face_index>::value,
-                  "Sculptor::keep: the keys of the map must be vertices, halfedges, edges or faces of the mesh");
-    guarded_.editor().kept().add(map, std::move(carry));
+    guarded_.whole_editor().kept().add(map, std::move(carry));
   }
 
   /// \name Numbers of vertices that last
   /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo revives it.
   ///@{
-  std::size_t name(Vertex_index v) const { return whole_editor().names().name(v); } ///< the number of v. \pre v is in the mesh
+  std::size_t name(Vertex_index v) const { return guarded_.whole_editor().names().name(v); } ///< the number of v. \pre v is in the mesh
   /// The null index where the vertex is dead, or the number was never given.
-  Vertex_index vertex(std::size_t name) const { return whole_editor().names().vertex(name); }
+  Vertex_index vertex(std::size_t name) const { return guarded_.whole_editor().names().vertex(name); }
   /// One more than the largest number given.
-  std::size_t number_of_names() const { return whole_editor().names().size(); }
+  std::size_t number_of_names() const { return guarded_.whole_editor().names().size(); }
   /// The face of three corners, by number and in any order; the null index where there is none.
-  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return whole_editor().face_of(a, b, c); }
+  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return guarded_.whole_editor().face_of(a, b, c); }
   /// The edge between two vertices, by number; the null index where there is none.
   Edge_index edge_of(std::size_t a, std::size_t b) const {
-    const auto h = whole_editor().halfedge_of(a, b);
+    const auto h = guarded_.whole_editor().halfedge_of(a, b);
     return h.is_valid() ? mesh().edge(h) : Edge_index();
   }
   ///@}
@@ -282,10 +268,7 @@ public:
   }
 
   /// From here on the default of each contact.
-  void set_default_clearance() {
-    guarded_.check_is_whole();
-    guarded_.parameters.clearance_length.reset();
-  }
+  void set_default_clearance() { guarded_.settings().clearance_length.reset(); }
 
   /// Of drags and edits from here on; undo and redo restore what was, and altitudes that are lower then may only grow (doc/stop.md).
   /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
@@ -305,10 +288,7 @@ public:
   }
 
   /// Of each drag from here on; nothing: a drag takes what it takes.
-  void set_work_limit(std::optional<std::size_t> pairs) {
-    guarded_.check_is_whole();
-    guarded_.parameters.work_bound = pairs;
-  }
+  void set_work_limit(std::optional<std::size_t> pairs) { guarded_.settings().work_bound = pairs; }
 
   /// \throw Mesh_changed if anything was changed by others, points or connectivity. Cost: reads all of the mesh.
   void check_unchanged() const { guarded_.check_unchanged(); }
@@ -336,14 +316,12 @@ private:
     return !element.is_valid() || static_cast<std::size_t>(element) >= slots || mesh().is_removed(element);
   }
 
-  /// \throw Unfinished_change
-  auto& whole_editor() {
-    guarded_.check_is_whole();
-    return guarded_.editor();
-  }
-  const auto& whole_editor() const {
-    guarded_.check_is_whole();
-    return guarded_.editor();
+  /// An edit of an element that has to be in the mesh.
+  template <class Index, class Edit_function>
+  Edited edited(Index element, std::size_t slots, const Edit_function& edit) {
+    if (is_unknown(element, slots))
+      return Edited::refused(Refusal_reason::unknown_element);
+    return guarded_.edited([&] { return edit(guarded_.editor()); });
   }
 
   /// The exact ones count; others are made by default.

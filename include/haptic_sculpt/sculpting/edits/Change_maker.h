@@ -22,9 +22,10 @@ namespace internal {
 /// Every change but a move, a shift and a flip replaces the fan of one vertex over a polygon by the star of another, or the other way round.
 /// Cost: the size of the polygon, the degree of the fan's vertex to find it, and the broad phase.
 ///
-/// In this order: what is to be replaced is looked up and compared with what is known; room is made for all that will be written; the
-/// visitor is told of what dies; all is written, `noted` included; the visitor is told of what was made. So an exception leaves a change
-/// not begun, or complete. One that comes while all is written leaves the Write_state saying so (doc/edits.md, "Memory that runs out").
+/// In this order: what is to be replaced is looked up and compared with what is known; room is made for all that will be
+/// written; values are kept, and the visitor hears, of what dies; all is written, `noted` included; what was made gets
+/// values, and the visitor hears of it. So an exception leaves a change not begun, or complete. One that comes while all
+/// is written leaves the Write_state saying so (doc/edits.md, "Memory that runs out").
 template <class Mesh, class Broad_phase, class Visitor>
 class Change_maker {
 public:
@@ -125,7 +126,7 @@ private:
 
   Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
   void begin(const Edit& edit, bool is_back, const Place& place) {
-    if (!kept_.is_empty() && edit.kind != Edit_kind::move && edit.kind != Edit_kind::shift)
+    if (edit.kind != Edit_kind::move && edit.kind != Edit_kind::shift)
       kept_.begin(edit, is_back, place);
   }
   static typename Mesh::Point to_point(const Coordinates& p) { return {p[0], p[1], p[2]}; }
@@ -236,8 +237,7 @@ private:
     faces_.assign(1, mesh_->face(h));
     faces_.push_back(mesh_->face(mesh_->opposite(h)));
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
-    if (!kept_.is_empty())
-      kept_.die(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
+    kept_.die(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
     is_ready_ = true;
     if constexpr (has_visitor) {
       for (const Face_index f : faces_)
@@ -250,8 +250,7 @@ private:
     broad_phase_->faces_moved(faces_); // they keep their descriptors
     noted(Vertex_index());
     writing_->end();
-    if (!kept_.is_empty())
-      kept_.create(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
+    kept_.create(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
     if constexpr (has_visitor) {
       visitor_.edge_created(mesh_->edge(h));
       for (const Face_index f : faces_)
@@ -278,8 +277,7 @@ private:
   }
 
   void fan_dies() {
-    if (!kept_.is_empty())
-      kept_.die(names_, Vertex_index(), faces_, inside_of_fan());
+    kept_.die(names_, Vertex_index(), faces_, inside_of_fan());
     is_ready_ = true;
     if constexpr (has_visitor) {
       for (const Face_index f : faces_)
@@ -299,8 +297,7 @@ private:
     broad_phase_->faces_inserted(faces_);
     noted(Vertex_index());
     writing_->end();
-    if (!kept_.is_empty())
-      kept_.create(names_, Vertex_index(), faces_, inside_of_fan());
+    kept_.create(names_, Vertex_index(), faces_, inside_of_fan());
     if constexpr (has_visitor) {
       for (std::size_t i = 1; i < fan_.size(); ++i)
         visitor_.edge_created(mesh_->edge(fan_[i]));
@@ -310,8 +307,7 @@ private:
   }
 
   void star_dies(Vertex_index v) {
-    if (!kept_.is_empty())
-      kept_.die(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
+    kept_.die(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
     is_ready_ = true;
     if constexpr (has_visitor) {
       for (const Face_index f : star_.faces)
@@ -333,8 +329,7 @@ private:
     broad_phase_->faces_inserted(star_.faces);
     noted(v);
     writing_->end();
-    if (!kept_.is_empty())
-      kept_.create(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
+    kept_.create(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
     if constexpr (has_visitor) {
       visitor_.vertex_created(v, edit.vertex);
       for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))

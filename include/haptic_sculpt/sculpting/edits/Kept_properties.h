@@ -23,6 +23,10 @@ public:
 
   template <class Map, class Carry>
   void add(Map map, Carry carry) {
+    using Key = typename boost::property_traits<Map>::key_type;
+    static_assert(std::is_same<Key, Vertex_index>::value || std::is_same<Key, typename Mesh::Halfedge_index>::value ||
+                      std::is_same<Key, Edge_index>::value || std::is_same<Key, Face_index>::value,
+                  "Sculptor::keep: the keys of the map must be vertices, halfedges, edges or faces of the mesh");
     maps_.push_back(std::make_unique<Kept_map_of<Mesh, Map, Carry>>(map, std::move(carry)));
   }
   /// The visitor hears of what comes from what, if it has the functions for that. \param visitor is told as long as
@@ -36,7 +40,6 @@ public:
       maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_teller<Visitor, Edge_index>, Copy_property, false>>(
           Lineage_teller<Visitor, Edge_index>{&visitor}, Copy_property()));
   }
-  bool is_empty() const { return maps_.empty(); }
 
   /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_name` where
   /// it is not recorded; whether it is made for the first time.
@@ -56,6 +59,8 @@ public:
   /// \param v the null index where no vertex dies
   template <class Faces, class Halfedges>
   void die(const Vertex_names<Mesh>& names, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
+    if (maps_.empty())
+      return;
     for_each_element(names, v, faces, halfedges,
                      [](auto& map, auto element, const Element_names& of) { map.dies(element, of); });
     for (const auto& map : maps_)
@@ -64,6 +69,8 @@ public:
   /// \param v the null index where no vertex was created
   template <class Faces, class Halfedges>
   void create(const Vertex_names<Mesh>& names, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
+    if (maps_.empty())
+      return;
     if (v.is_valid() && !under_way_.is_back)
       under_way_.weights = weights(names, vertex_coordinates(*mesh_, v));
     for_each_element(names, v, faces, halfedges, [&](auto& map, auto element, const Element_names& of) {

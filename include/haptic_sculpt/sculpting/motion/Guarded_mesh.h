@@ -43,6 +43,20 @@ public:
   const Filter_counters& counters() const { return counters_; }
   auto& editor() { return editor_; }
   const auto& editor() const { return editor_; }
+  /// \throw Unfinished_change
+  auto& whole_editor() {
+    check_is_whole();
+    return editor_;
+  }
+  const auto& whole_editor() const {
+    check_is_whole();
+    return editor_;
+  }
+  /// What the caller may change without a check. \throw Unfinished_change
+  Sculptor_parameters& settings() {
+    check_is_whole();
+    return parameters;
+  }
 
   /// \throw Unfinished_change if a change was broken off: every way in begins with this.
   void check_is_whole() const { writing_.check(); }

@@ -41,13 +41,13 @@ inline const char* name_of(Repair_kind kind) {
 
 /// How many of what: "holes closed" 2.
 struct Repair_count {
-  const char* what;
-  std::size_t number;
+  const char* what;   ///< in words, e.g. "holes closed"
+  std::size_t number; ///< how many
 };
 
 /// One step of a repair.
 struct Repair_step {
-  Repair_kind kind;
+  Repair_kind kind;                 ///< which of the steps
   std::vector<Repair_count> counts; ///< what was changed
   double moved = 0;    ///< the largest distance a point went in it, in the unit of the coordinates, rounded
   std::string failure; ///< why CGAL gave up; then nothing was changed. Empty: it did not
