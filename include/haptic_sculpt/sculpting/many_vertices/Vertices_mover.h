@@ -34,10 +34,11 @@ public:
     asked_ = sum_left();
     const Response_scope scope(sculptor_, Response::stop, true);
     Positions behind = all_behind();
-    if (!parameters_.takes_steps || behind.size() < many)
+    const bool drags_first = !parameters_.takes_steps || tries_whole_ || behind.size() < many;
+    if (drags_first)
       stop_passes(behind);
     tries_whole_ = false;
-    if (parameters_.takes_steps && !behind.empty() && goes_on_)
+    if (parameters_.takes_steps && goes_on_ && behind.size() > (drags_first ? few(vertices_.size()) : 0))
       goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_).run();
     finish();
   }
