@@ -25,7 +25,9 @@ public:
     const Enclosed_determinant determinant = enclosed_determinant_3(rb, rc, rd);
     if (determinant.is_certain())
       return determinant.sign();
-    const int sign = sign_by_permanent(rb, rc, rd, determinant.is_safe);
+    int sign = sign_by_permanent(rb, rc, rd, determinant.is_safe);
+    if (sign == 0)
+      sign = sign_by_short_rows(p_[a], p_[b], p_[c], p_[d]);
     if (sign != 0) {
       counters_.count_permanent();
       return sign;

@@ -131,6 +131,16 @@ inline int sign_by_permanent(Coordinates b, Coordinates c, Coordinates d, bool i
   return (value > error) - (value < -error);
 }
 
+/// The same of the determinant of (b - a, c - a, d - a) from rows that are as short as may be: from d, and b's from a where
+/// that is nearer. Far from the still points, where a drag to a far target leads, the moving one's two places are a, b, or one
+/// of them; rows that are all from there are all but parallel, and as long as it is far.
+inline int sign_by_short_rows(const Coordinates& a, const Coordinates& b, const Coordinates& c, const Coordinates& d) {
+  const auto size = [](const Coordinates& row) { return largest_magnitude(row[0], row[1], row[2]); };
+  const Coordinates of_a = difference(a, d), of_c = difference(c, d), from_a = difference(b, a), from_d = difference(b, d);
+  const Coordinates& of_b = size(from_a) < size(from_d) ? from_a : from_d;
+  return -sign_by_permanent(of_a, of_b, of_c, enclosed_determinant_3(of_a, of_b, of_c).is_safe);
+}
+
 template <class Counters>
 int exact_orientation_3(const Coordinates& a, const Coordinates& b, const Coordinates& c, const Coordinates& d,
                         Counters& counters) {

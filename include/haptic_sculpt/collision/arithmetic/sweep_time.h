@@ -142,14 +142,16 @@ inline std::pair<double, double> filtered_time(const Sweep_points& p, const Swee
   if (verdict.form == Time_form::at_start)
     return {0, 0};
   Enclosed_determinant start = enclosed_time_function(p, verdict, 0, 1), target = enclosed_time_function(p, verdict, 1, 1);
-  if (!(start.is_safe && target.is_safe)) { // in another unit; the time has none
-    const double unit = unit_of_differences(p, verdict);
-    start = enclosed_time_function(p, verdict, 0, unit), target = enclosed_time_function(p, verdict, 1, unit);
-  }
   if (start.is_safe && start.error == 0)
     return {0, 0};
   if (target.is_safe && target.error == 0)
     return {1, 1};
+  if (!(start.is_safe && target.is_safe)) { // in another unit; the time has none
+    const double unit = unit_of_differences(p, verdict);
+    start = enclosed_time_function(p, verdict, 0, unit), target = enclosed_time_function(p, verdict, 1, unit);
+    if (start.error == 0 || target.error == 0) // what is 0 in this unit is not in truth: digits were lost to underflow
+      return {-1, 2};
+  }
   const double a = std::abs(start.value), sum = a + std::abs(target.value);
   const double error = start.error + target.error;
   if (!(start.is_safe && target.is_safe && sum > 4 * error))

@@ -50,7 +50,8 @@ public:
   /// A wall holds for one drag only: another path meets another wall.
   bool is_wall() const { return contact_.kind != Contact_kind::delta && contact_.is_flat; }
 
-  /// How far J is from the facet's plane, as of the last measure(); negative beyond.
+  /// How far J is from the facet's plane, as of the last measure(); negative beyond. A clearance where an altitude is below
+  /// delta: the facet then goes with J.
   double height() const { return height_; }
 
   /// What J keeps from the plane where it is, as of the last measure().
@@ -74,7 +75,9 @@ public:
       const double steepness = length(slope);
       const Vector up = normalized(slope);
       contact_.normal = {up[0], up[1], up[2]};
-      height_ = (altitude(x, points[0], points[1], over) - rules.delta) / (steepness > 0 ? steepness : 1);
+      const double above = altitude(x, points[0], points[1], over) - rules.delta;
+      // Lower than delta already it may not get lower: J is where it has to be, and all that rises is permitted.
+      height_ = above < 0 ? clearance_ : above / (steepness > 0 ? steepness : 1);
     } else if (contact_.is_flat)
       height_ = dot(normal(), minus(x, foot_));
     else

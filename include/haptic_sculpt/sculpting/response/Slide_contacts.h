@@ -40,7 +40,10 @@ public:
   Vector pull_to(const Vector& target) const {
     const Vector pull = minus(target, x);
     const double distance = length(pull), most = lengths_.farthest_pull();
-    return distance > most ? scaled(pull, most / distance) : pull;
+    if (distance <= most)
+      return pull;
+    const double share = most / distance;
+    return share >= std::numeric_limits<double>::min() ? scaled(pull, share) : scaled(normalized(pull), most);
   }
 
   bool is_beyond_reach(const Vector& target) const { return length(minus(target, x)) > lengths_.farthest_pull(); }
