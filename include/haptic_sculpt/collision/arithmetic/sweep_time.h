@@ -25,35 +25,20 @@ constexpr double unit_roundoff_any_rounding = 0x1p-52;
 constexpr double widest_filtered_time = 0x1p-40;
 
 /// f at the moving vertex's start (`end == 0`) or target (`end == 1`), in doubles. \param unit a power of two, by which
-/// differences are multiplied; not safe where that is not exact, for what is 0 then need not have been
+/// differences are multiplied: what underflows then is far less than what is safe
 inline Enclosed_determinant enclosed_time_function(const Sweep_points& p, const Sweep_verdict& verdict, int end, double unit) {
   const auto& through = verdict.through;
-  bool is_exact = true;
   const auto from = [&](const Coordinates& q) {
-    Coordinates d = difference(q, p[through[0]]);
-    if (unit != 1)
-      for (double& x : d) {
-        const double multiplied = x * unit;
-        is_exact &= multiplied * (1 / unit) == x;
-        x = multiplied;
-      }
-    return d;
+    const Coordinates d = difference(q, p[through[0]]);
+    return Coordinates{d[0] * unit, d[1] * unit, d[2] * unit};
   };
-  const auto enclosed = [&](Enclosed_determinant f) {
-    f.is_safe &= is_exact;
-    return f;
-  };
-  if (verdict.form == Time_form::plane) {
-    const Coordinates b = from(p[through[1]]), c = from(p[through[2]]), d = from(p[end]);
-    return enclosed(enclosed_determinant_3(b, c, d));
-  }
-  if (verdict.form == Time_form::line) {
-    const Coordinates b = from(p[through[1]]), c = from(p[end]);
-    return enclosed(enclosed_orientation_2(Coordinates{}, b, c, verdict.axis));
-  }
+  if (verdict.form == Time_form::plane)
+    return enclosed_determinant_3(from(p[through[1]]), from(p[through[2]]), from(p[end]));
+  if (verdict.form == Time_form::line)
+    return enclosed_orientation_2(Coordinates{}, from(p[through[1]]), from(p[end]), verdict.axis);
   const double value = from(p[end])[verdict.axis], magnitude = std::abs(value);
   const double error = unit_roundoff_any_rounding * magnitude; // itself 0 by underflow where the value is not safe
-  return enclosed({value, error, value == 0 || (magnitude >= least_safe_difference && magnitude <= largest_safe_difference)});
+  return {value, error, value == 0 || (magnitude >= least_safe_difference && magnitude <= largest_safe_difference)};
 }
 
 /// That of the largest difference that the time depends on.
