@@ -48,10 +48,12 @@ public:
     tree_.resize(items_.size());
   }
 
-  /// A motion of the vertices given, each once. \pre every face of theirs has been taken
-  void begin(int axis, const Axis_ways<Mesh>& ways) {
+  /// A motion of the vertices given, each once. \param most it is given up as soon as it is known that more would be held
+  /// back; the search ends then. \pre every face of theirs has been taken
+  void begin(int axis, const Axis_ways<Mesh>& ways, std::size_t most = std::numeric_limits<std::size_t>::max()) {
     axis_ = axis;
     held_ = 0;
+    most_ = most;
     vertices_.assign(mesh_->num_vertices(), Vertex{});
     tree_.begin_round();
     for (const auto& [v, end] : ways)
@@ -73,6 +75,7 @@ public:
   }
 
   bool is_free() const { return obstacles_.empty(); }
+  /// All of the last round; where the motion was given up, those that were found till then.
   const std::vector<Axis_obstacle>& obstacles() const { return obstacles_; }
 
   /// Where the vertex is along the axis at the end, as far as it is held back by now.
@@ -80,15 +83,15 @@ public:
 
   /// Holds vertices back until the motion is free: each by the least that some round proposes. Every round holds one back
   /// at least, and one held back `most_pulls` times stays where it is; standing still is free.
-  /// \return false where these would be more than `most`: then it is given up
+  /// \return false where it was given up
   /// \throw Mesh_changed where the mesh cannot have been embedded
-  bool hold_back(std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  bool hold_back() {
     while (!is_free()) {
-      pull();
       if (pulled_.empty())
         throw Mesh_changed("faces that do not move meet each other");
-      if (held_ > most)
+      if (is_given_up())
         return false;
+      pull();
       decide();
     }
     return true;
@@ -123,7 +126,8 @@ private:
   int axis_ = 0;
   Box_scale scale_;
   bool are_all_ = false;
-  std::size_t held_ = 0; ///< vertices that have been pulled
+  std::size_t held_ = 0; ///< vertices that have been pulled, or are to be in this round
+  std::size_t most_ = 0;
   std::vector<Item> items_; ///< by slot; faces in the order of space, then vertices without
   std::size_t first_isolated_ = 0;
   std::vector<std::uint32_t> slot_of_face_;
@@ -131,7 +135,8 @@ private:
   Axis_box_tree tree_;
   std::vector<std::uint32_t> active_; ///< slots to be looked at in this round
   std::vector<Axis_obstacle> obstacles_;
-  std::vector<std::uint32_t> pulled_;
+  std::vector<std::uint32_t> pulled_;                            ///< vertices for which shares are proposed in this round
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> put_off_; ///< pairs of slots
 
   static std::uint32_t index(Vertex_index v) { return static_cast<std::uint32_t>(v); }
   Coordinates point(std::uint32_t v) const { return vertex_coordinates(*mesh_, Vertex_index(v)); }
@@ -189,15 +194,35 @@ private:
     return shared == 2 || ((are_all_ || v.moves) && std::abs(v.sides) == v.faces);
   }
 
+  bool is_given_up() const { return held_ > most_; }
+
+  /// One round: finds all obstacles and what they propose, or enough to give up. Pairs all of whose corners are to be held
+  /// back anyway come last: where so much is in the way that it is given up, most pairs are such, and are spared.
   void decide() {
     obstacles_.clear();
+    pulled_.clear();
+    put_off_.clear();
     for (const std::uint32_t slot : active_)
       if (slot < first_isolated_)
         decide_face(items_[slot]);
+    if (is_given_up())
+      return;
     tree_.for_each_pair([this](std::uint32_t a, std::uint32_t b) {
-      if (a < first_isolated_ || b < first_isolated_)
+      if (is_all_pulled(items_[a]) && is_all_pulled(items_[b]))
+        put_off_.emplace_back(a, b);
+      else if (a < first_isolated_ || b < first_isolated_)
         decide_pair(items_[a], items_[b]);
+      return !is_given_up();
     });
+    if (!is_given_up())
+      for (const auto& [a, b] : put_off_)
+        if (a < first_isolated_ || b < first_isolated_)
+          decide_pair(items_[a], items_[b]);
+  }
+
+  bool is_all_pulled(const Item& item) const {
+    const auto& v = item.corners;
+    return vertices_[v[0]].is_pulled && vertices_[v[1]].is_pulled && vertices_[v[2]].is_pulled;
   }
 
   void decide_face(const Item& f) {
@@ -248,28 +273,29 @@ private:
     }
   }
 
+  /// Every obstacle proposes a share for some of its vertices, from the state as it is; of several the least holds.
   void add(Axis_obstacle::Kind kind, const std::array<std::uint32_t, 4>& vertices) {
-    obstacles_.push_back({kind, vertices});
+    const Axis_obstacle obstacle{kind, vertices};
+    obstacles_.push_back(obstacle);
+    const Axis_pull pull = pull_for(kind, motion_of(vertices));
+    bool is_any_pulled = false;
+    for (int k = 0; k < obstacle.size(); ++k)
+      is_any_pulled |= pull.is_pulled[k] && vertices_[vertices[k]].moves;
+    for (int k = 0; k < obstacle.size(); ++k) {
+      Vertex& v = vertices_[vertices[k]];
+      if (!v.moves || (is_any_pulled && !pull.is_pulled[k]))
+        continue;
+      if (!v.is_pulled) {
+        pulled_.push_back(vertices[k]);
+        held_ += v.pulls == 0;
+      }
+      v.is_pulled = true;
+      v.share = std::fmin(v.share, is_any_pulled ? pull.share : 0.5);
+    }
   }
 
-  /// One round: every obstacle proposes a share for some of its vertices, from the state as it is; of several the least holds.
+  /// Shortens the ways as proposed; what is around them is to be looked at again.
   void pull() {
-    pulled_.clear();
-    for (const Axis_obstacle& obstacle : obstacles_) {
-      const Axis_pull pull = pull_for(obstacle.kind, motion_of(obstacle.vertices));
-      bool is_any_pulled = false;
-      for (int k = 0; k < obstacle.size(); ++k)
-        is_any_pulled |= pull.is_pulled[k] && vertices_[obstacle.vertices[k]].moves;
-      for (int k = 0; k < obstacle.size(); ++k) {
-        Vertex& v = vertices_[obstacle.vertices[k]];
-        if (!v.moves || (is_any_pulled && !pull.is_pulled[k]))
-          continue;
-        if (!v.is_pulled)
-          pulled_.push_back(obstacle.vertices[k]);
-        v.is_pulled = true;
-        v.share = std::fmin(v.share, is_any_pulled ? pull.share : 0.5);
-      }
-    }
     std::sort(pulled_.begin(), pulled_.end());
     for (const std::uint32_t k : pulled_)
       shorten(k);
@@ -288,7 +314,6 @@ private:
     const double start = height(k), end = std::fma(v.share, v.end - start, start);
     v.end = v.end < start ? std::fmin(std::fmax(end, v.end), start) : std::fmax(std::fmin(end, v.end), start);
     v.share = 1;
-    held_ += v.pulls == 0;
     if (++v.pulls == most_pulls || v.end == start)
       v.moves = false;
   }
