@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Mesh_changed.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_box_tree.h>
+#include <haptic_sculpt/sculpting/axis_moves/Axis_item.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_obstacle.h>
 #include <haptic_sculpt/sculpting/axis_moves/axis_delta.h>
 #include <haptic_sculpt/surface/Face_corners.h>
@@ -71,6 +72,9 @@ public:
       }
       set(slot, motion, does_move(item));
     }
+    for (Item& item : items_)
+      item.unfolded = static_cast<std::uint8_t>(is_unfolded(item.corners[0]) | is_unfolded(item.corners[1]) << 1 |
+                                                is_unfolded(item.corners[2]) << 2);
     decide();
   }
 
@@ -103,12 +107,7 @@ public:
   bool has_taken_all() const { return are_all_; }
 
 private:
-  /// A face, or a vertex without faces three times.
-  struct Item {
-    std::array<std::uint32_t, 3> corners;
-    std::uint8_t owned; ///< bits: of the corners 0, 1, 2 and the edges after them, those that are looked at with this face
-    std::int8_t side;   ///< the orientation as seen along the axis
-  };
+  using Item = Axis_item;
   struct Vertex {
     double end = 0;    ///< where it moves
     double share = 1;  ///< proposed in this round
@@ -184,20 +183,17 @@ private:
       active_.push_back(slot);
   }
 
-  /// Whether two faces that share some vertices share no more as seen along the axis: their tests would all be passed.
-  bool are_side_by_side(const Item& f, const Item& g, int shared, std::uint32_t common) const {
-    if (f.side == 0 || f.side != g.side)
-      return false;
-    // A star all of whose faces are seen from one side is seen without a fold: its link, a closed curve that does not cross
-    // itself about an embedded vertex, goes round once.
-    const Vertex& v = vertices_[common];
-    return shared == 2 || ((are_all_ || v.moves) && std::abs(v.sides) == v.faces);
+  /// A star all of whose faces are seen from one side is seen without a fold: its link, a closed curve that does not cross
+  /// itself about an embedded vertex, goes round once.
+  bool is_unfolded(std::uint32_t k) const {
+    const Vertex& v = vertices_[k];
+    return (are_all_ || v.moves) && std::abs(v.sides) == v.faces;
   }
 
   bool is_given_up() const { return held_ > most_; }
 
-  /// One round: finds all obstacles and what they propose, or enough to give up. Pairs all of whose corners are to be held
-  /// back anyway come last: where so much is in the way that it is given up, most pairs are such, and are spared.
+  /// One round: finds all obstacles and what they propose, or enough to give up. Pairs of which one face is to be held back
+  /// anyway come last: where so much is in the way that it is given up, most pairs are such, and are spared.
   void decide() {
     obstacles_.clear();
     pulled_.clear();
@@ -208,19 +204,20 @@ private:
     if (is_given_up())
       return;
     tree_.for_each_pair([this](std::uint32_t a, std::uint32_t b) {
-      if (is_all_pulled(items_[a]) && is_all_pulled(items_[b]))
+      if (!pulled_.empty() && (is_pulled(items_[a]) || is_pulled(items_[b])))
         put_off_.emplace_back(a, b);
-      else if (a < first_isolated_ || b < first_isolated_)
+      else
         decide_pair(items_[a], items_[b]);
       return !is_given_up();
     });
-    if (!is_given_up())
-      for (const auto& [a, b] : put_off_)
-        if (a < first_isolated_ || b < first_isolated_)
-          decide_pair(items_[a], items_[b]);
+    for (const auto& [a, b] : put_off_) {
+      if (is_given_up())
+        return;
+      decide_pair(items_[a], items_[b]);
+    }
   }
 
-  bool is_all_pulled(const Item& item) const {
+  bool is_pulled(const Item& item) const {
     const auto& v = item.corners;
     return vertices_[v[0]].is_pulled && vertices_[v[1]].is_pulled && vertices_[v[2]].is_pulled;
   }
@@ -236,27 +233,23 @@ private:
   }
 
   void decide_pair(const Item& f, const Item& g) {
-    int shared = 0;
-    std::uint32_t common = 0;
-    std::array<bool, 6> is_shared{};
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k)
-        if (f.corners[i] == g.corners[k]) {
-          is_shared[i] = is_shared[3 + k] = true;
-          common = f.corners[i];
-          ++shared;
-        }
-    if (shared != 0 && are_side_by_side(f, g, shared, common))
+    const unsigned shared_of_f = shared_corners(f, g);
+    if (are_side_by_side(f, g, shared_of_f))
+      return;
+    if (!f.is_face() && !g.is_face())
       return;
     const std::array<std::uint32_t, 6> v{f.corners[0], f.corners[1], f.corners[2],
                                          g.corners[0], g.corners[1], g.corners[2]};
     const Axis_motion<6> motion = motion_of(v);
     const Axis_sweep<6, Filter_counters> sweep(motion, *counters_);
-    const auto is_face = [&v](int first) { return v[first] != v[first + 1]; };
+    if (shared_of_f == 0 && (sweep.is_seen_beside(f.side, 0, 3) || sweep.is_seen_beside(g.side, 3, 0)))
+      return;
+    const unsigned shared = shared_of_f | shared_corners(g, f) << 3;
+    const auto is_shared = [shared](int k) { return (shared >> k & 1) != 0; };
     for (int i = 0; i < 3; ++i) {
-      if ((f.owned >> i & 1) != 0 && !is_shared[i] && is_face(3) && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
+      if ((f.owned >> i & 1) != 0 && !is_shared(i) && g.is_face() && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
         add(Axis_obstacle::Kind::vertex_face, {v[i], v[3], v[4], v[5]});
-      if ((g.owned >> i & 1) != 0 && !is_shared[3 + i] && is_face(0) && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
+      if ((g.owned >> i & 1) != 0 && !is_shared(3 + i) && f.is_face() && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
         add(Axis_obstacle::Kind::vertex_face, {v[3 + i], v[0], v[1], v[2]});
     }
     for (int i = 0; i < 3; ++i) {
