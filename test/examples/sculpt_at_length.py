@@ -33,7 +33,7 @@ def run(program, *arguments):
 
 
 def random_path(rng, seconds, home):
-    """Straight ways of 20 to 200 mm/s between places in the ball, more of them near its middle; a button on every second way or so."""
+    """Straight ways of 20 to 200 mm/s between places in the ball, more of them near its middle; a button on two ways of three."""
     rows, t, at, button = ["t,x,y,z,button"], 0.0, (0.0, 0.0, 0.9 * RADIUS), 0
     while t < seconds:
         rows.append(f"{t:.3f},{home[0] + at[0]:.5f},{home[1] + at[1]:.5f},{home[2] + at[2]:.5f},{button}")
@@ -41,7 +41,7 @@ def random_path(rng, seconds, home):
         length = RADIUS * rng.uniform(0.2, 0.95) / math.hypot(*direction)
         to = tuple(length * d for d in direction)
         t += max(0.05, math.dist(at, to) / rng.uniform(0.02, 0.2))
-        at, button = to, rng.choice([0, 0, 0, 1, 1, 2])
+        at, button = to, rng.choice([0, 0, 1, 1, 2, 2])
     return "\n".join(rows) + "\n"
 
 

@@ -97,15 +97,16 @@ BOOST_AUTO_TEST_CASE(a_loop_that_is_late_lets_go_of_a_free_handle_before_it_thro
       parameters.limits.ramp_time = 0; // long under way
       if (!is_watched)
         parameters.watchdog.late_ticks = std::numeric_limits<double>::infinity();
-      const Hand_path path({{0, knocked.home.position + 0.016 * up, 0}}); // 60 ms away
+      const Hand_path path({{0, knocked.home.position + 0.002 * up, 0}});
       const auto start = reach_position(knocked.device, knocked.home, path.at(0).position);
       Simulated_device device(knocked.device, *start, Simulated_hand{1, {}}, path, 0.001, 0);
-      device.push(-0.5 * up);
       Interaction<Joint_side> loop(Joint_side(knocked.device, *start, parameters), parameters, 0);
       Joint_reading reading = device.read();
       bool is_torn = false;
       double fastest_after = 0;
       for (int k = 0; k < 40 && !is_torn; ++k) {
+        if (k == 8) // the watchdog has had time to see how late the ticks are
+          device.push(-0.5 * up);
         if (loop.fault() == Loop_fault::none && loop.follow(reading)) {
           const double depth = (knocked.home.position - loop.side().position())[2];
           Touch touch;

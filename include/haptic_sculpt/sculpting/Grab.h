@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_GRAB_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
+#include <haptic_sculpt/sculpting/first_impact.h>
 
 #include <utility>
 #include <vector>
@@ -79,8 +80,11 @@ private:
 
   Drag_result<Mesh> drag(const Point& target, std::vector<Point>* path) {
     const Vertex_index v = vertex();
-    if (!v.is_valid())
+    if (!v.is_valid()) {
+      const internal::Rounding_to_nearest rounding;
+      internal::check_point("the target", target);
       return Drag_result<Mesh>::stale_at(place_);
+    }
     Drag_result<Mesh> result = sculptor_->drag(v, target, path);
     place_ = result.position;
     return result;

@@ -17,20 +17,20 @@ namespace {
 using Faces = std::vector<Mesh::Face_index>;
 using Coordinates = Swept_star_3::Coordinates;
 
-double uniform(Random& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; }
+double from_minus_1_to_1(Random& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; }
 
 /// Points about a place of the scene, round, flat, or drawn out to a needle.
-struct Drawn_star {
+struct Counted_star {
   std::vector<Coordinates> link;
   Swept_star_3 star;
 
-  Drawn_star(Random& random, double unit) {
-    const auto any = [&](double size) { return Coordinates{size * uniform(random), size * uniform(random), size * uniform(random)}; };
+  Counted_star(Random& random, double unit) {
+    const auto any = [&](double size) { return Coordinates{size * from_minus_1_to_1(random), size * from_minus_1_to_1(random), size * from_minus_1_to_1(random)}; };
     const Coordinates middle = any(unit), along = any(1), way = any(1);
-    const double size = unit * std::exp2(-6 * std::abs(uniform(random))), thin = random() % 3 == 0 ? 0x1p-8 : random() % 2 == 0 ? 0 : 1,
-                 far = size * std::exp2(8 * uniform(random));
+    const double size = unit * std::exp2(-6 * std::abs(from_minus_1_to_1(random))), thin = random() % 3 == 0 ? 0x1p-8 : random() % 2 == 0 ? 0 : 1,
+                 far = size * std::exp2(8 * from_minus_1_to_1(random));
     for (std::size_t k = random() % 4 == 0 ? 0 : 3 + random() % 20; k > 0; --k) {
-      const double t = uniform(random);
+      const double t = from_minus_1_to_1(random);
       const Coordinates beside = any(thin);
       link.push_back({});
       for (int i = 0; i < 3; ++i)
@@ -42,12 +42,12 @@ struct Drawn_star {
     star.link = link.data();
     star.valence = link.size();
     star.is_box = random() % 4 == 0;
-    star.until = random() % 4 == 0 ? std::exp2(-4 * std::abs(uniform(random))) : 1;
+    star.until = random() % 4 == 0 ? std::exp2(-4 * std::abs(from_minus_1_to_1(random))) : 1;
   }
 };
 
 template <class Broad_phase>
-Faces answer(const Mesh& mesh, const internal::Box_scale& scale, Broad_phase& broad_phase, const Swept_star_3& star, std::size_t most, bool& is_whole) {
+Faces counted_faces(const Mesh& mesh, const internal::Box_scale& scale, Broad_phase& broad_phase, const Swept_star_3& star, std::size_t most, bool& is_whole) {
   Faces faces;
   is_whole = internal::query_up_to(mesh, scale, broad_phase, star, most, faces);
   std::sort(faces.begin(), faces.end());
@@ -76,28 +76,28 @@ BOOST_AUTO_TEST_CASE(every_broad_phase_answers_with_the_faces_that_pass) {
       for (std::size_t k = 0; k < stars / 10; ++k) {
         if (k % 8 == 0) { // a face drawn out
           const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
-          put(v, Point_3(2 * uniform(random), 2 * uniform(random), 2 * uniform(random)));
+          put(v, Point_3(2 * from_minus_1_to_1(random), 2 * from_minus_1_to_1(random), 2 * from_minus_1_to_1(random)));
           Faces moved;
           for (const auto f : mesh.faces_around_target(mesh.halfedge(v)))
             moved.push_back(f);
           tree.faces_moved(moved);
           six_lists.faces_moved(moved);
         }
-        Drawn_star drawn(random, unit);
+        Counted_star drawn(random, unit);
         for (Coordinates& p : drawn.link)
           p[0] += shift * unit;
         drawn.star.source[0] += shift * unit, drawn.star.target[0] += shift * unit;
         bool is_whole = false;
-        const Faces expected = answer(mesh, scale, brute_force, drawn.star, mesh.num_faces(), is_whole);
+        const Faces expected = counted_faces(mesh, scale, brute_force, drawn.star, mesh.num_faces(), is_whole);
         BOOST_REQUIRE(is_whole);
-        BOOST_REQUIRE((answer(mesh, scale, tree, drawn.star, mesh.num_faces(), is_whole) == expected));
-        BOOST_REQUIRE((answer(mesh, scale, six_lists, drawn.star, mesh.num_faces(), is_whole) == expected));
+        BOOST_REQUIRE((counted_faces(mesh, scale, tree, drawn.star, mesh.num_faces(), is_whole) == expected));
+        BOOST_REQUIRE((counted_faces(mesh, scale, six_lists, drawn.star, mesh.num_faces(), is_whole) == expected));
         // It is given up for the same reason: one face too many.
         if (!expected.empty()) {
-          answer(mesh, scale, tree, drawn.star, expected.size() - 1, is_whole);
+          counted_faces(mesh, scale, tree, drawn.star, expected.size() - 1, is_whole);
           BOOST_REQUIRE(!is_whole);
         }
-        answer(mesh, scale, tree, drawn.star, expected.size(), is_whole);
+        counted_faces(mesh, scale, tree, drawn.star, expected.size(), is_whole);
         BOOST_REQUIRE(is_whole);
         Faces in_box;
         brute_force.query(drawn.star, in_box);

@@ -30,7 +30,7 @@ double any_double(Random& random) {
   return x;
 }
 
-std::vector<Mesh> scenes() {
+std::vector<Mesh> extreme_scenes() {
   std::vector<Mesh> all = {meshes::to_mesh(meshes::tetrahedron()), meshes::to_mesh(meshes::cube(4)),
                            meshes::to_mesh(meshes::box(3, 2)), meshes::to_mesh(meshes::ball_in_a_cavity(1)),
                            meshes::to_mesh(meshes::sliver_stack(3, 0x1p-39))};
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(targets_of_any_size_keep_the_mesh_embedded_and_lead_no_fart
   const std::size_t drags = count_from_environment("HAPTIC_SCULPT_EXTREME_DRAGS", 1000);
   Random random(seed_from_environment(911));
   std::size_t made = 0, refused = 0, reached = 0, farther = 0, invalid = 0;
-  const std::vector<Mesh> all = scenes();
+  const std::vector<Mesh> all = extreme_scenes();
   while (made + refused < drags)
     for (const Mesh& scene : all)
       for (const Response response : responses) {

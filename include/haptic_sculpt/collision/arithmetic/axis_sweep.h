@@ -100,6 +100,17 @@ public:
     return orientation_2(m_.start[a], m_.start[b], m_.start[c], m_.axis, counters_);
   }
 
+  /// Whether the projections of the triangles f, f + 1, f + 2 and g, g + 1, g + 2 are certainly apart: an edge of the first
+  /// has all of the second strictly beyond it. Then no features of theirs meet. \param side the first as seen, or 0
+  bool is_seen_beside(int side, int f, int g) const {
+    for (int i = 0; i < 3 && side != 0; ++i) {
+      const int a = f + i, b = f + (i + 1) % 3;
+      if (seen(a, b, g) * side < 0 && seen(a, b, g + 1) * side < 0 && seen(a, b, g + 2) * side < 0)
+        return true;
+    }
+    return false;
+  }
+
 private:
   /// How to look at a vertical plane: drop a coordinate so that `along` tells points apart that are not above one another.
   struct Plane {

@@ -52,6 +52,7 @@ public:
   }
 
   /// Calls `found(a, b)` for each pair of slots of which one is active and whose boxes may meet; a != b, each pair once.
+  /// Ends where it returns false.
   template <class Found>
   void for_each_pair(const Found& found) {
     refit();
@@ -85,25 +86,28 @@ private:
     touched_.clear();
   }
 
+  /// These return false where `found` has.
   template <class Found>
-  void join_itself(int level, std::uint32_t number, const Found& found) const {
+  bool join_itself(int level, std::uint32_t number, const Found& found) const {
     const Axis_box_node& node = levels_[level][number];
     if (node.is_active == 0)
-      return;
+      return true;
     for (unsigned i = 0; i < width; ++i) {
       if ((node.is_there >> i & 1) == 0)
         continue;
-      if (level > 0)
-        join_itself(level - 1, number * width + i, found);
+      if (level > 0 && !join_itself(level - 1, number * width + i, found))
+        return false;
       unsigned mask = node.meeting(node.box(i)) & ~((2u << i) - 1);
       if ((node.is_active >> i & 1) == 0)
         mask &= node.is_active;
-      visit(level, number * width + i, number * width, mask, found);
+      if (!visit(level, number * width + i, number * width, mask, found))
+        return false;
     }
+    return true;
   }
 
   template <class Found>
-  void join(int level, std::uint32_t a, std::uint32_t b, const Found& found) const {
+  bool join(int level, std::uint32_t a, std::uint32_t b, const Found& found) const {
     const Axis_box_node &node = levels_[level][a], &other = levels_[level][b];
     for (unsigned i = 0; i < width; ++i) {
       if ((node.is_there >> i & 1) == 0)
@@ -111,19 +115,20 @@ private:
       unsigned mask = other.meeting(node.box(i));
       if ((node.is_active >> i & 1) == 0)
         mask &= other.is_active;
-      visit(level, a * width + i, b * width, mask, found);
+      if (!visit(level, a * width + i, b * width, mask, found))
+        return false;
     }
+    return true;
   }
 
   template <class Found>
-  void visit(int level, std::uint32_t child, std::uint32_t first, unsigned mask, const Found& found) const {
+  bool visit(int level, std::uint32_t child, std::uint32_t first, unsigned mask, const Found& found) const {
     for (; mask != 0; mask &= mask - 1) {
       const std::uint32_t other = first + lowest_bit(mask);
-      if (level == 0)
-        found(child, other);
-      else
-        join(level - 1, child, other, found);
+      if (!(level == 0 ? found(child, other) : join(level - 1, child, other, found)))
+        return false;
     }
+    return true;
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Mesh_changed.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_box_tree.h>
+#include <haptic_sculpt/sculpting/axis_moves/Axis_item.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_obstacle.h>
 #include <haptic_sculpt/sculpting/axis_moves/axis_delta.h>
 #include <haptic_sculpt/surface/Face_corners.h>
@@ -48,10 +49,12 @@ public:
     tree_.resize(items_.size());
   }
 
-  /// A motion of the vertices given, each once. \pre every face of theirs has been taken
-  void begin(int axis, const Axis_ways<Mesh>& ways) {
+  /// A motion of the vertices given, each once. \param most it is given up as soon as it is known that more would be held
+  /// back; the search ends then. \pre every face of theirs has been taken
+  void begin(int axis, const Axis_ways<Mesh>& ways, std::size_t most = std::numeric_limits<std::size_t>::max()) {
     axis_ = axis;
     held_ = 0;
+    most_ = most;
     vertices_.assign(mesh_->num_vertices(), Vertex{});
     tree_.begin_round();
     for (const auto& [v, end] : ways)
@@ -69,10 +72,14 @@ public:
       }
       set(slot, motion, does_move(item));
     }
+    for (Item& item : items_)
+      item.unfolded = static_cast<std::uint8_t>(is_unfolded(item.corners[0]) | is_unfolded(item.corners[1]) << 1 |
+                                                is_unfolded(item.corners[2]) << 2);
     decide();
   }
 
   bool is_free() const { return obstacles_.empty(); }
+  /// All of the last round; where the motion was given up, those that were found till then.
   const std::vector<Axis_obstacle>& obstacles() const { return obstacles_; }
 
   /// Where the vertex is along the axis at the end, as far as it is held back by now.
@@ -80,15 +87,15 @@ public:
 
   /// Holds vertices back until the motion is free: each by the least that some round proposes. Every round holds one back
   /// at least, and one held back `most_pulls` times stays where it is; standing still is free.
-  /// \return false where these would be more than `most`: then it is given up
+  /// \return false where it was given up
   /// \throw Mesh_changed where the mesh cannot have been embedded
-  bool hold_back(std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  bool hold_back() {
     while (!is_free()) {
-      pull();
       if (pulled_.empty())
         throw Mesh_changed("faces that do not move meet each other");
-      if (held_ > most)
+      if (is_given_up())
         return false;
+      pull();
       decide();
     }
     return true;
@@ -100,12 +107,7 @@ public:
   bool has_taken_all() const { return are_all_; }
 
 private:
-  /// A face, or a vertex without faces three times.
-  struct Item {
-    std::array<std::uint32_t, 3> corners;
-    std::uint8_t owned; ///< bits: of the corners 0, 1, 2 and the edges after them, those that are looked at with this face
-    std::int8_t side;   ///< the orientation as seen along the axis
-  };
+  using Item = Axis_item;
   struct Vertex {
     double end = 0;    ///< where it moves
     double share = 1;  ///< proposed in this round
@@ -123,7 +125,8 @@ private:
   int axis_ = 0;
   Box_scale scale_;
   bool are_all_ = false;
-  std::size_t held_ = 0; ///< vertices that have been pulled
+  std::size_t held_ = 0; ///< vertices that have been pulled, or are to be in this round
+  std::size_t most_ = 0;
   std::vector<Item> items_; ///< by slot; faces in the order of space, then vertices without
   std::size_t first_isolated_ = 0;
   std::vector<std::uint32_t> slot_of_face_;
@@ -131,7 +134,8 @@ private:
   Axis_box_tree tree_;
   std::vector<std::uint32_t> active_; ///< slots to be looked at in this round
   std::vector<Axis_obstacle> obstacles_;
-  std::vector<std::uint32_t> pulled_;
+  std::vector<std::uint32_t> pulled_;                            ///< vertices for which shares are proposed in this round
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> put_off_; ///< pairs of slots
 
   static std::uint32_t index(Vertex_index v) { return static_cast<std::uint32_t>(v); }
   Coordinates point(std::uint32_t v) const { return vertex_coordinates(*mesh_, Vertex_index(v)); }
@@ -179,25 +183,43 @@ private:
       active_.push_back(slot);
   }
 
-  /// Whether two faces that share some vertices share no more as seen along the axis: their tests would all be passed.
-  bool are_side_by_side(const Item& f, const Item& g, int shared, std::uint32_t common) const {
-    if (f.side == 0 || f.side != g.side)
-      return false;
-    // A star all of whose faces are seen from one side is seen without a fold: its link, a closed curve that does not cross
-    // itself about an embedded vertex, goes round once.
-    const Vertex& v = vertices_[common];
-    return shared == 2 || ((are_all_ || v.moves) && std::abs(v.sides) == v.faces);
+  /// A star all of whose faces are seen from one side is seen without a fold: its link, a closed curve that does not cross
+  /// itself about an embedded vertex, goes round once.
+  bool is_unfolded(std::uint32_t k) const {
+    const Vertex& v = vertices_[k];
+    return (are_all_ || v.moves) && std::abs(v.sides) == v.faces;
   }
 
+  bool is_given_up() const { return held_ > most_; }
+
+  /// One round: finds all obstacles and what they propose, or enough to give up. Pairs of which one face is to be held back
+  /// anyway come last: where so much is in the way that it is given up, most pairs are such, and are spared.
   void decide() {
     obstacles_.clear();
+    pulled_.clear();
+    put_off_.clear();
     for (const std::uint32_t slot : active_)
       if (slot < first_isolated_)
         decide_face(items_[slot]);
+    if (is_given_up())
+      return;
     tree_.for_each_pair([this](std::uint32_t a, std::uint32_t b) {
-      if (a < first_isolated_ || b < first_isolated_)
+      if (!pulled_.empty() && (is_pulled(items_[a]) || is_pulled(items_[b])))
+        put_off_.emplace_back(a, b);
+      else
         decide_pair(items_[a], items_[b]);
+      return !is_given_up();
     });
+    for (const auto& [a, b] : put_off_) {
+      if (is_given_up())
+        return;
+      decide_pair(items_[a], items_[b]);
+    }
+  }
+
+  bool is_pulled(const Item& item) const {
+    const auto& v = item.corners;
+    return vertices_[v[0]].is_pulled && vertices_[v[1]].is_pulled && vertices_[v[2]].is_pulled;
   }
 
   void decide_face(const Item& f) {
@@ -211,27 +233,23 @@ private:
   }
 
   void decide_pair(const Item& f, const Item& g) {
-    int shared = 0;
-    std::uint32_t common = 0;
-    std::array<bool, 6> is_shared{};
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k)
-        if (f.corners[i] == g.corners[k]) {
-          is_shared[i] = is_shared[3 + k] = true;
-          common = f.corners[i];
-          ++shared;
-        }
-    if (shared != 0 && are_side_by_side(f, g, shared, common))
+    const unsigned shared_of_f = shared_corners(f, g);
+    if (are_side_by_side(f, g, shared_of_f))
+      return;
+    if (!f.is_face() && !g.is_face())
       return;
     const std::array<std::uint32_t, 6> v{f.corners[0], f.corners[1], f.corners[2],
                                          g.corners[0], g.corners[1], g.corners[2]};
     const Axis_motion<6> motion = motion_of(v);
     const Axis_sweep<6, Filter_counters> sweep(motion, *counters_);
-    const auto is_face = [&v](int first) { return v[first] != v[first + 1]; };
+    if (shared_of_f == 0 && (sweep.is_seen_beside(f.side, 0, 3) || sweep.is_seen_beside(g.side, 3, 0)))
+      return;
+    const unsigned shared = shared_of_f | shared_corners(g, f) << 3;
+    const auto is_shared = [shared](int k) { return (shared >> k & 1) != 0; };
     for (int i = 0; i < 3; ++i) {
-      if ((f.owned >> i & 1) != 0 && !is_shared[i] && is_face(3) && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
+      if ((f.owned >> i & 1) != 0 && !is_shared(i) && g.is_face() && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
         add(Axis_obstacle::Kind::vertex_face, {v[i], v[3], v[4], v[5]});
-      if ((g.owned >> i & 1) != 0 && !is_shared[3 + i] && is_face(0) && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
+      if ((g.owned >> i & 1) != 0 && !is_shared(3 + i) && f.is_face() && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
         add(Axis_obstacle::Kind::vertex_face, {v[3 + i], v[0], v[1], v[2]});
     }
     for (int i = 0; i < 3; ++i) {
@@ -248,28 +266,29 @@ private:
     }
   }
 
+  /// Every obstacle proposes a share for some of its vertices, from the state as it is; of several the least holds.
   void add(Axis_obstacle::Kind kind, const std::array<std::uint32_t, 4>& vertices) {
-    obstacles_.push_back({kind, vertices});
+    const Axis_obstacle obstacle{kind, vertices};
+    obstacles_.push_back(obstacle);
+    const Axis_pull pull = pull_for(kind, motion_of(vertices));
+    bool is_any_pulled = false;
+    for (int k = 0; k < obstacle.size(); ++k)
+      is_any_pulled |= pull.is_pulled[k] && vertices_[vertices[k]].moves;
+    for (int k = 0; k < obstacle.size(); ++k) {
+      Vertex& v = vertices_[vertices[k]];
+      if (!v.moves || (is_any_pulled && !pull.is_pulled[k]))
+        continue;
+      if (!v.is_pulled) {
+        pulled_.push_back(vertices[k]);
+        held_ += v.pulls == 0;
+      }
+      v.is_pulled = true;
+      v.share = std::fmin(v.share, is_any_pulled ? pull.share : 0.5);
+    }
   }
 
-  /// One round: every obstacle proposes a share for some of its vertices, from the state as it is; of several the least holds.
+  /// Shortens the ways as proposed; what is around them is to be looked at again.
   void pull() {
-    pulled_.clear();
-    for (const Axis_obstacle& obstacle : obstacles_) {
-      const Axis_pull pull = pull_for(obstacle.kind, motion_of(obstacle.vertices));
-      bool is_any_pulled = false;
-      for (int k = 0; k < obstacle.size(); ++k)
-        is_any_pulled |= pull.is_pulled[k] && vertices_[obstacle.vertices[k]].moves;
-      for (int k = 0; k < obstacle.size(); ++k) {
-        Vertex& v = vertices_[obstacle.vertices[k]];
-        if (!v.moves || (is_any_pulled && !pull.is_pulled[k]))
-          continue;
-        if (!v.is_pulled)
-          pulled_.push_back(obstacle.vertices[k]);
-        v.is_pulled = true;
-        v.share = std::fmin(v.share, is_any_pulled ? pull.share : 0.5);
-      }
-    }
     std::sort(pulled_.begin(), pulled_.end());
     for (const std::uint32_t k : pulled_)
       shorten(k);
@@ -288,7 +307,6 @@ private:
     const double start = height(k), end = std::fma(v.share, v.end - start, start);
     v.end = v.end < start ? std::fmin(std::fmax(end, v.end), start) : std::fmax(std::fmin(end, v.end), start);
     v.share = 1;
-    held_ += v.pulls == 0;
     if (++v.pulls == most_pulls || v.end == start)
       v.moves = false;
   }

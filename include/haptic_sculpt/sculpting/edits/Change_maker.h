@@ -8,6 +8,7 @@
 #include <haptic_sculpt/sculpting/edits/Kept_properties.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/edits/Write_state.h>
+#include <haptic_sculpt/sculpting/edits/faces_around.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
 #include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 
@@ -158,13 +159,8 @@ private:
   /// All at once: the visitor is told when all stand. \param end 0: as before, 1: as after
   template <class Noted>
   Vertex_index put_all(const Edit& edit, int end, const Noted& noted) {
-    faces_.clear(); // all that allocates comes before the first point is written
-    for (const std::size_t name : edit.around)
-      if (const Vertex_index v = vertex(name); !mesh_->is_isolated(v))
-        for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
-          faces_.push_back(f);
-    std::sort(faces_.begin(), faces_.end());
-    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+    // All that allocates comes before the first point is written.
+    collect_faces_around(*mesh_, names_, edit.around, faces_);
     is_ready_ = true;
     writing_->begin();
     for (std::size_t k = 0; k < edit.around.size(); ++k) {

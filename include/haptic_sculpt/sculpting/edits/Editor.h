@@ -139,20 +139,23 @@ public:
 
   /// Moves many vertices along one axis, a motion that has been proven free; one change. \param ways where each is to be
   void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
-    Edit edit, recorded; // not kept: there may be millions
-    edit.kind = Edit_kind::shift;
-    edit.vertex = static_cast<std::size_t>(axis);
+    Edit edit, without_probes; // not kept: there may be millions
+    edit.kind = without_probes.kind = Edit_kind::shift;
+    edit.vertex = without_probes.vertex = static_cast<std::size_t>(axis);
+    edit.around.reserve(ways.size());
+    edit.ways.reserve(ways.size());
     for (const auto& [v, end] : ways) {
       edit.around.push_back(names().name(v));
       edit.ways.push_back({vertex_coordinates(*mesh_, v)[axis], end});
     }
-    recorded = edit;
-    if (!records_probes_) {
-      recorded.around.clear(), recorded.ways.clear();
+    const bool is_recorded_whole = records_probes_ || isolated_.empty();
+    if (!is_recorded_whole)
       for (std::size_t k = 0; k < ways.size(); ++k)
-        if (!mesh_->is_isolated(ways[k].first))
-          recorded.around.push_back(edit.around[k]), recorded.ways.push_back(edit.ways[k]);
-    }
+        if (!mesh_->is_isolated(ways[k].first)) {
+          without_probes.around.push_back(edit.around[k]);
+          without_probes.ways.push_back(edit.ways[k]);
+        }
+    const Edit& recorded = is_recorded_whole ? edit : without_probes;
     history_.make_room_for(recorded);
     changes_.make(edit, place(history_.number_of_next(), true), [&](Vertex_index changed) {
       watch(changed, edit);

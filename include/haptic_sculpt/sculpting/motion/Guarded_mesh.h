@@ -232,8 +232,8 @@ public:
     for (const Vertex_index v : mesh_->vertices())
       watch_.check(v);
     take_for(move, *mesh_, broad_phase_, isolated_.all(), axis, ways);
-    move.begin(axis, ways);
-    if (!move.hold_back(most_held))
+    move.begin(axis, ways, most_held);
+    if (!move.hold_back())
       return false;
     Axis_ways<Mesh> made;
     for (const auto& [v, end] : ways)
