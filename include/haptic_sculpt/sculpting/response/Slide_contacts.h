@@ -10,6 +10,7 @@
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace haptic_sculpt {
