@@ -95,6 +95,8 @@ private:
     made_.clear();
     for (int axis = 0; axis < 3; ++axis) {
       Ways ways, before;
+      ways.reserve(vertices_.size());
+      before.reserve(vertices_.size());
       for (const Moving& v : vertices_)
         if (const Coordinates from = place(v); aim(v, from, share, axis) != from[axis]) {
           ways.emplace_back(v.vertex, aim(v, from, share, axis));

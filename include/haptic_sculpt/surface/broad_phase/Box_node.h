@@ -6,6 +6,8 @@
 #include <haptic_sculpt/surface/broad_phase/outward_float.h>
 #include <haptic_sculpt/surface/broad_phase/prefetch.h>
 
+#include <vector>
+
 namespace haptic_sculpt {
 namespace internal {
 
@@ -73,6 +75,19 @@ struct alignas(64) Box_node {
     return static_cast<unsigned>(mask);
   }
 };
+
+/// Brings all nodes of an implicit tree up to date with those of its lowest level.
+/// \param level_begin where each level begins among the nodes, the lowest first: it is the last of them
+template <class Allocator>
+void refit_all(std::vector<Box_node, Allocator>& nodes, const std::uint32_t* level_begin, int levels) {
+  for (int level = 1; level < levels; ++level) {
+    const std::size_t first = level_begin[level - 1], end = level > 1 ? level_begin[level - 2] : nodes.size();
+    for (std::size_t k = 0; first + k < end; ++k) {
+      const auto j = static_cast<unsigned>(k % Box_node::width);
+      nodes[level_begin[level] + k / Box_node::width].set(j, nodes[first + k].all());
+    }
+  }
+}
 
 } // namespace internal
 } // namespace haptic_sculpt

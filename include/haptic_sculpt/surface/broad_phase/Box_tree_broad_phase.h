@@ -99,9 +99,15 @@ public:
   template <class Faces>
   void faces_moved(const Faces& faces) {
     touched_.clear();
-    for (const Face_index f : faces)
-      place(slot_of_face_[f], scale_.around(face_box(*mesh_, f)));
-    refit();
+    const bool are_many = faces.size() >= nodes_.size(); // then refitting all costs less than noting what has changed
+    for (const Face_index f : faces) {
+      const internal::Float_box box = scale_.around(face_box(*mesh_, f));
+      if (const std::uint32_t slot = slot_of_face_[f]; are_many && !is_in_overflow(slot))
+        nodes_[level_begin_[0] + slot / width].set(slot % width, box);
+      else
+        place(slot, box);
+    }
+    are_many ? internal::refit_all(nodes_, level_begin_.data(), levels_) : refit();
   }
 
   /// Reads their corners and neighbours from the mesh; one that is known already keeps its slot.
@@ -218,9 +224,7 @@ private:
       slot_of_face_[f] = slot;
       nodes_[level_begin_[0] + slot / width].set(slot % width, scale_.around(face_box(*mesh_, f)));
     }
-    for (int level = 1; level < levels_; ++level)
-      for (std::uint32_t k = 0; k < sizes[level - 1]; ++k)
-        nodes_[level_begin_[level] + k / width].set(k % width, nodes_[level_begin_[level - 1] + k].all());
+    internal::refit_all(nodes_, level_begin_.data(), levels_);
   }
 
   /// Sets the box of a slot and notes what is to be refitted.
