@@ -80,12 +80,12 @@ private:
     while (!ends_) {
       const std::uint64_t begin = now();
       lateness_.add(begin > due ? begin - due : 0);
-      try {
-        tick(session, loop);
-      } catch (const Error& error) { // such as a target out of range: the mesh is as it was
-        loop.tool().let_go();
-        ++status_.failures;
-        std::strncpy(status_.failure.data(), error.what(), status_.failure.size() - 1);
+      tick(session, loop);
+      if (const Loop_fault fault = loop.interaction().fault(); fault != Loop_fault::none) {
+        ++status_.failures; // such as a target out of range: the mesh is as it was
+        const char* const failure = *loop.failure() != '\0' ? loop.failure() : name_of(fault);
+        std::strncpy(status_.failure.data(), failure, status_.failure.size() - 1);
+        loop.restart();
       }
       const std::uint64_t end = now();
       work_.add(end - begin);
@@ -110,6 +110,7 @@ private:
     const Mouse_reading& newest = mouse.get();
     if (newest.press == reading_.press || !loop.tool().vertex().is_valid())
       reading_ = newest; // else what is held is yet to be let go of, and stays where it is
+    reading_.pose.elapsed = 1e-9 * tick_time; // a mouse has no clock of its own, and has said nothing yet at first
     const Pose_tick& made = session.tick(reading_.pose);
     if (&session.scene() != model_)
       model_ = &static_cast<Model&>(session.scene()), ++status_.scene;

@@ -57,7 +57,6 @@ public:
         handle_ = handle;
     Mouse_reading reading;
     reading.pose.position = handle_;
-    reading.pose.elapsed = tick;
     reading.pointer = pointer_;
     reading.number = ++number_, reading.press = press_;
     return reading;
@@ -65,7 +64,6 @@ public:
   std::uint64_t number() const { return number_; } ///< of the last reading
 
 private:
-  static constexpr double tick = 0.001; ///< s: a mouse has no clock of its own
   Workspace_map map_ = map_for(1);
   Pointer pointer_, pressed_;
   double depth_ = 0, along_ = 0; ///< along_: where the mouse pointed on the line along the normal
