@@ -97,7 +97,7 @@ private:
     if (sculptor_ != nullptr)
       sculptor_->set_hand(this);
   }
-  /// Allocates nothing: the broad phase is told by what comes next.
+  /// Allocates nothing: what comes next tells the broad phase.
   void let_go() noexcept {
     if (sculptor_ != nullptr)
       sculptor_->let_go();

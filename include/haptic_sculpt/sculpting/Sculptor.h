@@ -177,7 +177,7 @@ public:
   /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one that is
   /// given again. Done where the surface stays embedded, and the delta rule kept, at every time of the motion, and no probe is
   /// met; decided exactly, whatever the traits (doc/axis_moves.md). Else refused, with the vertices of a place that is in the way, and nothing has
-  /// changed. One change of the history; the visitor is told of the moves when all stand. \param axis 0, 1 or 2
+  /// changed. One change of the history; the visitor hears of the moves when all stand. \param axis 0, 1 or 2
   /// \post Nothing has died. \throw Unknown_vertex, Out_of_range. Cost: n log n in what moves and is near
   Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
     return internal::shift_all(guarded_, axis, ways);

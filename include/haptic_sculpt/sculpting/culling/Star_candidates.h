@@ -160,7 +160,7 @@ private:
   Star_runs<Mesh>* runs_;
   Work* work_;
   Fetch fetch_;
-  Box_scale scale_; ///< of the boxes by which faces are told to be near
+  Box_scale scale_; ///< of the boxes by which faces count as near
   Star<Mesh> star_;
   Candidate_list<Mesh> list_;
   Near_pairs<Mesh> pairs_;
