@@ -4,7 +4,7 @@
 
 #include "meshes/generated_meshes.h"
 
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/star.h>
 
 namespace haptic_sculpt::benchmark {

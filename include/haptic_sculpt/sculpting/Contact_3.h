@@ -2,8 +2,8 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_CONTACT_3_H
 #define HAPTIC_SCULPT_SCULPTING_CONTACT_3_H
 
-#include <haptic_sculpt/sculpting/contact/contact_plane.h>
 #include <haptic_sculpt/sculpting/Star_impact.h>
+#include <haptic_sculpt/sculpting/geometry/contact_plane.h>
 
 namespace haptic_sculpt {
 

@@ -5,7 +5,7 @@
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
-#include <haptic_sculpt/sculpting/motion/Guarded_mesh.h>
+#include <haptic_sculpt/sculpting/guarded_mesh/Guarded_mesh.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 
 #include <CGAL/Surface_mesh.h>

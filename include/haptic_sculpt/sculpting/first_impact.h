@@ -7,6 +7,7 @@
 #include <haptic_sculpt/sculpting/motion/Narrow_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 

@@ -3,8 +3,9 @@
 #define HAPTIC_SCULPT_SCULPTING_GUARDED_POINT_MAP_H
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
+#include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
-#include <haptic_sculpt/sculpting/motion/stop.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <boost/property_map/property_map.hpp>
 

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/many_vertices/Vertices_mover.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <CGAL/Iterator_range.h>
 #include <CGAL/iterator.h>

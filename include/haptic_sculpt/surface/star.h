@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SURFACE_STAR_H
 
 #include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_TEST_DRAWN_STARS_H
 #define HAPTIC_SCULPT_TEST_DRAWN_STARS_H
 
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 #include <cmath>
 #include <random>

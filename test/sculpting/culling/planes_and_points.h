@@ -6,7 +6,7 @@
 #include "sculpting/culling/drawn_stars.h"
 
 #include <haptic_sculpt/sculpting/culling/Outcodes.h>
-#include <haptic_sculpt/sculpting/motion/Star_motion.h>
+#include <haptic_sculpt/sculpting/geometry/Star_motion.h>
 
 #include <cfenv>
 

@@ -9,6 +9,7 @@
 #include <haptic_sculpt/sculpting/axis_moves/axis_delta.h>
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/broad_phase/spatial_order.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_AXIS_WAYS_H
 
 #include <haptic_sculpt/sculpting/axis_moves/Axis_move.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

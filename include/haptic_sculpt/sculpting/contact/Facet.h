@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_SCULPTING_FACET_H
 
 #include <haptic_sculpt/sculpting/Contact_3.h>
-#include <haptic_sculpt/sculpting/contact/clearance.h>
-#include <haptic_sculpt/sculpting/motion/delta_limit.h>
+#include <haptic_sculpt/sculpting/geometry/clearance.h>
+#include <haptic_sculpt/sculpting/geometry/delta_limit.h>
 
 namespace haptic_sculpt {
 namespace internal {

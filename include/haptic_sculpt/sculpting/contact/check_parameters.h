@@ -4,13 +4,13 @@
 
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
-#include <haptic_sculpt/sculpting/contact/clearance.h>
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
-#include <haptic_sculpt/sculpting/response/Slide_lengths.h>
+#include <haptic_sculpt/sculpting/geometry/Slide_lengths.h>
+#include <haptic_sculpt/sculpting/geometry/clearance.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/validate.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

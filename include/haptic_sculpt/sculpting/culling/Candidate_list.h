@@ -5,6 +5,7 @@
 #include <haptic_sculpt/sculpting/culling/Distinct_pairs.h>
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
 

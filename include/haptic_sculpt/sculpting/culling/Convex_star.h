@@ -2,8 +2,9 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_CONVEX_STAR_H
 #define HAPTIC_SCULPT_SCULPTING_CONVEX_STAR_H
 
-#include <haptic_sculpt/sculpting/culling/separation.h>
+#include <haptic_sculpt/sculpting/geometry/separation.h>
 #include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

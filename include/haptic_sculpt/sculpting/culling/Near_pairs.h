@@ -2,9 +2,9 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_NEAR_PAIRS_H
 #define HAPTIC_SCULPT_SCULPTING_NEAR_PAIRS_H
 
-#include <haptic_sculpt/sculpting/culling/Star_runs.h>
-#include <haptic_sculpt/sculpting/culling/separation.h>
 #include <haptic_sculpt/sculpting/Star_impact.h>
+#include <haptic_sculpt/sculpting/culling/Star_runs.h>
+#include <haptic_sculpt/sculpting/geometry/separation.h>
 
 namespace haptic_sculpt {
 namespace internal {

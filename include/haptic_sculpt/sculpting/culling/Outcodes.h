@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_OUTCODES_H
 #define HAPTIC_SCULPT_SCULPTING_OUTCODES_H
 
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 
 #include <cstdint>

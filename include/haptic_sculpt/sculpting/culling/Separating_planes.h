@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_SEPARATING_PLANES_H
 
 #include <haptic_sculpt/sculpting/culling/Outcodes.h>
-#include <haptic_sculpt/sculpting/culling/separation.h>
+#include <haptic_sculpt/sculpting/geometry/separation.h>
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 
 #include <cstdint>

@@ -4,11 +4,12 @@
 
 #include <haptic_sculpt/sculpting/culling/Convex_star.h>
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
-#include <haptic_sculpt/sculpting/motion/Work.h>
-#include <haptic_sculpt/sculpting/motion/stop.h>
+#include <haptic_sculpt/sculpting/geometry/Work.h>
+#include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 #include <haptic_sculpt/surface/broad_phase/fetch_ahead.h>
 #include <haptic_sculpt/surface/broad_phase/query_up_to.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

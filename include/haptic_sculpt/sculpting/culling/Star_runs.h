@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_STAR_RUNS_H
 
 #include <haptic_sculpt/sculpting/culling/Star_run.h>
-#include <haptic_sculpt/sculpting/motion/Star_motion.h>
+#include <haptic_sculpt/sculpting/geometry/Star_motion.h>
 
 namespace haptic_sculpt {
 namespace internal {

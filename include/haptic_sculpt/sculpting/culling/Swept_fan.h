@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_SWEPT_FAN_H
 
 #include <haptic_sculpt/sculpting/culling/Outcodes.h>
-#include <haptic_sculpt/sculpting/culling/separation.h>
+#include <haptic_sculpt/sculpting/geometry/separation.h>
 
 #include <cstddef>
 #include <vector>

@@ -11,6 +11,7 @@
 #include <haptic_sculpt/sculpting/edits/faces_around.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
 #include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <type_traits>
 

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/edits/Edit_proof.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

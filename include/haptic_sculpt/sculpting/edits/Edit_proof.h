@@ -5,6 +5,7 @@
 #include <haptic_sculpt/collision.h>
 #include <haptic_sculpt/sculpting/culling/Star_runs.h>
 #include <haptic_sculpt/surface/delta_rule.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <CGAL/Kernel_traits.h>
 

@@ -11,6 +11,7 @@
 #include <haptic_sculpt/sculpting/edits/Pivot_order.h>
 #include <haptic_sculpt/sculpting/edits/Placement_proof.h>
 #include <haptic_sculpt/sculpting/edits/Restoration_proof.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

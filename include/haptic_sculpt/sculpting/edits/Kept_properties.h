@@ -4,7 +4,8 @@
 
 #include <haptic_sculpt/sculpting/edits/Kept_map.h>
 #include <haptic_sculpt/sculpting/edits/Lineage_teller.h>
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <memory>
 

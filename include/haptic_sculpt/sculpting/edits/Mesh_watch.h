@@ -6,6 +6,7 @@
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/broad_phase/prefetch.h>
 #include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_PIVOT_ORDER_H
 #define HAPTIC_SCULPT_SCULPTING_PIVOT_ORDER_H
 
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/star.h>
 
 #include <algorithm>

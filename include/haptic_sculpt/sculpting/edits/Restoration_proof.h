@@ -10,6 +10,7 @@
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 #include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <unordered_map>
 

@@ -8,8 +8,8 @@
 #include <haptic_sculpt/sculpting/finding/compare_distances.h>
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
 #include <haptic_sculpt/surface/broad_phase/nearest_first.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <optional>
 

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_COMPARE_DISTANCES_H
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 namespace haptic_sculpt {
 namespace internal {

@@ -2,11 +2,11 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_FIND_FACE_WITHIN_H
 #define HAPTIC_SCULPT_SCULPTING_FIND_FACE_WITHIN_H
 
-#include <haptic_sculpt/sculpting/contact/clearance.h>
-#include <haptic_sculpt/sculpting/contact/is_within_distance.h>
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/clearance.h>
+#include <haptic_sculpt/sculpting/geometry/is_within_distance.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
 #include <vector>

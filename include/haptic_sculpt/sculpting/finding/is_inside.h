@@ -4,7 +4,7 @@
 
 #include <haptic_sculpt/collision/arithmetic/orientation_filter.h>
 #include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <vector>
 

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/sculpting/Move_report.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
 #include <haptic_sculpt/sculpting/many_vertices/leading_order.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

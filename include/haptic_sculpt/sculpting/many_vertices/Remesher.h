@@ -2,11 +2,11 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_REMESHER_H
 #define HAPTIC_SCULPT_SCULPTING_REMESHER_H
 
+#include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/many_vertices/Edge_collapser.h>
 #include <haptic_sculpt/sculpting/many_vertices/Edge_splitter.h>
 #include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/sculpting/many_vertices/projections.h>
-#include <haptic_sculpt/sculpting/motion/stop.h>
 
 #include <cstdlib>
 

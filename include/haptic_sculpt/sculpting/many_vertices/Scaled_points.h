@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_SCULPTING_SCALED_POINTS_H
 
 #include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
 #include <haptic_sculpt/surface/star.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

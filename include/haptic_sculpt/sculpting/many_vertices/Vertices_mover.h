@@ -2,11 +2,12 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
 #define HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
 
+#include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/many_vertices/Axis_walk.h>
 #include <haptic_sculpt/sculpting/many_vertices/Drag_budget.h>
 #include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/sculpting/many_vertices/leading_order.h>
-#include <haptic_sculpt/sculpting/motion/stop.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

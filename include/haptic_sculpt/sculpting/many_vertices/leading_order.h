@@ -2,9 +2,10 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_LEADING_ORDER_H
 #define HAPTIC_SCULPT_SCULPTING_LEADING_ORDER_H
 
-#include <haptic_sculpt/sculpting/culling/separation.h>
-#include <haptic_sculpt/sculpting/motion/stop.h>
+#include <haptic_sculpt/sculpting/geometry/separation.h>
+#include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/surface/broad_phase/spatial_order.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <array>
 #include <optional>

@@ -5,7 +5,7 @@
 /// \file
 /// What makes a triangle worth having, in rounded numbers: nothing here proves anything.
 
-#include <haptic_sculpt/sculpting/culling/separation.h>
+#include <haptic_sculpt/sculpting/geometry/separation.h>
 
 namespace haptic_sculpt {
 namespace internal {

@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_SCULPTING_DELTA_LIMITS_H
 
 #include <haptic_sculpt/sculpting/Contact_3.h>
-#include <haptic_sculpt/sculpting/motion/delta_limit.h>
-#include <haptic_sculpt/sculpting/motion/stop.h>
+#include <haptic_sculpt/sculpting/geometry/delta_limit.h>
+#include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/surface/star.h>
 
 namespace haptic_sculpt {

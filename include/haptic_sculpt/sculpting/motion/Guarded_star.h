@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_SCULPTING_GUARDED_STAR_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
-#include <haptic_sculpt/sculpting/contact/clearance.h>
 #include <haptic_sculpt/sculpting/culling/Star_candidates.h>
+#include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/motion/Delta_limits.h>
 #include <haptic_sculpt/sculpting/motion/Narrow_phase.h>
 #include <haptic_sculpt/surface/coordinate_range.h>

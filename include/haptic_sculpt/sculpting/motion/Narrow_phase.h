@@ -2,9 +2,9 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
 #define HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
 
-#include <haptic_sculpt/sculpting/culling/Near_pairs.h>
 #include <haptic_sculpt/sculpting/Star_impact.h>
-#include <haptic_sculpt/sculpting/motion/Work.h>
+#include <haptic_sculpt/sculpting/culling/Near_pairs.h>
+#include <haptic_sculpt/sculpting/geometry/Work.h>
 
 namespace haptic_sculpt {
 namespace internal {

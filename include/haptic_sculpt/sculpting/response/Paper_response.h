@@ -3,10 +3,10 @@
 #define HAPTIC_SCULPT_SCULPTING_PAPER_RESPONSE_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
-#include <haptic_sculpt/sculpting/contact/clearance.h>
+#include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
 #include <haptic_sculpt/sculpting/response/is_farther.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
 #include <optional>

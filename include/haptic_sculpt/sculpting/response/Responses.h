@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_RESPONSES_H
 #define HAPTIC_SCULPT_SCULPTING_RESPONSES_H
 
-#include <haptic_sculpt/sculpting/contact/clearance.h>
+#include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/response/Paper_response.h>
 #include <haptic_sculpt/sculpting/response/Slide_response.h>
 #include <haptic_sculpt/sculpting/response/kkt_residual.h>

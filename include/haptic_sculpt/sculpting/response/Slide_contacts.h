@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_SCULPTING_SLIDE_CONTACTS_H
 
 #include <haptic_sculpt/sculpting/contact/Facet.h>
-#include <haptic_sculpt/sculpting/motion/stop.h>
-#include <haptic_sculpt/sculpting/response/Slide_lengths.h>
+#include <haptic_sculpt/sculpting/geometry/Slide_lengths.h>
+#include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/response/nearest_permitted.h>
 
 #include <boost/container/static_vector.hpp>

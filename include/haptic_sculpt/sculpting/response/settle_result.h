@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_SETTLE_RESULT_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 namespace haptic_sculpt {
 namespace internal {

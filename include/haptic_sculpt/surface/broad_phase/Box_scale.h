@@ -2,8 +2,8 @@
 #ifndef HAPTIC_SCULPT_SURFACE_BOX_SCALE_H
 #define HAPTIC_SCULPT_SURFACE_BOX_SCALE_H
 
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
 #include <haptic_sculpt/surface/broad_phase/outward_float.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
 #include <cmath>

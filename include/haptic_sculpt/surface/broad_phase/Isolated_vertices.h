@@ -4,7 +4,7 @@
 
 #include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 #include <haptic_sculpt/surface/broad_phase/Growing_box_tree.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

@@ -3,15 +3,9 @@
 #define HAPTIC_SCULPT_SURFACE_FACE_BOX_H
 
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
-
-/// The coordinates of a vertex. \pre the mesh's points have double coordinates.
-template <class Mesh>
-std::array<double, 3> vertex_coordinates(const Mesh& mesh, typename Mesh::Vertex_index v) {
-  const auto& p = mesh.point(v);
-  return {p.x(), p.y(), p.z()};
-}
 
 /// The smallest box around a triangle. \pre f is a triangle.
 template <class Mesh>

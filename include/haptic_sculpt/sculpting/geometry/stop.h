@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_STOP_H
 #define HAPTIC_SCULPT_SCULPTING_STOP_H
 
-#include <haptic_sculpt/sculpting/contact/contact_plane.h>
+#include <haptic_sculpt/sculpting/geometry/contact_plane.h>
 
 namespace haptic_sculpt {
 namespace internal {

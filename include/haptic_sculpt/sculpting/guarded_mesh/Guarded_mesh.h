@@ -9,7 +9,8 @@
 #include <haptic_sculpt/sculpting/finding/Surface_finder.h>
 #include <haptic_sculpt/sculpting/finding/find_face_within.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
-#include <haptic_sculpt/sculpting/motion/Hand.h>
+#include <haptic_sculpt/sculpting/guarded_mesh/Hand.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
 namespace internal {

@@ -10,7 +10,7 @@
 /// Sums of products are rounded as they come: std::fma() and std::fmax() are calls where the processor at hand is not
 /// asked for.
 
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 #include <array>
 #include <limits>

@@ -11,7 +11,7 @@
 /// than it is there: then q(u) = |n(u)|^2 L(0)^2 - |n(0)|^2 L(u)^2. See doc/stop.md, "The delta rule".
 
 #include <haptic_sculpt/collision/Impact_3.h>
-#include <haptic_sculpt/sculpting/motion/vector_3.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Root_of_traits.h>

@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only.
+
+A folder and the one around it may include each other: public names stand at a module's root, what serves them stands below.
+Between all other folders the includes form no cycle. Exit code 1 names each folder of a cycle, with the includes that close it.
+"""
+import pathlib
+import re
+import sys
+
+INCLUDE = re.compile(r"#include <haptic_sculpt/([^>]+)>")
+
+
+def includes_between_folders(root):
+    """{(folder, folder included): ["header -> header", ...]}, without pairs of which one holds the other."""
+    found = {}
+    for header in sorted(root.rglob("*.h")):
+        folder = header.parent.relative_to(root)
+        for name in INCLUDE.findall(header.read_text()):
+            target = pathlib.PurePosixPath(name)
+            if not (root / target).is_file():
+                raise SystemExit(f"{header}: there is no <haptic_sculpt/{name}>")
+            other = pathlib.Path(target.parent)
+            if other != folder and other not in folder.parents and folder not in other.parents:
+                found.setdefault((folder, other), []).append(f"{header.relative_to(root)} -> {name}")
+    return found
+
+
+def cycle_among(edges):
+    """The edges that are left when folders that nobody includes, or that include nobody, are taken away again and again."""
+    left = set(edges)
+    while True:
+        sources, targets = {a for a, _ in left}, {b for _, b in left}
+        kept = {(a, b) for a, b in left if a in targets and b in sources}
+        if kept == left:
+            return left
+        left = kept
+
+
+def main(source):
+    edges = includes_between_folders(pathlib.Path(source) / "include" / "haptic_sculpt")
+    if not edges:
+        raise SystemExit(f"{source}: no headers found")
+    cycle = cycle_among(edges)
+    for a, b in sorted(cycle):
+        print(f"{a} includes {b}:", *edges[a, b][:4], sep="\n  ")
+    print(f"{len(edges)} pairs of folders, {len(cycle)} of them in a cycle")
+    return 1 if cycle else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
