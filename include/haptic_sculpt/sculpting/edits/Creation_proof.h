@@ -91,7 +91,7 @@ private:
         apex = i, shortest = length;
     }
     const std::array<Coordinates, 2> edge = {old[(apex + 1) % 3].point, old[(apex + 2) % 3].point};
-    broad_phase_->query(Swept_star_3{old[apex].point, p, edge.data(), edge.size()}, candidates_);
+    broad_phase_->query_star(Swept_star_3{old[apex].point, p, edge.data(), edge.size()}, candidates_);
   }
 
   Refused refuse_what_is_near(const Old_halfedges& old_halfedges, const Coordinates& p) {
