@@ -3,8 +3,8 @@
 #include "meshes/generated_meshes.h"
 #include "sculpting/Random_scene.h"
 
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 
 #include <boost/test/unit_test.hpp>
 

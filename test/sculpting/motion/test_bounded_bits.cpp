@@ -4,8 +4,8 @@
 #include "sculpting/many_vertices/many_vertices_scene.h"
 #include "sculpting/motion/same_bits.h"
 
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_SIX_LIST_BROAD_PHASE_H
-#define HAPTIC_SCULPT_SURFACE_SIX_LIST_BROAD_PHASE_H
+#ifndef HAPTIC_SCULPT_SCULPTING_SIX_LIST_BROAD_PHASE_H
+#define HAPTIC_SCULPT_SCULPTING_SIX_LIST_BROAD_PHASE_H
 
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/make_room.h>
