@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a drag costs: against the size of the mesh, the valence, and what others do. See doc/performance.md.
+#include "Shard.h"
 #include "drag_performance/run_structures.h"
 
 #include <CLI/CLI.hpp>
@@ -65,13 +66,16 @@ Json fits_of_valences(const Json& rows) {
   return fits;
 }
 
-/// Runs one part and prints what it has found.
+/// Runs one part, a unit of a share, and prints what it has found.
 template <class Run>
-void run(Json& rows, const Run& part) {
-  const std::size_t before = rows.size();
-  part();
-  for (std::size_t i = before; i < rows.size(); ++i)
+void run(Shard& shard, Json& rows, const Run& part) {
+  const std::size_t before = rows.size(), unit = shard.next_unit();
+  if (shard.takes_next())
+    part();
+  for (std::size_t i = before; i < rows.size(); ++i) {
     print(rows[i]);
+    rows[i]["unit"] = unit;
+  }
 }
 
 } // namespace
@@ -95,6 +99,8 @@ int main(int argument_count, char** arguments) {
   app.add_option("--core", core, "the core to stay on; -1: any");
   app.add_option("--parts", parts, "t: the box tree; f: finding and placing; p: its phases; m: memory, the floor of a new vertex; o: other broad phases; v: valence; n: end states by CGAL");
   app.add_flag("--quick", quick, "small meshes and few drags: shows that everything runs");
+  Shard shard;
+  shard.add_option(app, "part and size");
   CLI11_PARSE(app, argument_count, arguments);
   if (quick) {
     sizes = {1000, 10000};
@@ -107,25 +113,25 @@ int main(int argument_count, char** arguments) {
   Json rows = Json::array(), phases = Json::array();
   for (const std::size_t triangles : sizes) {
     if (wanted('t'))
-      run(rows, [&] { run_box_tree(rows, triangles, effort); });
+      run(shard, rows, [&] { run_box_tree(rows, triangles, effort); });
     if (wanted('f'))
-      run(rows, [&] { run_finding(rows, triangles, effort); });
+      run(shard, rows, [&] { run_finding(rows, triangles, effort); });
     if (wanted('p') && triangles <= largest_peer)
-      run(phases, [&] { run_phases(phases, triangles, effort); });
+      run(shard, phases, [&] { run_phases(phases, triangles, effort); });
     if (triangles > largest_peer)
       continue;
     if (wanted('m'))
-      run(rows, [&] { run_memory(rows, triangles, effort); });
+      run(shard, rows, [&] { run_memory(rows, triangles, effort); });
     if (wanted('o')) {
-      run(rows, [&] { run_brute_force(rows, triangles, effort); });
-      run(rows, [&] { run_six_lists(rows, triangles, effort); });
-      run(rows, [&] { run_rtree(rows, triangles, effort); });
+      run(shard, rows, [&] { run_brute_force(rows, triangles, effort); });
+      run(shard, rows, [&] { run_six_lists(rows, triangles, effort); });
+      run(shard, rows, [&] { run_rtree(rows, triangles, effort); });
     }
     if (wanted('n'))
-      run(rows, [&] { run_end_states(rows, triangles, effort); });
+      run(shard, rows, [&] { run_end_states(rows, triangles, effort); });
   }
   if (wanted('v'))
-    run(rows, [&] { run_valences(rows, valences, effort); });
+    run(shard, rows, [&] { run_valences(rows, valences, effort); });
   const Json fits = fits_of_valences(rows);
   for (const Json& fit : fits)
     std::cout << fit.dump() << '\n';
@@ -133,6 +139,7 @@ int main(int argument_count, char** arguments) {
     return 0;
   std::ofstream file(path);
   file << Json{{"seed", effort.seed},
+               {"shard", shard.text()},
                {"pinned_to_core", is_pinned ? Json(core) : Json(nullptr)},
                {"timer_resolution_ns", timer().resolution()},
                {"timer_overhead_ns", timer().overhead()},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time of each edit, its undo and redo, against the size of the mesh and against the valence; memory of a step that can be undone.
 #include "Query_timer.h"
+#include "Shard.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/sculpting.h>
@@ -29,6 +30,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::size_t samples = 2000, largest = 2000000, largest_valence = 1024;
   bool reserve = false;
+  benchmark::Shard shard;
 };
 
 /// Times in nanoseconds of one kind of edit.
@@ -152,11 +154,14 @@ Json row(const char* name, const Times& times) {
   return result;
 }
 
-Json against_size(const Options& options, const Query_timer& timer) {
+Json against_size(Options& options, const Query_timer& timer) {
   Json sizes = Json::array();
   for (int level = 3; level < 10; ++level) {
     if (20 * (std::size_t{1} << 2 * level) > options.largest)
       break;
+    const std::size_t unit = options.shard.next_unit();
+    if (!options.shard.takes_next())
+      continue;
     const Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.02 / (1 << level)));
     std::printf("%zu triangles\n", static_cast<std::size_t>(mesh.number_of_faces()));
     Bench bench(mesh, timer, options);
@@ -170,14 +175,17 @@ Json against_size(const Options& options, const Query_timer& timer) {
     rows.push_back(row("collapse", run([&] { return bench.collapse(m.halfedge(bench.any<Mesh::Edge_index>(m.num_edges()))); })));
     rows.push_back(row("flip", run([&] { return bench.flip(bench.any<Mesh::Edge_index>(m.num_edges())); })));
     rows.push_back(row("drag", run([&] { return bench.drag(bench.any<Vertex_index>(m.num_vertices())); })));
-    sizes.push_back({{"triangles", mesh.number_of_faces()}, {"edits", rows}});
+    sizes.push_back({{"unit", unit}, {"triangles", mesh.number_of_faces()}, {"edits", rows}});
   }
   return sizes;
 }
 
-Json against_valence(const Options& options, const Query_timer& timer) {
+Json against_valence(Options& options, const Query_timer& timer) {
   Json valences = Json::array();
   for (std::size_t valence = 4; valence <= options.largest_valence; valence *= 4) {
+    const std::size_t unit = options.shard.next_unit();
+    if (!options.shard.takes_next())
+      continue;
     std::printf("valence %zu\n", valence);
     Bench bench(meshes::to_mesh(meshes::bipyramid(valence)), timer, options);
     const std::size_t samples = std::max<std::size_t>(5, std::min<std::size_t>(options.samples, 20000 / valence));
@@ -193,7 +201,7 @@ Json against_valence(const Options& options, const Query_timer& timer) {
     rows.push_back(row("remove", run([&] { return bench.remove(apex()); })));
     rows.push_back(row("flip", run([&] { return bench.flip(bench.mesh().edge(bench.mesh().halfedge(apex()))); })));
     rows.push_back(row("drag", run([&] { return bench.drag(apex()); })));
-    valences.push_back({{"valence", valence}, {"edits", rows}});
+    valences.push_back({{"unit", unit}, {"valence", valence}, {"edits", rows}});
   }
   return valences;
 }
@@ -210,13 +218,14 @@ int main(int argc, char** argv) {
   app.add_option("--largest", options.largest, "No mesh of more triangles")->capture_default_str();
   app.add_option("--largest-valence", options.largest_valence, "No higher valence")->capture_default_str();
   app.add_flag("--reserve", options.reserve, "Reserve room in the mesh first, so that its arrays need not be copied when they are full");
+  options.shard.add_option(app, "size or valence");
   CLI11_PARSE(app, argc, argv);
   try {
     const Query_timer timer;
     std::printf("  %-15s %9s %9s %9s | %9s %9s | %9s %9s | bytes\n", "edit", "p50 ns", "p99", "max", "undo p50", "p99", "redo p50", "p99");
     const Json sizes = against_size(options, timer), valences = against_valence(options, timer);
     if (!options.json.empty())
-      replace_file(options.json, Json{{"seed", options.seed}, {"samples", options.samples}, {"clock_step_ns", timer.resolution()},
+      replace_file(options.json, Json{{"seed", options.seed}, {"shard", options.shard.text()}, {"samples", options.samples}, {"clock_step_ns", timer.resolution()},
                                       {"sizes", sizes}, {"valences", valences}}.dump(1) + '\n');
   } catch (const Error& error) {
     std::cerr << "edit_performance: " << error.what() << '\n';

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CPU time of single drags when a hand moves a probe, or a grabbed vertex, fast over a fine mesh: with and without a bound on
 // the work of a drag, and how far the bounded drag is then from the unbounded one.
+#include "Shard.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/sculpting.h>
@@ -208,13 +209,22 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Where the hand begins")->capture_default_str();
   app.add_option("--runs", options.runs, "Of the same drags; each has its least time")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--json", options.json, "Write the report here");
+  benchmark::Shard shard;
+  shard.add_option(app, "kind of drags");
   CLI11_PARSE(app, argc, argv);
   meshes::Triangle_list list = meshes::bumpy_sphere(options.level, 0.05);
   const Mesh mesh = meshes::to_mesh(list.scale_and_move(options.radius, 0, 0, 0));
   Json report = {{"triangles", mesh.number_of_faces()}, {"speed_mm_s", options.speed}, {"rate_hz", options.rate}, {"seed", options.seed}, {"runs", options.runs}, {"rows", Json::array()}};
-  report["rows"].push_back(run(mesh, options, "probe", -options.depth));
-  report["rows"].push_back(run(mesh, options, "vertex inwards", -options.depth));
-  report["rows"].push_back(run(mesh, options, "vertex outwards", options.depth));
+  report["shard"] = shard.text();
+  report["rows"] = Json::array();
+  for (const auto& [what, height] : {std::pair("probe", -options.depth), std::pair("vertex inwards", -options.depth),
+                                     std::pair("vertex outwards", options.depth)}) {
+    const std::size_t unit = shard.next_unit();
+    if (!shard.takes_next())
+      continue;
+    report["rows"].push_back(run(mesh, options, what, height));
+    report["rows"].back()["unit"] = unit;
+  }
   if (!options.json.empty() && !(std::ofstream(options.json) << report.dump(2) << '\n')) {
     std::fprintf(stderr, "hand_drags: cannot write %s\n", options.json.c_str());
     return EXIT_FAILURE;

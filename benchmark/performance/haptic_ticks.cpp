@@ -2,6 +2,7 @@
 // CPU time of whole ticks of the haptic loop, from joint angles to torques, when a hand goes fast over a fine mesh, a
 // little deep in it: with the probe, with a vertex that it grabs or creates, letting go and removing. Counts
 // allocations, too.
+#include "Shard.h"
 #include "meshes/generated_meshes.h"
 
 #include "../examples/count_allocations.h"
@@ -178,12 +179,16 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--no-allocations", options.refuses_allocations, "End with an error where a tick has allocated");
   app.add_option("--json", options.json, "Write the report here");
+  benchmark::Shard shard;
+  shard.add_option(app, "run; there is one, of one hand");
   CLI11_PARSE(app, argc, argv);
   try {
     std::vector<std::uint64_t> least(options.ticks, std::numeric_limits<std::uint64_t>::max());
     Json report;
-    for (std::size_t k = 0; k < options.runs; ++k)
-      report = run(options, least);
+    if (shard.takes_next())
+      for (std::size_t k = 0; k < options.runs; ++k)
+        report = run(options, least);
+    report["shard"] = shard.text();
     std::cout << report.dump(2) << '\n';
     if (!options.json.empty() && !(std::ofstream(options.json) << report.dump(2) << '\n'))
       throw Error("cannot write " + options.json);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The same hand drags with each response: how far from the target it ends, how often at a local minimum, how long it takes.
 #include "Long_sculpting.h"
+#include "Promises.h"
+#include "Shard.h"
 
 #include "sculpting/clearances.h"
 #include "sculpting/response/convex_scenes.h"
@@ -24,6 +26,9 @@ using Json = nlohmann::ordered_json;
 
 enum Exit { all_kept = 0, usage = 2, not_embedded = 10, no_minimum = 11, contradiction = 12 };
 
+using benchmark::Promises;
+using benchmark::Shard;
+
 /// One scene, response and clearance.
 struct Row {
   std::size_t drags = 0, held = 0, judged = 0, at_minimum = 0, legs = 0, most_legs = 0;
@@ -42,10 +47,17 @@ constexpr std::array<Response, 3> responses = {Response::slide, Response::stop, 
 
 class Chart {
 public:
-  explicit Chart(std::uint64_t seed) : random_(seed) {}
+  Chart(std::uint64_t seed, Shard& shard) : seed_(seed), shard_(shard) {}
 
   /// The same targets for each response, one grab from where the scene begins.
   void add(const Subject& subject, const std::vector<Point_3>& targets) {
+    if (units_.count(subject.name) == 0) {
+      const std::size_t unit = shard_.next_unit();
+      units_[subject.name] = {unit, shard_.takes_next(), Random(seed_ * 1000003 + unit)};
+    }
+    auto& [unit, is_ours, random] = units_[subject.name];
+    if (!is_ours)
+      return;
     for (const Response response : responses) {
       Mesh mesh = subject.mesh;
       Sculptor<Mesh> sculptor(mesh, parameters::response(response));
@@ -63,15 +75,17 @@ public:
         row.legs += static_cast<std::size_t>(r.legs);
         row.most_legs = std::max(row.most_legs, static_cast<std::size_t>(r.legs));
         row.left += std::sqrt(CGAL::squared_distance(r.position, target)) / subject.size;
-        const auto check = test::check_local_minimum(around, mesh, r, target, test::clearance_kept(sculptor, r), random_);
+        const auto check = test::check_local_minimum(around, mesh, r, target, test::clearance_kept(sculptor, r), random);
         ++row.judged;
         row.at_minimum += !check.asked || (check.random_gain <= 0 && check.directed_gain <= 0);
       }
+      ++validations_;
       invalid_ += !validate(mesh).is_valid();
     }
   }
 
   std::size_t invalid() const { return invalid_; }
+  std::size_t validations() const { return validations_; }
 
   Json json() const {
     Json all = Json::array();
@@ -84,7 +98,8 @@ public:
         double sum = 0;
         for (const double t : sorted)
           sum += t;
-        all.push_back({{"scene", name},
+        all.push_back({{"unit", units_.at(name).number},
+                       {"scene", name},
                        {"response", name_of(response)},
                        {"drags", row.drags},
                        {"held", row.held},
@@ -100,10 +115,19 @@ public:
   }
 
 private:
-  Random random_;
+  /// One scene: all its drags, which draw from a seed of their own.
+  struct Unit {
+    std::size_t number = 0;
+    bool is_ours = false;
+    Random random;
+  };
+
+  std::uint64_t seed_;
+  Shard& shard_;
+  std::map<std::string, Unit> units_;
   std::vector<std::string> order_;
   std::map<std::string, std::map<Response, Row>> rows_;
-  std::size_t invalid_ = 0;
+  std::size_t invalid_ = 0, validations_ = 0;
 };
 
 /// Larger objects are dragged as robustness does; this is the response, not the mesh.
@@ -145,9 +169,10 @@ struct Options {
   std::string folder, json;
   std::size_t drags = 200, sculpt = 0, check_every = 100, largest = 200000;
   std::uint64_t seed = 1;
+  Shard shard;
 };
 
-Exit run(const Options& options) {
+int run(Options& options) {
   Random random(options.seed);
   std::vector<std::pair<std::string, Mesh>> files;
   if (!options.folder.empty()) {
@@ -165,10 +190,10 @@ Exit run(const Options& options) {
         std::cout << path.filename().string() << " is refused\n";
       }
   }
-  Json report = {{"seed", options.seed}, {"drags_per_scene", options.drags}};
-  Exit exit = all_kept;
+  Json report = {{"seed", options.seed}, {"shard", options.shard.text()}, {"drags_per_scene", options.drags}};
+  std::size_t validations = 0, invalid = 0, drags = 0, contradictions = 0, minima = 0, missed = 0;
   if (options.drags > 0) {
-    Chart chart(options.seed + 1);
+    Chart chart(options.seed + 1, options.shard);
     chart_scenes(chart, options.drags, random);
     for (const auto& [name, mesh] : files)
       chart_mesh(chart, name, mesh, options.drags, random);
@@ -177,31 +202,36 @@ Exit run(const Options& options) {
       std::cout << row["scene"].get<std::string>() << ", " << row["response"].get<std::string>() << ": left "
                 << row["mean_distance_left"] << ", at a minimum " << row["share_at_minimum"] << ", legs " << row["mean_legs"] << " (most "
                 << row["most_legs"] << "), " << row["mean_ns"] << " ns\n";
-    if (chart.invalid() > 0)
-      exit = not_embedded;
+    validations += chart.validations(), invalid += chart.invalid();
   }
   if (options.sculpt > 0) {
     Json rows = Json::array();
     for (const auto& [name, mesh] : files) {
+      const std::size_t unit = options.shard.next_unit();
+      if (!options.shard.takes_next())
+        continue;
       const std::size_t validate_every = std::max<std::size_t>(100, mesh.number_of_faces() / 10);
       const auto tally = benchmark::Long_sculpting(mesh, options.seed).run(options.sculpt, validate_every, options.check_every);
-      Json row = {{"mesh", name}, {"faces", mesh.number_of_faces()}};
+      Json row = {{"unit", unit}, {"mesh", name}, {"faces", mesh.number_of_faces()}};
       row.update(tally.json());
       rows.push_back(row);
       std::cout << row.dump() << '\n' << std::flush;
-      if (tally.invalid + tally.legs_crossing + tally.ways_unproven > 0)
-        exit = not_embedded;
-      else if (tally.contradictions > 0 && exit == all_kept)
-        exit = contradiction;
-      else if (1000 * tally.minima_missed > tally.minima_asked && exit == all_kept)
-        exit = no_minimum;
+      validations += tally.validations + tally.legs_checked;
+      invalid += tally.invalid + tally.legs_crossing + tally.ways_unproven;
+      drags += tally.drags, contradictions += tally.contradictions;
+      minima += tally.minima_asked, missed += tally.minima_missed;
     }
     report["sculpting"] = rows;
   }
-  report["exit"] = static_cast<int>(exit);
+  Promises promises;
+  promises.add(not_embedded, "every mesh is embedded and no leg crosses anything", validations, invalid);
+  promises.add(contradiction, "no result contradicts itself", drags, contradictions);
+  promises.add(no_minimum, "a slide ends at a local minimum", minima, missed, 1e-3);
+  report["promises"] = promises.json();
+  report["exit"] = promises.exit();
   if (!options.json.empty())
     replace_file(options.json, report.dump(1) + '\n');
-  return exit;
+  return promises.exit();
 }
 
 } // namespace
@@ -218,6 +248,7 @@ int main(int argc, char** argv) {
   app.add_option("--check-every", options.check_every, "Drags of --sculpt between two checks of a local minimum")->capture_default_str();
   app.add_option("--largest", options.largest, "Leaves out meshes with more faces")->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
+  options.shard.add_option(app, "scene or mesh");
   app.add_option("--json", options.json, "Where the report goes");
   try {
     app.parse(argc, argv);

@@ -2,6 +2,7 @@
 // Time against error of the sweeps, for many arithmetics and populations, judged by the rational oracle.
 #include "Mpfr_number.h"
 #include "Query_timer.h"
+#include "Shard.h"
 #include "cgal_sweep.h"
 #include "determinant_sweep.h"
 #include "oracle/sweep_oracle.h"
@@ -175,6 +176,20 @@ std::vector<Judged_query> judged_queries(const test::Sweep_population& populatio
   return queries;
 }
 
+/// For other programs: a line for each query, and what the oracle says.
+void write(const std::vector<Judged_query>& queries, std::ostream& asked, std::ostream& truth) {
+  for (const Judged_query& q : queries) {
+    asked << (q.query.kind == test::Sweep_kind::vertex_face ? "VF" : q.query.kind == test::Sweep_kind::edge_edge ? "EE" : "FV") << std::hexfloat;
+    for (const double x : q.query.x)
+      asked << ' ' << x;
+    asked << '\n';
+    if (q.time)
+      truth << "1 " << q.time->get_num() << '/' << q.time->get_den() << '\n';
+    else
+      truth << "0\n";
+  }
+}
+
 nlohmann::json as_json(const Result& result) {
   nlohmann::json json{{"name", result.name},     {"mean_ns", result.mean},
                       {"median_ns", result.median}, {"p99_ns", result.p99},
@@ -193,10 +208,15 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   std::size_t count = 5000;
   std::vector<std::string> chosen;
+  std::string folder;
   app.add_option("--json", file, "Write all figures to this file");
   app.add_option("--seed", seed, "Seed of the populations")->capture_default_str();
   app.add_option("--queries", count, "Queries of each population")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--population", chosen, "Only these populations");
+  app.add_option("--write-queries", folder, "Folder that gets queries.txt, as sweep_queries reads them, and truth.txt, by the oracle; nothing is timed")
+    ->check(CLI::ExistingDirectory);
+  Shard shard;
+  shard.add_option(app, "population");
   CLI11_PARSE(app, argc, argv);
   for (const std::string& name : chosen)
     if (std::none_of(sweep_populations().begin(), sweep_populations().end(), [&](const auto& p) { return p.name == name; })) {
@@ -211,22 +231,37 @@ int main(int argc, char** argv) {
       return 5;
     }
   }
+  std::ofstream asked, truth;
+  if (!folder.empty()) {
+    asked.open(folder + "/queries.txt"), truth.open(folder + "/truth.txt");
+    if (!asked || !truth) {
+      std::cerr << "sweep_speed_error: cannot write in " << folder << '\n';
+      return 5;
+    }
+  }
   const Query_timer timer;
   std::printf("single times are read in steps of %.1f ns; the mean is that of the whole batch\n", timer.resolution());
-  nlohmann::json report{{"seed", seed}, {"queries_per_population", count}, {"clock_resolution_ns", timer.resolution()},
+  nlohmann::json report{{"seed", seed}, {"shard", shard.text()}, {"queries_per_population", count}, {"clock_resolution_ns", timer.resolution()},
                         {"populations", nlohmann::json::array()}};
   for (const auto& population : sweep_populations()) {
     if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), population.name) == chosen.end())
+      continue;
+    const std::size_t unit = shard.next_unit();
+    if (!shard.takes_next())
       continue;
     std::seed_seq sequence(population.name.begin(), population.name.end()); // the same alone as among the others
     std::mt19937_64 engine(sequence);
     engine.seed(engine() ^ seed);
     const std::vector<Judged_query> queries = judged_queries(population, count, engine);
+    if (!folder.empty()) {
+      write(queries, asked, truth);
+      continue;
+    }
     const auto hits = std::count_if(queries.begin(), queries.end(), [](const auto& q) { return q.time.has_value(); });
     std::printf("%s%s: %zu queries, %td hits\n%-34s %9s %9s %10s %7s %7s %10s\n", population.name.c_str(),
                 population.degenerate ? " (degenerate)" : "", count, hits, "", "median ns", "mean ns", "p99 ns", "false +",
                 "false -", "error in u");
-    nlohmann::json entry{{"name", population.name}, {"degenerate", population.degenerate}, {"hits", hits},
+    nlohmann::json entry{{"unit", unit}, {"name", population.name}, {"degenerate", population.degenerate}, {"hits", hits},
                          {"filter", filter_shares(queries)}, {"arithmetics", nlohmann::json::array()}};
     for (const Result& result : measure_all(timer, queries)) {
       char error[16] = "-";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Speed against error of the device's kinematics and dynamics, for four number types: ns per call beside the error
 // against 60 digits.
+#include "Shard.h"
 #include "device/Mpfr_scalar.h"
 #include "device/populations.h"
 #include "device_speed_error/measure.h"
@@ -46,20 +47,29 @@ int main(int argument_count, char** arguments) {
   app.add_option("--json", path, "write the results here");
   app.add_option("--seed", seed, "of the random configurations");
   app.add_option("--count", count, "configurations")->check(CLI::PositiveNumber);
+  Shard shard;
+  shard.add_option(app, "number type and population");
   CLI11_PARSE(app, argument_count, arguments);
   json rows = json::array();
   for (bool along_a_path : {true, false}) {
     const Population p = make_population(seed, count, along_a_path);
     Population few = p;
     few.theta.resize(std::min<std::size_t>(few.theta.size(), 64));
-    measure<float>("float", p, 500, 15, rows);
-    measure<double>("double", p, 500, 15, rows);
-    measure<long double>("long double", p, 500, 5, rows);
-    measure<Mpfr<34>>("MPFR 34", few, 64, 2, rows);
+    const auto unit = [&](const auto& work) {
+      const std::size_t first = rows.size(), number = shard.next_unit();
+      if (shard.takes_next())
+        work();
+      for (std::size_t k = first; k < rows.size(); ++k)
+        rows[k]["unit"] = number;
+    };
+    unit([&] { measure<float>("float", p, 500, 15, rows); });
+    unit([&] { measure<double>("double", p, 500, 15, rows); });
+    unit([&] { measure<long double>("long double", p, 500, 5, rows); });
+    unit([&] { measure<Mpfr<34>>("MPFR 34", few, 64, 2, rows); });
   }
   if (!path.empty()) {
     std::ofstream file(path);
-    file << json{{"seed", seed}, {"count", count}, {"design", "D1"}, {"rows", rows}}.dump(1) << '\n';
+    file << json{{"seed", seed}, {"shard", shard.text()}, {"count", count}, {"design", "D1"}, {"rows", rows}}.dump(1) << '\n';
     if (!file) {
       std::cerr << "cannot write " << path << '\n';
       return 1;

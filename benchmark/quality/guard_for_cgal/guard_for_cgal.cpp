@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CGAL's functions alone and under the guard: self-intersections, share of the way, quality, time.
+#include "Promises.h"
+#include "Shard.h"
 #include "guard_for_cgal/Comparison.h"
 #include "meshes/thin_walls.h"
 
@@ -98,6 +100,8 @@ int main(int argc, char** argv) try {
   app.add_flag("--no-functions", options.no_functions, "Leave out the functions that move points");
   app.add_flag("--no-remeshing", options.no_remeshing, "Leave out remeshing");
   app.add_flag("--no-large", options.no_large, "Leave out the large mesh");
+  Shard shard;
+  shard.add_option(app, "mesh, its functions and its remeshing apart");
   app.add_flag("--quick", options.quick, "Small meshes only");
   CLI11_PARSE(app, argc, argv);
 
@@ -112,40 +116,48 @@ int main(int argc, char** argv) try {
   if (!options.folder.empty())
     for (Named_mesh& scene : of_folder(options))
       scenes.push_back(std::move(scene));
-  Json report = {{"seed", options.seed}, {"comparisons", Json::array()}};
-  bool kept = true;
+  Json report = {{"seed", options.seed}, {"shard", shard.text()}, {"comparisons", Json::array()}};
+  std::size_t asked = 0, broken = 0;
   for (const Named_mesh& scene : scenes) {
+    std::size_t unit = 0;
     const auto tell = [&](const Comparison& c) {
       print(c);
-      report["comparisons"].push_back(to_json(c));
-      kept = kept && c.is_kept();
+      Json row = {{"unit", unit}};
+      row.update(to_json(c));
+      report["comparisons"].push_back(row);
+      ++asked, broken += !c.is_kept();
       write(report, options.json);
     };
+    const auto takes_next = [&] { return unit = shard.next_unit(), shard.takes_next(); };
     try {
       if (!has_areas(scene.mesh))
         std::fprintf(stderr, "%s: areas too large or too small for CGAL's functions; remeshed under the guard alone\n",
                      scene.name.c_str());
-      else if (!options.no_functions)
+      else if (!options.no_functions && takes_next())
         compare_functions(scene, options, tell);
-      if (!options.no_remeshing)
+      if (!options.no_remeshing && takes_next())
         compare_remeshing(scene, options, tell);
     } catch (const Invalid_surface& error) {
       std::fprintf(stderr, "%s: left out: %s\n", scene.name.c_str(), error.what());
     }
   }
-  if (!options.no_large) {
+  if (!options.no_large && shard.takes_next()) {
     const std::size_t cells = options.quick ? 40 : 516; // 2 x 2 x 516^2 = 1,065,024 triangles
     Mesh large =
         options.large.empty() ? meshes::to_mesh(meshes::torus(2 * cells, cells)) : read_surface<Mesh>(options.large);
     report["large"] = move_all_by_a_tenth(std::move(large), options.seed);
     std::cout << "\nevery vertex by a tenth of an edge: " << report["large"].dump() << '\n';
-    kept = kept && !report["large"]["self_intersects"].get<bool>();
+    ++asked, broken += report["large"]["self_intersects"].get<bool>();
   }
+  Promises promises;
+  promises.add(1, "a guarded run ends with a valid mesh, is undone and redone to the bit, and a right angle arrives", asked, broken);
+  report["promises"] = promises.json();
+  report["exit"] = promises.exit();
   write(report, options.json);
-  if (!kept)
+  if (promises.exit() != 0)
     std::cerr << "a guarded run ended with a mesh that is not valid, was not undone or redone to the bit, or a right angle did not "
                  "arrive\n";
-  return kept ? 0 : 1;
+  return promises.exit();
 } catch (const std::runtime_error& error) {
   std::cerr << error.what() << '\n';
   return 5;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the haptic loop's promises of passivity, stability and weightlessness are worth, measured in simulation.
+#include "Promises.h"
+#include "Shard.h"
 #include "haptic_passivity/chart.h"
 #include "haptic_passivity/contact_reports.h"
 #include "haptic_passivity/limit_reports.h"
@@ -83,6 +85,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--chart", options.chart, "Where activity and instability begin, over tick, delay and damping; minutes");
   app.add_option("--seed", options.seed, "Of everything random")->capture_default_str();
+  haptic_sculpt::benchmark::Shard shard;
+  shard.add_option(app, "part");
   app.add_option("--json", options.json, "Write the report here");
   app.footer("Exit codes: 0 done, 2 usage, 5 cannot write, 9 a bound is not kept.");
   try {
@@ -90,19 +94,23 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? done : usage;
   }
-  Json report = {{"version", 1}, {"seed", options.seed}};
+  Json report = {{"version", 1}, {"seed", options.seed}, {"shard", shard.text()}};
   const auto part = [&](const char* name, Json (*measure)(const Options&)) {
-    if (options.has(name))
+    if (options.has(name) && shard.takes_next())
       report[name] = measure(options);
     std::fflush(stdout);
   };
   part("activity", activity_report), part("gravity", gravity), part("rate", rates), part("effects", effects),
       part("alarms", alarms), part("dynamics", dynamics_report);
   part("knocks", knocks), part("passive", passivity);
-  if (options.chart)
+  if (options.chart && shard.takes_next())
     report["chart"] = chart();
   const std::vector<std::string> broken = broken_bounds(report);
   report["broken_bounds"] = broken;
+  haptic_sculpt::benchmark::Promises promises;
+  promises.add(bound_not_kept, "every bound of energy, stability and weight is kept", shard.is_first() ? 1 : 0, broken.size());
+  report["promises"] = promises.json();
+  report["exit"] = promises.exit();
   for (const std::string& sentence : broken)
     std::fprintf(stderr, "haptic_passivity: %s\n", sentence.c_str());
   if (!options.json.empty() && !(std::ofstream(options.json) << report.dump(1) << '\n')) {

@@ -2,6 +2,8 @@
 // Drags vertices of machine parts and near-degenerate solids, and asks of each end whether a free straight way leads
 // nearer.
 #include "Certified_grabs.h"
+#include "Promises.h"
+#include "Shard.h"
 
 #include <CLI/CLI.hpp>
 
@@ -16,26 +18,13 @@ using Json = nlohmann::ordered_json;
 enum Exit { all_kept = 0, usage = 2, not_embedded = 10, ends_too_early = 11 };
 
 struct Options {
-  std::string json, shard = "0/1", dump, family, off, script;
+  std::string json, dump, family, off, script;
   std::size_t drags = 10000, drags_per_scene = 40, ways = 1000, dumped_per_family = 20;
   std::uint64_t seed = 1;
   double share_of_parts = 0, share_of_near_degenerate = 1e-3;
   bool is_verbose = false;
+  Shard shard;
 };
-
-/// Of the drags that a family may end too early.
-bool is_kept(const End_tally& tally, double share) {
-  return static_cast<double>(tally.misses()) <= share * static_cast<double>(tally.drags);
-}
-
-std::pair<std::size_t, std::size_t> shard_of(const std::string& text) {
-  std::istringstream words(text);
-  std::size_t shard = 0, shards = 0;
-  char slash = 0;
-  if (!(words >> shard >> slash >> shards) || slash != '/' || shard >= shards)
-    throw Error("--shard takes i/n with 0 <= i < n, not '" + text + "'");
-  return {shard, shards};
-}
 
 Json row(const std::string& name, const End_tally& tally) {
   Json json = {{"family", name}};
@@ -51,12 +40,10 @@ Json row(const std::string& name, const End_tally& tally) {
   return json;
 }
 
-Exit run(const Options& options) {
-  const auto [shard, shards] = shard_of(options.shard);
+int run(Options& options) {
   const auto& families = test::part_families();
   Json rows = Json::array();
   End_tally parts, near_degenerate;
-  Exit exit = all_kept;
   for (std::size_t family = 0; family < families.size(); ++family)
     for (const bool is_kept_deformed : {false, true}) {
       const std::string name = families[family] + (is_kept_deformed ? ", deformed" : "");
@@ -65,7 +52,7 @@ Exit run(const Options& options) {
       End_tally tally;
       std::size_t dumped = 0;
       for (std::size_t done = 0, unit = 0; done < options.drags; done += options.drags_per_scene, ++unit) {
-        if (unit % shards != shard)
+        if (!options.shard.takes_next())
           continue;
         const std::uint64_t seed = ((options.seed * 1000003 + family) * 2 + is_kept_deformed) * 1000003 + unit;
         test::Random random(seed);
@@ -76,7 +63,7 @@ Exit run(const Options& options) {
                                   std::cout << what << '\n';
                                 if (options.dump.empty() || dumped >= options.dumped_per_family)
                                   return;
-                                std::string file = name + '_' + std::to_string(shard) + '_' + std::to_string(dumped++);
+                                std::string file = name + '_' + std::to_string(unit) + '_' + std::to_string(dumped++);
                                 std::replace_if(
                                     file.begin(), file.end(),
                                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
@@ -88,31 +75,32 @@ Exit run(const Options& options) {
         continue;
       (family < test::first_near_degenerate_family ? parts : near_degenerate) += tally;
       rows.push_back(row(name, tally));
+      rows.back()["unit"] = 2 * family + is_kept_deformed;
     }
   Json totals = Json::array();
+  Promises promises;
+  promises.add(not_embedded, "the mesh is embedded", parts.drags + near_degenerate.drags, parts.invalid + near_degenerate.invalid);
   for (const auto& [name, tally, share] :
        {std::tuple("all parts", parts, options.share_of_parts),
         std::tuple("all near-degenerate", near_degenerate, options.share_of_near_degenerate)}) {
+    promises.add(ends_too_early, std::string("no free way leads nearer from where a drag ends, ") + name, tally.drags, tally.misses(), share);
     if (tally.drags == 0)
       continue;
     totals.push_back(row(name, tally));
-    if (tally.invalid > 0)
-      exit = not_embedded;
-    else if (!is_kept(tally, share) && exit == all_kept)
-      exit = ends_too_early;
   }
-  std::cout << "seed " << options.seed << ", shard " << options.shard << ", exit " << exit << '\n';
+  std::cout << "seed " << options.seed << ", shard " << options.shard.text() << ", exit " << promises.exit() << '\n';
   if (!options.json.empty())
     replace_file(options.json, Json{{"seed", options.seed},
-                                    {"shard", options.shard},
+                                    {"shard", options.shard.text()},
                                     {"drags", options.drags},
                                     {"ways", options.ways},
                                     {"families", rows},
                                     {"total", totals},
-                                    {"exit", static_cast<int>(exit)}}
+                                    {"promises", promises.json()},
+                                    {"exit", promises.exit()}}
                                        .dump(1) +
                                    '\n');
-  return exit;
+  return promises.exit();
 }
 
 Exit replay(const Options& options) {
@@ -144,7 +132,7 @@ int main(int argc, char** argv) {
   app.add_option("--near-degenerate", options.share_of_near_degenerate, "The same of the near-degenerate solids")
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
-  app.add_option("--shard", options.shard, "i/n: every n-th scene, for job arrays")->capture_default_str();
+  options.shard.add_option(app, "scene");
   app.add_option("--dump", options.dump,
                  "Folder for what ends too early: NAME.off and NAME.script, for --replay or `sculpt`");
   app.add_option("--dump-most", options.dumped_per_family, "So many of each family are written")->capture_default_str();

@@ -5,6 +5,8 @@
 #include "Drag_batch.h"
 #include "Edit_batch.h"
 #include "Extreme_batch.h"
+#include "Promises.h"
+#include "Shard.h"
 
 #include <haptic_sculpt/surface.h>
 
@@ -34,10 +36,11 @@ enum Exit {
 };
 
 struct Options {
-  std::string folder, json, shard = "0/1", response = "slide";
+  std::string folder, json, response = "slide";
   std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000, edit_batch = 5000;
   std::uint64_t seed = 1;
   std::vector<std::string> refuse;
+  benchmark::Shard shard;
 };
 
 constexpr std::size_t large = 200000; ///< faces: from here on drags_on_large and edits_on_large, and one validation a batch
@@ -45,15 +48,10 @@ constexpr std::size_t large = 200000; ///< faces: from here on drags_on_large an
 /// All batches on all meshes, or a shard of them; sums them up.
 class Run {
 public:
-  explicit Run(const Options& options) : options_(options), response_(*response_named(options.response)) {
-    std::istringstream text(options.shard);
-    char slash = 0;
-    if (!(text >> shard_ >> slash >> shards_) || slash != '/' || shard_ >= shards_)
-      throw Error("--shard takes i/n with 0 <= i < n, not '" + options.shard + "'");
-  }
+  explicit Run(const Options& options) : options_(options), shard_(options.shard), response_(*response_named(options.response)) {}
 
   void mesh(const std::string& name, const Mesh& mesh) {
-    Json row = {{"mesh", name}, {"faces", mesh.number_of_faces()}};
+    Json row = {{"unit", shard_.next_unit()}, {"mesh", name}, {"faces", mesh.number_of_faces()}};
     const bool has_drags = drag(name, mesh, row), has_edits = edit(name, mesh, row);
     if (has_drags || has_edits)
       rows_.push_back(row);
@@ -62,6 +60,7 @@ public:
   /// Drags with extreme targets, clearances and deltas: a share of all that are asked for.
   void extreme(const std::string& name, const Mesh& mesh, double share) {
     Extreme_tally tally;
+    const std::size_t unit = shard_.next_unit();
     const auto drags = static_cast<std::size_t>(std::ceil(share * static_cast<double>(options_.extreme)));
     for (std::size_t done = 0; done < drags; done += options_.batch)
       if (is_ours())
@@ -69,7 +68,7 @@ public:
     if (tally.drags + tally.refused == 0)
       return;
     extremes_ += tally;
-    Json row = {{"mesh", name}, {"faces", mesh.number_of_faces()}, {"extreme", tally.json()}};
+    Json row = {{"unit", unit}, {"mesh", name}, {"faces", mesh.number_of_faces()}, {"extreme", tally.json()}};
     rows_.push_back(row);
     std::cout << name << ": extreme: " << tally.json().dump() << '\n' << std::flush;
   }
@@ -85,17 +84,19 @@ public:
       const bool has_to_be_refused = std::find(options_.refuse.begin(), options_.refuse.end(), name) != options_.refuse.end();
       try {
         const Mesh read = read_surface<Mesh>(file);
-        wrongly_accepted_ += has_to_be_refused;
+        ++files_read_, wrongly_accepted_ += has_to_be_refused;
         mesh(name, read);
       } catch (const Invalid_surface& error) {
         std::cout << name << ": refused: " << error.what() << '\n';
-        wrongly_refused_ += !has_to_be_refused;
+        ++files_read_, wrongly_refused_ += !has_to_be_refused;
+        refused_.push_back({{"file", name}, {"has_to_be", has_to_be_refused}, {"reason", error.what()}});
       }
     }
   }
 
-  Exit finish() const {
-    const Exit exit = broken_promise();
+  int finish() const {
+    const benchmark::Promises promises = kept_promises();
+    const int exit = promises.exit();
     std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, "
               << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response
               << ", seed " << options_.seed << ", exit " << exit << '\n';
@@ -106,26 +107,30 @@ public:
       std::cout << '\n';
     }
     if (!options_.json.empty())
-      replace_file(options_.json, Json{{"seed", options_.seed}, {"shard", options_.shard}, {"response", options_.response},
+      replace_file(options_.json, Json{{"seed", options_.seed}, {"shard", shard_.text()}, {"response", options_.response},
                                        {"meshes", rows_}, {"total", drags_.json()}, {"total_of_edits", edits_.json()}, {"total_of_extreme_drags", extremes_.json()},
-                                       {"wrongly_accepted", wrongly_accepted_}, {"wrongly_refused", wrongly_refused_},
-                                       {"exit", static_cast<int>(exit)}}
+                                       {"wrongly_accepted", shard_.is_first() ? wrongly_accepted_ : 0}, // once, for all shares
+                                       {"wrongly_refused", shard_.is_first() ? wrongly_refused_ : 0},
+                                       {"refused", refused_},
+                                       {"promises", promises.json()},
+                                       {"exit", exit}}
                                           .dump(1) + '\n');
     return exit;
   }
 
 private:
   Options options_;
+  benchmark::Shard shard_;
   Response response_;
-  std::size_t shard_ = 0, shards_ = 1, unit_ = 0, wrongly_accepted_ = 0, wrongly_refused_ = 0;
+  std::size_t files_read_ = 0, wrongly_accepted_ = 0, wrongly_refused_ = 0;
   Drag_tally drags_;
   Edit_tally edits_;
   Extreme_tally extremes_;
-  Json rows_ = Json::array();
+  Json rows_ = Json::array(), refused_ = Json::array(); ///< what all shares refuse, with reasons
 
   /// Whether the next batch belongs to this shard.
-  bool is_ours() { return unit_++ % shards_ == shard_; }
-  std::uint64_t seed_of_batch() const { return options_.seed * 1000003 + unit_; }
+  bool is_ours() { return shard_.takes_next(); }
+  std::uint64_t seed_of_batch() const { return options_.seed * 1000003 + shard_.next_unit(); }
 
   bool drag(const std::string& name, const Mesh& mesh, Json& row) {
     const bool is_large = mesh.number_of_faces() >= large;
@@ -164,36 +169,27 @@ private:
     return true;
   }
 
-  Exit broken_promise() const {
-    if (drags_.invalid + edits_.invalid + extremes_.invalid > 0)
-      return not_embedded;
-    if (extremes_.not_finite > 0)
-      return not_finite;
-    if (extremes_.moved_though_refused > 0)
-      return moved_though_refused;
-    if (extremes_.farther > 0)
-      return went_away;
-    if (drags_.contradictions + extremes_.contradictions > 0)
-      return contradiction;
-    if (edits_.creations_wrongly_accepted > 0)
-      return jumped_over;
-    if (drags_.changed + edits_.changed > 0)
-      return mesh_changed;
-    if (edits_.undo_differs > 0)
-      return undo_differs;
-    if (edits_.redo_differs > 0)
-      return redo_differs;
-    if (wrongly_accepted_ > 0)
-      return wrongly_accepted;
-    if (wrongly_refused_ > 0)
-      return wrongly_refused;
-    if (drags_.through_lazy > 0)
-      return lazy_long;
-    if (static_cast<double>(drags_.short_arrived) < 0.95 * static_cast<double>(drags_.short_asked))
-      return lazy_short;
-    if (static_cast<double>(edits_.creations_wrongly_refused) > 0.01 * static_cast<double>(edits_.feasible_creations()))
-      return lazy_creation;
-    return all_kept;
+  benchmark::Promises kept_promises() const {
+    benchmark::Promises promises;
+    const std::size_t drags = drags_.drags, extremes = extremes_.drags + extremes_.refused;
+    const std::size_t files = shard_.is_first() ? files_read_ : 0; // every share reads all
+    promises.add(not_embedded, "the mesh is embedded", drags_.validations + edits_.validations + extremes_.drags,
+                 drags_.invalid + edits_.invalid + extremes_.invalid);
+    promises.add(not_finite, "all coordinates are finite", extremes_.drags, extremes_.not_finite);
+    promises.add(moved_though_refused, "what is refused moves nothing", extremes_.refused, extremes_.moved_though_refused);
+    promises.add(went_away, "no drag ends farther from its target", extremes_.drags, extremes_.farther);
+    promises.add(contradiction, "no result contradicts itself", drags + extremes, drags_.contradictions + extremes_.contradictions);
+    promises.add(jumped_over, "no creation crosses the surface", edits_.creations_judged, edits_.creations_wrongly_accepted);
+    promises.add(mesh_changed, "nothing moves but what is in hand", drags_.validations + edits_.validations,
+                 drags_.changed + edits_.changed);
+    promises.add(undo_differs, "undone, all is as it was, bit for bit", edits_.edits, edits_.undo_differs);
+    promises.add(redo_differs, "redone, all is as it was, bit for bit", edits_.edits, edits_.redo_differs);
+    promises.add(wrongly_accepted, "what is not embedded is refused", files, shard_.is_first() ? wrongly_accepted_ : 0);
+    promises.add(wrongly_refused, "what is embedded is accepted", files, shard_.is_first() ? wrongly_refused_ : 0);
+    promises.add(lazy_long, "a push through the object comes near the contact", drags_.through_asked, drags_.through_lazy);
+    promises.add(lazy_short, "short drags arrive", drags_.short_asked, drags_.short_asked - drags_.short_arrived, 0.05);
+    promises.add(lazy_creation, "feasible creations are made", edits_.feasible_creations(), edits_.creations_wrongly_refused, 0.01);
+    return promises;
   }
 };
 

@@ -19,14 +19,16 @@ int main(int argc, char** argv) {
   app.add_option("--refuse", options.refuse, "File names in the folder that have to be refused");
   app.add_option("--drags", options.drags, "Drags on each mesh")->capture_default_str();
   app.add_option("--drags-on-large", options.drags_on_large, "Drags on meshes of 200,000 faces or more")->capture_default_str();
-  app.add_option("--edits", options.edits, "Mixed edits on each mesh, in batches of 5000, each undone and redone whole")->capture_default_str();
+  app.add_option("--edits", options.edits, "Mixed edits on each mesh, in batches that are undone and redone whole")->capture_default_str();
   app.add_option("--edits-on-large", options.edits_on_large, "Mixed edits on meshes of 200,000 faces or more")->capture_default_str();
+  app.add_option("--batch", options.batch, "Drags of a batch; each has a fresh copy of the mesh")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--edit-batch", options.edit_batch, "Mixed edits of a batch")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--extreme", options.extreme, "Drags in all, on some small meshes, with targets, clearances and deltas anywhere among the doubles")->capture_default_str();
   app.add_option("--response", options.response, "What a blocked vertex does")
       ->check(CLI::IsMember({"slide", "stop", "paper"}))
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
-  app.add_option("--shard", options.shard, "i/n: every n-th batch, for job arrays")->capture_default_str();
+  options.shard.add_option(app, "batch");
   app.add_option("--json", options.json, "Where the report goes");
   try {
     app.parse(argc, argv);

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Steps of the part quality: speed against error, stage by stage."""
+from steps import Effort, Step
+
+STEPS = [
+    Step("sweeps", "sweep_speed_error",
+         tiny=Effort("--queries 20 --seed {seed}"),
+         quick=Effort("--queries 300 --seed {seed}", 3),
+         full=Effort("--queries 20000 --seed {seed}", 120, shards=4)),
+    Step("axis", "axis_speed_error",
+         tiny=Effort("--queries 20 --seed {seed}"),
+         quick=Effort("--queries 2000 --seed {seed}", 2),
+         full=Effort("--queries 100000 --seed {seed}", 60)),
+    Step("whole_drags", "drag_speed_error",
+         tiny=Effort("--drags 8 --seed {seed}", shards=2),
+         quick=Effort("--drags 80 --seed {seed}", 4),
+         full=Effort("--drags 4000 --seed {seed}", 120, shards=6)),
+    Step("responses", "response_quality",
+         tiny=Effort("--drags 20 --seed {seed}", shards=2),
+         quick=Effort("--drags 40 --seed {seed}", 3),
+         full=Effort("--drags 1000 --seed {seed}", 120, shards=4), with_meshes="--meshes {meshes}"),
+    Step("many_vertices", "many_vertices_speed_error",
+         tiny=Effort("--rounds 1 --level 2 --seed {seed}"),
+         quick=Effort("--rounds 1 --level 3 --seed {seed}", 3),
+         full=Effort("--rounds 5 --level 6 --seed {seed}", 120, shards=4)),
+    Step("functions", "guard_for_cgal",
+         quick=Effort("--quick --drags-a-vertex 40 --iterations 2 --seed {seed}", 3),
+         full=Effort("--seed {seed}", 240, shards=4, memory=6000), with_meshes="--meshes {meshes}"),
+    Step("device", "device_speed_error",
+         tiny=Effort("--count 64 --seed {seed}", shards=3),
+         quick=Effort("--count 512 --seed {seed}", 3),
+         full=Effort("--seed {seed}", 60)),
+    Step("force", "haptic_passivity",
+         tiny=Effort("--parts rate --seed {seed}"),
+         quick=Effort("--parts rate --seed {seed}", 2),
+         full=Effort("--parts rate,gravity,activity,passive,knocks --runs 1000 --seconds 60 --seed {seed}", 120, shards=5)),
+]
