@@ -16,7 +16,7 @@ import merge_shards
 SHARDS = 3
 OPTIONS = {"robustness": "--drags 40 --edits 40 --batch 20 --edit-batch 20 --extreme 20", "drag_speed_error": "--drags 6",
            "edit_performance": "--samples 20 --largest 6000 --largest-valence 16", "certify_ends": "--drags 3 --per-scene 1 --ways 20",
-           "device_speed_error": "--count 64", "haptic_passivity": "--parts rate"}
+           "device_speed_error": "--count 64", "axis_speed_error": "--queries 30", "haptic_passivity": "--parts rate"}
 
 
 def untimed(value):
@@ -35,7 +35,7 @@ def difference(a, b, where=""):
         return None
     if isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
         return next((d for i, (x, y) in enumerate(zip(a, b)) if (d := difference(x, y, f"{where}[{i}]")) is not None), None)
-    # Means are sums in another order: nothing but rounding may differ.
+    # Sums in another order: nothing but rounding may differ.
     if isinstance(a, float) and isinstance(b, float) and abs(a - b) <= 1e-12 * max(abs(a), abs(b)):
         return None
     return None if a == b else f"{where}: {a!r} whole, {b!r} merged"

@@ -7,15 +7,20 @@
 #include "sculpting/clearances.h"
 #include "sculpting/result_contradiction.h"
 
+#include <haptic_sculpt/surface.h>
+
 #include <chrono>
+#include <filesystem>
+#include <sstream>
 
 namespace haptic_sculpt::robustness {
 
 /// One batch of drags, each batch on a fresh copy of the mesh.
 class Drag_batch {
 public:
+  /// \param mesh has to outlive it
   Drag_batch(const Mesh& mesh, Response response, std::uint64_t seed, std::size_t validate_every)
-    : mesh_(mesh), sculptor_(mesh_, parameters::response(response)), places_(mesh_, seed), validate_every_(validate_every) {}
+    : input_(mesh), response_(response), mesh_(mesh), sculptor_(mesh_, parameters::response(response)), places_(mesh_, seed), validate_every_(validate_every) {}
 
   Drag_tally run(std::size_t drags) {
     // Short steps first: once the mesh is crumpled by long pushes, most vertices are in contact and held with reason.
@@ -48,9 +53,23 @@ public:
     return tally_;
   }
 
+  /// NAME.off and NAME.script, a script for `sculpt` that makes the same drags. \throw Error
+  void write(const std::filesystem::path& folder, const std::string& name) const {
+    std::ostringstream script;
+    script << std::hexfloat << "response " << name_of(response_) << '\n';
+    for (const auto& [v, target] : made_)
+      script << "drag " << static_cast<std::size_t>(v) << ' ' << target.x() << ' ' << target.y() << ' ' << target.z() << "\nrelease\n";
+    std::filesystem::create_directories(folder);
+    write_surface(folder / (name + ".off"), input_);
+    replace_file(folder / (name + ".script"), script.str());
+  }
+
 private:
   enum class Kind { short_random, through, other };
 
+  const Mesh& input_;
+  Response response_;
+  std::vector<std::pair<Vertex_index, Point_3>> made_;
   Mesh mesh_;
   Sculptor<Mesh> sculptor_;
   Random_places places_;
@@ -58,6 +77,7 @@ private:
   Drag_tally tally_;
 
   void drag(Vertex_index v, const Point_3& target, Kind kind) {
+    made_.emplace_back(v, target);
     const Point_3 start = mesh_.point(v);
     const auto begin = std::chrono::steady_clock::now();
     const Drag_result<Mesh> result = sculptor_.grab(v).drag_to(target);

@@ -18,6 +18,8 @@ struct Drag_tally {
   double largest_stop_error = 0; ///< in clearances; stops with one contact whose plane is determined
   double nanoseconds = 0;
 
+  bool is_any_promise_broken() const { return invalid + changed + contradictions + through_lazy > 0; }
+
   Drag_tally& operator+=(const Drag_tally& t) {
     drags += t.drags, reached += t.reached, blocked += t.blocked;
     short_asked += t.short_asked, short_arrived += t.short_arrived;

@@ -36,7 +36,7 @@ enum Exit {
 };
 
 struct Options {
-  std::string folder, json, response = "slide";
+  std::string folder, json, dump, response = "slide";
   std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000, edit_batch = 5000;
   std::uint64_t seed = 1;
   std::vector<std::string> refuse;
@@ -137,8 +137,13 @@ private:
     const std::size_t drags = is_large ? options_.drags_on_large : options_.drags;
     Drag_tally tally;
     for (std::size_t done = 0; done < drags; done += options_.batch)
-      if (is_ours())
-        tally += Drag_batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100).run(std::min(options_.batch, drags - done));
+      if (is_ours()) {
+        Drag_batch batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100);
+        const Drag_tally made = batch.run(std::min(options_.batch, drags - done));
+        tally += made;
+        if (!options_.dump.empty() && made.is_any_promise_broken())
+          batch.write(options_.dump, "batch_" + std::to_string(shard_.next_unit() - 1));
+      }
     if (tally.drags == 0)
       return false;
     drags_ += tally;

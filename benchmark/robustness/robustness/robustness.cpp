@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"slide", "stop", "paper"}))
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
+  app.add_option("--dump", options.dump, "Folder for batches of drags that break a promise: a mesh and a script, for `sculpt` and `minimise`");
   options.shard.add_option(app, "batch");
   app.add_option("--json", options.json, "Where the report goes");
   try {
