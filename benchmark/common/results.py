@@ -21,8 +21,8 @@ def processor():
     return found[1] if found else platform.machine()
 
 
-def write_circumstances(out, root, build, options, names):
-    """Machine, compiler, flags, commit and seed, before anything runs."""
+def write_circumstances(out, root, build, options, shards):
+    """Machine, compiler, flags, commit and seed, before anything runs. \\param shards {step: how many}"""
     cache = (build / "CMakeCache.txt").read_text() if (build / "CMakeCache.txt").exists() else ""
     entry = {m[1]: m[2] for m in re.finditer(r"^(\w+):\w+=(.*)$", cache, re.MULTILINE)}
     kind = entry.get("CMAKE_BUILD_TYPE", "")
@@ -30,7 +30,7 @@ def write_circumstances(out, root, build, options, names):
     version = re.search(r'HAPTIC_SCULPT_VERSION "([^"]*)"', (root / "include/haptic_sculpt/version.h").read_text())
     changed = output_of("git", "status", "--porcelain", "--untracked-files=no", cwd=root)
     circumstances = {
-        "mode": options.mode, "steps": names, "seed": options.seed, "profile": options.profile,
+        "mode": options.mode, "steps": list(shards), "shards": shards, "seed": options.seed, "profile": options.profile,
         "meshes": str(options.meshes or ""), "begun": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
         "version": version[1] if version else "", "commit": output_of("git", "rev-parse", "HEAD", cwd=root) + (", changed" if changed else ""),
         "machine": processor(), "cores": os.cpu_count(), "memory_GB": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30, 1),
@@ -60,9 +60,15 @@ def shards(out, name):
 
 
 def deaths(out, names):
-    """The last word of each shard that has died and has no report."""
-    return [path.read_text().splitlines()[-1] for name in names for path in sorted((out / "shards" / name).glob("*.failed"))
-            if not path.with_suffix(".json").exists()]
+    """The last word of each shard that has no report."""
+    count = circumstances(out)["shards"]
+    found = []
+    for name in names:
+        for i in range(count[name]):
+            path = out / "shards" / name / f"{i}_of_{count[name]}.failed"
+            if not path.with_suffix(".json").exists():
+                found.append(path.read_text().splitlines()[-1] if path.exists() else f"{name}, shard {i}/{count[name]}, was ended from outside, or not begun")
+    return found
 
 
 def broken_promises(out):

@@ -162,6 +162,22 @@ def functions(report):
                     [Table("Each function", ["mesh", "function", "way of the guard", "pairs alone", "pairs guarded", "of the way", "time alone", "time guarded"], rows)])]
 
 
+def simplification(report):
+    methods = {"under the guard": "under the guard", "edge_collapse": "CGAL's edge_collapse"}
+    points, pairs = [], {}
+    for method, name in methods.items():
+        rows = [r for r in report["rows"] if r["method"] == method]
+        pairs[method] = sum(r["pairs"] for r in rows)
+        points.append((name, sum(r["seconds"] for r in rows) / len(rows), pairs[method] / len(rows)))
+    return [Finding("simplification", f"Simplified to {percent(report['share'])} of the edges, {len(report['rows']) // 2} meshes have {pairs['edge_collapse']:,} pairs of intersecting "
+                    f"faces by CGAL's edge_collapse, {pairs['under the guard']:,} under the guard.", f"{pairs['under the guard']:,}",
+                    f"pairs under the guard, {pairs['edge_collapse']:,} without",
+                    speed_error(points, "pairs of intersecting faces, mean", "mean processor time of a mesh"), "Time of simplification against intersecting faces",
+                    [Table("Each mesh", ["mesh", "method", "faces before", "faces left", "time", "pairs", "valid"],
+                           [[r["mesh"], r["method"], f"{r['faces_before']:,}", f"{r['faces_left']:,}", seconds_text(r["seconds"] or 1e-6), r["pairs"], "yes" if r["valid"] else "no"]
+                            for r in report["rows"]])])]
+
+
 def device(report):
     def points(form, what):
         rows = {r["scalar"]: r for r in report["rows"] if r["population"] == "path" and r["form"] == form and r["what"] == what}
@@ -204,5 +220,5 @@ def answers_of_others(name, rows):
                     speed_error(points, "share of wrong verdicts", "time of a query") if points else "", "Time of other programs' answers against wrong verdicts", [table])]
 
 
-CHARTS = {"sweeps": sweeps, "axis": axis, "drags": stops, "responses": responses, "whole_drags": whole_drags, "many_vertices": many_vertices, "functions": functions,
+CHARTS = {"sweeps": sweeps, "axis": axis, "drags": stops, "responses": responses, "whole_drags": whole_drags, "many_vertices": many_vertices, "functions": functions, "simplification": simplification,
           "device": device, "force": force}
