@@ -5,7 +5,7 @@ from steps import Effort, Step
 STEPS = [
     Step("drags", "drag_performance",
          tiny=Effort("--sizes 1000 --valences 3,8 --drags 60 --peer-drags 20 --core -1 --seed {seed}", shards=2),
-         quick=Effort("--sizes 1000,10000,100000 --valences 3,6,16,64,256 --drags 1000 --peer-drags 100 --largest-peer 10000 --core -1 --seed {seed}", 3),
+         quick=Effort("--sizes 1000,10000,100000,1000000 --valences 3,6,16,64,256,1000 --drags 2000 --peer-drags 100 --largest-peer 10000 --core -1 --seed {seed}", 4),
          full=Effort("--sizes 1000,10000,100000,1000000,10000000 --valences 3,6,16,64,256,1000,4000,20000 --drags 4000 --peer-drags 400 --core -1 --seed {seed}",
                      90, memory=12000)),
     Step("edits", "edit_performance",

@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     std::size_t asked = 0, broken = 0;
     const std::vector<std::pair<std::string, Mesh>> inputs = {
       {"hollow ball", meshes::to_mesh(meshes::hollow_ball(level, 0.02, seed))},
-      {"wavy plate", meshes::to_mesh(meshes::wavy_plate(std::size_t{2} << level, 0.1, 0.5, 0.2, seed))},
+      {"wavy plate", meshes::to_mesh(meshes::wavy_plate(std::size_t{4} << level, 0.1, 0.5, 0.2, seed))},
       {"hills", meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, seed))},
       {"Swiss cheese", meshes::to_mesh(meshes::swiss_cheese(2, 0.02, std::max(1, level - 1), seed))}};
     for (const auto& [name, mesh] : inputs) {

@@ -5,7 +5,7 @@ from steps import Effort, Step
 STEPS = [
     Step("drags_and_edits", "robustness",
          tiny=Effort("--drags 60 --edits 60 --batch 20 --edit-batch 20 --seed {seed}", shards=3),
-         quick=Effort("--drags 2000 --edits 500 --drags-on-large 200 --edits-on-large 20 --seed {seed}", 4, shards=2),
+         quick=Effort("--drags 5000 --edits 1000 --drags-on-large 200 --edits-on-large 20 --seed {seed}", 4, shards=2),
          full=Effort("--drags 7700000 --edits 100000 --extreme 20000 --batch 10000 --seed {seed}", 480, shards=64),
          with_meshes="--meshes {meshes}"),
     Step("ends", "certify_ends",
