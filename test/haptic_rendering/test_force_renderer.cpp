@@ -150,6 +150,25 @@ BOOST_AUTO_TEST_CASE(slew_limit_and_clamp) {
   BOOST_TEST(clamped(wanted, 5.1) == wanted);
 }
 
+BOOST_AUTO_TEST_CASE(a_burst_on_top_of_the_largest_force_is_clamped_too) {
+  for (const double rate : {250.0, 1000.0, 10000.0}) {
+    Force_limits limits;
+    limits.largest = 3;
+    Force_chain chain(limits, Virtual_coupling(), 1 / rate);
+    const Vector3d wanted(0, 0, 9);
+    for (int k = 0; k < rate; ++k)
+      chain.follow(wanted, 1);
+    chain.refuse(wanted, 1);
+    double largest = 0, least = limits.largest;
+    for (int k = 0; k < 0.1 * rate; ++k) {
+      const double norm = chain.follow(wanted, 1).norm();
+      largest = std::fmax(largest, norm), least = std::fmin(least, norm);
+    }
+    BOOST_TEST(largest <= limits.largest * (1 + 1e-15));
+    BOOST_TEST(least < limits.largest - 0.2); // the burst was there
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_fault_fades_to_exactly_nothing_in_its_time) {
   const Device_parameters<double> parameters = device(Device_form::ditetrahedral, 0.005);
   const Handle_motion handle = handle_at(parameters, Vector3d(1, 1.1, 0.9));

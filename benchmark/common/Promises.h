@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_PROMISES_H
+#define HAPTIC_SCULPT_BENCHMARK_PROMISES_H
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <string>
+
+namespace haptic_sculpt::benchmark {
+
+/// The promises that a run has looked at, in the order of their weight. The exit code is that of the first broken one.
+/// They are in the report, so that shares of a run can be added up and judged together.
+class Promises {
+public:
+  /// \param asked how often it was looked at \param broken how often it was not kept
+  /// \param may the share of `asked` that may be broken
+  void add(int exit, const std::string& promise, std::size_t asked, std::size_t broken, double may = 0) {
+    rows_.push_back({{"exit", exit}, {"promise", promise}, {"asked", asked}, {"broken", broken}, {"may", may}});
+    if (exit_ == 0 && static_cast<double>(broken) > may * static_cast<double>(asked))
+      exit_ = exit;
+  }
+
+  /// 0 where all are kept.
+  int exit() const { return exit_; }
+  const nlohmann::ordered_json& json() const { return rows_; }
+
+private:
+  nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
+  int exit_ = 0;
+};
+
+} // namespace haptic_sculpt::benchmark
+
+#endif

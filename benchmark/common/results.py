@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a run has left in its folder: circumstances, reports, notes of shards, deaths."""
+import datetime
+import json
+import os
+import pathlib
+import platform
+import re
+import subprocess
+
+
+def output_of(*words, cwd=None):
+    try:
+        return subprocess.run(words, cwd=cwd, capture_output=True, text=True, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+
+
+def processor():
+    found = re.search(r"^model name\s*:\s*(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    return found[1] if found else platform.machine()
+
+
+def write_circumstances(out, root, build, options, shards):
+    """Machine, compiler, flags, commit and seed, before anything runs. \\param shards {step: how many}"""
+    cache = (build / "CMakeCache.txt").read_text() if (build / "CMakeCache.txt").exists() else ""
+    entry = {m[1]: m[2] for m in re.finditer(r"^(\w+):\w+=(.*)$", cache, re.MULTILINE)}
+    kind = entry.get("CMAKE_BUILD_TYPE", "")
+    compiler = entry.get("CMAKE_CXX_COMPILER", "")
+    version = re.search(r'HAPTIC_SCULPT_VERSION "([^"]*)"', (root / "include/haptic_sculpt/version.h").read_text())
+    changed = output_of("git", "status", "--porcelain", "--untracked-files=no", cwd=root)
+    circumstances = {
+        "mode": options.mode, "steps": list(shards), "shards": shards, "seed": options.seed, "profile": options.profile,
+        "meshes": str(options.meshes or ""), "begun": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
+        "version": version[1] if version else "", "commit": output_of("git", "rev-parse", "HEAD", cwd=root) + (", changed" if changed else ""),
+        "machine": processor(), "cores": os.cpu_count(), "memory_GB": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30, 1),
+        "system": platform.platform(), "compiler": output_of(compiler, "--version").splitlines()[0] if compiler and output_of(compiler, "--version") else "",
+        "flags": " ".join([entry.get("CMAKE_CXX_FLAGS", ""), entry.get(f"CMAKE_CXX_FLAGS_{kind.upper()}", "")]).strip(),
+        "load": os.getloadavg()[0]}
+    (out / "run.json").write_text(json.dumps(circumstances, indent=1) + "\n")
+
+
+def circumstances(out):
+    return json.loads((out / "run.json").read_text())
+
+
+def reports(out):
+    """The merged report of each step of this run that has one."""
+    wanted = circumstances(out)["steps"]
+    return {name: json.loads(path.read_text()) for name in wanted if (path := out / "results" / f"{name}.json").exists()}
+
+
+def shards(out, name):
+    """(shard, note, report) of each shard that has ended."""
+    rows = []
+    for path in sorted((out / "shards" / name).glob("*_of_*.json"), key=lambda p: int(p.name.split("_")[0])):
+        note = path.with_suffix(".note")
+        rows.append((path.stem.replace("_of_", "/"), json.loads(note.read_text()) if note.exists() else {}, json.loads(path.read_text())))
+    return rows
+
+
+def deaths(out, names):
+    """The last word of each shard that has no report."""
+    count = circumstances(out)["shards"]
+    found = []
+    for name in names:
+        for i in range(count[name]):
+            path = out / "shards" / name / f"{i}_of_{count[name]}.failed"
+            if not path.with_suffix(".json").exists():
+                found.append(path.read_text().splitlines()[-1] if path.exists() else f"{name}, shard {i}/{count[name]}, was ended from outside, or not begun")
+    return found
+
+
+def broken_promises(out):
+    """Of every step: sentences."""
+    return [f"{name}: {p['promise']}: {p['broken']} of {p['asked']} not, exit {p['exit']}" for name, report in reports(out).items()
+            for p in report.get("promises", []) if p["broken"] > p["may"] * p["asked"]]

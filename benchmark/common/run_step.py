@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER]
+
+The report appears when it is whole. Beside it go FILE.log, what the program printed, and FILE.note, the command and how
+it went. A broken promise is a result; a program that dies is named in FILE.failed, with the command that repeats it.
+Exit: 0 there is a report, 1 there is none.
+"""
+import argparse
+import json
+import os
+import pathlib
+import platform
+import resource
+import shlex
+import subprocess
+import sys
+import time
+
+import steps
+
+
+def told(code):
+    return f"was ended by signal {-code}" if code < 0 else f"ended with exit code {code} and no report"
+
+
+def report_of_exit(step, shard, shards, code, asked):
+    """Of a program that has no report of its own."""
+    promises = [{"exit": 10, "promise": step.promise, "asked": asked, "broken": int(code != 0), "may": 0}]
+    return {"shard": f"{shard}/{shards}", "promises": promises, "exit": 10 if code != 0 else 0}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("step")
+    parser.add_argument("shard", type=int)
+    parser.add_argument("shards", type=int)
+    parser.add_argument("--mode", required=True, choices=steps.MODES)
+    parser.add_argument("--build", required=True)
+    parser.add_argument("--json", required=True, type=pathlib.Path)
+    parser.add_argument("--meshes", default="")
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    step = steps.all_steps()[options.step]
+    minutes = step.effort(options.mode).minutes
+    unfinished = options.json.with_suffix(".unfinished")
+    unfinished.unlink(missing_ok=True)
+    words, extra = steps.command_of(step, options.mode, options.shard, options.shards, options.build, options.meshes, options.seed,
+                                    str(unfinished))
+    shown = " ".join([*(f"{k}={v}" for k, v in extra.items()), shlex.join(words)])
+    begin = time.time()
+    with open(options.json.with_suffix(".log"), "wb") as log:
+        try:
+            code = subprocess.run(words, stdout=log, stderr=subprocess.STDOUT, env={**os.environ, **extra}, timeout=60 * minutes, check=False).returncode
+        except subprocess.TimeoutExpired:
+            code = None
+        except OSError as error:
+            log.write(f"{error}\n".encode())
+            code = 127
+    seconds = time.time() - begin
+    if code is None:
+        report = {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"more than {minutes:g} minutes"}
+    elif step.promise and code in (0, 201):  # 201: a test failed
+        report = report_of_exit(step, options.shard, options.shards, code, step.count[options.mode] // options.shards)
+    else:
+        try:
+            report = json.loads(unfinished.read_text())
+        except (OSError, ValueError):
+            report = None
+        if report is not None and code != report.get("exit", 0):
+            report = None  # it died after it had written
+    failed = options.json.with_suffix(".failed")
+    if report is None:
+        with open(failed, "a") as file:
+            file.write(f"{options.step}, shard {options.shard}/{options.shards}, {told(code)} on {platform.node()} after {seconds:.0f} s: {shown}\n")
+        print(f"{options.step}, shard {options.shard}/{options.shards}, {told(code)}; alone: {shown}", file=sys.stderr)
+        return 1
+    attempts = 1 + (len(failed.read_text().splitlines()) if failed.exists() else 0)
+    note = {"command": shown, "seconds": round(seconds, 1), "cpu_seconds": round(sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]), 1),
+            "peak_megabytes": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024, "host": platform.node(), "attempts": attempts,
+            "exit": code}
+    options.json.with_suffix(".note").write_text(json.dumps(note, indent=1) + "\n")
+    unfinished.unlink(missing_ok=True)
+    whole = options.json.with_suffix(".whole")
+    whole.write_text(json.dumps(report, indent=1) + "\n")
+    whole.replace(options.json)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

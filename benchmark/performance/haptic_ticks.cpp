@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// CPU time of whole ticks of the haptic loop, from joint angles to torques, when a hand goes fast over a fine mesh, a
+// little deep in it: with the probe, with a vertex that it grabs or creates, letting go and removing. Counts
+// allocations, too.
+#include "Shard.h"
+#include "meshes/generated_meshes.h"
+
+#include "../examples/count_allocations.h"
+
+#include <haptic_sculpt/haptic_rendering.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <sys/mman.h>
+#include <time.h>
+
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <vector>
+
+namespace {
+
+using namespace haptic_sculpt;
+using Eigen::Vector3d;
+using Mesh = meshes::Mesh;
+using Scene = Loop_scene<Mesh>;
+using Loop = Haptic_loop<Scene::Sculptor_type>;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  int level = 8;
+  double radius = 30, speed = 300, rate = 1000, depth = 2, reach = 0.05; ///< mm, mm/s, Hz, mm, mm
+  std::size_t ticks = 1000000, work = 400, runs = 1;
+  bool refuses_allocations = false;
+  std::string json;
+};
+
+std::uint64_t cpu_nanoseconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<std::uint64_t>(t.tv_sec) * 1000000000u + static_cast<std::uint64_t>(t.tv_nsec);
+}
+
+/// Great circles whose axis turns slowly; every second is half a second of the probe, a quarter with a vertex in hand,
+/// which every other second is removed, and the probe again.
+struct Hand {
+  const Options& options;
+  Vector3d home;
+
+  Vector3d position(std::size_t tick) const {
+    const double angle = options.speed / options.rate / options.radius * static_cast<double>(tick),
+                 turn = 0.0137 * angle;
+    const Vector3d direction(std::cos(angle), std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn));
+    const double above =
+        std::fmax(0, 5 - 0.02 * static_cast<double>(tick)); // mm: it comes from outside, as a probe must
+    return home + 1e-3 * (options.radius - options.depth + above) * direction;
+  }
+  static int button(std::size_t tick) {
+    const std::size_t phase = tick % 1000;
+    return phase >= 500 && phase < 750 ? 1 : phase >= 750 && phase < 760 && tick / 1000 % 2 == 1 ? 2 : 0;
+  }
+};
+
+Json of(const Tick_statistics& s) {
+  const auto microseconds = [](std::uint64_t ns) { return static_cast<double>(ns) / 1000; };
+  return {{"ticks", s.number()},
+          {"p50", microseconds(s.percentile(0.5))},
+          {"p99", microseconds(s.percentile(0.99))},
+          {"p999", microseconds(s.percentile(0.999))},
+          {"p9999", microseconds(s.percentile(0.9999))},
+          {"max", microseconds(s.largest())}};
+}
+
+/// What the button did in a tick, in the order of Tool_event.
+constexpr const char* event_names[] = {nullptr,    "grabbed", "created_on_face", "created_on_edge",
+                                       "released", "removed", "refused"};
+
+/// \param least the least that each tick has taken in any run: the runs are the same to the bit, so what only one took
+/// is the machine's
+Json run(const Options& options, std::vector<std::uint64_t>& least) {
+  Device_description<double> description = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
+  description.viscous_friction = 0.005, description.encoder_step = 1.53e-4;
+  const Device_parameters<double> device(description);
+  const auto home = home_pose(device);
+  meshes::Triangle_list list = meshes::bumpy_sphere(options.level, 0.05);
+  Scene scene(
+      meshes::to_mesh(list.scale_and_move(options.radius, 0, 0, 0)),
+      [&](const Vector3d&, const Vector3d&) {
+        return Workspace_map(1000, Vector3d::Zero(), Vector3d::Zero(), home->position);
+      },
+      10000, 100000);
+  Haptic_parameters parameters;
+  parameters.tick = 1 / options.rate, parameters.work = options.work, parameters.reach = 1e-3 * options.reach;
+  const Passivity_limits limits = passivity_limits(device, parameters.limits, scene.map, 1.1 * scene.lower,
+                                                   1.1 * scene.upper, 0, parameters.tick, 0);
+  const Hand hand{options, home->position};
+  auto pose = reach_position(device, *home, hand.position(0));
+  if (!pose)
+    throw Error("the hand's path begins where the device cannot be");
+  Loop loop(scene.sculptor, scene.probe, device, *pose, scene.map, parameters, limits);
+  if (mlockall(MCL_CURRENT) != 0)
+    std::cerr << "haptic_ticks: the memory cannot be locked: first uses of pages are in the times\n";
+  Tick_statistics all, probe, vertex;
+  std::array<Tick_statistics, std::size(event_names)> events; // by Tool_event
+  std::size_t allocations = 0, missed = 0, missed_in_last_run = 0, cut_short = 0, blocked = 0;
+  Joint_reading reading;
+  for (std::size_t tick = 0; tick < options.ticks && !loop.has_stopped(); ++tick) {
+    pose = reach_position(device, *pose, hand.position(tick));
+    if (!pose)
+      throw Error("the hand's path leaves the workspace");
+    reading.theta = measured_angles(device, pose->theta);
+    reading.button = Hand::button(tick), reading.elapsed = tick == 0 ? 0 : parameters.tick;
+    const std::size_t before = allocations_so_far;
+    const std::uint64_t begin = cpu_nanoseconds();
+    const Haptic_tick& made = loop.tick(reading);
+    const std::uint64_t in_this_run = cpu_nanoseconds() - begin;
+    allocations += allocations_so_far - before;
+    const std::uint64_t taken = least[tick] = std::min(least[tick], in_this_run);
+    missed += static_cast<double>(taken) > 1e9 * parameters.tick;
+    missed_in_last_run += static_cast<double>(in_this_run) > 1e9 * parameters.tick;
+    cut_short += made.tool.end == Drag_end::work_limit;
+    blocked += !made.tool.reached;
+    all.add(taken);
+    const auto event = static_cast<std::size_t>(made.tool.event);
+    (event != 0 ? events[event] : loop.tool().holds_vertex() ? vertex : probe).add(taken);
+    if (made.is_new_fault)
+      throw Error(std::string("a fault: ") + name_of(made.fault));
+  }
+  const Tool_edits& done = loop.tool().edits();
+  if (options.depth > 0 && 4 * blocked < all.number())
+    throw Error("the hand was held back in " + std::to_string(blocked) +
+                " ticks only: that is not what is measured here");
+  if (options.refuses_allocations && allocations != 0)
+    throw Error(std::to_string(allocations) + " allocations were made in ticks, with " + std::to_string(done.created) +
+                " creations and " + std::to_string(done.removed) + " removals");
+  Json of_events;
+  for (std::size_t event = 1; event < events.size(); ++event)
+    of_events[event_names[event]] = of(events[event]);
+  return {{"triangles", scene.number_of_faces()},
+          {"cpu_us", of(all)},
+          {"cpu_us_probe", of(probe)},
+          {"cpu_us_vertex_in_hand", of(vertex)},
+          {"cpu_us_button", of_events},
+          {"runs", options.runs},
+          {"missed_by_cpu", missed},
+          {"missed_by_cpu_in_the_last_run", missed_in_last_run},
+          {"allocations", allocations},
+          {"blocked", blocked},
+          {"cut_short", cut_short},
+          {"grabbed", done.grabbed},
+          {"created", done.created},
+          {"removed", done.removed},
+          {"refused", done.refused},
+          {"work", options.work}};
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app(
+      "CPU time of whole ticks of the haptic loop under a fast hand. The object is a sphere with hills, 60 mm wide.");
+  app.add_option("--level", options.level, "Times the icosahedron is divided: 20 * 4^level triangles")
+      ->capture_default_str();
+  app.add_option("--ticks", options.ticks)->capture_default_str();
+  app.add_option("--speed", options.speed, "Of the hand, mm/s")->capture_default_str();
+  app.add_option("--rate", options.rate, "Ticks a second")->capture_default_str();
+  app.add_option("--depth", options.depth,
+                 "How deep the hand is under the mean surface, mm; less than 0: above it, which tells what the machine "
+                 "itself takes")
+      ->capture_default_str();
+  app.add_option("--reach", options.reach, "Of a grab, mm; where no vertex is so near, one is created")
+      ->capture_default_str();
+  app.add_option("--work", options.work, "Pairs that a drag may decide")->capture_default_str();
+  app.add_option("--runs", options.runs, "Make the same run so often, and take the least time of each tick")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--no-allocations", options.refuses_allocations, "End with an error where a tick has allocated");
+  app.add_option("--json", options.json, "Write the report here");
+  benchmark::Shard shard;
+  shard.add_option(app, "run; there is one, of one hand");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    std::vector<std::uint64_t> least(options.ticks, std::numeric_limits<std::uint64_t>::max());
+    Json report;
+    if (shard.takes_next())
+      for (std::size_t k = 0; k < options.runs; ++k)
+        report = run(options, least);
+    report["shard"] = shard.text();
+    std::cout << report.dump(2) << '\n';
+    if (!options.json.empty() && !(std::ofstream(options.json) << report.dump(2) << '\n'))
+      throw Error("cannot write " + options.json);
+  } catch (const Error& error) {
+    std::cerr << "haptic_ticks: " << error.what() << '\n';
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Speed against error of the device's kinematics and dynamics, for four number types: ns per call beside the error
+// against 60 digits.
+#include "Shard.h"
+#include "device/Mpfr_scalar.h"
+#include "device/populations.h"
+#include "device_speed_error/measure.h"
+
+#include <CLI/CLI.hpp>
+
+#include <fstream>
+#include <iostream>
+
+namespace {
+
+using namespace device_populations;
+using namespace haptic_sculpt::benchmark;
+using nlohmann::json;
+
+/// Configurations along a smooth path of the joints at 1 kHz, as a loop meets them, or random ones, as a planner does.
+Population make_population(unsigned seed, int count, bool path) {
+  Random random(seed);
+  Population p;
+  p.name = path ? "path" : "random";
+  const Device_vector<double> phase = random_vector(random, 3);
+  for (int k = 0; k < count; ++k) {
+    const double t = 1e-3 * k;
+    Device_vector<double> theta = random_angles(random, 0.6, 1.4);
+    if (path)
+      for (int leg = 0; leg < 3; ++leg)
+        theta[leg] = 1 + 0.3 * std::sin((5 + leg) * t + phase[leg]);
+    p.theta.push_back(theta);
+    p.rate.push_back(random_vector(random, 5));
+    p.acceleration.push_back(random_vector(random, 50));
+  }
+  return p;
+}
+
+} // namespace
+
+int main(int argument_count, char** arguments) {
+  CLI::App app(
+      "Speed against error of the device's kinematics and dynamics for float, double, long double and MPFR numbers");
+  std::string path;
+  unsigned seed = 1;
+  int count = 4096;
+  app.add_option("--json", path, "write the results here");
+  app.add_option("--seed", seed, "of the random configurations");
+  app.add_option("--count", count, "configurations")->check(CLI::PositiveNumber);
+  Shard shard;
+  shard.add_option(app, "number type and population");
+  CLI11_PARSE(app, argument_count, arguments);
+  json rows = json::array();
+  for (bool along_a_path : {true, false}) {
+    const Population p = make_population(seed, count, along_a_path);
+    Population few = p;
+    few.theta.resize(std::min<std::size_t>(few.theta.size(), 64));
+    const auto unit = [&](const auto& work) {
+      const std::size_t first = rows.size(), number = shard.next_unit();
+      if (shard.takes_next())
+        work();
+      for (std::size_t k = first; k < rows.size(); ++k)
+        rows[k]["unit"] = number;
+    };
+    unit([&] { measure<float>("float", p, 500, 15, rows); });
+    unit([&] { measure<double>("double", p, 500, 15, rows); });
+    unit([&] { measure<long double>("long double", p, 500, 5, rows); });
+    unit([&] { measure<Mpfr<34>>("MPFR 34", few, 64, 2, rows); });
+  }
+  if (!path.empty()) {
+    std::ofstream file(path);
+    file << json{{"seed", seed}, {"shard", shard.text()}, {"count", count}, {"design", "D1"}, {"rows", rows}}.dump(1) << '\n';
+    if (!file) {
+      std::cerr << "cannot write " << path << '\n';
+      return 1;
+    }
+  }
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the haptic loop's promises of passivity, stability and weightlessness are worth, measured in simulation.
+#include "Promises.h"
+#include "Shard.h"
+#include "haptic_passivity/chart.h"
+#include "haptic_passivity/contact_reports.h"
+#include "haptic_passivity/limit_reports.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <fstream>
+
+using namespace haptic_sculpt::passivity_benchmark;
+
+namespace {
+
+enum Exit_code { done = 0, usage = 2, cannot_write = 5, bound_not_kept = 9 };
+
+/// What is wrong, one sentence each.
+std::vector<std::string> broken_bounds(const Json& report) {
+  std::vector<std::string> broken;
+  if (report.contains("passive") && report["passive"]["active_runs"] != 0)
+    broken.push_back("a run within the passive limit was given energy; its seed is in the report");
+  if (report.contains("knocks") && !report["knocks"]["failures"].empty())
+    broken.push_back("a knock gave energy, was not calm after half a second, or ended as a fault; its seed is in the report");
+  for (const Json& row : report.value("activity", Json::array()))
+    if (row["delay"] == 0.0 && (row["least_over_formula"] < 0.9 || row["largest"] > 1.1))
+      broken.push_back("activity does not begin within 10 % of the formula");
+  if (report.contains("alarms") && (report["alarms"]["faults"] != 0 || report["alarms"]["false_alarms"] != 0))
+    broken.push_back("there were false alarms");
+  for (const Json& row : report.value("dynamics", Json::array())) {
+    if (!row["largest_is_calm"])
+      broken.push_back("a virtual mass or damping that may be asked for buzzes");
+    if (!row["mass_is_calm_below"] || !row["mass_swings_above"])
+      broken.push_back("a free handle does not begin to swing within 20 % of the critical mass");
+    if (!row["damping_is_calm_below"] || !row["damping_swings_above"])
+      broken.push_back("a damped handle does not begin to swing between 0.6 (or twice what may be asked for) and twice the "
+                       "critical damping");
+  }
+  for (const Json& row : report.value("gravity", Json::array()))
+    if (row["source"] == "encoders and holding" && row["largest_N"] > 0.06)
+      broken.push_back("more than 60 mN of the mechanism's weight is left");
+  return broken;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Energy that the simulated device gives in contact with a plane, within the passive limit and beyond; "
+               "what each limit of forces adds; false alarms; the weight that is left in the hand; where stability "
+               "ends.");
+  app.add_option("--runs", options.runs, "Of random pose, stiffness <= k_p, damping, delay, tick and hand")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--first", options.first, "Number of the first of them: shares of one large set add up to it")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--knock-runs", options.knock_runs, "Of a hand that comes down fast, or a handle that is thrown")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--seconds", options.seconds, "Of contact in each")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--effect-runs", options.effect_runs, "For each effect")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--effect-seconds", options.effect_seconds, "Of contact in each")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--alarm-runs", options.alarm_runs, "With encoders")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--alarm-seconds", options.alarm_seconds, "Of contact in each")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--prescribed", options.prescribed, "Poses of the prescribed motion, for each delay")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--poses", options.poses, "At which the weight left is looked at")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--parts", options.parts, "What to measure")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"activity", "gravity", "rate", "effects", "alarms", "dynamics", "knocks", "passive"}))
+      ->capture_default_str();
+  app.add_flag("--chart", options.chart, "Where activity and instability begin, over tick, delay and damping; minutes");
+  app.add_option("--seed", options.seed, "Of everything random")->capture_default_str();
+  haptic_sculpt::benchmark::Shard shard;
+  shard.add_option(app, "part");
+  app.add_option("--json", options.json, "Write the report here");
+  app.footer("Exit codes: 0 done, 2 usage, 5 cannot write, 9 a bound is not kept.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : usage;
+  }
+  Json report = {{"version", 1}, {"seed", options.seed}, {"shard", shard.text()}};
+  const auto part = [&](const char* name, Json (*measure)(const Options&)) {
+    if (options.has(name) && shard.takes_next())
+      report[name] = measure(options);
+    std::fflush(stdout);
+  };
+  part("activity", activity_report), part("gravity", gravity), part("rate", rates), part("effects", effects),
+      part("alarms", alarms), part("dynamics", dynamics_report);
+  part("knocks", knocks), part("passive", passivity);
+  if (options.chart && shard.takes_next())
+    report["chart"] = chart();
+  const std::vector<std::string> broken = broken_bounds(report);
+  report["broken_bounds"] = broken;
+  haptic_sculpt::benchmark::Promises promises;
+  promises.add(bound_not_kept, "every bound of energy, stability and weight is kept", shard.is_first() ? 1 : 0, broken.size());
+  report["promises"] = promises.json();
+  report["exit"] = promises.exit();
+  for (const std::string& sentence : broken)
+    std::fprintf(stderr, "haptic_passivity: %s\n", sentence.c_str());
+  if (!options.json.empty() && !(std::ofstream(options.json) << report.dump(1) << '\n')) {
+    std::fprintf(stderr, "haptic_passivity: cannot write %s\n", options.json.c_str());
+    return cannot_write;
+  }
+  return broken.empty() ? done : bound_not_kept;
+}

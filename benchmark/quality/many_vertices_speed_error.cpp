@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Many vertices to targets: share of the way against time, by axis moves, one after the other, and all at once with a
+// step that is halved until does_self_intersect is content.
+#include "Promises.h"
+#include "Shard.h"
+#include "meshes/generated_meshes.h"
+#include "meshes/thin_walls.h"
+
+#include <haptic_sculpt/sculpting.h>
+#include <haptic_sculpt/surface.h>
+
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <iostream>
+
+namespace {
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::benchmark;
+using Mesh = meshes::Mesh;
+using Point_3 = meshes::Point_3;
+using Vector_3 = meshes::Kernel::Vector_3;
+using Vertex_index = Mesh::Vertex_index;
+using Json = nlohmann::ordered_json;
+namespace PMP = CGAL::Polygon_mesh_processing;
+
+constexpr int not_embedded = 10, cannot_write = 5;
+constexpr double finest_step = 1.0 / 128; ///< of the way: the line search gives up below
+constexpr int looks = 64;                 ///< times at which a straight motion is looked at
+
+struct Motion {
+  std::string name;
+  Mesh start;
+  std::vector<Point_3> targets; ///< by index
+};
+
+double mean_edge(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto e : mesh.edges())
+    sum += std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
+  return sum / static_cast<double>(mesh.number_of_edges());
+}
+
+Motion motion(const std::string& name, const Mesh& mesh, const std::function<Point_3(Vertex_index)>& target) {
+  Motion made{name, mesh, {}};
+  for (const Vertex_index v : mesh.vertices())
+    made.targets.push_back(target(v));
+  return made;
+}
+
+std::vector<Motion> motions(int level, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&] { return 2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1; };
+  const Mesh hills = meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)));
+  const Mesh balls = meshes::to_mesh(meshes::row_of_spheres(2, level));
+  const std::size_t cells = std::size_t{4} << level;
+  const Mesh plate = meshes::to_mesh(meshes::wavy_plate(cells, 0.1, 0.5, 0.2, static_cast<std::uint32_t>(seed)));
+  const double edge = mean_edge(hills), edge_of_plate = mean_edge(plate);
+  const auto normal = [](const Mesh& mesh, Vertex_index v) { return PMP::compute_vertex_normal(v, mesh); };
+  const double first = balls.point(Vertex_index(0)).x(), split = [&] {
+    double low = first, high = first;
+    for (const Point_3& p : balls.points())
+      low = std::min(low, p.x()), high = std::max(high, p.x());
+    return (low + high) / 2;
+  }();
+  return {motion("a right angle", hills, [&](Vertex_index v) { const Point_3 p = hills.point(v); return Point_3(-p.y(), p.x(), p.z()); }),
+          motion("half a twist", hills, [&](Vertex_index v) {
+            const Point_3 p = hills.point(v);
+            const double angle = 1.5707963267948966 * p.z();
+            return Point_3(p.x() * std::cos(angle) - p.y() * std::sin(angle), p.x() * std::sin(angle) + p.y() * std::cos(angle), p.z());
+          }),
+          motion("noise of an edge", hills, [&](Vertex_index v) {
+            const double x = uniform(), y = uniform(), z = uniform();
+            return hills.point(v) + edge * Vector_3(x, y, z);
+          }),
+          motion("inflated by five edges", plate, [&](Vertex_index v) { return plate.point(v) + 5 * edge_of_plate * normal(plate, v); }),
+          motion("a ball through a ball", balls, [&](Vertex_index v) {
+            const Point_3 p = balls.point(v);
+            return p.x() < split ? p + Vector_3(4 * (split - first) + 4, 0, 0) : p;
+          })};
+}
+
+/// 1 where all arrive, from squared distances.
+double share_of_the_way(const Motion& m, const Mesh& mesh) {
+  double asked = 0, left = 0;
+  for (const Vertex_index v : mesh.vertices()) {
+    const Point_3& target = m.targets[v];
+    asked += CGAL::squared_distance(m.start.point(v), target), left += CGAL::squared_distance(mesh.point(v), target);
+  }
+  return asked > 0 ? 1 - std::sqrt(left / asked) : 1;
+}
+
+void move_straight(const Motion& m, Mesh& mesh, double share) {
+  for (const Vertex_index v : mesh.vertices())
+    mesh.point(v) = share == 1 ? m.targets[v] : m.start.point(v) + share * (m.targets[v] - m.start.point(v));
+}
+
+/// What one would do with CGAL alone. \return how far it went
+double line_search(const Motion& m, Mesh& mesh) {
+  double done = 0, step = 1;
+  while (done < 1 && step >= finest_step) {
+    const double next = std::min(1.0, done + step);
+    move_straight(m, mesh, next);
+    if (PMP::does_self_intersect(mesh))
+      step /= 2;
+    else
+      done = next, step *= 2;
+  }
+  move_straight(m, mesh, done);
+  return done;
+}
+
+/// Whether the surface met itself on a straight way that ended well: looked at `looks` times.
+bool passed_through(const Motion& m, double way) {
+  Mesh mesh = m.start;
+  for (int k = 1; k < looks; ++k) {
+    move_straight(m, mesh, way * k / looks);
+    if (PMP::does_self_intersect(mesh))
+      return true;
+  }
+  return false;
+}
+
+double seconds_since(std::clock_t begin) {
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+Json row(const Motion& m, const char* method, std::clock_t begin, const Mesh& mesh, bool has_passed) {
+  const double seconds = seconds_since(begin);
+  Json result = {{"motion", m.name},
+                 {"method", method},
+                 {"vertices", mesh.number_of_vertices()},
+                 {"seconds", seconds},
+                 {"share", share_of_the_way(m, mesh)},
+                 {"passed_through", has_passed},
+                 {"valid", validate(mesh).is_valid()}};
+  std::printf("%s: %s: %.3f s, %.1f %% of the way%s\n", m.name.c_str(), method, seconds, 100 * result["share"].get<double>(),
+              has_passed ? ", through itself" : "");
+  std::fflush(stdout);
+  return result;
+}
+
+void measure(const Motion& m, Json& rows) {
+  {
+    Mesh mesh = m.start, targets = m.start;
+    move_straight(m, targets, 1);
+    const std::clock_t begin = std::clock();
+    Sculptor<Mesh> sculptor(mesh);
+    move_vertices(sculptor, mesh.vertices(), get(CGAL::vertex_point, targets));
+    rows.push_back(row(m, "move_vertices", begin, mesh, false));
+  }
+  {
+    Mesh mesh = m.start;
+    const std::clock_t begin = std::clock();
+    Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
+    for (int pass = 0; pass < 4; ++pass)
+      for (const Vertex_index v : m.start.vertices())
+        if (mesh.point(v) != m.targets[v])
+          sculptor.grab(v).drag_to(m.targets[v]);
+    rows.push_back(row(m, "one after the other", begin, mesh, false));
+  }
+  {
+    Mesh mesh = m.start;
+    const std::clock_t begin = std::clock();
+    const double way = line_search(m, mesh);
+    Json found = row(m, "halving on does_self_intersect", begin, mesh, false);
+    found["passed_through"] = way > 0 && passed_through(m, way);
+    rows.push_back(found);
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Many vertices to targets: share of the way against time, by move_vertices, by one drag after the other, and all "
+               "at once with a line search on CGAL's does_self_intersect. Exit code 10: a guarded mesh is not embedded.");
+  std::string file;
+  std::uint64_t seed = 1;
+  int level = 4, rounds = 1;
+  Shard shard;
+  app.add_option("--json", file, "Write all figures to this file");
+  app.add_option("--level", level, "Fineness: 20 * 4^level triangles")->check(CLI::Range(1, 8))->capture_default_str();
+  app.add_option("--rounds", rounds, "Each with another seed")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--seed", seed)->capture_default_str();
+  shard.add_option(app, "motion");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    Json rows = Json::array();
+    std::size_t asked = 0, broken = 0;
+    for (int round = 0; round < rounds; ++round)
+      for (const Motion& m : motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))) {
+        const std::size_t unit = shard.next_unit(), before = rows.size();
+        if (!shard.takes_next())
+          continue;
+        measure(m, rows);
+        for (std::size_t k = before; k < rows.size(); ++k) {
+          rows[k]["unit"] = unit;
+          if (rows[k]["method"] != "halving on does_self_intersect")
+            ++asked, broken += !rows[k]["valid"].get<bool>();
+        }
+      }
+    Promises promises;
+    promises.add(not_embedded, "a mesh moved under the guard is embedded", asked, broken);
+    if (!file.empty())
+      replace_file(file, Json{{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"rows", rows}, {"promises", promises.json()},
+                              {"exit", promises.exit()}}
+                             .dump(1) + '\n');
+    return promises.exit();
+  } catch (const Error& error) {
+    std::cerr << "many_vertices_speed_error: " << error.what() << '\n';
+    return cannot_write;
+  }
+}

@@ -1,0 +1,67 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Judges what another program has answered to queries of sweep_speed_error --write-queries: read_answers.py ANSWERS ...
+
+An answer file stands in the folder of `queries.txt` and `truth.txt`, or names it: lines `# name: TEXT`,
+`# seconds: NUMBER` (of all queries together, optional), `# queries: FOLDER` (optional), then a line for each query, in
+their order: `0`, or `1`, or `1 u` with the time of impact as a decimal. `-` says that the program has no answer: it counts
+as wrong. `truth.txt` is written by the rational oracle, `0` or `1 num/den` a line.
+"""
+import json
+import pathlib
+import sys
+from fractions import Fraction
+
+
+class Bad_answers(Exception):
+    """Names the file and the line."""
+
+
+def lines_of(path):
+    return [(n, line.split()) for n, line in enumerate(path.read_text().splitlines(), 1) if line.strip() and not line.startswith("#")]
+
+
+def read_one(path):
+    """A row for the page."""
+    head = dict(line[1:].split(":", 1) for line in path.read_text().splitlines() if line.startswith("#") and ":" in line)
+    head = {key.strip(): value.strip() for key, value in head.items()}
+    folder = pathlib.Path(head.get("queries", path.parent))
+    truth = [words for _, words in lines_of(folder / "truth.txt")]
+    answers = lines_of(path)
+    if len(answers) != len(truth):
+        raise Bad_answers(f"{path}: {len(answers)} answers to {len(truth)} queries: give one line each, '-' where there is none")
+    false_positives = false_negatives = none = 0
+    largest = None
+    for (number, words), true in zip(answers, truth):
+        hits = true[0] == "1"
+        if words[0] not in ("0", "1", "-") or len(words) > 2:
+            raise Bad_answers(f"{path}, line {number}: '{' '.join(words)}' is not 0, 1, 1 u or -")
+        if words[0] == "-":
+            none += 1
+            continue
+        false_positives += words[0] == "1" and not hits
+        false_negatives += words[0] == "0" and hits
+        if words[0] == "1" and hits and len(words) == 2:
+            try:
+                time = float(words[1])
+            except ValueError:
+                raise Bad_answers(f"{path}, line {number}: '{words[1]}' is not a number") from None
+            error = float(abs(Fraction(time) - Fraction(true[1]))) if 0 <= time <= 1 else 1.0
+            largest = max(largest or 0.0, error)
+    seconds = float(head["seconds"]) / len(truth) if "seconds" in head else None
+    return {"name": head.get("name", path.stem), "queries": len(truth), "seconds_a_query": seconds, "false_positives": false_positives,
+            "false_negatives": false_negatives, "not_answered": none, "share_wrong": (false_positives + false_negatives + none) / len(truth),
+            "largest_error": largest}
+
+
+def read(paths):
+    return [read_one(pathlib.Path(path)) for path in paths]
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+        sys.exit(__doc__)
+    try:
+        print(json.dumps(read(sys.argv[1:]), indent=1))
+    except (Bad_answers, OSError) as bad:
+        sys.exit(f"read_answers: {bad}")

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the page says of robustness: how often each promise was looked at, and how often it broke."""
+from figures import Finding, Table, bars, seconds_text
+
+
+def is_kept(p):
+    return p["broken"] <= p["may"] * p["asked"]
+
+
+def of_promises(step, report, sentence, number, of, tables):
+    rows = [p for p in report["promises"] if p["asked"] > 0]
+    figure = bars([(p["promise"], p["asked"], f"{p['broken']:,} of {p['asked']:,} broken" + (f", {100 * p['may']:g} % may" if p["may"] else ""), is_kept(p))
+                   for p in rows], "times looked at")
+    behind = Table("Promises", ["promise", "looked at", "broken", "may be", "exit code"],
+                   [[p["promise"], f"{p['asked']:,}", f"{p['broken']:,}", f"{100 * p['may']:g} %", p["exit"]] for p in report["promises"]])
+    return Finding(step, sentence, number, of, figure, "How often each promise was looked at, and broken", [behind, *tables])
+
+
+def drags_and_edits(report):
+    broken = [p for p in report["promises"] if not is_kept(p)]
+    drags, edits = report["total"]["drags"], report["total_of_edits"]["edits"]
+    meshes = len({r["mesh"] for r in report["meshes"]})
+    rows = [[r["mesh"], f"{r['faces']:,}", f"{r.get('drags', 0):,}", f"{r.get('blocked', 0):,}", f"{r.get('mixed_edits', {}).get('edits', 0):,}",
+             r.get("invalid", 0) + r.get("mixed_edits", {}).get("invalid", 0), f"{r.get('largest_stop_error_in_clearances', 0):.3g}",
+             seconds_text(r["mean_ns"] * 1e-9) if r.get("mean_ns") else ""] for r in report["meshes"]]
+    tables = [Table("Meshes", ["mesh", "faces", "drags", "blocked", "mixed edits", "not valid after", "largest stop error, clearances", "mean drag"], rows)]
+    if report["refused"]:
+        tables.append(Table("Meshes refused", ["file", "had to be", "reason"], [[r["file"], "yes" if r["has_to_be"] else "no", r["reason"]] for r in report["refused"]]))
+    said = "no promise broke" if not broken else "broken: " + "; ".join(p["promise"] for p in broken)
+    return [of_promises("drags_and_edits", report, f"In {drags:,} drags and {edits:,} mixed edits of {meshes} hard meshes {said}.", str(len(broken)),
+                        f"broken promises of {len(report['promises'])}", tables)]
+
+
+def ends(report):
+    total = sum(t["drags"] for t in report["total"])
+    missed = sum(t["missed"] + t["gave_up"] for t in report["total"])
+    rows = [[f["family"], f["drags"], f["not_reached"], f["certified"], f["missed"], f["gave_up"], f"{100 * f['largest_gain_missed']:.2g} %"] for f in report["families"]]
+    return [of_promises("ends", report, f"Of {total:,} drags of machine parts and near-degenerate solids {missed:,} end where a free way leads nearer.", f"{missed:,}",
+                        f"ends too early, of {total:,}", [Table("Families", ["family", "drags", "not reached", "certified", "missed", "gave up", "largest gain missed"], rows)])]
+
+
+def sweeps_by_oracle(report):
+    p = report["promises"][0]
+    return [of_promises("sweeps_by_oracle", report, f"{p['asked']:,} sweeps were asked of a second, exact implementation; {'all agree' if p['broken'] == 0 else 'some differ'}.",
+                        f"{p['asked']:,}", "sweeps asked twice", [])]
+
+
+CHARTS = {"drags_and_edits": drags_and_edits, "ends": ends, "sweeps_by_oracle": sweeps_by_oracle}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_RUN_H
+#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_RUN_H
+
+#include "Drag_batch.h"
+#include "Edit_batch.h"
+#include "Extreme_batch.h"
+#include "Promises.h"
+#include "Shard.h"
+
+#include <haptic_sculpt/surface.h>
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace haptic_sculpt::robustness {
+
+enum Exit {
+  all_kept = 0,
+  usage = 2,
+  not_embedded = 10,     ///< validate() found a fault after drags or edits
+  lazy_short = 11,       ///< fewer than 95 % of the short random drags arrived
+  lazy_long = 12,        ///< a push through the object stayed at its start though it had more than two clearances to go
+  wrongly_accepted = 13, ///< a mesh that has to be refused was not
+  wrongly_refused = 14,  ///< a mesh that has to be accepted was refused
+  mesh_changed = 15,     ///< a vertex that was not in hand has moved
+  undo_differs = 16,     ///< undoing everything did not give back the input, bit for bit
+  redo_differs = 17,     ///< redoing everything did not give back the end, bit for bit
+  lazy_creation = 18,    ///< more than 1 % of the feasible creations were refused
+  jumped_over = 19,      ///< a creation was accepted that crosses or jumps over a part of the surface
+  not_finite = 20,       ///< an extreme drag left a coordinate that is no finite number
+  went_away = 21,        ///< an extreme drag ended farther from its target than it began
+  contradiction = 23,    ///< a result contradicts itself
+  moved_though_refused = 22 ///< an extreme drag was refused with an error, and something had moved
+};
+
+struct Options {
+  std::string folder, json, dump, response = "slide";
+  std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000, edit_batch = 5000;
+  std::uint64_t seed = 1;
+  std::vector<std::string> refuse;
+  benchmark::Shard shard;
+};
+
+constexpr std::size_t large = 200000; ///< faces: from here on drags_on_large and edits_on_large, and one validation a batch
+
+/// All batches on all meshes, or a shard of them; sums them up.
+class Run {
+public:
+  explicit Run(const Options& options) : options_(options), shard_(options.shard), response_(*response_named(options.response)) {}
+
+  void mesh(const std::string& name, const Mesh& mesh) {
+    Json row = {{"unit", shard_.next_unit()}, {"mesh", name}, {"faces", mesh.number_of_faces()}};
+    const bool has_drags = drag(name, mesh, row), has_edits = edit(name, mesh, row);
+    if (has_drags || has_edits)
+      rows_.push_back(row);
+  }
+
+  /// Drags with extreme targets, clearances and deltas: a share of all that are asked for.
+  void extreme(const std::string& name, const Mesh& mesh, double share) {
+    Extreme_tally tally;
+    const std::size_t unit = shard_.next_unit();
+    const auto drags = static_cast<std::size_t>(std::ceil(share * static_cast<double>(options_.extreme)));
+    for (std::size_t done = 0; done < drags; done += options_.batch)
+      if (is_ours())
+        tally += Extreme_batch(mesh, response_, seed_of_batch()).run(std::min(options_.batch, drags - done));
+    if (tally.drags + tally.refused == 0)
+      return;
+    extremes_ += tally;
+    Json row = {{"unit", unit}, {"mesh", name}, {"faces", mesh.number_of_faces()}, {"extreme", tally.json()}};
+    rows_.push_back(row);
+    std::cout << name << ": extreme: " << tally.json().dump() << '\n' << std::flush;
+  }
+
+  void folder() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(options_.folder))
+      if (mesh_file_format(entry.path()))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+      const std::string name = file.filename().string();
+      const bool has_to_be_refused = std::find(options_.refuse.begin(), options_.refuse.end(), name) != options_.refuse.end();
+      try {
+        const Mesh read = read_surface<Mesh>(file);
+        ++files_read_, wrongly_accepted_ += has_to_be_refused;
+        mesh(name, read);
+      } catch (const Invalid_surface& error) {
+        std::cout << name << ": refused: " << error.what() << '\n';
+        ++files_read_, wrongly_refused_ += !has_to_be_refused;
+        refused_.push_back({{"file", name}, {"has_to_be", has_to_be_refused}, {"reason", error.what()}});
+      }
+    }
+  }
+
+  int finish() const {
+    const benchmark::Promises promises = kept_promises();
+    const int exit = promises.exit();
+    std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, "
+              << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response
+              << ", seed " << options_.seed << ", exit " << exit << '\n';
+    for (const auto& [kind, counts] : edits_.rows) {
+      std::cout << "  " << kind << ": " << counts.asked << " asked, " << counts.done << " done";
+      for (const auto& [reason, count] : counts.refused)
+        std::cout << ", " << count << ' ' << reason;
+      std::cout << '\n';
+    }
+    if (!options_.json.empty())
+      replace_file(options_.json, Json{{"seed", options_.seed}, {"shard", shard_.text()}, {"response", options_.response},
+                                       {"meshes", rows_}, {"total", drags_.json()}, {"total_of_edits", edits_.json()}, {"total_of_extreme_drags", extremes_.json()},
+                                       {"wrongly_accepted", shard_.is_first() ? wrongly_accepted_ : 0}, // once, for all shares
+                                       {"wrongly_refused", shard_.is_first() ? wrongly_refused_ : 0},
+                                       {"refused", refused_},
+                                       {"promises", promises.json()},
+                                       {"exit", exit}}
+                                          .dump(1) + '\n');
+    return exit;
+  }
+
+private:
+  Options options_;
+  benchmark::Shard shard_;
+  Response response_;
+  std::size_t files_read_ = 0, wrongly_accepted_ = 0, wrongly_refused_ = 0;
+  Drag_tally drags_;
+  Edit_tally edits_;
+  Extreme_tally extremes_;
+  Json rows_ = Json::array(), refused_ = Json::array(); ///< what all shares refuse, with reasons
+
+  /// Whether the next batch belongs to this shard.
+  bool is_ours() { return shard_.takes_next(); }
+  std::uint64_t seed_of_batch() const { return options_.seed * 1000003 + shard_.next_unit(); }
+
+  bool drag(const std::string& name, const Mesh& mesh, Json& row) {
+    const bool is_large = mesh.number_of_faces() >= large;
+    const std::size_t drags = is_large ? options_.drags_on_large : options_.drags;
+    Drag_tally tally;
+    for (std::size_t done = 0; done < drags; done += options_.batch)
+      if (is_ours()) {
+        Drag_batch batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100);
+        const Drag_tally made = batch.run(std::min(options_.batch, drags - done));
+        tally += made;
+        if (!options_.dump.empty() && made.is_any_promise_broken())
+          batch.write(options_.dump, "batch_" + std::to_string(shard_.next_unit() - 1));
+      }
+    if (tally.drags == 0)
+      return false;
+    drags_ += tally;
+    row.update(tally.json());
+    std::cout << name << ": " << tally.drags << " drags, " << tally.blocked << " blocked, short "
+              << tally.short_arrived << '/' << tally.short_asked << ", through stayed " << tally.through_stayed << '/'
+              << tally.through_asked << " (lazy " << tally.through_lazy << "), stop error up to " << tally.largest_stop_error
+              << " c, " << tally.invalid << " invalid of " << tally.validations << ", "
+              << tally.nanoseconds / static_cast<double>(tally.drags) << " ns\n" << std::flush;
+    return true;
+  }
+
+  bool edit(const std::string& name, const Mesh& mesh, Json& row) {
+    const bool is_large = mesh.number_of_faces() >= large;
+    const std::size_t edits = is_large ? options_.edits_on_large : options_.edits;
+    Edit_tally tally;
+    for (std::size_t done = 0; done < edits; done += options_.edit_batch)
+      if (is_ours())
+        tally += Edit_batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100).run(std::min(options_.edit_batch, edits - done));
+    if (tally.edits == 0)
+      return false;
+    edits_ += tally;
+    row["mixed_edits"] = tally.json();
+    std::cout << name << ": " << tally.edits << " mixed edits, " << tally.done() << " done, " << tally.creations_wrongly_refused
+              << " of " << tally.feasible_creations() << " feasible creations refused, " << tally.creations_wrongly_accepted << " infeasible accepted of " << tally.creations_judged
+              << " judged, " << tally.undo_differs << " differ undone, "
+              << tally.redo_differs << " redone, " << tally.invalid << " invalid of " << tally.validations << '\n' << std::flush;
+    return true;
+  }
+
+  benchmark::Promises kept_promises() const {
+    benchmark::Promises promises;
+    const std::size_t drags = drags_.drags, extremes = extremes_.drags + extremes_.refused;
+    const std::size_t files = shard_.is_first() ? files_read_ : 0; // every share reads all
+    promises.add(not_embedded, "the mesh is embedded", drags_.validations + edits_.validations + extremes_.drags,
+                 drags_.invalid + edits_.invalid + extremes_.invalid);
+    promises.add(not_finite, "all coordinates are finite", extremes_.drags, extremes_.not_finite);
+    promises.add(moved_though_refused, "what is refused moves nothing", extremes_.refused, extremes_.moved_though_refused);
+    promises.add(went_away, "no drag ends farther from its target", extremes_.drags, extremes_.farther);
+    promises.add(contradiction, "no result contradicts itself", drags + extremes, drags_.contradictions + extremes_.contradictions);
+    promises.add(jumped_over, "no creation crosses the surface", edits_.creations_judged, edits_.creations_wrongly_accepted);
+    promises.add(mesh_changed, "nothing moves but what is in hand", drags_.validations + edits_.validations,
+                 drags_.changed + edits_.changed);
+    promises.add(undo_differs, "undone, all is as it was, bit for bit", edits_.edits, edits_.undo_differs);
+    promises.add(redo_differs, "redone, all is as it was, bit for bit", edits_.edits, edits_.redo_differs);
+    promises.add(wrongly_accepted, "what is not embedded is refused", files, shard_.is_first() ? wrongly_accepted_ : 0);
+    promises.add(wrongly_refused, "what is embedded is accepted", files, shard_.is_first() ? wrongly_refused_ : 0);
+    promises.add(lazy_long, "a push through the object comes near the contact", drags_.through_asked, drags_.through_lazy);
+    promises.add(lazy_short, "short drags arrive", drags_.short_asked, drags_.short_asked - drags_.short_arrived, 0.05);
+    promises.add(lazy_creation, "feasible creations are made", edits_.feasible_creations(), edits_.creations_wrongly_refused, 0.01);
+    return promises;
+  }
+};
+
+} // namespace haptic_sculpt::robustness
+
+#endif

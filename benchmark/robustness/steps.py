@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Steps of the part robustness: whether a promise breaks, on hard meshes and on one's own."""
+from steps import Effort, Step
+
+STEPS = [
+    Step("drags_and_edits", "robustness",
+         tiny=Effort("--drags 60 --edits 60 --batch 20 --edit-batch 20 --seed {seed}", shards=3),
+         quick=Effort("--drags 5000 --edits 1000 --drags-on-large 200 --edits-on-large 20 --seed {seed}", 4, shards=2),
+         full=Effort("--drags 7700000 --edits 100000 --extreme 20000 --batch 10000 --seed {seed}", 480, shards=64),
+         with_meshes="--meshes {meshes}"),
+    Step("ends", "certify_ends",
+         tiny=Effort("--drags 2 --per-scene 1 --ways 20 --seed {seed}", shards=2),
+         quick=Effort("--drags 20 --ways 200 --near-degenerate 0.01 --seed {seed}", 3),
+         full=Effort("--drags 20000 --seed {seed}", 240, shards=16)),
+    Step("sweeps_by_oracle", "test_collision", folder="test/collision",
+         full=Effort("--run_test=*sweep* --log_level=message", 480, shards=32),
+         environment={"HAPTIC_SCULPT_SWEEP_QUERIES": "{share}", "HAPTIC_SCULPT_SEED": "{seed_of_shard}"},
+         promise="every sweep agrees with the rational oracle", count={"full": 10**9}),
+]

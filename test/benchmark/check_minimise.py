@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""check_minimise.py ROOT SCULPT: a case of three components and 60 lines becomes one that still fails, with the least of both.
+
+What "fails" here is known beforehand: that a drag of one vertex is blocked. One line is enough for that, and the two
+components that it goes between."""
+import json
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+ROOT, SCULPT, SEED, BLOCKED = pathlib.Path(sys.argv[1]), sys.argv[2], 3, 10
+
+# Ends with 10 where the script has a blocked drag whose vertex is pushed to x = 7.
+JUDGE = """import json, subprocess, sys
+subprocess.run([sys.argv[1], sys.argv[2], '--script', sys.argv[3], '-o', sys.argv[4] + '/o.off', '--report', sys.argv[4] + '/r.json', '--response', 'stop'], check=True)
+lines = open(sys.argv[3]).read().splitlines()
+edits = json.load(open(sys.argv[4] + '/r.json'))['edits']
+sys.exit(10 if any(e['op'] == 'drag' and e['status'] == 'blocked' and lines[e['line'] - 1].split()[2] == '7' for e in edits) else 0)
+"""
+
+
+def box(x):
+    """A cube of side 1 from x on, two triangles a side."""
+    points = [(x + (i & 1), i >> 1 & 1, i >> 2 & 1) for i in range(8)]
+    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    return points, [t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))]
+
+
+def main():
+    draw = random.Random(SEED)
+    points, faces = [], []
+    for x in (0, 3, 6.5, 40):
+        p, f = box(x)
+        faces += [[len(points) + v for v in t] for t in f]
+        points += p
+    # Each face once divided, so that there are vertices to be left out.
+    for t in list(faces):
+        faces.remove(t)
+        points.append(tuple(sum(points[v][k] for v in t) / 3 + 0.1 * (k == 5) for k in range(3)))
+        m = len(points) - 1
+        faces += [[t[0], t[1], m], [t[1], t[2], m], [t[2], t[0], m]]
+    with tempfile.TemporaryDirectory() as place:
+        folder = pathlib.Path(place)
+        (folder / "judge.py").write_text(JUDGE)
+        mesh, script = folder / "case.off", folder / "case.script"
+        mesh.write_text(f"OFF\n{len(points)} {len(faces)} 0\n" + "".join("%r %r %r\n" % p for p in points) + "".join("3 %d %d %d\n" % tuple(f) for f in faces))
+        lines = [f"drag {draw.randrange(24, 32)} {40 + draw.random()} {draw.random()} {draw.random()}" for _ in range(60)]
+        lines[37] = "drag 7 7 0.5 0.5"  # a corner of the first cube, into the third, through the second
+        script.write_text("\n".join(lines) + "\n")
+        command = f"{sys.executable} {folder / 'judge.py'} {SCULPT} {{mesh}} {{script}} {folder}"
+        done = subprocess.run([sys.executable, str(ROOT / "benchmark/robustness/minimise"), SCULPT, str(mesh), str(script), "--out", str(folder / "small"),
+                               "--command", command, "--exit", str(BLOCKED)], capture_output=True, text=True)
+        print(f"seed {SEED}:", done.stdout.strip(), done.stderr.strip())
+        faults = []
+        if done.returncode != 0:
+            faults.append(f"minimise ended with {done.returncode}")
+        else:
+            small = [line for line in (folder / "small.script").read_text().splitlines() if not line.startswith("#")]
+            count = int((folder / "small.off").read_text().split()[2])
+            if len(small) != 1 or not small[0].startswith("drag "):
+                faults.append(f"{len(small)} lines are left: {small}")
+            if count > 24:  # two tetrahedra at least; two cubes of 36 at most
+                faults.append(f"{count} faces are left of {len(faces)}")
+            again = subprocess.run([sys.executable, str(folder / "judge.py"), SCULPT, str(folder / "small.off"), str(folder / "small.script"), str(folder)])
+            if again.returncode != BLOCKED:
+                faults.append("the small case does not fail")
+        kept = subprocess.run([sys.executable, str(ROOT / "benchmark/robustness/minimise"), SCULPT, str(mesh), str(script), "--out", str(folder / "no")],
+                              capture_output=True, text=True)
+        if kept.returncode != 1 or "does not fail" not in kept.stderr:
+            faults.append(f"a case that keeps its promise: exit {kept.returncode}, {kept.stderr}")
+        print(*faults, sep="\n")
+        return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""check_run.py ROOT BUILD PROGRAM ...: `benchmark/run --tiny` ends with a page that holds all it shows.
+
+It is killed and goes on; a program that dies is named, made again, and can be run alone; a mesh of the user's that is
+refused is listed with its reason; answers of another program make a row. Where chromium is, it draws the page."""
+import base64
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from html.parser import HTMLParser
+
+ROOT, BUILD = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+PYTHON = "/usr/bin/python3"  # Debian's, which has its packages
+STEPS = ["axis", "device", "drags_and_edits"]
+faults = []
+
+
+def expect(condition, fault):
+    if not condition:
+        faults.append(fault)
+
+
+def run(out, *arguments, build=BUILD):
+    return subprocess.run([PYTHON, str(ROOT / "benchmark/run"), "--tiny", "--no-build", "--build", str(build), "--out", str(out), "--cores", "1", *arguments],
+                          capture_output=True, text=True)
+
+
+class Page(HTMLParser):
+    """Images, and addresses that would be fetched."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.images, self.fetched, self.text = [], [], text
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        if tag == "img":
+            self.images.append(attrs)
+        for name in ("src", "href"):
+            if name in attrs and not attrs[name].startswith(("data:", "#")):
+                self.fetched.append(attrs[name])
+
+
+def check_page(out):
+    page = Page((out / "index.html").read_text())
+    expect(len(page.images) >= len(STEPS), f"{len(page.images)} images of {len(STEPS)} steps")
+    expect(not page.fetched, f"the page fetches {page.fetched}")
+    for image in page.images:
+        svg = base64.b64decode(image["src"].split(",", 1)[1]).decode()
+        expect(image.get("alt"), "an image has no words")
+        expect(svg.count("<path") > 10 and svg.rstrip().endswith("</svg>"), f"the image '{image.get('alt')}' is empty or cut off")
+    about = json.loads((out / "run.json").read_text())
+    for key in ("machine", "compiler", "commit", "seed"):
+        expect(str(about[key]) and str(about[key]) in page.text.replace("&#43;", "+"), f"the page does not tell the {key}: {about[key]!r}")
+    if chromium := shutil.which("chromium"):
+        picture = out / "page.png"
+        subprocess.run([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--window-size=1000,2400", f"--screenshot={picture}",
+                        f"file://{out / 'index.html'}"], capture_output=True, timeout=120)
+        expect(picture.exists() and picture.stat().st_size > 50000, "chromium draws nothing, or hardly anything")
+    return page
+
+
+def kill_and_resume(out):
+    """Killed with all it has started, once three reports are there, of which two must not be made again; the same command goes on."""
+    going = subprocess.Popen([PYTHON, str(ROOT / "benchmark/run"), "--tiny", "--no-build", "--build", str(BUILD), "--out", str(out), "--cores", "1", *STEPS],
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    end = time.monotonic() + 300
+    while time.monotonic() < end and going.poll() is None and len(list(out.glob("shards/*/*.json"))) < 3:
+        time.sleep(0.02)
+    os.killpg(going.pid, signal.SIGKILL)
+    going.wait()
+    before = {path: path.stat().st_mtime_ns for path in out.glob("shards/*/*.json")}
+    expect(before, "nothing was done before the kill")
+    done = run(out, *STEPS)
+    expect(done.returncode == 0, f"after the kill: exit {done.returncode}\n{done.stdout}{done.stderr}")
+    steps = re.findall(r"(\d+) of (\d+) steps", done.stdout)
+    expect(steps and steps[-1][0] == steps[-1][1], f"it does not say how far it is: {done.stdout}")
+    complete = [path for path in before if path.stat().st_mtime_ns == before[path]]
+    expect(len(complete) >= 2, f"of {len(before)} reports before the kill {len(before) - len(complete)} were made again")
+    return done
+
+
+def death(out, folder):
+    """A program that dies in one shard is named, made again, and the page is there."""
+    build = folder / "build"
+    (build / "benchmark").mkdir(parents=True)
+    for name in ("axis_speed_error", "device_speed_error"):
+        os.symlink(BUILD / "benchmark" / name, build / "benchmark" / name)
+    (build / "CMakeCache.txt").write_text((BUILD / "CMakeCache.txt").read_text())
+    dying = build / "benchmark" / "device_speed_error"
+    dying.unlink()
+    dying.write_text(f"#!/bin/bash\n[[ \"$*\" == *'--shard 1/3'* ]] && kill -SEGV $$\nexec {BUILD / 'benchmark' / 'device_speed_error'} \"$@\"\n")
+    dying.chmod(0o755)
+    done = run(out, "axis", "device", build=build)
+    said = [line for line in done.stderr.splitlines() if line.startswith("died: ")]
+    expect(done.returncode == 1, f"a program that dies: exit {done.returncode}")
+    expect(len(said) == 1 and "device, shard 1/3, was ended by signal 11" in said[0], f"what died is not named: {done.stderr}")
+    expect(len((out / "shards/device/1_of_3.failed").read_text().splitlines()) == 2, "it was not made again")
+    page = (out / "index.html").read_text()
+    expect("shard 1/3, was ended by signal 11" in page, "the page does not tell of it")
+    expect((out / "results/axis.json").exists(), "the other step has not gone on")
+    if said:
+        alone = said[0].rsplit(": ", 1)[1].replace(str(build), str(BUILD))
+        expect(subprocess.run(alone, shell=True, cwd=out, capture_output=True).returncode == 0, f"it cannot be run alone: {alone}")
+    dying.write_text(f"#!/bin/bash\nexec {BUILD / 'benchmark' / 'device_speed_error'} \"$@\"\n")
+    mended = run(out, "axis", "device", build=build)
+    expect(mended.returncode == 0 and "made again: 1/3" in (out / "index.html").read_text(), f"mended, it ends with {mended.returncode}: {mended.stderr}")
+
+
+def own_meshes(out, folder):
+    """What is refused is listed, with its reason, and is a broken promise unless it has to be."""
+    meshes = folder / "meshes"
+    meshes.mkdir()
+    points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+    (meshes / "tetrahedron.off").write_text(f"OFF\n4 4 0\n{points}3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+    (meshes / "open.off").write_text(f"OFF\n4 3 0\n{points}3 0 2 1\n3 0 1 3\n3 1 2 3\n")
+    done = run(out, "drags_and_edits", "--meshes", str(meshes))
+    page = (out / "index.html").read_text()
+    expect(done.returncode == 4 and "what is embedded is accepted" in done.stderr, f"a mesh that is refused: exit {done.returncode}, {done.stderr}")
+    expect("open.off" in page and "Meshes refused" in page, "the page does not list the mesh that is refused")
+    expect("tetrahedron.off" in page, "the page does not list the mesh that is accepted")
+
+
+def answers(out, folder):
+    """Of a program that is right but for one in ten."""
+    queries = folder / "queries"
+    queries.mkdir()
+    subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "10", "--write-queries", str(queries)], check=True, capture_output=True)
+    truth = (queries / "truth.txt").read_text().split("\n")[:-1]
+    wrong = sum(i % 10 == 0 for i in range(len(truth)))
+    said = [("0" if t[0] == "1" else "1") if i % 10 == 0 else (t if t == "0" else f"1 {eval(t[2:])!r}") for i, t in enumerate(truth)]
+    (queries / "other.txt").write_text("# name: Nine of ten\n# seconds: 0.5\n" + "\n".join(said) + "\n")
+    done = run(out, "axis", "--answers", str(queries / "other.txt"))
+    expect(done.returncode == 0 and "Nine of ten" in (out / "index.html").read_text(), f"answers of another program: exit {done.returncode}, {done.stderr}")
+    read = subprocess.run([PYTHON, str(ROOT / "benchmark/quality/read_answers.py"), str(queries / "other.txt")], capture_output=True, text=True)
+    row = json.loads(read.stdout)[0]
+    expect(row["false_positives"] + row["false_negatives"] == wrong and row["largest_error"] < 1e-15, f"judged wrongly, {wrong} are wrong: {row}")
+    (queries / "short.txt").write_text("0\n")
+    short = subprocess.run([PYTHON, str(ROOT / "benchmark/quality/read_answers.py"), str(queries / "short.txt")], capture_output=True, text=True)
+    expect(short.returncode == 1 and "1 answers to" in short.stderr, f"too few answers: {short.stderr}")
+
+
+def main():
+    if shutil.which("snakemake") is None:
+        print("skipped: snakemake is missing (apt-get install snakemake)")
+        return 77
+    if subprocess.run([PYTHON, "-c", "import jinja2, matplotlib"], capture_output=True).returncode != 0:
+        print("skipped: python3-jinja2 or python3-matplotlib is missing")
+        return 77
+    with tempfile.TemporaryDirectory() as place:
+        folder = pathlib.Path(place)
+        kill_and_resume(folder / "resumed")
+        check_page(folder / "resumed")
+        death(folder / "death", folder)
+        own_meshes(folder / "own", folder)
+        answers(folder / "answers", folder)
+    print(*faults, sep="\n")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
