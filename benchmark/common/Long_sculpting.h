@@ -58,8 +58,6 @@ public:
       if (random_() % 2 == 0)
         edit();
       const Vertex_index v = any_vertex();
-      if (mesh_.is_isolated(v))
-        continue;
       auto grab = sculptor_.grab(v);
       for (std::size_t i = 1 + random_() % 10; i > 0 && tally_.drags < drags; --i) {
         const Point_3 to = target(v);

@@ -68,18 +68,18 @@ double distance(const Point_3& a, const Point_3& b) { return std::sqrt(CGAL::squ
 /// A mesh with its Sculptor, and one hand in it.
 class Bench {
 public:
-  Bench(const Mesh& mesh, const Options& options, std::size_t work)
-    : mesh_(mesh), probe_(mesh_.add_vertex(Point_3(1.5 * options.radius, 0, 0))), sculptor_(mesh_) {
+  Bench(const Mesh& mesh, std::size_t work)
+    : mesh_(mesh), sculptor_(mesh_) {
     if (work != 0)
       sculptor_.set_work_limit(work);
   }
 
-  Vertex_index probe() const { return probe_; }
   const Mesh& mesh() const { return mesh_; }
 
   /// Puts the probe where a hand comes from: outside of the object, over its place.
   void bring_probe_to(const Point_3& hand) {
-    if (!sculptor_.place(probe_, CGAL::ORIGIN + 1.25 * (hand - CGAL::ORIGIN)))
+    probe_.emplace(sculptor_.probe(CGAL::ORIGIN + 1.25 * (hand - CGAL::ORIGIN)));
+    if (!*probe_)
       throw Error("the probe has no room over the hand");
   }
   void take(Vertex_index v) {
@@ -87,6 +87,8 @@ public:
     held_.emplace(sculptor_.grab(v));
   }
   void take_back() {
+    if (std::exchange(probe_, std::nullopt))
+      return; // it has changed nothing
     held_.reset();
     stroke_.reset();
     sculptor_.undo();
@@ -94,7 +96,7 @@ public:
 
   Drag_result<Mesh> drag(const Point_3& target) {
     const double start = cpu_microseconds();
-    auto result = held_->drag_to(target);
+    auto result = probe_ ? probe_->drag_to(target) : held_->drag_to(target);
     times.push_back(cpu_microseconds() - start);
     work.push_back(static_cast<double>(result.work));
     limited += result.end == Drag_end::work_limit ? 1 : 0;
@@ -106,17 +108,17 @@ public:
 
 private:
   Mesh mesh_;
-  Vertex_index probe_;
   Sculptor<Mesh> sculptor_;
   std::optional<Stroke<Sculptor<Mesh>>> stroke_;
   std::optional<Grab<Sculptor<Mesh>>> held_;
+  std::optional<Probe<Sculptor<Mesh>>> probe_;
 };
 
 /// The vertex nearest to the hand, where it begins.
-Vertex_index nearest_vertex(const Mesh& mesh, const Point_3& p, Vertex_index but) {
+Vertex_index nearest_vertex(const Mesh& mesh, const Point_3& p) {
   Vertex_index best;
   for (const Vertex_index v : mesh.vertices())
-    if (v != but && (!best.is_valid() || CGAL::squared_distance(mesh.point(v), p) < CGAL::squared_distance(mesh.point(best), p)))
+    if (!best.is_valid() || CGAL::squared_distance(mesh.point(v), p) < CGAL::squared_distance(mesh.point(best), p))
       best = v;
   return best;
 }
@@ -141,17 +143,14 @@ struct Measured {
 };
 
 Measured measure(const Mesh& mesh, const Options& options, const std::string& what, double height) {
-  Bench free(mesh, options, 0), bounded(mesh, options, options.work);
+  Bench free(mesh, 0), bounded(mesh, options.work);
   Hand_path hand(options, height);
   std::vector<double> apart, apart_later;
   for (std::size_t done = 0; done < options.drags; done += options.ticks_per_grab) {
     const Point_3 start = hand.next();
-    const Vertex_index v = what == "probe" ? free.probe() : nearest_vertex(free.mesh(), start, free.probe());
-    for (Bench* bench : {&free, &bounded}) {
-      if (what == "probe")
-        bench->bring_probe_to(start);
-      bench->take(v);
-    }
+    const Vertex_index v = nearest_vertex(free.mesh(), start);
+    for (Bench* bench : {&free, &bounded})
+      what == "probe" ? bench->bring_probe_to(start) : bench->take(v);
     std::vector<bool> was_limited;
     for (std::size_t tick = 0; tick < options.ticks_per_grab; ++tick) {
       const Point_3 target = hand.next();

@@ -99,7 +99,7 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   auto pose = reach_position(device, *home, hand.position(0));
   if (!pose)
     throw Error("the hand's path begins where the device cannot be");
-  Loop loop(scene.sculptor, scene.probe, device, *pose, scene.map, parameters, limits);
+  Loop loop(scene.sculptor, device, *pose, scene.map, parameters, limits);
   if (mlockall(MCL_CURRENT) != 0)
     std::cerr << "haptic_ticks: the memory cannot be locked: first uses of pages are in the times\n";
   Tick_statistics all, probe, vertex;
@@ -138,7 +138,7 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   Json of_events;
   for (std::size_t event = 1; event < events.size(); ++event)
     of_events[event_names[event]] = of(events[event]);
-  return {{"triangles", scene.number_of_faces()},
+  return {{"triangles", scene.mesh.number_of_faces()},
           {"cpu_us", of(all)},
           {"cpu_us_probe", of(probe)},
           {"cpu_us_vertex_in_hand", of(vertex)},

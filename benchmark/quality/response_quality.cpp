@@ -4,6 +4,7 @@
 #include "Promises.h"
 #include "Shard.h"
 
+#include "sculpting/Mover_hand.h"
 #include "sculpting/clearances.h"
 #include "sculpting/response/convex_scenes.h"
 #include "sculpting/response/outside_scenes.h"
@@ -59,10 +60,9 @@ public:
     if (!is_ours)
       return;
     for (const Response response : responses) {
-      Mesh mesh = subject.mesh;
-      Sculptor<Mesh> sculptor(mesh, parameters::response(response));
+      test::Mover_hand grab(subject.mesh, subject.moved, parameters::response(response));
+      const Mesh& mesh = grab.mesh;
       const test::Surroundings around(mesh, subject.moved);
-      auto grab = sculptor.grab(subject.moved);
       if (rows_.count(subject.name) == 0)
         order_.push_back(subject.name);
       Row& row = rows_[subject.name][response];
@@ -75,12 +75,12 @@ public:
         row.legs += static_cast<std::size_t>(r.legs);
         row.most_legs = std::max(row.most_legs, static_cast<std::size_t>(r.legs));
         row.left += std::sqrt(CGAL::squared_distance(r.position, target)) / subject.size;
-        const auto check = test::check_local_minimum(around, mesh, r, target, test::clearance_kept(sculptor, r), random);
+        const auto check = test::check_local_minimum(around, mesh, r, target, test::clearance_kept(grab.sculptor, r), random);
         ++row.judged;
         row.at_minimum += !check.asked || (check.random_gain <= 0 && check.directed_gain <= 0);
       }
       ++validations_;
-      invalid_ += !validate(mesh).is_valid();
+      invalid_ += !validate(grab.surface()).is_valid();
     }
   }
 

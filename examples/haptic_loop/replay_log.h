@@ -7,12 +7,9 @@
 
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
 
-#include <limits>
-
 namespace haptic_sculpt::loop_program {
 
-/// Makes the lines of a log again in a scene, whose probe is somewhere far away: what can be undone afterwards is what
-/// could be before. Numbers of the log are those that vertices have without a probe.
+/// Makes the lines of a log again in a scene: what can be undone afterwards is what could be before.
 template <class Scene>
 class Log_replay {
 public:
@@ -20,7 +17,7 @@ public:
   using Command = sculpt_program::Command;
   using Kind = Command::Kind;
 
-  explicit Log_replay(Scene& scene) : scene_(scene), sculptor_(scene.sculptor), probe_(sculptor_.name(scene.probe)) {}
+  explicit Log_replay(Scene& scene) : scene_(scene), sculptor_(scene.sculptor) {}
 
   /// Strokes that are open at the end, end.
   void run(const std::vector<Command>& commands) {
@@ -38,7 +35,6 @@ public:
 private:
   Scene& scene_;
   Sculptor_type& sculptor_;
-  std::size_t probe_;
   std::optional<typename Sculptor_type::Grab_type> grab_;
   bool held_ = false;
   std::vector<typename Sculptor_type::Stroke_type> strokes_;
@@ -51,19 +47,19 @@ private:
       drag(c);
       break;
     case Kind::insert_face:
-      sculptor_.insert_on_face(sculptor_.face_of(name(c, 0), name(c, 1), name(c, 2)), point(c));
+      sculptor_.insert_on_face(sculptor_.face_of(c.indices[0], c.indices[1], c.indices[2]), point(c));
       break;
     case Kind::insert_edge:
-      sculptor_.insert_on_edge(sculptor_.edge_of(name(c, 0), name(c, 1)), point(c));
+      sculptor_.insert_on_edge(sculptor_.edge_of(c.indices[0], c.indices[1]), point(c));
       break;
     case Kind::remove:
-      sculptor_.remove(sculptor_.vertex(name(c, 0)));
+      sculptor_.remove(sculptor_.vertex(c.indices[0]));
       break;
     case Kind::collapse:
       sculptor_.collapse(halfedge(c));
       break;
     case Kind::flip:
-      sculptor_.flip(sculptor_.edge_of(name(c, 0), name(c, 1)));
+      sculptor_.flip(sculptor_.edge_of(c.indices[0], c.indices[1]));
       break;
     case Kind::undo:
       sculptor_.undo();
@@ -98,23 +94,19 @@ private:
     }
   }
 
-  std::size_t name(const Command& c, std::size_t which) const {
-    const std::size_t number = c.indices[which]; // one that no vertex can have stays one, and does not wrap round
-    return number + (number >= probe_ && number != std::numeric_limits<std::size_t>::max() ? 1 : 0);
-  }
   static auto point(const Command& c) {
     return typename Scene::Mesh::Point(c.points[0][0], c.points[0][1], c.points[0][2]);
   }
   auto halfedge(const Command& c) const {
-    const auto e = sculptor_.edge_of(name(c, 0), name(c, 1));
+    const auto e = sculptor_.edge_of(c.indices[0], c.indices[1]);
     if (!e.is_valid())
       return typename Scene::Mesh::Halfedge_index();
     const auto h = scene_.mesh.halfedge(e);
-    return scene_.mesh.source(h) == sculptor_.vertex(name(c, 0)) ? h : scene_.mesh.opposite(h);
+    return scene_.mesh.source(h) == sculptor_.vertex(c.indices[0]) ? h : scene_.mesh.opposite(h);
   }
 
   void drag(const Command& c) {
-    const auto v = sculptor_.vertex(name(c, 0));
+    const auto v = sculptor_.vertex(c.indices[0]);
     if (!v.is_valid())
       return;
     if (!grab_ || grab_->vertex() != v || !held_)

@@ -81,7 +81,7 @@ public:
     const Passivity_limits limits = limits_of(parameters, scene);
     const Device_pose<double> start = start_pose();
     check(parameters, limits);
-    Loop loop(scene.sculptor, scene.probe, device_, start, scene.map, parameters, limits);
+    Loop loop(scene.sculptor, device_, start, scene.map, parameters, limits);
     trace_.open(plan_.trace), record_.open(plan_.record); // nothing is refused any more
     const double most_lost = 0.1;                         // by a kill, s
     log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
@@ -286,7 +286,6 @@ private:
 
   void finish(const Loop& loop, const Scene& scene) {
     const auto& sculptor = scene.sculptor;
-    const auto probe = scene.probe;
     const Workspace_map& map = scene.map;
     result_.observed = loop.observer().energy();
     result_.least_observed = loop.observer().least();
@@ -310,15 +309,13 @@ private:
                    map.home()[2]};
     Write_options options;
     for (std::size_t name = 0; name < sculptor.number_of_names(); ++name)
-      if (const auto v = sculptor.vertex(name); v.is_valid() && v != probe)
+      if (const auto v = sculptor.vertex(name); v.is_valid())
         options.vertex_order.emplace_back(static_cast<Mesh::size_type>(v));
-    Mesh sculpted = scene.mesh; // without the probe
-    sculpted.remove_vertex(probe);
-    result_.is_valid = validate(sculpted).is_valid();
+    result_.is_valid = validate(scene.mesh).is_valid();
     log_->finish();
-    writer_.write(plan_.out, [&](const std::string& path) { return write_surface(path, sculpted, options); });
+    writer_.write(plan_.out, [&](const std::string& path) { return write_surface(path, scene.mesh, options); });
     writer_.write(plan_.picture, [&](const std::string& path) {
-      return write_run_picture(drawing::scene_of(sculpted), samples_, path);
+      return write_run_picture(drawing::scene_of(scene.mesh), samples_, path);
     });
     for (Row_file* const rows : {&trace_, &record_})
       writer_.write(rows == &trace_ ? plan_.trace : plan_.record, [&](const std::string&) {

@@ -207,7 +207,8 @@ private:
   void probe(const Command& command) {
     const auto begin = Clock::now();
     try {
-      const Result done = sculptor_.probe(point(command.points[0]), point(command.points[1]), &way_);
+      auto probe = sculptor_.probe(point(command.points[0]), Probe_start::anywhere);
+      const Result done = probe.drag_to(point(command.points[1]), way_);
       if (done.end == Drag_end::refused)
         refuse(command, "starts-in-clearance", ids(done.contacts[0]));
       else

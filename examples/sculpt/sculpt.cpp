@@ -215,7 +215,7 @@ int sculpt(const Arguments& arguments) {
   Result_writer writer("sculpt");
   if (const std::string remarks = found.remarks(); !remarks.empty())
     writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are. --orient turns components "
-                "over that are inside out; --repair also leaves out vertices without faces");
+                "over that are inside out");
   if (!arguments.out.empty() && !left_out.empty())
     writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh +
                 "' has besides its faces: " + listed(left_out));

@@ -72,7 +72,7 @@ private:
   }
 
   void run() {
-    Loop loop(model_->sculptor, model_->probe, model_->map, parameters());
+    Loop loop(model_->sculptor, model_->map, parameters());
     loop.tool().carry_probe(false);
     Session session(loop, *model_, &desk, nullptr, model_->log.journal());
     status_.scene = 1;
@@ -108,7 +108,7 @@ private:
     if (status_.waits_for_disk)
       return tell_faces(); // all stands still until the log is written
     const Mouse_reading& newest = mouse.get();
-    if (newest.press == reading_.press || !loop.tool().vertex().is_valid())
+    if (newest.press == reading_.press || (!loop.tool().holds_vertex() && !loop.tool().holds_probe()))
       reading_ = newest; // else what is held is yet to be let go of, and stays where it is
     reading_.pose.elapsed = 1e-9 * tick_time; // a mouse has no clock of its own, and has said nothing yet at first
     const Pose_tick& made = session.tick(reading_.pose);
@@ -142,7 +142,7 @@ private:
     using Hold = Status::Hold;
     status_.hold = tool.holds_vertex() ? Hold::vertex : tool.holds_probe() ? Hold::probe : Hold::nothing;
     const bool pulls = status_.hold != Hold::nothing;
-    status_.vertex = tool.holds_vertex() ? model.number(tool.vertex()) : 0;
+    status_.vertex = tool.holds_vertex() ? model.sculptor.name(tool.vertex()) : 0;
     status_.target = place(made.tool.target), status_.proxy = place(made.tool.proxy);
     status_.force = pulls ? place(made.rendered.force) : Place{}; // what fades after that is not felt
     status_.reached = made.tool.reached;
@@ -156,7 +156,7 @@ private:
       }
     const auto& history = model.sculptor.history();
     status_.undo_steps = history.number_of_undo_steps(), status_.redo_steps = history.number_of_redo_steps();
-    status_.vertices = model.number_of_vertices(), status_.faces = model.number_of_faces();
+    status_.vertices = model.mesh.number_of_vertices(), status_.faces = model.mesh.number_of_faces();
     status_.vertex_slots = model.mesh.num_vertices(), status_.face_slots = model.mesh.num_faces();
     status_.edits = model_->sculptor.visitor().edits;
     status_.dirty_faces = model_->sculptor.visitor().dirty.size();
@@ -172,7 +172,7 @@ private:
     for (int i = 0; i < view.still; ++i) {
       const Vertex_index v = contact.vertices[static_cast<std::size_t>(first + i)];
       view.points[static_cast<std::size_t>(i)] = place(internal::vector_of(model_->mesh.point(v)));
-      view.names[static_cast<std::size_t>(i)] = model_->number(v);
+      view.names[static_cast<std::size_t>(i)] = model_->sculptor.name(v);
     }
     view.normal = {contact.normal.x(), contact.normal.y(), contact.normal.z()};
     return view;

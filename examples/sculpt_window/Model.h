@@ -50,7 +50,7 @@ struct Face_watch : Scene_teller<Mesh> {
   Dirty_faces dirty;
   std::uint64_t edits = 0; ///< ticks that changed the mesh
 
-  Face_watch(const Mesh& mesh, Vertex_index probe) : Scene_teller<Mesh>(mesh, probe), mesh_(&mesh) {}
+  explicit Face_watch(const Mesh& mesh) : Scene_teller<Mesh>(mesh), mesh_(&mesh) {}
 
   void end_tick() { edits += std::exchange(has_changed_, false); }
   /// What was changed so far is known.
@@ -58,9 +58,8 @@ struct Face_watch : Scene_teller<Mesh> {
 
   void vertex_moved(Vertex_index v) {
     Scene_teller<Mesh>::vertex_moved(v);
-    if (!is_probe(v))
-      for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
-        mark(f);
+    for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
+      mark(f);
   }
   void face_dies(Face_index f) {
     Scene_teller<Mesh>::face_dies(f);

@@ -50,7 +50,7 @@ protected:
       return true;
     refusal = text + name_of(made.refusal->reason);
     for (const Vertex_index v : made.refusal->elements)
-      refusal += ' ' + std::to_string(scene.number(v));
+      refusal += ' ' + std::to_string(scene.sculptor.name(v));
     return true;
   }
   static Journal_entry entry(const Scene& scene, Journal_entry::Kind kind, Vertex_index a, Vertex_index b) {
@@ -92,7 +92,7 @@ private:
       return true;
     pointed.feature = name_of(hit->feature);
     pointed.at = place(internal::vector_of(hit->point));
-    const auto add = [&](Vertex_index v) { pointed.names[static_cast<std::size_t>(pointed.size++)] = scene.number(v); };
+    const auto add = [&](Vertex_index v) { pointed.names[static_cast<std::size_t>(pointed.size++)] = scene.sculptor.name(v); };
     if (hit->feature == Surface_feature::vertex)
       add(hit->vertex);
     else if (hit->feature == Surface_feature::edge)

@@ -4,7 +4,7 @@
 
 /// \file
 /// What the window's thread and the loop's thread tell each other, all of it by value. Lengths are in the mesh's unit.
-/// Numbers of vertices are those of files and logs, where there is no probe.
+/// Numbers of vertices are those of files and logs.
 
 #include <haptic_sculpt/haptic_rendering/Pose_reading.h>
 
@@ -120,7 +120,7 @@ struct Status {
   Pointed pointed; ///< while nothing is held; else where a brush is
 
   std::size_t vertices = 0, faces = 0;
-  std::size_t vertex_slots = 0, face_slots = 0; ///< removed ones and the probe included
+  std::size_t vertex_slots = 0, face_slots = 0; ///< removed ones included
   std::size_t undo_steps = 0, redo_steps = 0;
   std::uint64_t edits = 0;     ///< ticks that changed the mesh, since it was entered; undo and redo count
   std::size_t dirty_faces = 0; ///< not told yet

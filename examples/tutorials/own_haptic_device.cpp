@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
     return Workspace_map::fitted(lower, upper, Eigen::Vector3d::Zero(), 0.04); // a ball of 40 mm holds the mesh
   });
   const Pose_loop_parameters parameters(3); // N s/m that the device itself has: it bounds the stiffness
-  Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.probe, scene.map, parameters);
+  Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.map, parameters);
   Driver driver;
   auto next = std::chrono::steady_clock::now();
   for (int tick = 0; tick < 1500 && !loop.has_stopped(); ++tick) {

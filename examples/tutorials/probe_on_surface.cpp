@@ -15,10 +15,8 @@ int main() {
   Mesh mesh;
   CGAL::make_icosahedron(mesh, Kernel::Point_3(0, 0, 0), 1.0);
 
-  // A vertex without faces is a probe. It is there before the Sculptor is.
-  const auto tip = mesh.add_vertex(Kernel::Point_3(0, 0, 2));
   haptic_sculpt::Sculptor<Mesh> sculptor(mesh, haptic_sculpt::parameters::clearance(1e-6));
-  auto grab = sculptor.grab(tip);
+  auto probe = sculptor.probe(Kernel::Point_3(0, 0, 2));
 
   // A hand moves on a circle inside of the solid; the probe stays outside, and slides after it.
   bool is_outside = true;
@@ -26,7 +24,7 @@ int main() {
   for (int tick = 0; tick < 100; ++tick) {
     const double angle = 0.06 * tick;
     const Kernel::Point_3 hand(0.6 * std::sin(angle), 0.1, 0.6 * std::cos(angle));
-    const auto result = grab.drag_to(hand);
+    const auto result = probe.drag_to(hand);
     is_outside = is_outside && !result.reached;
     touched += !result.contacts.empty();
     if (tick % 20 != 0)
@@ -41,8 +39,10 @@ int main() {
   }
   std::cout << "in contact in " << touched << " of 100 ticks\n";
 
-  // A single sweep, without a vertex, which changes nothing:
-  const auto sweep = sculptor.probe({3, 0, 0}, {0, 0, 0});
-  std::cout << "a sweep towards the centre ends at " << sweep.position << '\n';
-  return is_outside && touched == 100 && !sweep.reached ? 0 : 1;
+  // Any change of the mesh ends a probe. It goes on where it is, if that is still outside.
+  sculptor.grab(Mesh::Vertex_index(0)).drag_to(Kernel::Point_3(0, 0, 0.5));
+  const bool has_ended = probe.drag_to({0, 0, 3}).end == haptic_sculpt::Drag_end::stale;
+  probe = sculptor.probe(probe.position());
+  std::cout << "placed again at " << probe.position() << ": " << (probe ? "outside" : name_of(probe.refusal()->reason)) << '\n';
+  return is_outside && touched == 100 && has_ended ? 0 : 1;
 }

@@ -10,7 +10,7 @@
 
 using namespace haptic_sculpt;
 using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
-using Scene = Loop_scene<Mesh>; // mesh, probe, Sculptor and map; made by any thread
+using Scene = Loop_scene<Mesh>; // mesh, Sculptor and map; made by any thread
 
 /// A device without force: goes down to the surface, presses its button, draws what it holds up and aside, lets go.
 struct Mouse {
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
 
   Scene scene(read_surface<Mesh>(argv[1]),
               [&](const auto& lower, const auto& upper) { return Workspace_map::fitted(lower, upper, home, radius); });
-  Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.probe, scene.map, parameters);
+  Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.map, parameters);
   Loop_desk<Scene> desk;
   Scene_feed feed;
   Loop_session session(loop, scene, &desk, &feed, nullptr); // nullptr: no log

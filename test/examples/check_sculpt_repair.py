@@ -77,16 +77,19 @@ def refusals(folder):
 def orients(folder):
     vertices, faces = parsed_box()
     n = len(vertices)
-    text = off(vertices + moved(vertices, 5.0) + [(9, 9, 9)], faces + turned([[a + n, b + n, c + n] for a, b, c in faces]))
+    text = off(vertices + moved(vertices, 5.0), faces + turned([[a + n, b + n, c + n] for a, b, c in faces]))
     mesh, out = write(f"{folder}/flipped.off", text), f"{folder}/flipped out.off"
     done = run(mesh, "-o", out)
-    check(done.returncode == 0 and "without faces" in done.stderr and "inside out" in done.stderr and "--orient" in done.stderr,
+    check(done.returncode == 0 and "inside out" in done.stderr and "--orient" in done.stderr,
           f"what is remarked on: {done.stderr}")
     check(surface(out) == surface(mesh), "nothing is turned unasked")
     done = run(mesh, "--orient", "-o", out)
     check("components turned over: 1" in done.stdout and "inside out, with" not in done.stderr, f"turned: {done.stdout}{done.stderr}")
-    right = write(f"{folder}/right.off", off(vertices + moved(vertices, 5.0) + [(9, 9, 9)], faces + [[a + n, b + n, c + n] for a, b, c in faces]))
+    right = write(f"{folder}/right.off", off(vertices + moved(vertices, 5.0), faces + [[a + n, b + n, c + n] for a, b, c in faces]))
     check(surface(out) == surface(right), "that component, and nothing else")
+    alone = write(f"{folder}/alone.off", off(vertices + [(9, 9, 9)], faces))
+    fails(3, [f"vertex(es) without faces: {n}", "--repair"], run(alone), "a vertex without faces")
+    check(run(alone, "--repair", "-o", out).returncode == 0 and len(points(out)) == n, "which a repair leaves out")
     octahedron = write(f"{folder}/octahedron.off", OCTAHEDRON)
     check(run(octahedron).stderr == "", "nothing is remarked where there is nothing")
 

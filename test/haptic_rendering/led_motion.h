@@ -32,7 +32,6 @@ inline Force_error error_of(const Led_motion& led, std::uint64_t seed) {
   const Device_parameters<double> device(description);
   const auto home = home_pose(device);
   Mesh mesh = meshes::to_mesh(meshes::box(3, 1));
-  const auto probe = mesh.add_vertex(Mesh::Point(0.5, 0.5, 3));
   Sculptor<Mesh> sculptor(mesh);
   const Workspace_map map(20, random_vector(random, 0.4), Vector3d(0.5, 0.45, 1), home->position);
   const Vector3d normal = map.direction_to_device(Vector3d(0, 0, 1));
@@ -48,7 +47,7 @@ inline Force_error error_of(const Led_motion& led, std::uint64_t seed) {
   const double before = 0.001 + 3 * led.speed / led.rate,
                after = std::max(0.003, 8 * led.speed / led.rate); // metres before and behind the plane
   const auto start = reach_position(device, *home, Vector3d(home->position - before * direction));
-  Haptic_loop<Sculptor<Mesh>> loop(sculptor, probe, device, *start, map, parameters, limits);
+  Haptic_loop<Sculptor<Mesh>> loop(sculptor, device, *start, map, parameters, limits);
   Torque_delay<double> held_force(led.delay), held_torque(led.delay);
   Device_pose<double> pose = *start;
   Force_error error;

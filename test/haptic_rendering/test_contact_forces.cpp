@@ -23,9 +23,8 @@ void check_static_force(Obstacle kind, bool with_wall, std::uint64_t seed) {
     list += tetrahedron_of(scene.wall);
     Mesh mesh = meshes::to_mesh(list);
     const Vector3d first = scene.moving[0], start = first + 0.1 * scene.down;
-    const auto probe = mesh.add_vertex(Mesh::Point(start[0], start[1], start[2]));
     Sculptor<Mesh> sculptor(mesh);
-    Tool<Sculptor<Mesh>> tool(sculptor, probe, map_of_tests, 0.02, 1e-3);
+    Tool<Sculptor<Mesh>> tool(sculptor, map_of_tests, 0.02, 1e-3);
     tool.move(map_of_tests.to_device(start), 0);
     BOOST_TEST((tool.move(map_of_tests.to_device(start), 1).event == Tool_event::grabbed));
     const double across = with_wall ? 0.4 + 0.2 * unit(random) : 0.2 * unit(random) - 0.1;
@@ -83,9 +82,8 @@ BOOST_AUTO_TEST_CASE(seams_of_a_plane_and_concave_edges_and_corners_are_not_felt
   list.scale_and_move(1, -1, -1, -1);
   list += room.turn_inside_out();
   Mesh mesh = meshes::to_mesh(list);
-  const auto probe = mesh.add_vertex(Mesh::Point(0.5, 0.5, 0.5));
   Sculptor<Mesh> sculptor(mesh);
-  Tool<Sculptor<Mesh>> tool(sculptor, probe, map_of_tests, 1e-3, 1e-3);
+  Tool<Sculptor<Mesh>> tool(sculptor, map_of_tests, 1e-3, 1e-3);
   Vector3d place(0.5, 0.5, 0.5), last_force = Vector3d::Zero();
   tool.move(map_of_tests.to_device(place), 0);
   for (int leg = 0; leg < 100; ++leg) {
@@ -114,9 +112,8 @@ BOOST_AUTO_TEST_CASE(over_a_convex_edge_the_force_jumps_by_the_fall_and_no_more)
     const Vector3d right = Vector3d(4, 0, half_width).normalized(), left(-right[0], 0, right[2]);
     const Vector3d up = Vector3d(-half_width, 0, 4).normalized(), ridge(0, 0.1, 1);
     const Vector3d outside = ridge - 0.2 * up + 0.1 * right;
-    const auto probe = mesh.add_vertex(Mesh::Point(outside[0], outside[1], outside[2]));
     Sculptor<Mesh> sculptor(mesh);
-    Tool<Sculptor<Mesh>> tool(sculptor, probe, map_of_tests, 1e-3, 1e-3);
+    Tool<Sculptor<Mesh>> tool(sculptor, map_of_tests, 1e-3, 1e-3);
     tool.move(map_of_tests.to_device(outside), 0);
     const double depth = 0.04, length = 1e-3; // scene: 2 mm deep, steps of 0.05 mm
     for (int k = 1; k <= 140; ++k)
@@ -147,9 +144,8 @@ BOOST_AUTO_TEST_CASE(facets_are_felt_as_fine_as_they_are) {
   for (const int level : {2, 3, 4, 5}) {
     Mesh mesh = meshes::to_mesh(meshes::icosphere(level));
     const std::size_t faces = mesh.number_of_faces();
-    const auto probe = mesh.add_vertex(Mesh::Point(0, 0, 1.2));
     Sculptor<Mesh> sculptor(mesh);
-    Tool<Sculptor<Mesh>> tool(sculptor, probe, map, 1e-3, 1e-3);
+    Tool<Sculptor<Mesh>> tool(sculptor, map, 1e-3, 1e-3);
     const auto force_at = [&](double radius, double angle, double tilt) {
       const Vector3d place(radius * std::sin(angle), radius * std::cos(angle) * tilt,
                            radius * std::cos(angle) * std::sqrt(1 - tilt * tilt));
@@ -217,14 +213,13 @@ BOOST_AUTO_TEST_CASE(what_is_grabbed_is_heavy_and_nothing_else_is) {
   const auto home = home_pose(device);
   const Workspace_map map(20, Vector3d(0.3, -0.2, 0.9), Vector3d(0, 0, -0.02), home->position);
   Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
-  const auto probe = mesh.add_vertex(Mesh::Point(-1, -1, -1));
   Sculptor<Mesh> sculptor(mesh);
   Haptic_parameters parameters;
   parameters.inertia.mass = 0.05, parameters.limits.ramp_time = 1e-9, parameters.reach = 0.002;
   parameters.follows_pose = false; // this device has no friction, which would leave no force
   Passivity_limits limits;
   limits.passive_stiffness = 1e7, limits.tick = parameters.tick, limits.largest_mass = parameters.inertia.mass;
-  Haptic_loop<Sculptor<Mesh>> loop(sculptor, probe, device, *home, map, parameters, limits);
+  Haptic_loop<Sculptor<Mesh>> loop(sculptor, device, *home, map, parameters, limits);
   const Vector3d away = -map.direction_to_device(Vector3d(1, 1, 1)).normalized();
   const double omega = 2 * M_PI * 3, amplitude = 0.002;
   Device_pose<double> pose = *home;

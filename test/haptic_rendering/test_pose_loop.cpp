@@ -21,13 +21,12 @@ namespace {
 BOOST_AUTO_TEST_CASE(a_device_of_pose_and_force_feels_a_wall_and_its_faults_end_at_no_force) {
   for (const int fault : {0, 1, 2}) {
     Mesh mesh = meshes::to_mesh(meshes::box(1, 1)); // [0, 1]^3
-    const auto probe = mesh.add_vertex(Mesh::Point(0.5, 0.4, 3));
     Sculptor<Mesh> sculptor(mesh);
     Pose_loop_parameters parameters = parameters_of_tests();
     parameters.coupling.stiffness = 4001;
-    BOOST_CHECK_THROW(Pose_loop<Sculptor<Mesh>>(sculptor, probe, map_of_tests, parameters), Error);
+    BOOST_CHECK_THROW(Pose_loop<Sculptor<Mesh>>(sculptor, map_of_tests, parameters), Error);
     parameters.coupling.stiffness = 700;
-    Pose_loop<Sculptor<Mesh>> loop(sculptor, probe, map_of_tests, parameters);
+    Pose_loop<Sculptor<Mesh>> loop(sculptor, map_of_tests, parameters);
     Pose_reading reading;
     const auto go = [&](double z) {
       reading.position = map_of_tests.to_device(Vector3d(0.5, 0.4, z)), reading.elapsed = 0.001;
@@ -58,10 +57,9 @@ BOOST_AUTO_TEST_CASE(a_device_of_pose_and_force_feels_a_wall_and_its_faults_end_
 
 struct Ball_loop {
   Mesh mesh = meshes::to_mesh(meshes::box(1, 1)); // [0, 1]^3
-  Mesh::Vertex_index probe = mesh.add_vertex(Mesh::Point(0.5, 0.4, 3));
   Sculptor<Mesh> sculptor{mesh};
   Pose_loop<Sculptor<Mesh>> loop;
-  explicit Ball_loop(const Pose_loop_parameters& parameters) : loop(sculptor, probe, map_of_tests, parameters) {}
+  explicit Ball_loop(const Pose_loop_parameters& parameters) : loop(sculptor, map_of_tests, parameters) {}
   const Haptic_tick& go(double z, double elapsed = 0.001) {
     Pose_reading reading;
     reading.position = map_of_tests.to_device(Vector3d(0.5, 0.4, z)), reading.elapsed = elapsed;
@@ -180,9 +178,9 @@ BOOST_AUTO_TEST_CASE(a_vertex_of_any_valence_follows_the_hand_and_one_that_is_cu
   for (const int valence : {6, 300, 1000})
     for (const bool is_bound : {false, true}) {
       Mesh mesh = double_cone(valence);
-      const auto tip = *mesh.vertices().begin(), probe = mesh.add_vertex(Mesh::Point(0, 0, 3));
+      const auto tip = *mesh.vertices().begin();
       Sculptor<Mesh> sculptor(mesh);
-      Pose_loop<Sculptor<Mesh>> loop(sculptor, probe, map_of_tests, parameters_of_tests());
+      Pose_loop<Sculptor<Mesh>> loop(sculptor, map_of_tests, parameters_of_tests());
       Pose_reading reading;
       reading.elapsed = 0.001;
       int starved = 0;

@@ -16,7 +16,7 @@ const Mesh ball = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
 /// A tool without a button, and what it has done.
 struct Bench {
   std::unique_ptr<Scene> scene = scene_of(2);
-  Tool<Scene::Sculptor_type> tool{scene->sculptor, scene->probe, map_of_tests, 0.01, 0.001};
+  Tool<Scene::Sculptor_type> tool{scene->sculptor, map_of_tests, 0.01, 0.001};
   Edit_journal journal{100000};
   Bench() { tool.keep_journal(&journal); }
 
@@ -26,7 +26,7 @@ struct Bench {
     Entries entries;
     for (Journal_entry entry; journal.take(entry);)
       entries.push_back(entry);
-    return made_again(ball, entries) == surface_of(*scene, true);
+    return made_again(ball, entries) == surface_of(*scene);
   }
   Journal_entry entry(Journal_entry::Kind kind, std::size_t a, std::size_t b = 0) const {
     Journal_entry wanted;
@@ -66,27 +66,58 @@ BOOST_AUTO_TEST_CASE(a_vertex_that_is_taken_is_anchored_where_it_is_and_held_in_
 BOOST_AUTO_TEST_CASE(a_probe_that_is_not_carried_is_in_hand_from_when_it_is_taken_until_something_lets_go) {
   Bench bench;
   bench.tool.carry_probe(false);
-  const Vector3d far = bench.place(bench.scene->probe), hand(0.3, 0, 0);
+  const Vector3d hand(0.3, 0, 0);
+  const auto probe = [&bench] { return internal::vector_of(bench.tool.probe()->position()); };
   bench.move(hand);
-  BOOST_TEST((bench.place(bench.scene->probe) == far));
+  BOOST_TEST(!bench.tool.probe());
   BOOST_TEST(!bench.tool.take_probe({0.1, 0, 0})); // inside
   BOOST_TEST(!bench.move(hand).end);
   BOOST_TEST(bench.tool.take_probe({0, 0, 1.5}));
   for (int k = 0; k < 1000; ++k) // the offset does not fade
     bench.move(hand);
-  BOOST_TEST(bench.tool.holds_probe());
-  BOOST_TEST((bench.place(bench.scene->probe) - Vector3d(0, 0, 1.5)).norm() <= 1e-15);
+  BOOST_REQUIRE(bench.tool.holds_probe());
+  BOOST_TEST((probe() - Vector3d(0, 0, 1.5)).norm() <= 1e-15);
   const Tool_step pressed = bench.move(hand - Vector3d(0, 0, 1));
   BOOST_TEST(!pressed.reached);
   BOOST_TEST(pressed.contacts > 0);
-  BOOST_TEST(bench.place(bench.scene->probe)[2] > 0.8);
+  BOOST_TEST(probe()[2] > 0.8);
   bench.tool.let_go();
   BOOST_TEST(!bench.tool.holds_probe());
-  BOOST_TEST(bench.place(bench.scene->probe).norm() > 50); // far away
   bench.tool.carry_probe(true);
   BOOST_TEST(bench.move({0, 0, 1.6}).reached);
-  BOOST_TEST((bench.place(bench.scene->probe) == Vector3d(0, 0, 1.6)));
+  BOOST_TEST((probe() == Vector3d(0, 0, 1.6)));
   BOOST_TEST(bench.scene->sculptor.history().number_of_undo_steps() == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_probe_goes_on_after_edits_where_it_was_or_else_at_the_hand) {
+  Bench bench;
+  const Mesh::Vertex_index v(17);
+  const Vector3d home = bench.place(v), out = 1.3 * home;
+  bench.move(out);
+  for (int k = 0; k < 100; ++k)
+    bench.move(out - 0.01 * k * home); // pressed against the vertex, or beside it
+  const auto probe = [&bench] { return internal::vector_of(bench.tool.probe()->position()); };
+  const Vector3d pressed = probe();
+  BOOST_REQUIRE(static_cast<bool>(bench.tool.edit(bench.entry(Journal_entry::Kind::remove, 90)))); // far from it
+  BOOST_TEST(!*bench.tool.probe());
+  BOOST_TEST((bench.move(0.4 * home).end == Drag_end::reached)); // anchored where it is
+  BOOST_REQUIRE((bench.tool.holds_probe() && bool(*bench.tool.probe())));
+  BOOST_TEST((probe() - pressed).norm() <= 0.02 * 0.01 * map_of_tests.scale()); // 0.02 of the reach
+  // Lifted, the vertex drawn over where it stands, and let go of: it comes back off the surface.
+  for (int k = 0; k < 100; ++k)
+    bench.move(0.4 * home + 0.02 * k * home);
+  const Vector3d above = probe();
+  bench.tool.take(v);
+  BOOST_TEST(!bench.tool.probe());
+  bench.move(above);
+  for (int k = 0; k < 100; ++k)
+    bench.move(above + 0.02 * k * home);
+  BOOST_TEST((bench.place(v).norm() > above.norm()));
+  bench.tool.let_go();
+  bench.move(0.9 * home); // inside of the solid by now: there is no probe until the hand comes out
+  BOOST_TEST(!bench.tool.holds_probe());
+  bench.move(bench.place(v) + home);
+  BOOST_TEST((bench.tool.holds_probe() && (probe() - bench.place(v) - home).norm() <= 1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_says) {

@@ -33,11 +33,12 @@ public:
   using Mesh = CGAL::Surface_mesh<Point_3>;
   using Vertex_index = typename Mesh::Vertex_index;
 
+  /// \param v what moves; null, or without faces: a probe
   Still_surroundings(const Mesh& mesh, Vertex_index v) {
     points_.resize(mesh.num_vertices()); // removed ones too: indices stay
     for (const Vertex_index w : mesh.vertices())
       points_[w] = mesh.point(w);
-    if (!mesh.is_isolated(v)) {
+    if (v.is_valid() && !mesh.is_isolated(v)) {
       const auto first = mesh.halfedge(v);
       auto h = first;
       do {
@@ -57,7 +58,7 @@ public:
         edges_.push_back({box_of(ends), ends});
     }
     for (const Vertex_index w : mesh.vertices())
-      if (w != v) // probes too
+      if (w != v)
         vertices_.push_back(w);
   }
 

@@ -20,13 +20,12 @@ enum class Flip_obstacle {
   low,
   folded,
   vertex_inside,
-  isolated_inside,
   face_crossed
 };
 
 constexpr const char* flip_obstacle_names[] = {
     "free",          "free in a plane",        "joined",      "degenerate", "low", "folded",
-    "vertex inside", "isolated vertex inside", "face crossed"};
+    "vertex inside", "face crossed"};
 
 /// The altitude over the longest edge against a rational length, all in the unit of the integers.
 template <class Integer>
@@ -63,10 +62,10 @@ bool in_hull_of_four(const Signs& signs, int p, int a, int b, int c, int d) {
 }
 
 /// Of the edge ab between two faces whose other corners are c and d. \pre the mesh is embedded
-/// \param delta in the unit of the integers \param is_isolated by vertex
+/// \param delta in the unit of the integers
 template <class Integer>
 Flip_obstacle flip_obstacle(const std::vector<Point<Integer>>& points, const std::vector<Corner_indices>& faces, int a,
-                            int b, int c, int d, const mpq_class& delta, const std::vector<bool>& is_isolated) {
+                            int b, int c, int d, const mpq_class& delta) {
   const Still_signs<Integer> signs{points};
   const auto has_both = [](const Corner_indices& face, int v, int w) {
     return std::count(face.begin(), face.end(), v) + std::count(face.begin(), face.end(), w) == 2;
@@ -97,20 +96,14 @@ Flip_obstacle flip_obstacle(const std::vector<Point<Integer>>& points, const std
           return true;
     return false;
   };
-  Flip_obstacle found = Flip_obstacle::none;
   for (int p = 0; p < static_cast<int>(points.size()); ++p)
-    if (p != a && p != b && p != c && p != d && !is_apart(std::array<int, 1>{p}) && in_hull_of_four(signs, p, a, b, c, d)) {
-      if (!is_isolated[p])
-        return Flip_obstacle::vertex_inside;
-      found = Flip_obstacle::isolated_inside;
-    }
+    if (p != a && p != b && p != c && p != d && !is_apart(std::array<int, 1>{p}) && in_hull_of_four(signs, p, a, b, c, d))
+      return Flip_obstacle::vertex_inside;
   for (const Corner_indices& face : faces)
     if (!has_both(face, a, b) && !is_apart(face) &&
         (triangles_meet_improperly(signs, first, face) || triangles_meet_improperly(signs, second, face)))
       return Flip_obstacle::face_crossed;
-  return found != Flip_obstacle::none      ? found
-         : signs.orient_3(a, b, c, d) == 0 ? Flip_obstacle::none_flat
-                                           : Flip_obstacle::none;
+  return signs.orient_3(a, b, c, d) == 0 ? Flip_obstacle::none_flat : Flip_obstacle::none;
 }
 
 } // namespace oracle

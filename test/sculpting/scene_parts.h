@@ -175,10 +175,21 @@ inline std::size_t add_mover(meshes::Triangle_list& list, Mover mover, const Poi
   return offset + tip;
 }
 
+/// The surface alone: vertices without faces are where probes begin. All others keep their indices.
+inline Mesh without_probes(Mesh mesh) {
+  std::vector<Vertex_index> probes;
+  for (const Vertex_index v : mesh.vertices())
+    if (mesh.is_isolated(v))
+      probes.push_back(v);
+  for (const Vertex_index v : probes)
+    mesh.remove_vertex(v);
+  return mesh;
+}
+
 /// \throw std::logic_error where the scene is not what it should be: a fault of the scene
 inline Mesh valid_mesh(const meshes::Triangle_list& list, const std::string& name) {
   Mesh mesh = meshes::to_mesh(list);
-  const Validity_report report = validate(mesh);
+  const Validity_report report = validate(without_probes(mesh));
   if (!report.is_valid())
     throw std::logic_error(name + ": " + report.message());
   return mesh;

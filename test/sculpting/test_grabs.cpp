@@ -89,5 +89,5 @@ BOOST_AUTO_TEST_CASE(a_broad_phase_knows_where_a_grab_has_left_its_vertex) {
   }
   const auto across = CGAL::cross_product(out, meshes::Kernel::Vector_3(1, 2, 3));
   const Point_3 in_the_spike = CGAL::ORIGIN + 2 * out;
-  BOOST_TEST(!sculptor.probe(in_the_spike + across, in_the_spike - across).reached);
+  BOOST_TEST(!sculptor.probe(in_the_spike + across).drag_to(in_the_spike - across).reached);
 }

@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(the_way_of_a_drag_is_made_of_free_legs) {
         sculptor.undo();
     }
     std::vector<Point_3> way;
-    const auto swept = sculptor.probe(Point_3(3, 3, 3), Point_3(0.1, 0.2, 0.3), &way);
+    const auto swept = sculptor.probe(Point_3(3, 3, 3)).drag_to(Point_3(0.1, 0.2, 0.3), way);
     BOOST_TEST((way.front() == Point_3(3, 3, 3) && way.back() == swept.position));
   }
   BOOST_TEST(with_bends > 50);
@@ -146,25 +146,19 @@ BOOST_AUTO_TEST_CASE(property_maps_survive) {
     BOOST_TEST(weight[v] == static_cast<int>(v) * 3);
 }
 
-BOOST_AUTO_TEST_CASE(an_isolated_vertex_is_a_probe) {
+BOOST_AUTO_TEST_CASE(a_vertex_without_faces_is_refused) {
   Mesh mesh = ball();
-  const Vertex_index probe = mesh.add_vertex(Point_3(0.05, 0.02, 3));
-  Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
-  const auto result = sculptor.grab(probe).drag_to(Point_3(0.05, 0.02, -3));
-  BOOST_TEST(!result.reached);
-  BOOST_TEST(result.position.z() > 0.8);
-  BOOST_TEST((result.contacts.at(0).kind == Contact_kind::vertex_face));
-  // The same without a vertex, and a start on the surface is refused.
-  const auto swept = sculptor.probe(Point_3(0.05, 0.02, 3), Point_3(0.05, 0.02, -3));
-  BOOST_TEST((swept.position == result.position));
-  BOOST_TEST((sculptor.probe(mesh.point(Vertex_index(0)), Point_3(0, 0, 9)).end == Drag_end::refused));
-  // No face passes over a probe.
-  const Point_3 outward = mesh.point(Vertex_index(0));
-  BOOST_REQUIRE(static_cast<bool>(sculptor.place(probe, Point_3(1.5 * outward.x(), 1.5 * outward.y(), 1.5 * outward.z()))));
-  const auto stopped = sculptor.grab(Vertex_index(0)).drag_to(Point_3(2 * outward.x(), 2 * outward.y(), 2 * outward.z()));
-  BOOST_TEST(!stopped.reached);
-  BOOST_TEST((stopped.contacts.at(0).kind == Contact_kind::face_vertex));
-  BOOST_TEST((stopped.contacts.at(0).vertices[2] == probe));
+  const Vertex_index alone = mesh.add_vertex(Point_3(0.05, 0.02, 3));
+  try {
+    Sculptor<Mesh> sculptor(mesh);
+    BOOST_ERROR("a vertex without faces is no surface");
+  } catch (const Invalid_surface& error) {
+    BOOST_REQUIRE(error.report().number_of_faults() == 1u);
+    BOOST_TEST((error.report().isolated_vertices.at(0) == Validity_report::Vertex_index(static_cast<std::size_t>(alone))));
+    BOOST_TEST(std::string(error.what()).find("1 vertex(es) without faces: 42") != std::string::npos);
+  }
+  mesh.remove_vertex(alone);
+  Sculptor<Mesh> sculptor(mesh);
 }
 
 BOOST_AUTO_TEST_CASE(an_inside_out_mesh_is_guarded_like_any_other) {

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(random_doubles_come_back) {
   BOOST_TEST_MESSAGE("seed " << seed);
   std::mt19937_64 random(seed);
   Mesh mesh = to_mesh(meshes::tetrahedron());
-  for (int i = 0; i < 20000; ++i) { // isolated vertices may lie anywhere
+  for (int i = 0; i < 20000; ++i) { // points without faces may lie anywhere
     const auto any = [&] {
       double x;
       do {
@@ -90,7 +90,15 @@ BOOST_AUTO_TEST_CASE(random_doubles_come_back) {
     Write_options options;
     options.encoding = encoding;
     write_surface(folder / name, mesh, options);
-    BOOST_TEST(identical(mesh, read_surface<Mesh>(folder / name)), name);
+    const Face_soup soup = read_face_soup(folder / name);
+    BOOST_TEST(soup.number_of_faces() == mesh.number_of_faces());
+    BOOST_REQUIRE(soup.points.size() == mesh.number_of_vertices());
+    const auto bits = [](const auto& q) { return reading_and_writing::bits(std::vector{Face_soup::Point_3(q.x(), q.y(), q.z())}); };
+    std::size_t changed = 0;
+    for (const auto v : mesh.vertices())
+      changed += bits(soup.points[v]) != bits(mesh.point(v));
+    BOOST_TEST(changed == 0u, name);
+    BOOST_CHECK_THROW(read_surface<Mesh>(folder / name), Invalid_surface);
   }
 }
 

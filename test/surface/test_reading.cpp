@@ -22,6 +22,14 @@ using meshes::to_mesh;
 
 namespace {
 
+bool same_bits(const Face_soup& s, const Face_soup& t) {
+  return s.corners == t.corners && s.points.size() == t.points.size() &&
+         std::equal(s.points.begin(), s.points.end(), t.points.begin(), [](const auto& p, const auto& q) {
+           const double x[3] = {p.x(), p.y(), p.z()}, y[3] = {q.x(), q.y(), q.z()};
+           return std::memcmp(x, y, sizeof x) == 0;
+         });
+}
+
 std::string refusal(const std::filesystem::path& path) {
   try {
     read_surface<Mesh>(path);
@@ -48,15 +56,6 @@ const std::string ascii_stl =
     "facet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
     "facet normal 1 1 1\nouter loop\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\n"
     "facet normal -1 0 0\nouter loop\nvertex 0 1 0\nvertex 0 0 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid\n";
-
-bool same_bits(const Mesh& a, const Mesh& b) {
-  const Face_soup s = face_soup(a), t = face_soup(b);
-  return s.corners == t.corners && s.points.size() == t.points.size() &&
-         std::equal(s.points.begin(), s.points.end(), t.points.begin(), [](const auto& p, const auto& q) {
-           const double x[3] = {p.x(), p.y(), p.z()}, y[3] = {q.x(), q.y(), q.z()};
-           return std::memcmp(x, y, sizeof x) == 0;
-         });
-}
 
 /// Triangles that all cross near one point.
 Face_soup crossing_triangles(std::size_t n) {
@@ -210,13 +209,13 @@ void check_mode(const Set& set, const Is_set& is_set, const std::function<void()
     const Mesh& written = std::string(name) == "m.stl" ? thin : mesh;
     write_surface(folder / name, written, ascii);
     const std::string usual = bytes_of(folder / name);
-    const Mesh expected = read_surface<Mesh>(folder / name);
+    const Face_soup expected = read_face_soup(folder / name);
     set();
     write_surface(folder / name, written, ascii);
     const bool kept_by_writing = is_set();
-    const Mesh back = read_surface<Mesh>(folder / name);
+    const Face_soup back = read_face_soup(folder / name);
     const bool kept_by_reading = is_set();
-    const bool valid = validate(written).is_valid();
+    const std::size_t faults = validate(written).number_of_faults();
     const bool kept_by_validating = is_set();
     bool refused = false;
     try {
@@ -228,7 +227,7 @@ void check_mode(const Set& set, const Is_set& is_set, const std::function<void()
     reset();
     BOOST_TEST((bytes_of(folder / name) == usual), name);
     BOOST_TEST(same_bits(back, expected), name);
-    BOOST_TEST(valid);
+    BOOST_TEST(faults == (&written == &mesh ? 2000u : 0u)); // points without faces
     BOOST_TEST(refused);
     BOOST_TEST((kept_by_writing && kept_by_reading && kept_by_validating && kept_by_refusing));
   }

@@ -22,7 +22,7 @@ struct Effort {
 
 /// All workloads of the default Sculptor: torus, shell and flat region of that many triangles.
 void run_box_tree(Json& rows, std::size_t triangles, const Effort& effort);
-/// Nearest vertices, first hits of segments, placements of a probe.
+/// Nearest vertices, first hits of segments, beginnings of a probe.
 void run_finding(Json& rows, std::size_t triangles, const Effort& effort);
 /// High valences.
 void run_valences(Json& rows, const std::vector<std::size_t>& valences, const Effort& effort);

@@ -51,10 +51,15 @@ public:
       grabs.sculptor_.set_clearance(record.clearance);
     grabs.sculptor_.set_delta(record.delta);
     grabs.record_ = record;
-    auto grab = grabs.sculptor_.grab(record.vertex);
     grabs.record_.targets.clear();
-    for (const Point_3& t : record.targets)
-      grabs.drag(grab, t);
+    const auto drag_all = [&](auto&& held, Point_3 p) {
+      for (const Point_3& t : record.targets)
+        p = grabs.drag(held, record.vertex, p, t);
+    };
+    if (record.vertex.is_valid())
+      drag_all(grabs.sculptor_.grab(record.vertex), record.mesh.point(record.vertex));
+    else
+      drag_all(grabs.sculptor_.probe(record.start, Probe_start::anywhere), record.start);
     return grabs.tally_;
   }
 
@@ -88,6 +93,18 @@ private:
   }
 
   void grab() {
+    if (!scene_.probes.empty() && random_() % 4 == 0) {
+      Point_3& place = scene_.probes[random_() % scene_.probes.size()];
+      auto probe = sculptor_.probe(place, Probe_start::anywhere);
+      if (!probe)
+        return;
+      record_ = {mesh_, Vertex_index(), place, {}, sculptor_.options().clearance_length.value_or(0),
+                 sculptor_.options().delta_length};
+      const Point_3 end = drag_some(probe, Vertex_index(), place);
+      if (is_kept_)
+        place = end;
+      return;
+    }
     std::size_t edits = 0;
     Vertex_index v = test::part_vertex(scene_, mesh_, random_);
     if (random_() % 4 == 0) { // the tip of a new cone over a face
@@ -103,13 +120,10 @@ private:
         }
       }
     }
-    record_ = {mesh_, v, {}, sculptor_.options().clearance_length.value_or(0), sculptor_.options().delta_length};
+    record_ = {mesh_, v, {}, {}, sculptor_.options().clearance_length.value_or(0), sculptor_.options().delta_length};
     {
       auto grab = sculptor_.grab(v);
-      const Point_3 first = test::part_target(scene_, mesh_, v, random_);
-      drag(grab, first);
-      for (std::size_t more = random_() % 4; more > 0; --more)
-        drag(grab, test::part_target(scene_, mesh_, v, random_));
+      drag_some(grab, v, mesh_.point(v));
       edits += record_.targets.size();
     }
     sculptor_.release();
@@ -118,32 +132,40 @@ private:
         ;
   }
 
-  template <class Grab>
-  void drag(Grab& grab, const Point_3& target) {
+  /// \param v null: of a probe \return where it is then
+  template <class Held>
+  Point_3 drag_some(Held& held, Vertex_index v, Point_3 p) {
+    p = drag(held, v, p, test::part_target(scene_, mesh_, v, p, random_));
+    for (std::size_t more = random_() % 4; more > 0; --more)
+      p = drag(held, v, p, test::part_target(scene_, mesh_, v, p, random_));
+    return p;
+  }
+
+  template <class Held>
+  Point_3 drag(Held& held, Vertex_index v, const Point_3& from, const Point_3& target) {
     using Clock = std::chrono::steady_clock;
     const auto nanoseconds = [](Clock::time_point since) {
       return std::chrono::duration<double, std::nano>(Clock::now() - since).count();
     };
-    const Vertex_index v = grab.vertex();
-    const double way_asked = internal::path_length(vertex_coordinates(mesh_, v), {target.x(), target.y(), target.z()});
+    const double way_asked = internal::path_length({from.x(), from.y(), from.z()}, {target.x(), target.y(), target.z()});
     const auto begin = Clock::now();
-    const auto r = grab.drag_to(target);
+    const auto r = held.drag_to(target);
     tally_.nanoseconds += nanoseconds(begin);
     const double c = test::clearance_kept(sculptor_, r);
     record_.targets.push_back(target);
     ++tally_.drags;
     tally_.reached += r.reached;
     if (r.reached)
-      return;
+      return r.position;
     tally_.at_leg_limit += r.end == Drag_end::leg_limit;
     const auto looked = Clock::now();
-    const auto found = certifier_.certify(v, target, way_asked, c, sculptor_.options().delta_length, random_, ways_);
+    const auto found = certifier_.certify(v, r.position, target, way_asked, c, sculptor_.options().delta_length, random_, ways_);
     tally_.certificate_nanoseconds += nanoseconds(looked);
     tally_.ways += found.ways;
     tally_.asked += found.asked;
     const bool gave_up = found.asked && std::string_view(name_of(r.end)) == "stuck";
     if (found.gain == 0 && !gave_up)
-      return;
+      return r.position;
     const double left = std::sqrt(CGAL::squared_distance(target, r.position));
     if (found.gain > 0) {
       ++tally_.missed;
@@ -164,6 +186,7 @@ private:
       what << " (" << contact.normal[0] << ' ' << contact.normal[1] << ' ' << contact.normal[2] << ')';
     }
     miss_found_(record_, what.str());
+    return r.position;
   }
 };
 

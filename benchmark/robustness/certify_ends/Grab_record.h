@@ -12,13 +12,14 @@
 
 namespace haptic_sculpt::benchmark {
 
-/// One grab, so that it can be made again: the mesh before, and the targets.
+/// One grab, or one probe, so that it can be made again: the mesh before, and the targets.
 struct Grab_record {
   using Mesh = meshes::Mesh;
   using Point_3 = meshes::Point_3;
 
   Mesh mesh;
-  Mesh::Vertex_index vertex;
+  Mesh::Vertex_index vertex; ///< null: a probe
+  Point_3 start{0, 0, 0};    ///< of the probe
   std::vector<Point_3> targets;
   double clearance = 0, delta = 0; ///< the clearance set, 0: the default
 
@@ -28,7 +29,8 @@ struct Grab_record {
     return text;
   }
 
-  /// NAME.off and NAME.script, a script for `sculpt`. Probes are vertices without faces. \pre no vertex is removed
+  /// NAME.off and NAME.script, a script for `sculpt`, to which each line of a probe is a probe of its own. \pre no vertex
+  /// is removed
   void write(const std::filesystem::path& folder, const std::string& name, const std::string& what) const {
     std::ostringstream off, script;
     off.precision(17);
@@ -48,7 +50,9 @@ struct Grab_record {
     if (delta > 0)
       script << "delta " << delta << '\n';
     for (const Point_3& t : targets)
-      script << "drag " << static_cast<std::size_t>(vertex) << ' ' << hexadecimal(t) << '\n';
+      script << (vertex.is_valid() ? "drag " + std::to_string(static_cast<std::size_t>(vertex))
+                                   : "probe " + hexadecimal(start))
+             << ' ' << hexadecimal(t) << '\n';
     std::filesystem::create_directories(folder);
     replace_file(folder / (name + ".off"), off.str());
     replace_file(folder / (name + ".script"), script.str());
@@ -72,6 +76,9 @@ struct Grab_record {
       else if (op == "drag" && numbers.size() == 4) {
         record.vertex = Mesh::Vertex_index(static_cast<Mesh::size_type>(numbers[0]));
         record.targets.emplace_back(numbers[1], numbers[2], numbers[3]);
+      } else if (op == "probe" && numbers.size() == 6) {
+        record.start = {numbers[0], numbers[1], numbers[2]};
+        record.targets.emplace_back(numbers[3], numbers[4], numbers[5]);
       } else if (op.empty() || op[0] != '#')
         throw Error("'" + script.string() + "' is not a script of one grab: " + line);
     }

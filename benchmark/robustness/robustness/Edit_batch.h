@@ -109,7 +109,7 @@ private:
   void drag() {
     const std::size_t kind = places_.below(8);
     // A grab may outlive its vertex; another vertex grabbed since lets go of it.
-    if (!grab_ || !grab_->vertex().is_valid() || mesh_.is_isolated(grab_->vertex()) || places_.below(3) == 0)
+    if (!grab_ || !grab_->vertex().is_valid() || places_.below(3) == 0)
       grab_.emplace(sculptor_.grab(places_.vertex()));
     const Vertex_index v = grab_->vertex();
     const Point_3 target = kind < 3 ? places_.short_step(v) : kind < 5 ? places_.through(v) : places_.odd_target(v);

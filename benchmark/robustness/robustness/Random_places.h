@@ -24,7 +24,7 @@ public:
   Vertex_index vertex() {
     for (;;) {
       const Vertex_index v(static_cast<Mesh::size_type>(below(mesh_.num_vertices())));
-      if (!mesh_.is_removed(v) && !mesh_.is_isolated(v))
+      if (!mesh_.is_removed(v))
         return v;
     }
   }

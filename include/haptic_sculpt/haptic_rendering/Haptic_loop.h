@@ -14,36 +14,34 @@ public:
   using Base = Interaction_loop<Sculptor_, Joint_side>; ///< what all loops do
   using Vertex_index = typename Base::Vertex_index;     ///< of the mesh that is sculpted
 
-  /// \param probe an isolated vertex of the sculptor's mesh, outside of all solids \param start a pose near the first
-  /// reading \param limits made for this device, tick, delay and damping (passivity_limits) \throw Unstable_coupling if
+  /// \param start a pose near the first reading \param limits made for this device, tick, delay and damping (passivity_limits) \throw Unstable_coupling if
   /// they do not permit the coupling, the virtual mass or the passivity controller; Error for parameters that cannot be
   /// used, and for limits that were made for others
-  Haptic_loop(Sculptor_& sculptor, Vertex_index probe, const Device_parameters<double>& device,
+  Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device,
               const Device_pose<double>& start, const Workspace_map& map, const Haptic_parameters& parameters,
               const Passivity_limits& limits)
-      : Base(sculptor, probe, Joint_side(device, start, parameters), map, parameters, limits.default_controller()) {
+      : Base(sculptor, Joint_side(device, start, parameters), map, parameters, limits.default_controller()) {
     check_limits(limits, device, parameters);
   }
   /// Makes the limits by itself, for the box of the mesh as it is and a tenth beyond. Some tenths of a second.
-  Haptic_loop(Sculptor_& sculptor, Vertex_index probe, const Device_parameters<double>& device,
+  Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device,
               const Device_pose<double>& start, const Workspace_map& map, const Haptic_parameters& parameters)
-      : Haptic_loop(sculptor, probe, device, start, map, parameters,
-                    limits_of(sculptor, probe, device, map, parameters)) {}
+      : Haptic_loop(sculptor, device, start, map, parameters,
+                    limits_of(sculptor, device, map, parameters)) {}
 
   const Handle_motion& handle() const { return this->interaction().side().handle(); }       ///< in the last tick
   const Inertia_rendering& inertia() const { return this->interaction().side().inertia(); } ///< tells its energies
 
 private:
-  static Passivity_limits limits_of(const Sculptor_& sculptor, Vertex_index probe,
+  static Passivity_limits limits_of(const Sculptor_& sculptor,
                                     const Device_parameters<double>& device, const Workspace_map& map,
                                     const Haptic_parameters& parameters) {
     parameters.check();
     Eigen::Vector3d lower = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (const auto v : sculptor.mesh().vertices())
-      if (v != probe) {
-        const Eigen::Vector3d p = internal::vector_of(sculptor.mesh().point(v));
-        lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
-      }
+    for (const auto v : sculptor.mesh().vertices()) {
+      const Eigen::Vector3d p = internal::vector_of(sculptor.mesh().point(v));
+      lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
+    }
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (upper - lower).norm());
     return passivity_limits(device, parameters.limits, map, lower - margin, upper + margin,
                             parameters.coupling.damping, parameters.tick, parameters.delay, parameters.inertia.cutoff);

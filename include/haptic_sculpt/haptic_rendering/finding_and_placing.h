@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 /// \file
-/// How the tool finds vertices, puts its probe somewhere and says where it creates, in the vectors of the device.
+/// How the tool finds vertices and says where it creates, in the vectors of the device.
 
 namespace haptic_sculpt {
 namespace internal {
@@ -23,41 +23,10 @@ Point point_of(const Eigen::Vector3d& v) {
   return Point(v[0], v[1], v[2]);
 }
 
-/// A place that is far away, no farther than coordinates go.
-inline Eigen::Vector3d in_range(const Eigen::Vector3d& p) {
-  return p.cwiseMax(-largest_coordinate).cwiseMin(largest_coordinate);
-}
-
-/// The vertex with faces that is nearest to p, not farther than `within`; the null index where there is none.
+/// The vertex that is nearest to p, not farther than `within`; the null index where there is none.
 template <class Sculptor>
 typename Sculptor::Vertex_index nearest_vertex(Sculptor& sculptor, const Eigen::Vector3d& p, double within) {
   return sculptor.nearest_vertex(point_of<typename Sculptor::Point>(p), within);
-}
-
-/// Puts an isolated vertex to p. Returns false where that is refused: on a face, or inside of a solid.
-template <class Sculptor>
-bool put_probe(Sculptor& sculptor, typename Sculptor::Vertex_index probe, const Eigen::Vector3d& p) {
-  return static_cast<bool>(sculptor.place(probe, point_of<typename Sculptor::Point>(p)));
-}
-
-/// Puts an isolated vertex a little off the first surface that is met from p along a direction and has free space
-/// behind it.
-/// \param far how far is looked \param off how far behind the surface it is put
-template <class Sculptor>
-bool put_probe_beyond(Sculptor& sculptor, typename Sculptor::Vertex_index probe, const Eigen::Vector3d& p,
-                      const Eigen::Vector3d& direction, double far, double off) {
-  using Point = typename Sculptor::Point;
-  constexpr int most_surfaces = 16; // a tick has to end; a hand that is deeper inside comes out by itself
-  Eigen::Vector3d from = p;
-  for (int i = 0; i < most_surfaces; ++i) {
-    const auto hit = sculptor.first_hit(point_of<Point>(from), point_of<Point>(p + far * direction));
-    if (!hit)
-      return false;
-    from = vector_of(hit->point) + off * direction;
-    if (put_probe(sculptor, probe, from))
-      return true;
-  }
-  return false;
 }
 
 /// The sum of the normals of a vertex's faces, with their areas; of length 1, or 0.

@@ -15,10 +15,10 @@ enum class Drag_end : std::uint8_t {
   held,        ///< contacts hold it where it is; a slide has found no free way nearer (doc/slide.md, "What held means")
   no_progress, ///< it did not move, and no contact is known that explains it: too little room for the clearance
   leg_limit,   ///< as many legs were made as one drag may make; the next drag to the same target goes on
-  refused,     ///< a probe that starts on a face, or nearer to it than the clearance
+  refused,     ///< a probe that could not begin where it is
   stuck,       ///< the slide gave up on the way: nothing is said about what is nearer
   work_limit,  ///< as much work was done as one drag may do; the next drag to the same or a near target goes on
-  stale        ///< the vertex has been removed, or another Grab has the hand: nothing was moved (Grab)
+  stale        ///< the vertex has been removed, or another Grab has the hand; a probe's mesh has changed: nothing was moved
 };
 
 /// The name used in reports: "reached", "held", "no-progress", "leg-limit", "refused", "stuck", "work-limit"

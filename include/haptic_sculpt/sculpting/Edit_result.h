@@ -19,19 +19,17 @@ enum class Refusal_reason : std::uint8_t {
   doubled_edge,      ///< the link condition: an edge or face of the result would be there twice
   delta,             ///< a triangle of the result would be degenerate, or have an altitude below delta
   blocked,           ///< the new surface would touch or cross another part, or jump over it
-  isolated_vertex,   ///< a vertex without faces is no part of the surface
   nothing_to_undo,
   nothing_to_redo,
-  not_isolated, ///< a vertex with faces can be dragged, but not be placed
-  too_near,     ///< a probe would be nearer to a face than the clearance, or on it
-  inside        ///< a probe would be inside of a solid; no vertices are named
+  too_near, ///< a probe would be nearer to a face than the clearance, or on it
+  inside    ///< a probe would be inside of a solid; no vertices are named
 };
 
 /// The name used in reports, e.g. "coincident-vertex".
 inline const char* name_of(Refusal_reason reason) {
   constexpr const char* names[] = {"unknown-element", "coincident-vertex", "tetrahedron",     "doubled-edge",   "delta",
-                                   "blocked",         "isolated-vertex",   "nothing-to-undo", "nothing-to-redo",
-                                   "not-isolated",    "too-near",          "inside"};
+                                   "blocked",         "nothing-to-undo",   "nothing-to-redo", "too-near",
+                                   "inside"};
   return names[static_cast<int>(reason)];
 }
 
@@ -45,10 +43,10 @@ struct Refusal {
   Elements elements;     ///< the vertices that stand in the way
 };
 
-/// The outcome of an edit that creates, removes, flips, places, undoes or redoes.
+/// The outcome of an edit that creates, removes, flips, undoes or redoes.
 template <class Mesh>
 struct Edit_result {
-  /// Created: the new one; removed: the neighbour it was drawn into; flipped: an end of the new edge; placed: the probe;
+  /// Created: the new one; removed: the neighbour it was drawn into; flipped: an end of the new edge;
   /// undone or redone: that of the change made last.
   std::optional<typename Mesh::Vertex_index> vertex;
   std::optional<Refusal<Mesh>> refusal; ///< none: the edit was done

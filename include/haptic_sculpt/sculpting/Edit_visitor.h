@@ -11,7 +11,7 @@ namespace haptic_sculpt {
 /// A Sculptor tells its visitor of every element that a drag, placement, creation, removal, flip, undo or redo moves, kills
 /// or creates. Derive from this class and hide the functions of interest; descriptors are those of the mesh.
 ///
-/// - A drag that moved its vertex or a placement of a probe, or such a one undone or redone: `vertex_moved`, after the move, once
+/// - A drag that moved its vertex, or such a one undone or redone: `vertex_moved`, after the move, once
 ///   however many legs there were.
 ///   A shift of many vertices, too, made, undone or redone: `vertex_moved` of each, when all stand.
 ///   A stroke is undone and redone change by change, the drags of a vertex between two other edits as one.

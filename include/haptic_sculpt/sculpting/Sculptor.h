@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 
 #include <haptic_sculpt/sculpting/Grab.h>
+#include <haptic_sculpt/sculpting/Probe.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Guarded_mesh.h>
@@ -24,7 +25,7 @@ namespace haptic_sculpt {
 /// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay. Changes
 /// made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()` looks at all.
 /// Several objects are several components of the one mesh. Orientation does not matter: an inside-out component is guarded
-/// like any other. An isolated vertex is a probe: it touches faces, and no face passes over it (doc/probes.md).
+/// like any other.
 ///
 /// An exception leaves everything as it was, std::bad_alloc included, or the change complete where it came from the visitor. Where it
 /// could not, every later call throws Unfinished_change but those that only tell: mesh(), options(), visitor(), filter_counters(),
@@ -44,6 +45,7 @@ public:
   using Vertex_index = typename Mesh_type::Vertex_index;     ///< used again by the mesh; name() lasts
   using Face_index = typename Mesh_type::Face_index;         ///< used again by the mesh
   using Grab_type = Grab<Sculptor>;                          ///< what grab() gives
+  using Probe_type = Probe<Sculptor>;                        ///< what probe() gives
   using Result = Drag_result<Mesh_type>;                     ///< what a drag gives
   using Edge_index = typename Mesh_type::Edge_index;         ///< used again by the mesh
   using Halfedge_index = typename Mesh_type::Halfedge_index; ///< used again by the mesh
@@ -107,7 +109,7 @@ public:
   void release() { guarded_.release(); }
 
   /// \name Finding
-  /// Exact (doc/finding.md). Isolated vertices are no part of the surface and are not found. Changes nothing, and does not end
+  /// Exact (doc/finding.md). Changes nothing, and does not end
   /// the grab at hand. Cost: log n with the default broad phase.
   ///@{
 
@@ -167,16 +169,9 @@ public:
     return edited(e, mesh().num_edges(), [&](auto& editor) { return editor.flip(mesh().halfedge(e), delta()); });
   }
 
-  /// Puts a probe, a vertex without faces, to `p`, whatever is on the way: refused where that is on a face, nearer to it than the
-  /// clearance, or inside of a solid, in a cavity of it not. Decided exactly. To be undone like a drag. \post Nothing has died.
-  /// \throw Out_of_range, Invalid_parameter. Cost: log n and the faces whose boxes a ray meets.
-  Edited place(Vertex_index probe, const Point& p) {
-    return is_unknown(probe, mesh().num_vertices()) ? Edited::refused(Refusal_reason::unknown_element) : guarded_.place(probe, p);
-  }
-
   /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one that is
-  /// given again. Done where the surface stays embedded, and the delta rule kept, at every time of the motion, and no probe is
-  /// met; decided exactly, whatever the traits (doc/axis_moves.md). Else refused, with the vertices of a place that is in the way, and nothing has
+  /// given again. Done where the surface stays embedded, and the delta rule kept, at every time of the motion;
+  /// decided exactly, whatever the traits (doc/axis_moves.md). Else refused, with the vertices of a place that is in the way, and nothing has
   /// changed. One change of the history; the visitor hears of the moves when all stand. \param axis 0, 1 or 2
   /// \post Nothing has died. \throw Unknown_vertex, Out_of_range. Cost: n log n in what moves and is near
   Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
@@ -184,8 +179,7 @@ public:
   }
 
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as the history
-  /// keeps. Ends the stroke under way first. A new change clears what could be redone. Restores what was, whatever delta is now. Only
-  /// where probes are not recorded can a step be refused because it would jump over one; undo is possible again when that has moved away.
+  /// keeps. Ends the stroke under way first. A new change clears what could be redone. Restores what was, whatever delta is now.
   /// \post What the step had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
   Edited undo() { return guarded_.restored([&] { return guarded_.editor().undo(); }); }
   /// Makes the step that was taken back last again. \post The same have died as when it was first made.
@@ -241,12 +235,11 @@ public:
   }
   ///@}
 
-  /// Sweeps a free point from `source` towards `target` with the response. Changes nothing. A start that is nearer than the
-  /// clearance to a face, or on it, is refused: `end` is Drag_end::refused and the contact names the face. Lets go of the vertex in hand.
-  /// \throw Out_of_range, Invalid_parameter, Mesh_changed
-  /// \param path is written anew, as by Grab::drag_to
-  Result probe(const Point& source, const Point& target, std::vector<Point>* path = nullptr) {
-    return guarded_.probe(source, target, path);
+  /// A point that touches the surface, to be dragged about the scene; changes nothing (doc/probes.md). Refused where p is on a face,
+  /// nearer to one than the clearance, or inside of a solid, of which a cavity is no part. Any change of the mesh ends it. Does not
+  /// end the grab at hand. \throw Out_of_range, Invalid_parameter, Mesh_changed. Cost: log n and the faces whose boxes a ray meets.
+  Probe_type probe(const Point& p, Probe_start start = Probe_start::outside) {
+    return Probe_type(*this, p, guarded_.refuse_probe(p, start));
   }
 
   /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length set, or
@@ -299,6 +292,7 @@ public:
 
 private:
   friend class Grab<Sculptor>;
+  friend class Probe<Sculptor>;
   friend struct internal::Sculptor_access;
   friend class Stroke<Sculptor>;
 

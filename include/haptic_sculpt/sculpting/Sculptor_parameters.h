@@ -15,7 +15,6 @@ struct Sculptor_parameters {
   Response response_rule = Response::slide; ///< see response()
   std::optional<std::size_t> work_bound;  ///< unset: a drag takes what it takes
   bool is_known_valid = false;            ///< whether the mesh has been validated by the caller
-  bool probes_are_recorded = true; ///< whether the history keeps the moves of probes
 
   /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates. Of use is what is at least an
   /// ulp of the scene's largest coordinate, and at most 1/128 of its extent.
@@ -45,13 +44,6 @@ struct Sculptor_parameters {
     is_known_valid = known;
     return *this;
   }
-  /// Whether drags and placements of probes, vertices without faces, are steps that undo takes back. A hand that moves one a
-  /// thousand times a second had better leave them out; then undo and redo are refused where they would jump over a probe
-  /// (doc/probes.md).
-  Sculptor_parameters& record_probes(bool recorded) {
-    probes_are_recorded = recorded;
-    return *this;
-  }
 };
 
 /// Starts a chain of named parameters.
@@ -66,8 +58,6 @@ inline Sculptor_parameters response(Response rule) { return Sculptor_parameters(
 inline Sculptor_parameters work_limit(std::size_t pairs) { return Sculptor_parameters().work_limit(pairs); }
 /// \copydoc Sculptor_parameters::known_valid
 inline Sculptor_parameters known_valid(bool known) { return Sculptor_parameters().known_valid(known); }
-/// \copydoc Sculptor_parameters::record_probes
-inline Sculptor_parameters record_probes(bool recorded) { return Sculptor_parameters().record_probes(recorded); }
 } // namespace parameters
 
 } // namespace haptic_sculpt

@@ -75,13 +75,6 @@ Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, ty
   Brute_force_broad_phase<Mesh>(mesh).query(swept.box(), candidates);
   internal::Candidate_list<Mesh> list;
   list.assign(mesh, [&mesh](auto f) { return internal::corners_of_face(mesh, f); }, star, candidates, swept.box());
-  if (star.valence() != 0) {
-    std::vector<typename Mesh::Vertex_index> isolated;
-    for (const auto w : mesh.vertices())
-      if (mesh.is_isolated(w))
-        isolated.push_back(w);
-    list.add_isolated(mesh, isolated);
-  }
   Star_impacts<Mesh, typename Traits::Impact_3> firsts;
   internal::Narrow_phase<Mesh, Traits>(traits).first_impacts(star, list, source, end, firsts);
   return firsts;

@@ -52,6 +52,8 @@ struct Validity_report {
   std::vector<Vertex_pair> inconsistently_oriented_edges;
   /// Vertices whose faces form more than one fan.
   std::vector<Vertex_index> non_manifold_vertices;
+  /// Vertices without a face.
+  std::vector<Vertex_index> isolated_vertices;
   /// Pairs of different vertices at one point; the first is the lowest index there. Isolated vertices do not count.
   std::vector<Vertex_pair> coincident_vertices;
   /// Pairs of faces that meet elsewhere than in their shared vertices and edge. A degenerate face counts as the segment
@@ -63,8 +65,6 @@ struct Validity_report {
   /// \name For information: what does not make a surface invalid
   ///@{
 
-  /// Vertices without a face. Such a vertex is a probe; it may lie anywhere.
-  std::vector<Vertex_index> isolated_vertices;
   /// Number of connected components that have faces.
   std::size_t number_of_components = 0;
   /// The lowest face of each component whose normals point into the solid; looked at only where the surface is valid.
@@ -79,8 +79,8 @@ struct Validity_report {
   std::size_t number_of_faults() const {
     return inconsistent_halfedges.size() + non_finite_vertices.size() + non_triangular_faces.size() +
            degenerate_faces.size() + low_faces.size() + boundary_edges.size() + non_manifold_edges.size() +
-           inconsistently_oriented_edges.size() + non_manifold_vertices.size() + coincident_vertices.size() +
-           intersecting_faces.size();
+           inconsistently_oriented_edges.size() + non_manifold_vertices.size() + isolated_vertices.size() +
+           coincident_vertices.size() + intersecting_faces.size();
   }
 
   /// Whether repair() is worth a try: there are faults that it looks after. A low triangle it leaves as it is, and of a
@@ -90,7 +90,7 @@ struct Validity_report {
   }
 
   /// What does not make a surface invalid and may be meant or not, in plain words, one kind a line, the first `named` of
-  /// each: vertices without faces, components inside out. Empty where there are none.
+  /// each: components inside out. Empty where there are none.
   std::string remarks(std::size_t named = 8) const {
     std::string text;
     const auto list = [&](const auto& elements, const std::string& kind) {
@@ -101,7 +101,6 @@ struct Validity_report {
         text += (i == 0 ? " " : ", ") + name(elements[i]);
       text += elements.size() > named ? ", ...\n" : "\n";
     };
-    list(isolated_vertices, "vertex(es) without faces");
     list(inside_out_components, "component(s) inside out, with the faces");
     return text;
   }
@@ -148,6 +147,8 @@ struct Validity_report {
     list(non_manifold_vertices, "non-manifold vertex(es), where several fans of faces meet",
          "Give each fan a vertex of its own, and move these apart.",
          "Use PMP::duplicate_non_manifold_vertices, then move the copies apart.");
+    list(isolated_vertices, "vertex(es) without faces", "Leave them out; a surface is made of faces.",
+         "Use PMP::remove_isolated_vertices.");
     list(coincident_vertices, "pair(s) of vertices at one point", "Merge them, or move them apart.",
          "Use PMP::merge_duplicate_points_in_polygon_soup, or move them apart.");
     list(intersecting_faces, "pair(s) of intersecting faces",

@@ -127,13 +127,14 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
 ///
 /// Vertices and faces are numbered from 0 in file order. STL has no vertices: exactly equal corners become one,
 /// numbered by first appearance. Decimals are read to the nearest double, so what `write_surface()` wrote comes back
-/// bit for bit, whatever rounding mode the caller has set. Vertices without faces are kept (see `validate()`).
+/// bit for bit, whatever rounding mode the caller has set. Vertices without faces are refused; repair() leaves
+/// them out.
 ///
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param path to the file; its extension tells the format
 /// \param delta the delta rule's length, >= 0
 /// \param left_out if given, receives what the file has and a mesh has not, in words, e.g. "normals"
-/// \param found if given, receives what validate() says of the surface: vertices without faces, components inside out
+/// \param found if given, receives what validate() says of the surface, such as components inside out
 /// \throw Read_error if the file cannot be read as a mesh; Out_of_range if a coordinate is
 /// \throw Invalid_surface if `validate()` finds fault with it; names every offending vertex, edge and face by index (of
 /// pairs of intersecting faces the first `Validity_report::default_most_intersections`)

@@ -160,7 +160,7 @@ Face_soup face_soup(const Mesh& mesh, std::vector<Face_soup::Index>* face_name =
 ///
 /// Everything geometric is decided exactly on the stored doubles, by predicates that no fast path of this library uses:
 /// all pairs of faces with meeting boxes are tried. Decisions taken:
-/// - *Isolated vertices* are probes: allowed, reported apart, and wherever they lie, not part of the surface.
+/// - *Isolated vertices* are a fault, wherever they lie: they are no part of a surface.
 /// - *Inside-out* and *nested* components do not make a surface invalid, as a surface is embedded whichever way its
 ///   normals point; a component whose normals point into the solid is reported for information.
 /// - A mesh without faces is valid.

@@ -36,28 +36,22 @@ struct Surface {
   }
 };
 
-/// \param without a probe's number, above which numbers are one less; or none
-inline Surface surface_of(const Scene& scene, bool without_probe = false) {
-  const auto name = [&](Mesh::Vertex_index v) {
-    const std::size_t n = scene.sculptor.name(v);
-    return n - (without_probe && n > scene.sculptor.name(scene.probe));
-  };
+template <class Sculptor>
+Surface surface_of(const Mesh& mesh, const Sculptor& sculptor) {
   Surface surface;
-  for (const auto v : scene.mesh.vertices())
-    if (v != scene.probe) {
-      const auto& p = scene.mesh.point(v);
-      surface.points[name(v)] = {p.x(), p.y(), p.z()};
-    }
-  for (const auto f : scene.mesh.faces()) {
+  for (const auto v : mesh.vertices())
+    surface.points[sculptor.name(v)] = {mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()};
+  for (const auto f : mesh.faces()) {
     std::array<std::uint64_t, 3> face{};
     int i = 0;
-    for (const auto v : scene.mesh.vertices_around_face(scene.mesh.halfedge(f)))
-      face[i++] = name(v);
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+      face[i++] = sculptor.name(v);
     surface.add_face(face);
   }
   std::sort(surface.faces.begin(), surface.faces.end());
   return surface;
 }
+inline Surface surface_of(const Scene& scene) { return surface_of(scene.mesh, scene.sculptor); }
 
 inline Surface surface_of(const Scene_copy& copy) {
   Surface surface;

@@ -30,7 +30,7 @@ struct Threads {
   void run(bool keeps_journal, const Work& window) {
     std::atomic<bool> ends{false}, has_ended{false};
     std::thread loop_thread([&] {
-      Loop loop(scene->sculptor, scene->probe, scene->map, parameters_of_tests());
+      Loop loop(scene->sculptor, scene->map, parameters_of_tests());
       Session session(loop, *scene, &desk, &feed, keeps_journal ? &journal : nullptr);
       while (!ends) {
         session.tick(reading_at(session.ticks()));

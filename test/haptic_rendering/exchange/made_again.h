@@ -10,7 +10,7 @@ namespace exchange_tests {
 
 using Entries = std::vector<Journal_entry>;
 
-/// What a journal says, made again by other means: no probe, no tool, no slide, each leg by itself.
+/// What a journal says, made again by other means: no tool, no slide, each leg by itself.
 inline Surface made_again(Mesh mesh, const Entries& entries) {
   Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
   std::vector<Sculptor<Mesh>::Stroke_type> strokes;
@@ -58,18 +58,7 @@ inline Surface made_again(Mesh mesh, const Entries& entries) {
     }
   }
   BOOST_TEST(failed == 0u);
-  Surface surface;
-  for (const auto w : mesh.vertices())
-    surface.points[sculptor.name(w)] = {mesh.point(w).x(), mesh.point(w).y(), mesh.point(w).z()};
-  for (const auto f : mesh.faces()) {
-    std::array<std::uint64_t, 3> face{};
-    int i = 0;
-    for (const auto w : mesh.vertices_around_face(mesh.halfedge(f)))
-      face[i++] = sculptor.name(w);
-    surface.add_face(face);
-  }
-  std::sort(surface.faces.begin(), surface.faces.end());
-  return surface;
+  return surface_of(mesh, sculptor);
 }
 
 } // namespace exchange_tests

@@ -30,7 +30,7 @@ struct Desk {
   std::unique_ptr<Scene> scene = scene_of(2), other = scene_of(1);
   Loop_desk<Scene> desk{64};
   Edit_journal journal{1000}, journal_of_other{1000};
-  Loop loop{scene->sculptor, scene->probe, scene->map, parameters_of_tests()};
+  Loop loop{scene->sculptor, scene->map, parameters_of_tests()};
   Session session;
   explicit Desk(bool keeps_journal = false)
       : session(loop, *scene, &desk, nullptr, keeps_journal ? &journal : nullptr) {}
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(what_throws_is_answered_with_its_reason_and_the_desk_and_th
   BOOST_TEST(std::string(d.last.failure.data()) == "that will not do");
   BOOST_TEST(d.last.task == &later);
   const auto face = *d.scene->mesh.faces().begin();
-  const auto probe_before = d.scene->mesh.point(d.scene->probe);
+  const auto probe_before = d.loop.tool().probe()->position();
   for (const double x : {std::nan(""), 1e305, -std::numeric_limits<double>::infinity()})
     for (const auto kind : {Command::Kind::insert_on_face, Command::Kind::insert_on_edge}) {
       Command command;
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(what_throws_is_answered_with_its_reason_and_the_desk_and_th
       BOOST_TEST((made.fault == Loop_fault::none));
       BOOST_TEST(d.loop.tool().holds_probe());
     }
-  BOOST_TEST((d.scene->mesh.point(d.scene->probe) == probe_before)); // where it was before each of them
+  BOOST_TEST((d.loop.tool().probe()->position() == probe_before)); // where it was before each of them
   d.ask(Command::Kind::task, 6, &last);
   d.tick(), d.tick();
   BOOST_TEST((d.answers() == Tickets{6}));

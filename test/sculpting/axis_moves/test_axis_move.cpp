@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(free_motions_are_embedded_all_the_way) {
     const Mesh mesh = meshes::to_mesh(list);
     Filter_counters counters;
     Axis_move move(mesh, 0, counters);
-    move.take(mesh.faces(), {}, true);
+    move.take(mesh.faces(), true);
     move.begin(scene.axis, ways_of(scene));
     for (const Axis_obstacle& obstacle : move.obstacles()) {
       ++obstacles[static_cast<int>(obstacle.kind)];
@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(what_is_held_back_leaves_a_free_motion) {
     const Mesh mesh = meshes::to_mesh(list);
     Filter_counters counters;
     Axis_move move(mesh, 0, counters);
-    move.take(mesh.faces(), {}, true);
+    move.take(mesh.faces(), true);
     move.begin(scene.axis, ways_of(scene));
     if (move.is_free())
       continue;
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(shears_of_large_meshes_are_free) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(4, 0.3, 0.01));
   Filter_counters counters;
   Axis_move move(mesh, 0, counters);
-  move.take(mesh.faces(), {}, true);
+  move.take(mesh.faces(), true);
   for (const auto& [axis, other, factor] : {std::tuple<int, int, double>(0, 1, -1.0), {1, 0, 1.0}, {0, 1, -1.0}}) {
     Ways ways;
     for (const Vertex_index v : mesh.vertices())
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(noise_of_large_meshes_ends_valid) {
     Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(4, 0.3, 0.01));
     Filter_counters counters;
     Axis_move move(mesh, 0, counters);
-    move.take(mesh.faces(), {}, true);
+    move.take(mesh.faces(), true);
     for (int axis = 0; axis < 3; ++axis) {
       Ways ways;
       for (const Vertex_index v : mesh.vertices())

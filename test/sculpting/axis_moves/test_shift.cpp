@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(some_vertices_go_as_they_would_with_all_faces_looked_at) {
     }
     Filter_counters counters;
     internal::Axis_move<Mesh> move(mesh, 0, counters);
-    move.take(mesh.faces(), {}, true);
+    move.take(mesh.faces(), true);
     internal::Axis_ways<Mesh> all;
     for (std::size_t v = 0; v < scene.ends.size(); ++v)
       all.emplace_back(static_cast<Mesh::size_type>(v), scene.ends[v]);
@@ -198,37 +198,32 @@ BOOST_AUTO_TEST_CASE(drags_after_a_shift_are_those_of_a_new_sculptor) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_shift_respects_probes_and_delta) {
-  meshes::Triangle_list list = meshes::cube(); // of edge 1 at the origin
+BOOST_AUTO_TEST_CASE(a_shift_respects_what_stands_still_and_delta) {
+  meshes::Triangle_list list = meshes::cube(), above = meshes::cube(); // of edge 1 at the origin
+  const std::size_t moving = list.points.size();
+  list += above.scale_and_move(1, 0.25, 0.25, 3);
   Mesh mesh = meshes::to_mesh(list);
-  const Vertex_index probe = mesh.add_vertex(Point_3(0.5, 0.5, 3));
-  Sculptor<Mesh> sculptor(mesh, Sculptor_parameters().delta(0.25).record_probes(false));
-  const auto lifted = [&](double by) {
+  Sculptor<Mesh> sculptor(mesh, Sculptor_parameters().delta(0.25));
+  const auto put = [&](const auto& height) {
     Ways ways;
-    for (const Vertex_index v : mesh.vertices())
-      if (v != probe)
-        ways.emplace_back(v, mesh.point(v).z() + by);
-    return ways;
+    for (std::size_t i = 0; i < moving; ++i) {
+      const Vertex_index v(static_cast<Mesh::size_type>(i));
+      ways.emplace_back(v, height(mesh.point(v).z()));
+    }
+    return sculptor.shift(2, ways);
   };
-  const auto refused = sculptor.shift(2, lifted(5));
+  const auto refused = put([](double z) { return z + 5; });
   BOOST_REQUIRE(!refused);
   BOOST_TEST(int(refused.refusal->reason) == int(Refusal_reason::blocked));
-  Ways flat;
-  for (const Vertex_index v : mesh.vertices())
-    if (v != probe)
-      flat.emplace_back(v, mesh.point(v).z() / 5);
-  const auto too_flat = sculptor.shift(2, flat);
+  const auto too_flat = put([](double z) { return z / 5; });
   BOOST_REQUIRE(!too_flat);
   BOOST_TEST(int(too_flat.refusal->reason) == int(Refusal_reason::delta));
-  BOOST_TEST(bool(sculptor.shift(2, lifted(1.5))));
-  // The probe goes under the cube, which then cannot come back, and away again.
-  BOOST_TEST(bool(sculptor.place(probe, Point_3(0.5, 0.5, 0.5))));
-  BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
-  const auto blocked = sculptor.undo();
-  BOOST_REQUIRE(!blocked);
-  BOOST_TEST((blocked.refusal->elements[0] == probe));
-  BOOST_TEST(mesh.point(Vertex_index(0)).z() >= 1.5);
-  BOOST_TEST(bool(sculptor.place(probe, Point_3(0.5, 0.5, 5))));
+  BOOST_TEST(bool(put([](double z) { return z + 1.5; })));
+  // A probe may stand anywhere then, and is in nobody's way.
+  auto probe = sculptor.probe(Point_3(0.5, 0.5, 0.5));
+  BOOST_REQUIRE(bool(probe));
   BOOST_TEST(bool(sculptor.undo()));
+  BOOST_TEST((probe.drag_to(Point_3(5, 5, 5)).end == Drag_end::stale));
+  BOOST_TEST((sculptor.probe(probe.position()).refusal()->reason == Refusal_reason::inside));
   BOOST_TEST(validate(mesh).is_valid());
 }

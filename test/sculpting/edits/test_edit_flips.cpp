@@ -27,23 +27,19 @@ template <class Integer>
 struct Exact_mesh {
   std::vector<oracle::Point<Integer>> points;
   std::vector<oracle::Corner_indices> faces;
-  std::vector<bool> is_isolated;
 
   Exact_mesh(const Mesh& mesh, std::vector<oracle::Point<Integer>> p) : points(std::move(p)) {
     for (const auto f : mesh.faces()) {
       const auto corners = internal::corners_of_face(mesh, f);
       faces.push_back({static_cast<int>(corners[0]), static_cast<int>(corners[1]), static_cast<int>(corners[2])});
     }
-    for (const Vertex_index v : mesh.vertices())
-      is_isolated.push_back(mesh.is_isolated(v));
   }
 
   Flip_obstacle obstacle(const Mesh& mesh, Edge_index e, const mpq_class& delta) const {
     const Halfedge_index h = mesh.halfedge(e), o = mesh.opposite(h);
     const auto corner = [](Vertex_index v) { return static_cast<int>(v); };
     return oracle::flip_obstacle(points, faces, corner(mesh.source(h)), corner(mesh.target(h)),
-                                 corner(mesh.target(mesh.next(h))), corner(mesh.target(mesh.next(o))), delta,
-                                 is_isolated);
+                                 corner(mesh.target(mesh.next(h))), corner(mesh.target(mesh.next(o))), delta);
   }
 };
 
@@ -130,11 +126,11 @@ std::vector<std::array<Vertex_index, 2>> edges_of(const Mesh& mesh) {
   return edges;
 }
 
-/// Every edge of a mesh whose vertices with faces have even integer coordinates.
+/// Every edge of a mesh whose vertices have even integer coordinates.
 void check_edges(const meshes::Triangle_list& list, double delta, bool by_composition, Tally& tally) {
   Mesh mesh = meshes::to_mesh(list);
   Sculptor<Mesh> sculptor(mesh, parameters::delta(delta));
-  constexpr int unit = 8; // the isolated vertices are at halves, quarters and eighths
+  constexpr int unit = 8;
   std::vector<oracle::Point<__int128>> points;
   for (const Point_3& p : list.points)
     points.push_back({static_cast<__int128>(unit * p.x()), static_cast<__int128>(unit * p.y()), static_cast<__int128>(unit * p.z())});
@@ -151,7 +147,7 @@ void check_edges(const meshes::Triangle_list& list, double delta, bool by_compos
   tally.invalid += !validate(mesh).is_valid();
 }
 
-/// Small meshes on a grid, with isolated vertices; or a box of flat sides, the vertices of which are moved in them and
+/// Small meshes on a grid; or a box of flat sides, the vertices of which are moved in them and
 /// here and there off.
 meshes::Triangle_list grid_scene(Random& random) {
   const auto is_valid = [](const meshes::Triangle_list& list) { return validate(meshes::to_mesh(list)).is_valid(); };
@@ -183,14 +179,6 @@ meshes::Triangle_list grid_scene(Random& random) {
     if (is_valid(moved))
       list = moved;
   }
-  for (std::size_t i = random() % 4; i > 0; --i) {
-    // Anywhere near, or in the middle of two vertices: often inside of what a flip sweeps over.
-    const Point_3 p = list.points[random() % list.points.size()], q = list.points[random() % list.points.size()];
-    const Point_3 m = CGAL::midpoint(p, q);
-    list.add_point(m.x(), m.y(), m.z());
-    if (!is_valid(list))
-      list.points.pop_back();
-  }
   return list;
 }
 
@@ -209,7 +197,7 @@ BOOST_AUTO_TEST_CASE(flips_agree_with_an_independent_decision_on_grids) {
   BOOST_TEST(tally.refused() >= tally.asked / 5);
   for (const Flip_obstacle obstacle :
        {Flip_obstacle::none, Flip_obstacle::none_flat, Flip_obstacle::joined, Flip_obstacle::degenerate,
-        Flip_obstacle::low, Flip_obstacle::folded, Flip_obstacle::vertex_inside, Flip_obstacle::isolated_inside,
+        Flip_obstacle::low, Flip_obstacle::folded, Flip_obstacle::vertex_inside,
         Flip_obstacle::face_crossed})
     BOOST_TEST(is_enough(tally.verdicts[obstacle], 10), oracle::flip_obstacle_names[static_cast<int>(obstacle)]);
 }

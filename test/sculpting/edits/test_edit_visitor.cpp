@@ -245,7 +245,7 @@ BOOST_AUTO_TEST_CASE(counts_of_what_dies_and_is_created) {
   sculptor.undo();
   BOOST_TEST((told() == Numbers{1, 0, 0, 0, 0, 0, 0}));
   sculptor.grab(Vertex_index(0)).drag_to(mesh.point(Vertex_index(0)));
-  sculptor.probe({5, 0, 0}, {4, 0, 0});
+  sculptor.probe({5, 0, 0}).drag_to({4, 0, 0});
   sculptor.insert_on_face(*mesh.faces().begin(), mesh.point(Vertex_index(0)));
   BOOST_TEST((told() == Numbers{}));
 }

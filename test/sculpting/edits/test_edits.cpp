@@ -265,25 +265,3 @@ BOOST_AUTO_TEST_CASE(a_drag_of_a_removed_vertex_is_a_result) {
   BOOST_TEST(grab.drag_to(home).reached);
   BOOST_TEST((mesh.point(grab.vertex()) == home));
 }
-
-// Isolated vertices stand in the way of creations and collapses, too.
-BOOST_AUTO_TEST_CASE(edits_pass_no_isolated_vertex) {
-  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
-  const Point_3 tip = mesh.point(Vertex_index(0));
-  const Vertex_index below = mesh.add_vertex(CGAL::ORIGIN + 0.97 * (tip - CGAL::ORIGIN));
-  const Mesh::Face_index f = *mesh.faces().begin();
-  const Point_3 middle = in_face(mesh, f, 1. / 3, 1. / 3);
-  const Vertex_index above = mesh.add_vertex(CGAL::ORIGIN + 1.1 * (middle - CGAL::ORIGIN));
-  Sculptor<Mesh> sculptor(mesh);
-  const auto blocked = sculptor.remove(Vertex_index(0));
-  BOOST_TEST((blocked.refusal->reason == Refusal_reason::blocked));
-  BOOST_TEST((blocked.refusal->elements.at(0) == below));
-  const Point_3 over = CGAL::ORIGIN + 1.2 * (middle - CGAL::ORIGIN);
-  const auto jumped = sculptor.insert_on_face(f, over);
-  BOOST_TEST((jumped.refusal->reason == Refusal_reason::blocked));
-  BOOST_TEST((jumped.refusal->elements.at(0) == above));
-  BOOST_REQUIRE(sculptor.grab(below).drag_to(Point_3(0, 0, 0)).reached);
-  BOOST_REQUIRE(sculptor.grab(above).drag_to(Point_3(2 * over.x(), 2 * over.y(), 2 * over.z())).reached);
-  BOOST_TEST(static_cast<bool>(sculptor.insert_on_face(f, over)));
-  BOOST_TEST(static_cast<bool>(sculptor.remove(Vertex_index(0))));
-}

@@ -52,6 +52,7 @@ struct World {
   Mesh mesh; ///< a copy: its arrays are exactly full
   Sculptor_type sculptor;
   std::optional<typename Sculptor_type::Grab_type> grab;
+  std::optional<typename Sculptor_type::Probe_type> probe;
   std::optional<typename Sculptor_type::Stroke_type> stroke;
 
   World(const Mesh& original, const Sculptor_parameters& parameters) : mesh(original), sculptor(mesh, parameters) {}
@@ -106,7 +107,6 @@ std::vector<Case<World>> all_cases() {
   const auto drag = [](World& w) { w.drag(8, 0.1); };
   const auto push = [](World& w) { w.drag(8, -40); };
   const auto move = [](World& w) { w.sculptor.move_if_free(Vertex_index(8), w.beside(8, 0.05)); };
-  const auto place = [](World& w) { w.sculptor.place(Vertex_index(42), Point_3(2.5, 0.1, 0.2)); };
   const auto take = [](World& w) { w.grab.emplace(w.sculptor.grab(Vertex_index(8))); };
   const auto undo = [](World& w) { w.sculptor.undo(); };
   const auto redo = [](World& w) { w.sculptor.redo(); };
@@ -128,7 +128,9 @@ std::vector<Case<World>> all_cases() {
       {"first impact", nothing<World>, [](World& w) { w.sculptor.first_impact(Vertex_index(8), w.beside(8, -40)); }},
       {"nearest vertex", drag, [](World& w) { w.sculptor.nearest_vertex(Point_3(2, 0, 0), 1e9); }},
       {"first hit", drag, [](World& w) { w.sculptor.first_hit(Point_3(2, 0, 0), Point_3(0, 0, 0)); }},
-      {"probe", drag, [](World& w) { w.sculptor.probe(Point_3(2, 0.1, 0), Point_3(0, 0, 0.1)); }},
+      {"probe", drag, [](World& w) { w.sculptor.probe(Point_3(2, 0.1, 0)); }},
+      {"drag of a probe", [](World& w) { w.drag(8, 0.1), w.probe.emplace(w.sculptor.probe(Point_3(2, 0.1, 0))); },
+       [](World& w) { w.probe->drag_to(Point_3(0, 0, 0.1)); }},
       {"set delta", drag, [](World& w) { w.sculptor.set_delta(1e-6); }},
       {"reserve", drag, [](World& w) { w.sculptor.reserve(50, 50); }},
       {"whole drag", nothing<World>, drag, true},
@@ -136,7 +138,7 @@ std::vector<Case<World>> all_cases() {
       {"undo of many", stroke_of_much, undo}, {"redo of many", both(stroke_of_much, undo), redo},
   };
   const std::pair<const char*, F> edits[] = {{"insert on face", insert_on_face}, {"insert on edge", insert_on_edge}, {"remove", remove},
-                                             {"collapse", collapse}, {"flip", flip}, {"move if free", move}, {"place", place}};
+                                             {"collapse", collapse}, {"flip", flip}, {"move if free", move}};
   for (const auto& [name, edit] : edits) {
     cases.push_back({name, nothing<World>, edit});
     cases.push_back({name, begin_stroke, edit});
@@ -163,9 +165,8 @@ bool is_refused_for_good(World& w) {
       [&] { w.sculptor.insert_on_edge(Mesh::Edge_index(1), Point_3(0, 0, 0)); },
       [&] { w.sculptor.remove(Vertex_index(1)); }, [&] { w.sculptor.collapse(Mesh::Halfedge_index(1)); },
       [&] { w.sculptor.move_if_free(Vertex_index(1), Point_3(0, 0, 0)); },
-      [&] { w.sculptor.place(Vertex_index(42), Point_3(9, 0, 0)); },
       [&] { w.sculptor.first_impact(Vertex_index(1), Point_3(0, 0, 0)); },
-      [&] { w.sculptor.probe(Point_3(9, 0, 0), Point_3(8, 0, 0)); }, [&] { w.sculptor.nearest_vertex(Point_3(9, 0, 0), 1); },
+      [&] { w.sculptor.probe(Point_3(9, 0, 0)); }, [&] { w.sculptor.nearest_vertex(Point_3(9, 0, 0), 1); },
       [&] { w.sculptor.first_hit(Point_3(9, 0, 0), Point_3(8, 0, 0)); }, [&] { w.sculptor.release(); },
       [&] { w.sculptor.reserve(1, 1); }, [&] { w.stroke.emplace(w.sculptor.stroke()); }, [&] { w.sculptor.set_delta(0); },
       [&] { w.sculptor.set_clearance(1e-3); }, [&] { w.sculptor.set_default_clearance(); },
@@ -227,8 +228,7 @@ Outcome try_case(const Case<World>& c, const Mesh& original, const Sculptor_para
       BOOST_TEST(validate(w.mesh).is_valid());
       while (w.sculptor.undo())
         ;
-      if (parameters.probes_are_recorded) // else one may stand in the way, or elsewhere
-        BOOST_TEST((snapshot(w.sculptor) == begin));
+      BOOST_TEST((snapshot(w.sculptor) == begin));
     }
   }
   return outcome;
@@ -259,19 +259,15 @@ void try_all(const char* broad_phase, bool is_ready, const Sculptor_parameters& 
     BOOST_TEST(refused > 0u);
 }
 
-/// A sphere of 42 vertices and a probe.
-Mesh scene() {
-  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05));
-  mesh.add_vertex(Point_3(3, 0, 0));
-  return mesh;
-}
+/// A sphere of 42 vertices.
+Mesh scene() { return meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05)); }
 
 } // namespace
 
 BOOST_AUTO_TEST_CASE(each_allocation_of_each_call_fails_in_turn) {
   try_all<Box_tree_broad_phase<Mesh>>("tree", true, {}, scene());
   try_all<Six_list_broad_phase<Mesh>>("six lists", true, parameters::response(Response::stop), scene());
-  try_all<Brute_force_broad_phase<Mesh>>("brute force", true, parameters::record_probes(false), scene());
+  try_all<Brute_force_broad_phase<Mesh>>("brute force", true, {}, scene());
 }
 
 BOOST_AUTO_TEST_CASE(a_broad_phase_that_no_room_can_be_made_for) {

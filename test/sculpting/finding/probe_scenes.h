@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_TEST_PROBE_SCENES_H
 
 /// \file
-/// Small meshes on a grid with vertices without faces, and where these lie, by decisions over integers that share
-/// nothing with the library.
+/// Small meshes on a grid with places for probes, and where these lie, by decisions over integers that share nothing
+/// with the library.
 
 #include "sculpting/motion/embedding_oracle_input.h"
 
@@ -56,18 +56,11 @@ inline Point_3 random_place_about(Random& random, int size, const std::vector<Po
   return {p.x() * unit, p.y() * unit, p.z() * unit};
 }
 
-/// A small mesh and so many probes, none of them on the surface.
-inline meshes::Triangle_list random_list_with_probes(Random& random, int size, std::size_t probes) {
-  meshes::Triangle_list list = random_small_list(random, size);
-  const oracle::Mesh_list surface = to_oracle(list);
-  while (probes != 0) {
-    const Point_3 p = random_place_about(random, size, list.points);
-    if (side_of(surface, p) == Side::on)
-      continue;
-    list.add_point(p.x(), p.y(), p.z());
-    --probes;
-  }
-  return list;
+/// A place that is not on the surface.
+inline Point_3 random_place_off(Random& random, int size, const meshes::Triangle_list& list) {
+  for (;;)
+    if (const Point_3 p = random_place_about(random, size, list.points); side_of(to_oracle(list), p) != Side::on)
+      return p;
 }
 
 } // namespace haptic_sculpt::test

@@ -77,7 +77,7 @@ public:
   Move_report brush(Random random, double edge) {
     const Vertex_index centre(static_cast<Mesh::size_type>(random() % mesh_.number_of_vertices()));
     const double radius = (2 + 6 * std::abs(uniform(random))) * edge, height = 2 * uniform(random) * edge;
-    const Vector_3 up = mesh_.is_isolated(centre) ? Vector_3(0, 0, 1) : normal(mesh_, centre);
+    const Vector_3 up = normal(mesh_, centre);
     std::vector<Vertex_index> vertices;
     Point_map targets = mesh_.template add_property_map<Vertex_index, Point_3>("v:brush").first;
     for (const Vertex_index v : mesh_.vertices())

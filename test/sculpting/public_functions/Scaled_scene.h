@@ -6,13 +6,12 @@
 
 namespace haptic_sculpt::test {
 
-/// An uneven ball, a moon beside it and a probe, in coordinates of 20 binary places times a power of two. So all of it is
+/// An uneven ball and a moon beside it, in coordinates of 20 binary places times a power of two. So all of it is
 /// exact, down to subnormal numbers, and no coordinate is larger than twice the unit. What is asked of it is worked out in the
 /// usual mode, whatever that of the caller.
 struct Scaled_scene {
   double unit;
   Mesh mesh;
-  Vertex_index probe;
 
   explicit Scaled_scene(double unit) : unit(unit) {
     const internal::Rounding_to_nearest rounding;
@@ -23,7 +22,6 @@ struct Scaled_scene {
       const Point_3 p = mesh.point(v);
       mesh.point(v) = at(on_grid(p.x()), on_grid(p.y()), on_grid(p.z()));
     }
-    probe = mesh.add_vertex(at(0.125, 1.75, 0.25));
   }
 
   double length(double x) const {

@@ -72,7 +72,6 @@ inline std::vector<Public_function> free_functions() {
                        outcome.impact(impact.impact());
                      outcome.number(first_impact(scene.mesh, v, scene.beyond(v, -1.25)).has_value());
                    }
-                   outcome.number(first_impact(scene.mesh, scene.probe, scene.at(0, 0, 0)).has_value());
                  }});
   all.push_back({"Vertex_face_sweep_3 Edge_edge_sweep_3 Face_vertex_sweep_3 Swept_collision_traits_3 compare_time",
                  [](double unit, Outcome& outcome) {
@@ -97,7 +96,6 @@ inline std::vector<Public_function> free_functions() {
   for (const char* extension : {".off", ".ply", ".obj", ".stl"})
     all.push_back({"read_surface write_surface read_face_soup make_surface", [=](double unit, Outcome& outcome) {
                      Scaled_scene scene(unit);
-                     scene.mesh.remove_vertex(scene.probe);
                      const Scene_file file(extension);
                      write_surface(file.path, scene.mesh);
                      outcome.mesh(read_surface<Mesh>(file.path));

@@ -68,18 +68,22 @@ inline std::vector<Public_function> sculptor_functions() {
                      outcome.number(hit->time), outcome.point(hit->point);
                    }
                  }});
-  all.push_back({"Sculptor::probe Sculptor::place", [](double unit, Outcome& outcome) {
+  all.push_back({"Sculptor::probe Probe::drag_to Probe::position Probe::refusal", [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);
-                   for (const double x : {-0.5, 0.0, 0.25, 1.0, 1.75}) {
-                     std::vector<Point_3> path;
-                     outcome.drag(sculptor.probe(scene.at(x, 1.75, 0.5), scene.at(x / 2, -1.5, 0.25), &path));
-                     for (const Point_3& p : path)
-                       outcome.point(p);
-                     outcome.edit(sculptor.place(scene.probe, scene.at(x, 0.125, 0.25)));
-                     outcome.drag(sculptor.grab(scene.probe).drag_to(scene.at(x, 0, 0)));
-                   }
-                   outcome.edit(sculptor.place(scene.probe, scene.mesh.point(Scaled_scene::vertex(0))));
+                   for (const double x : {-0.5, 0.0, 0.25, 1.0, 1.75})
+                     for (const double y : {1.75, 0.125}) {
+                       auto probe = sculptor.probe(scene.at(x, y, 0.5));
+                       outcome.number(probe.refusal() ? static_cast<double>(probe.refusal()->reason) : -1);
+                       std::vector<Point_3> path;
+                       outcome.drag(probe.drag_to(scene.at(x / 2, -1.5, 0.25), path));
+                       for (const Point_3& p : path)
+                         outcome.point(p);
+                       outcome.drag(probe.drag_to(scene.at(x, 0, 0)));
+                       outcome.point(probe.position());
+                     }
+                   outcome.number(bool(sculptor.probe(scene.mesh.point(Scaled_scene::vertex(0)))));
+                   outcome.number(bool(sculptor.probe(scene.at(0, 0, 0), Probe_start::anywhere)));
                    outcome.mesh(scene.mesh);
                  }});
   all.push_back({"Sculptor::insert_on_face Sculptor::insert_on_edge Sculptor::remove Sculptor::collapse Sculptor::flip Sculptor::undo "

@@ -32,12 +32,17 @@ public:
 
   /// The mesh must outlive it and may change between two calls of take().
   explicit End_certifier(const Mesh& mesh)
-      : mesh_(&mesh), broad_phase_(mesh), corners_(mesh), isolated_(mesh), guard_(mesh, broad_phase_, corners_, Exact_sweep_traits<Mesh>(&counters_), &isolated_) {}
+      : mesh_(&mesh), broad_phase_(mesh), corners_(mesh), guard_(mesh, broad_phase_, corners_, Exact_sweep_traits<Mesh>(&counters_)) {}
 
   /// \param v is where the drag has left it, all else stands still \param way_asked |T - S|, how far it had to go
   End_certificate certify(Vertex_index v, const Point_3& target, double way_asked, double clearance, double delta,
                           Random& random, std::size_t random_ways = 1000) {
-    begin(v, target, delta);
+    return certify(v, mesh_->point(v), target, way_asked, clearance, delta, random, random_ways);
+  }
+  /// \param v null: of a probe \param x where it is
+  End_certificate certify(Vertex_index v, const Point_3& x, const Point_3& target, double way_asked, double clearance,
+                          double delta, Random& random, std::size_t random_ways = 1000) {
+    begin(v, x, target, delta);
     if (!(far_ > least_gain * clearance))
       return found_;
     found_.asked = true;
@@ -56,7 +61,6 @@ private:
   Brute_force_broad_phase<Mesh> broad_phase_;
   internal::Face_corners<Mesh> corners_;
   Filter_counters counters_;
-  internal::Isolated_vertices<Mesh> isolated_;
   internal::Guarded_star<Mesh, Brute_force_broad_phase<Mesh>> guard_;
   Vertex_index v_;
   Coordinates x_{};
@@ -81,14 +85,18 @@ private:
     return l > 0;
   }
 
-  void begin(Vertex_index v, const Point_3& target, double delta) {
+  void begin(Vertex_index v, const Point_3& x, const Point_3& target, double delta) {
     corners_ = internal::Face_corners<Mesh>(*mesh_);
-    isolated_ = internal::Isolated_vertices<Mesh>(*mesh_);
-    guard_.collect(v);
+    if (v.is_valid()) {
+      guard_.collect(v);
+    } else {
+      guard_.star().clear();
+      guard_.invalidate();
+    }
     v_ = v;
-    x_ = vertex_coordinates(*mesh_, v);
+    x_ = {x.x(), x.y(), x.z()};
     delta_ = delta;
-    pull_ = difference(target, mesh_->point(v));
+    pull_ = difference(target, x);
     far_ = std::sqrt(dot(pull_, pull_));
     found_ = End_certificate();
   }
@@ -146,7 +154,7 @@ private:
   /// Along the planes near by, the lines in which two of them meet, and the edges; past the corners.
   void try_near(double clearance) {
     const Still_surroundings<meshes::Kernel> around(*mesh_, v_);
-    const Point_3 x = mesh_->point(v_);
+    const Point_3 x(x_[0], x_[1], x_[2]);
     std::vector<Long_vector> normals, edges;
     const auto add = [](std::vector<Long_vector>& list, Long_vector a, std::size_t most) {
       constexpr long double alike = 1e-30L; // of the square of a sine

@@ -17,7 +17,8 @@ namespace haptic_sculpt::test {
 struct Part_scene {
   std::string family;
   Mesh mesh;
-  std::size_t first_mover = 0; ///< vertices from here on are probes and movers' vertices, all before are the part's
+  std::size_t first_mover = 0; ///< vertices from here on are movers' vertices, all before are the part's
+  std::vector<Point_3> probes; ///< where probes begin
   double size = 1;             ///< half of the largest extent
   Point_3 centre{0, 0, 0};
   bool is_near_degenerate = false;
@@ -90,8 +91,8 @@ inline meshes::Triangle_list shape(std::size_t family, Random& random) {
   }
 }
 
-/// Small solids and probes beside or in the part; corners of boxes have faces parallel to the part's.
-inline void add_movers(meshes::Triangle_list& list, Random& random) {
+/// A small solid and probes beside or in the part; corners of boxes have faces parallel to the part's.
+inline void add_movers(meshes::Triangle_list& list, std::vector<Point_3>& probes, Random& random) {
   const auto box = CGAL::bbox_3(list.points.begin(), list.points.end());
   const std::array<double, 3> lower = {box.xmin(), box.ymin(), box.zmin()},
                               upper = {box.xmax(), box.ymax(), box.zmax()};
@@ -102,8 +103,8 @@ inline void add_movers(meshes::Triangle_list& list, Random& random) {
       p[i] = uniform(random, lower[i] - 0.3 * size, upper[i] + 0.3 * size);
     return Point_3(p[0], p[1], p[2]);
   };
-  for (int probes = 2; probes > 0; --probes)
-    add_mover(list, Mover::probe, place(), place(), 0);
+  for (int i = 0; i < 2; ++i)
+    probes.push_back(place());
   const Point_3 p = place();
   if (random() % 2 == 0) {
     meshes::Triangle_list cube = meshes::cube(0.1 * size);
@@ -126,9 +127,12 @@ inline Part_scene part_scene(std::size_t family, Random& random) {
       internal_parts::stretch(list, random);
     scene.first_mover = list.points.size();
     if (!scene.is_near_degenerate || random() % 2 == 0)
-      internal_parts::add_movers(list, random);
-    if (scene.family.find("turned") != std::string::npos)
-      list.transform([motion = Rigid_motion::random(random)](const Point_3& p) { return motion(p); });
+      internal_parts::add_movers(list, scene.probes, random);
+    if (scene.family.find("turned") != std::string::npos) {
+      const Rigid_motion motion = Rigid_motion::random(random);
+      list.transform([&](const Point_3& p) { return motion(p); });
+      std::transform(scene.probes.begin(), scene.probes.end(), scene.probes.begin(), [&](const Point_3& p) { return motion(p); });
+    }
     try {
       scene.mesh = meshes::to_mesh(list);
     } catch (const std::logic_error&) {
@@ -154,8 +158,8 @@ inline Vertex_index part_vertex(const Part_scene& scene, const Mesh& mesh, Rando
 }
 
 /// On vertices and edges, in planes of faces, on extensions of edges, beyond faces, along axes, near and anywhere.
-inline Point_3 part_target(const Part_scene& scene, const Mesh& mesh, Vertex_index v, Random& random) {
-  const Point_3 p = mesh.point(v);
+/// \param v what is dragged, null: a probe \param p where it is
+inline Point_3 part_target(const Part_scene& scene, const Mesh& mesh, Vertex_index v, const Point_3& p, Random& random) {
   const auto any_vertex = [&] {
     for (;;) {
       const Vertex_index w(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
@@ -165,7 +169,7 @@ inline Point_3 part_target(const Part_scene& scene, const Mesh& mesh, Vertex_ind
   };
   const auto any = [&] { return mesh.point(any_vertex()); };
   const auto halfedge = [&](bool of_star) {
-    if (of_star && !mesh.is_isolated(v)) {
+    if (of_star && v.is_valid()) {
       auto h = mesh.halfedge(v);
       for (std::size_t turns = random() % 8; turns > 0; --turns)
         h = mesh.opposite(mesh.next(h));

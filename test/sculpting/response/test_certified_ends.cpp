@@ -21,23 +21,35 @@ End_counts drag_and_certify(const Part_scene& scene, std::size_t drags, Random& 
   Sculptor<Mesh> sculptor(mesh, parameters::response(response));
   End_certifier certifier(mesh);
   End_counts ends;
+  std::vector<Point_3> probes = scene.probes;
+  // \param v null: of a probe
+  const auto drag_and_look = [&](auto& held, Vertex_index v, const Point_3& source) {
+    const Point_3 target = part_target(scene, mesh, v, source, random);
+    const auto result = held.drag_to(target);
+    const double c = clearance_kept(sculptor, result);
+    ++ends.drags;
+    if (result.reached)
+      return result.position;
+    const auto found = certifier.certify(v, result.position, target, std::sqrt(CGAL::squared_distance(source, target)),
+                                         c, 0, random, 300);
+    ends.certified += found.asked;
+    ends.missed += found.gain > 0 || result.end == Drag_end::stuck;
+    if (found.gain > 0)
+      BOOST_TEST_MESSAGE(scene.family << ": nearer by " << found.gain / c << " c");
+    return result.position;
+  };
   while (ends.drags < drags) {
+    if (!probes.empty() && random() % 4 == 0) {
+      Point_3& p = probes[random() % probes.size()];
+      auto probe = sculptor.probe(p, Probe_start::anywhere);
+      for (int i = 0; i < 2 && probe; ++i)
+        p = drag_and_look(probe, Vertex_index(), p);
+      continue;
+    }
     const Vertex_index v = part_vertex(scene, mesh, random);
     auto grab = sculptor.grab(v);
-    for (int i = 0; i < 2; ++i) {
-      const Point_3 source = mesh.point(v), target = part_target(scene, mesh, v, random);
-      const auto result = grab.drag_to(target);
-      const double c = clearance_kept(sculptor, result);
-      ++ends.drags;
-      if (result.reached)
-        continue;
-      const auto found =
-          certifier.certify(v, target, std::sqrt(CGAL::squared_distance(source, target)), c, 0, random, 300);
-      ends.certified += found.asked;
-      ends.missed += found.gain > 0 || result.end == Drag_end::stuck;
-      if (found.gain > 0)
-        BOOST_TEST_MESSAGE(scene.family << ": nearer by " << found.gain / c << " c");
-    }
+    for (int i = 0; i < 2; ++i)
+      drag_and_look(grab, v, mesh.point(v));
   }
   BOOST_TEST(validate(mesh).is_valid());
   return ends;
@@ -102,21 +114,22 @@ BOOST_AUTO_TEST_CASE(a_slot_that_closes_by_less_than_a_clearance_is_gone_through
                    Point_3(0, 8, gap),
                    Point_3(0, 0, 3)};
     Mesh mesh = meshes::to_mesh(list);
-    const Vertex_index probe = mesh.add_vertex(Point_3(-3, -4, 0.5 * gap));
     BOOST_REQUIRE_MESSAGE(validate(mesh).is_valid(), validate(mesh).message());
-    Sculptor<Mesh> sculptor(mesh, parameters::clearance(c));
+    Sculptor<Mesh> sculptor(mesh);
     End_certifier certifier(mesh);
-    auto grab = sculptor.grab(probe);
+    auto probe = sculptor.probe(Point_3(-3, -4, 0.5 * gap));
+    BOOST_REQUIRE(bool(probe));
+    sculptor.set_clearance(c); // with which it could not begin here
     for (int i = 0; i < 6; ++i) {
-      const Point_3 source = mesh.point(probe);
+      const Point_3 source = probe.position();
       const Point_3 target(source.x() + between(0.2, 1), -4 + number(random),
                            i % 2 == 0 ? between(0, 0.3) : -between(0, 0.3));
-      const auto result = grab.drag_to(target);
+      const auto result = probe.drag_to(target);
       ++drags;
       if (result.reached)
         continue;
       const auto found =
-          certifier.certify(probe, target, std::sqrt(CGAL::squared_distance(source, target)), c, 0, random, 300);
+          certifier.certify(Vertex_index(), result.position, target, std::sqrt(CGAL::squared_distance(source, target)), c, 0, random, 300);
       certified += found.asked;
       missed += found.gain > 0;
       gave_up += result.end == Drag_end::stuck;

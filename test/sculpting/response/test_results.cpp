@@ -3,6 +3,7 @@
 // numbers of the size of coordinates cannot tell from others included.
 #include "sculpting/Random_scene.h"
 #include "sculpting/result_contradiction.h"
+#include "sculpting/Mover_hand.h"
 #include "sculpting/response/outside_scenes.h"
 
 #include <boost/test/unit_test.hpp>
@@ -41,14 +42,13 @@ struct Tally {
 
 void drag_about(Outside_scene scene, std::size_t drags, Random& random, Tally& tally) {
   for (std::size_t done = 0; done < drags;) {
-    Mesh mesh = scene.mesh;
     Sculptor_parameters options = parameters::response(random() % 4 == 0 ? Response::stop : random() % 4 == 0 ? Response::paper : Response::slide);
     std::size_t limit = std::numeric_limits<std::size_t>::max();
     if (random() % 3 == 0)
       options.work_limit(limit = random() % 200);
-    Sculptor<Mesh> sculptor(mesh, options);
-    scene.moved = Vertex_index(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
-    auto grab = sculptor.grab(scene.moved);
+    scene.moved = Vertex_index(static_cast<Mesh::size_type>(random() % scene.mesh.number_of_vertices()));
+    Mover_hand grab(scene.mesh, scene.moved, options);
+    const Mesh& mesh = grab.mesh;
     std::vector<Point_3> path;
     for (int i = 0; i < 20; ++i, ++done) {
       const Point_3 source = mesh.point(scene.moved), target = any_target(scene, mesh, random);

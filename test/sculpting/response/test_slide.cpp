@@ -2,6 +2,7 @@
 // Slides whose end is known: the unique constrained optimum of planes, cavities and corners, for vertices and for probes.
 #include <boost/test/unit_test.hpp>
 
+#include "sculpting/Mover_hand.h"
 #include "sculpting/response/Slide_faults.h"
 #include "sculpting/clearances.h"
 #include "sculpting/response/optimum_check.h"
@@ -82,11 +83,11 @@ BOOST_AUTO_TEST_CASE(pushes_end_at_the_unique_optimum) {
     for (const Convex_scene& scene : convex_scenes(random))
       for (const double length : clearances) {
         const bool is_default = length == default_length;
-        Mesh mesh = scene.mesh;
-        Sculptor<Mesh> sculptor(mesh, parameters::response(response_under_test()));
+        Mover_hand grab(scene.mesh, scene.moved, parameters::response(response_under_test()));
+        const Mesh& mesh = grab.mesh;
+        auto& sculptor = grab.sculptor;
         if (!is_default)
           sculptor.set_clearance(length);
-        auto grab = sculptor.grab(scene.moved);
         Drag_history history{mesh.point(scene.moved), {}};
         for (std::size_t i = 0; i < pushes_per_grab; ++i, ++done) {
           const Point_3 source = mesh.point(scene.moved), target = scene.target(random, source);
@@ -95,7 +96,7 @@ BOOST_AUTO_TEST_CASE(pushes_end_at_the_unique_optimum) {
           BOOST_REQUIRE(r.position == mesh.point(scene.moved));
           check_end(scene, mesh, source, target, is_default ? largest_clearance(sculptor, target) : length, is_default, r, "push " + std::to_string(i), found, &history);
         }
-        BOOST_REQUIRE(validate(mesh).is_valid());
+        BOOST_REQUIRE(validate(grab.surface()).is_valid());
       }
   BOOST_TEST_MESSAGE(done << " pushes");
   report(found);
@@ -111,19 +112,18 @@ BOOST_AUTO_TEST_CASE(probes_end_at_the_unique_optimum) {
       if (!scene.mesh.is_isolated(scene.moved))
         continue;
       for (const double length : clearances) {
-        Mesh mesh = scene.mesh;
+        Mesh mesh = without_probes(scene.mesh);
         Sculptor<Mesh> sculptor(mesh, parameters::response(response_under_test()));
         if (length != default_length)
           sculptor.set_clearance(length);
-        const Point_3 source = mesh.point(scene.moved);
-        for (int i = 0; i < 10; ++i, ++done) {
+        const Point_3 source = scene.mesh.point(scene.moved);
+        for (int i = 0; i < 10; ++i, ++done) { // each without contacts
           const Point_3 target = scene.target(random, source);
-          const auto r = sculptor.probe(source, target);
-          check_end(scene, mesh, source, target, length == default_length ? largest_clearance(sculptor, target) : length,
+          const auto r = sculptor.probe(source, Probe_start::anywhere).drag_to(target);
+          check_end(scene, scene.mesh, source, target, length == default_length ? largest_clearance(sculptor, target) : length,
                     length == default_length, r, "probe", found);
         }
         sculptor.check_unchanged();
-        BOOST_REQUIRE(mesh.point(scene.moved) == source);
       }
     }
   BOOST_TEST_MESSAGE(done << " probes");

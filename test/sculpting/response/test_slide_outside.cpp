@@ -2,6 +2,7 @@
 // Slides around solids: every end is a constrained local minimum, whatever was touched on the way.
 #include <boost/test/unit_test.hpp>
 
+#include "sculpting/Mover_hand.h"
 #include "sculpting/response/Slide_faults.h"
 #include "sculpting/clearances.h"
 #include "sculpting/result_contradiction.h"
@@ -35,13 +36,13 @@ double ulp_at(const Point_3& x, const Point_3& target) {
 /// Drags of one grab and the next, each end checked.
 void drag_and_check(const Outside_scene& scene, double clearance, std::size_t drags, Random& random, Outside_findings& found,
                     Response response) {
-  Mesh mesh = scene.mesh;
-  Sculptor<Mesh> sculptor(mesh, parameters::response(response));
+  Mover_hand grab(scene.mesh, scene.moved, parameters::response(response));
+  const Mesh& mesh = grab.mesh;
+  auto& sculptor = grab.sculptor;
   if (clearance > 0)
     sculptor.set_clearance(clearance);
   const Surroundings around(mesh, scene.moved);
   Containment_check containment(scene);
-  auto grab = sculptor.grab(scene.moved);
   Ends& ends = found.by_scene[scene.name];
   ends.has_needle_grooves = scene.has_needle_grooves;
   Drag_history history{mesh.point(scene.moved), {}};
@@ -110,7 +111,7 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
     ends.no_minimum += has_residual || check.random_gain > 0;
     ends.along_facets += check.directed_gain > 0;
   }
-  BOOST_REQUIRE(validate(mesh).is_valid());
+  BOOST_REQUIRE(validate(grab.surface()).is_valid());
 }
 
 /// Prints what was found, and fails where a promise was broken.

@@ -2,6 +2,7 @@
 // Slides as a hand makes them, a thousand a second: few legs, no jumps, no seams, and contacts that do not wear out.
 #include <boost/test/unit_test.hpp>
 
+#include "sculpting/Mover_hand.h"
 #include "sculpting/response/Slide_faults.h"
 #include "sculpting/clearances.h"
 #include "sculpting/response/optimum_check.h"
@@ -66,11 +67,11 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
   double worst = 0;
   for (std::size_t round = 0; round < rounds; ++round)
     for (const Convex_scene& scene : convex_scenes(random)) {
-      Mesh mesh = scene.mesh;
-      Sculptor<Mesh> sculptor(mesh, parameters::response(response_under_test()));
+      Mover_hand grab(scene.mesh, scene.moved, parameters::response(response_under_test()));
+      const Mesh& mesh = grab.mesh;
+      auto& sculptor = grab.sculptor;
       if (random() % 2 == 0)
         sculptor.set_clearance(1e-9);
-      auto grab = sculptor.grab(scene.moved);
       Point_3 hand = mesh.point(scene.moved), next = scene.target(random, hand);
       for (int move = 0; move < 4; ++move) {
         const Point_3 from = hand;
@@ -95,7 +96,7 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
         }
         next = scene.target(random, mesh.point(scene.moved));
       }
-      BOOST_REQUIRE(validate(mesh).is_valid());
+      BOOST_REQUIRE(validate(grab.surface()).is_valid());
     }
   BOOST_TEST_MESSAGE(all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, " << all.most()
                                  << " most; jump at most " << worst << " hand steps");
@@ -115,10 +116,10 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_around_solids_makes_few_legs) {
   std::size_t jumps = 0;
   for (std::size_t round = 0; round < rounds; ++round)
     for (const Outside_scene& scene : outside_scenes(random)) {
-      Mesh mesh = scene.mesh;
-      Sculptor<Mesh> sculptor(mesh, parameters::response(response_under_test()));
+      Mover_hand grab(scene.mesh, scene.moved, parameters::response(response_under_test()));
+      const Mesh& mesh = grab.mesh;
+      auto& sculptor = grab.sculptor;
       Containment_check containment(scene);
-      auto grab = sculptor.grab(scene.moved);
       Point_3 hand = mesh.point(scene.moved);
       for (int move = 0; move < 2; ++move) {
         const Point_3 from = hand, next = Point_3(0, 0, 0) + uniform_vector(random, 1.2 * scene.size);
@@ -143,7 +144,7 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_around_solids_makes_few_legs) {
         if (!containment.holds(mesh.point(scene.moved)))
           tunnelled.add(scene.name, mesh, scene.moved, from, next, sculptor.clearance(next), "on the other side of a surface");
       }
-      BOOST_REQUIRE(validate(mesh).is_valid());
+      BOOST_REQUIRE(validate(grab.surface()).is_valid());
     }
   BOOST_TEST_MESSAGE(all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, " << all.most() << " most; "
                                  << many_legs.count() << " steps with more than " << most_legs_of_a_step << "; " << deep.total() << " steps with the hand deep in a solid, "
@@ -173,26 +174,27 @@ BOOST_AUTO_TEST_CASE(seams_between_coplanar_triangles_are_not_felt) {
           moved[i] = add_mover(list, mover, {0.01, 0.02, 0.1}, {0, 0, 1.1}, 0.3);
           meshes[i] = valid_mesh(list.transform(motion), "plate");
         }
-        Sculptor<Mesh> whole(meshes[0], parameters::response(response_under_test())), cut(meshes[1], parameters::response(response_under_test()));
+        const Vertex_index on_plate(static_cast<Mesh::size_type>(moved[0])), v(static_cast<Mesh::size_type>(moved[1]));
+        Mover_hand on_whole(meshes[0], on_plate, parameters::response(response_under_test()));
+        Mover_hand on_cut(meshes[1], v, parameters::response(response_under_test()));
         if (length > 0) {
-          whole.set_clearance(length);
-          cut.set_clearance(length);
+          on_whole.sculptor.set_clearance(length);
+          on_cut.sculptor.set_clearance(length);
         }
-        auto on_whole = whole.grab(Vertex_index(static_cast<Mesh::size_type>(moved[0]))), on_cut = cut.grab(Vertex_index(static_cast<Mesh::size_type>(moved[1])));
         for (std::size_t i = 0; i < drags; ++i) {
           // Also to and along grid lines and vertices.
           const auto coordinate = [&] { return random() % 2 == 0 ? uniform(random, -0.9, 0.9) : 2.0 * static_cast<double>(random() % 60 + 5) / cells - 1; };
           const double x = coordinate(), y = coordinate(), z = uniform(random, -0.5, 0.05);
-          const Point_3 target = motion(Point_3(x, y, z)), source = meshes[1].point(on_cut.vertex());
+          const Point_3 target = motion(Point_3(x, y, z)), source = on_cut.mesh.point(v);
           const auto a = on_whole.drag_to(target), b = on_cut.drag_to(target);
-          const double c = largest_clearance(cut, target), distance = length_of(a.position - b.position);
+          const double c = largest_clearance(on_cut.sculptor, target), distance = length_of(a.position - b.position);
           held += !b.reached;
           worst = std::fmax(worst, distance / c);
           if (distance > 4 * c)
-            apart.add(std::string("plate, ") + name_of(mover), meshes[1], on_cut.vertex(), source, target, c,
+            apart.add(std::string("plate, ") + name_of(mover), on_cut.mesh, v, source, target, c,
                       std::to_string(distance / c) + " c apart, drag " + std::to_string(i));
           if (b.legs > a.legs + most_legs_for_seams)
-            many_legs.add(std::string("plate, ") + name_of(mover), meshes[1], on_cut.vertex(), source, target, c,
+            many_legs.add(std::string("plate, ") + name_of(mover), on_cut.mesh, v, source, target, c,
                           std::to_string(b.legs) + " legs, not " + std::to_string(a.legs));
           if (b.legs > a.legs)
             most_extra = std::max(most_extra, static_cast<std::size_t>(b.legs - a.legs));
@@ -212,11 +214,11 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
   std::size_t held = 0;
   for (const double length : {0.0, 1e-9})
     for (const Convex_scene& scene : convex_scenes(random)) {
-      Mesh mesh = scene.mesh;
-      Sculptor<Mesh> sculptor(mesh, parameters::response(response_under_test()));
+      Mover_hand grab(scene.mesh, scene.moved, parameters::response(response_under_test()));
+      const Mesh& mesh = grab.mesh;
+      auto& sculptor = grab.sculptor;
       if (length > 0)
         sculptor.set_clearance(length);
-      auto grab = sculptor.grab(scene.moved);
       Point_3 target;
       std::vector<std::size_t> active;
       double c = 0;

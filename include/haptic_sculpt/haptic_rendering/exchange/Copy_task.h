@@ -28,7 +28,7 @@ public:
       copy.begin();
       visitor.tell_to(&copy);
     }
-    if (visitor.copy() != &copy || !copy.copy_some(scene.sculptor, scene.probe, copied_a_tick))
+    if (visitor.copy() != &copy || !copy.copy_some(scene.sculptor, copied_a_tick))
       return false;
     visitor.tell_to(static_cast<Scene_copy*>(nullptr));
     copy.number = visitor.feed() != nullptr ? visitor.feed()->number() : 0;

@@ -12,8 +12,8 @@
 namespace haptic_sculpt {
 
 /// What was done to a sculpture, by value. Made again one after the other, each entry is certain to succeed: a move is
-/// one straight leg that was proven free, and a removal is the collapse that it was; so no contact, bound on work or
-/// probe plays a role in it.
+/// one straight leg that was proven free, and a removal is the collapse that it was; so no contact and no bound on work
+/// plays a role in it.
 struct Journal_entry {
   /// What was done. A move is that of the first of `vertices`, a collapse draws the first into the second, a flip is of
   /// the edge between them; `stroke` and `end` are about what is one step of undo; `tick` ends the entries of a tick.

@@ -9,9 +9,7 @@
 
 namespace haptic_sculpt {
 
-/// What a tool does to the mesh: edits, drags of vertices and strokes, each told to a journal, if there is one. There
-/// vertices have the numbers that they would have without the probe: those of the mesh's file, and of what was created
-/// since.
+/// What a tool does to the mesh: edits, drags of vertices and strokes, each told to a journal, if there is one.
 template <class Sculptor>
 class Journaled_edits {
 public:
@@ -22,16 +20,9 @@ public:
   using Edited = typename Sculptor::Edited;             ///< what an edit gives
   using Result = typename Sculptor::Result;             ///< what a drag gives
 
-  /// \param probe an isolated vertex, of which nothing is told
-  Journaled_edits(Sculptor& sculptor, Vertex_index probe) {
-    enter(sculptor, probe);
-    legs_.reserve(most_legs);
-  }
+  explicit Journaled_edits(Sculptor& sculptor) : sculptor_(&sculptor) { legs_.reserve(most_legs); } ///< without a journal
   /// From here on in another scene, without a journal. \pre no stroke is under way
-  void enter(Sculptor& sculptor, Vertex_index probe) {
-    sculptor_ = &sculptor, probe_ = sculptor.name(probe);
-    journal_ = nullptr;
-  }
+  void enter(Sculptor& sculptor) { sculptor_ = &sculptor, journal_ = nullptr; }
   void keep_journal(Edit_journal* journal) { journal_ = journal; } ///< nullptr: none
 
   /// What follows is one step of undo.
@@ -85,9 +76,8 @@ public:
 private:
   using Moves = std::vector<std::pair<Vertex_index, Point>>;
 
-  Sculptor* sculptor_ = nullptr;
+  Sculptor* sculptor_;
   Edit_journal* journal_ = nullptr;
-  std::uint64_t probe_ = 0; ///< its name
   static constexpr std::size_t most_legs = 64; ///< of a drag, and more: room that is made for them
   std::optional<typename Sculptor::Stroke_type> stroke_;
   std::vector<Point> legs_; ///< of the last drag
@@ -135,7 +125,7 @@ private:
     }
   }
 
-  /// Where a probe is near, a removal may have taken another neighbour than it would without: that is said.
+  /// Which neighbour a removal has taken is said.
   void note(Journal_entry made, const Edited& edited) {
     if (made.kind == Kind::remove) {
       made.kind = Kind::collapse;
@@ -156,12 +146,9 @@ private:
     entry.kind = kind;
     add(entry);
   }
-  void add(Journal_entry entry) {
-    if (journal_ == nullptr)
-      return;
-    for (std::uint64_t& name : entry.vertices)
-      name -= name > probe_;
-    journal_->add(entry);
+  void add(const Journal_entry& entry) {
+    if (journal_ != nullptr)
+      journal_->add(entry);
   }
 };
 

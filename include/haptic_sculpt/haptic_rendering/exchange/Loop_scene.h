@@ -11,7 +11,7 @@
 
 namespace haptic_sculpt {
 
-/// A mesh with a probe, its Sculptor, and where it is for the hand: what a loop sculpts. Made by any thread, then given
+/// A mesh, its Sculptor, and where it is for the hand: what a loop sculpts. Made by any thread, then given
 /// to the loop's.
 ///
 /// \tparam Visitor_ a Scene_teller, or derived from one and made from the same: what else is to be told of edits
@@ -21,16 +21,14 @@ struct Loop_scene {
   /// Tells viewers and copies of its edits.
   using Sculptor_type = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Visitor_>;
 
-  Mesh mesh;                         ///< with the probe; to be changed through the Sculptor only
-  Eigen::Vector3d lower,             ///< of the mesh's box as it came, without the probe
-      upper;                         ///< of the same box
-  typename Mesh::Vertex_index probe; ///< an isolated vertex, at first far outside of the box
-  Sculptor_type sculptor;            ///< of `mesh`; moves of the probe are no steps of its history
-  Workspace_map map;                 ///< between the device and the scene
+  Mesh mesh;              ///< to be changed through the Sculptor only
+  Eigen::Vector3d lower,  ///< of the mesh's box as it came
+      upper;              ///< of the same box
+  Sculptor_type sculptor; ///< of `mesh`
+  Workspace_map map;      ///< between the device and the scene
 
   /// \param map_of_box what gives a Workspace_map for the mesh's box: `(lower, upper)`
   /// \param edits, moves room that is made for so many (Sculptor::reserve)
-  /// \param options of the Sculptor; whether probes are recorded does not count
   /// \throw Invalid_surface and what else the Sculptor throws. Cost: that of validate()
   template <class Map_of_box>
   Loop_scene(Mesh given, const Map_of_box& map_of_box, std::size_t edits = 1000, std::size_t moves = 100000,
@@ -38,21 +36,9 @@ struct Loop_scene {
       : mesh(std::move(given))
       , lower(corner_of_box(-1))
       , upper(corner_of_box(1))
-      , probe(add_probe())
-      // A hand moves the probe a thousand times a second: undo is for what it sculpts.
-      , sculptor(mesh, Sculptor_parameters(options).record_probes(false), Visitor_(mesh, probe))
+      , sculptor(mesh, options, Visitor_(mesh))
       , map(map_of_box(lower, upper)) {
     sculptor.reserve(edits, moves);
-  }
-
-  /// Without the probe.
-  std::size_t number_of_faces() const { return mesh.number_of_faces(); }
-  /// Without the probe.
-  std::size_t number_of_vertices() const { return mesh.number_of_vertices() - 1; }
-  /// The number that lasts of a vertex as files and logs have it, where there is no probe.
-  std::size_t number(typename Mesh::Vertex_index v) const {
-    const std::size_t name = sculptor.name(v);
-    return name - (name > sculptor.name(probe));
   }
 
 private:
@@ -64,11 +50,6 @@ private:
       corner = sign < 0 ? Eigen::Vector3d(corner.cwiseMin(at)) : Eigen::Vector3d(corner.cwiseMax(at));
     }
     return corner;
-  }
-  /// Far outside, so that it comes to the surface from outside wherever the hand begins.
-  typename Mesh::Vertex_index add_probe() {
-    const Eigen::Vector3d far = internal::in_range(upper + 8 * (upper - lower));
-    return mesh.add_vertex({far[0], far[1], far[2]});
   }
 };
 

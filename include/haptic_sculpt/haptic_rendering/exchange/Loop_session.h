@@ -154,7 +154,7 @@ private:
     loop_->tool().let_go(); // the end of what is in hand is in the old journal
     if (journal_ != nullptr)
       journal_->end_tick(ticks_);
-    loop_->enter(scene.sculptor, scene.probe, scene.map);
+    loop_->enter(scene.sculptor, scene.map);
     loop_->tool().keep_journal(journal_ = journal);
     scene_->sculptor.visitor().tell_to(static_cast<Scene_feed*>(nullptr));
     Scene* const left = std::exchange(scene_, &scene);

@@ -68,15 +68,14 @@ public:
   void begin() { next_vertex_ = next_face_ = 0; } ///< from the first element again; what was needed is kept
   /// Copies up to so many elements more. \return whether all are copied. Allocates nothing.
   template <class Sculptor>
-  bool copy_some(const Sculptor& sculptor, typename Sculptor::Vertex_index probe, std::size_t elements) {
+  bool copy_some(const Sculptor& sculptor, std::size_t elements) {
     const auto& mesh = sculptor.mesh();
     const std::size_t all_vertices = mesh.num_vertices(), all_faces = mesh.num_faces(); // removed ones included
     vertices_needed = std::max(vertices_needed, all_vertices), faces_needed = std::max(faces_needed, all_faces);
     const std::size_t vertices = std::min(all_vertices, points.size()), known_faces = std::min(all_faces, faces.size());
     for (; elements > 0 && next_vertex_ < vertices; --elements, ++next_vertex_) {
       const typename Sculptor::Vertex_index v(static_cast<std::uint32_t>(next_vertex_));
-      const bool is_there = !mesh.is_removed(v) && v != probe;
-      names[next_vertex_] = is_there ? sculptor.name(v) : std::uint64_t(absent);
+      names[next_vertex_] = mesh.is_removed(v) ? std::uint64_t(absent) : sculptor.name(v);
       const auto& p = mesh.point(v);
       points[next_vertex_] = {p.x(), p.y(), p.z()};
     }

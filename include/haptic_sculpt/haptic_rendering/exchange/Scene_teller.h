@@ -7,8 +7,7 @@
 
 namespace haptic_sculpt {
 
-/// An EditVisitor that passes changes of a mesh on by value: to a viewer, and into a copy under way. Of the probe
-/// nothing is told; where it is, a Tick_view says.
+/// An EditVisitor that passes changes of a mesh on by value: to a viewer, and into a copy under way.
 template <class Mesh>
 class Scene_teller : public Default_edit_visitor {
 public:
@@ -19,16 +18,15 @@ public:
   using Moves = std::vector<std::pair<Vertex_index, typename Mesh::Point>>;
 
   /// Tells nobody at first. \param mesh refers to it; it must outlive this and its copies
-  Scene_teller(const Mesh& mesh, Vertex_index probe) : mesh_(&mesh), probe_(probe) {}
+  explicit Scene_teller(const Mesh& mesh) : mesh_(&mesh) {}
 
   /// To nobody: nullptr.
   void tell_to(Scene_feed* feed) { feed_ = feed; }
   void tell_to(Scene_copy* copy) { copy_ = copy; } ///< beside the feed; to none: nullptr
   void tell_to(Moves* moves) { moves_ = moves; }   ///< moves are listed there, too; nowhere: nullptr
 
-  const Scene_feed* feed() const { return feed_; }            ///< that is told; none: nullptr
-  const Scene_copy* copy() const { return copy_; }            ///< that is told; none: nullptr
-  bool is_probe(Vertex_index v) const { return v == probe_; } ///< of which nothing is told
+  const Scene_feed* feed() const { return feed_; } ///< that is told; none: nullptr
+  const Scene_copy* copy() const { return copy_; } ///< that is told; none: nullptr
 
   /// \name What the Sculptor calls
   ///@{
@@ -36,7 +34,7 @@ public:
   /// Tells its new point.
   void vertex_moved(Vertex_index v) {
     tell(Kind::vertex_moved, v);
-    if (moves_ != nullptr && v != probe_)
+    if (moves_ != nullptr)
       moves_->emplace_back(v, mesh_->point(v));
   }
   /// Tells its point and the number that lasts.
@@ -49,13 +47,12 @@ public:
 
 private:
   const Mesh* mesh_;
-  Vertex_index probe_;
   Scene_feed* feed_ = nullptr;
   Scene_copy* copy_ = nullptr;
   Moves* moves_ = nullptr;
 
   void tell(Kind kind, Vertex_index v, std::size_t name = 0) {
-    if (v == probe_ || (feed_ == nullptr && copy_ == nullptr))
+    if (feed_ == nullptr && copy_ == nullptr)
       return;
     Scene_change change;
     change.kind = kind, change.index = static_cast<std::uint32_t>(v), change.name = name;

@@ -64,8 +64,8 @@ public:
   }
 
   /// From here on in another sculpture; forces begin at 0. The old one is let go of, and may be destroyed.
-  void enter(Sculptor& sculptor, Vertex_index probe, const Workspace_map& map) {
-    tool_.enter(sculptor, probe, map);
+  void enter(Sculptor& sculptor, const Workspace_map& map) {
+    tool_.enter(sculptor, map);
     sculptor_ = &sculptor, map_ = map, held_ = Vertex_index();
     sculptor.set_work_limit(parameters_.work);
     restart();
@@ -84,13 +84,13 @@ public:
 
 protected:
   /// \param controller what nothing in `parameters` stands for, N s/m
-  Interaction_loop(Sculptor& sculptor, Vertex_index probe, const Side& side, const Workspace_map& map,
+  Interaction_loop(Sculptor& sculptor, const Side& side, const Workspace_map& map,
                    const Haptic_parameters& parameters, double controller)
       : sculptor_(&sculptor)
       , parameters_(parameters)
       , map_(map)
       , interaction_(side, parameters, parameters.controller_damping.value_or(controller))
-      , tool_(sculptor, probe, map, parameters.reach, parameters.tick) {
+      , tool_(sculptor, map, parameters.reach, parameters.tick) {
     parameters_.controller_damping = parameters.controller_damping.value_or(controller);
     sculptor.set_work_limit(parameters.work);
   }

@@ -32,10 +32,10 @@ public:
   Axis_move(const Mesh& mesh, double delta, Filter_counters& counters)
     : mesh_(&mesh), counters_(&counters), delta_(delta) {}
 
-  /// Which faces and which vertices without faces are looked at from here on. \param are_all whether these are all;
+  /// Which faces are looked at from here on. \param are_all whether these are all;
   /// else at least those that move and all that these could meet. Cost: n log n, which a few moves of the same pay off.
   template <class Faces>
-  void take(const Faces& faces, const std::vector<Vertex_index>& isolated, bool are_all) {
+  void take(const Faces& faces, bool are_all) {
     are_all_ = are_all;
     scale_ = Box_scale::of(*mesh_);
     items_.clear();
@@ -44,9 +44,6 @@ public:
       slot_of_face_[f.face] = static_cast<std::uint32_t>(items_.size());
       items_.push_back(item_of(Face_index(f.face)));
     }
-    first_isolated_ = items_.size();
-    for (const Vertex_index v : isolated)
-      items_.push_back({{index(v), index(v), index(v)}, 1, 0});
     tree_.resize(items_.size());
   }
 
@@ -65,12 +62,9 @@ public:
     for (std::uint32_t slot = 0; slot < items_.size(); ++slot) {
       Item& item = items_[slot];
       const Axis_motion<3> motion = motion_of(item.corners);
-      item.side = 0;
-      if (slot < first_isolated_) {
-        item.side = static_cast<std::int8_t>(Axis_sweep<3, Filter_counters>(motion, *counters_).seen(0, 1, 2));
-        for (const std::uint32_t v : item.corners)
-          ++vertices_[v].faces, vertices_[v].sides += item.side;
-      }
+      item.side = static_cast<std::int8_t>(Axis_sweep<3, Filter_counters>(motion, *counters_).seen(0, 1, 2));
+      for (const std::uint32_t v : item.corners)
+        ++vertices_[v].faces, vertices_[v].sides += item.side;
       set(slot, motion, does_move(item));
     }
     for (Item& item : items_)
@@ -129,7 +123,6 @@ private:
   std::size_t held_ = 0; ///< vertices that have been pulled, or are to be in this round
   std::size_t most_ = 0;
   std::vector<Item> items_; ///< by slot; faces in the order of space, then vertices without
-  std::size_t first_isolated_ = 0;
   std::vector<std::uint32_t> slot_of_face_;
   std::vector<Vertex> vertices_;
   Axis_box_tree tree_;
@@ -200,8 +193,7 @@ private:
     pulled_.clear();
     put_off_.clear();
     for (const std::uint32_t slot : active_)
-      if (slot < first_isolated_)
-        decide_face(items_[slot]);
+      decide_face(items_[slot]);
     if (is_given_up())
       return;
     tree_.for_each_pair([this](std::uint32_t a, std::uint32_t b) {
@@ -314,16 +306,9 @@ private:
 
   void activate_around(std::uint32_t k) {
     const Vertex_index v(k);
-    const auto activate = [this](std::uint32_t slot) { set(slot, motion_of(items_[slot].corners), true); };
-    if (mesh_->is_isolated(v)) {
-      for (std::size_t slot = first_isolated_; slot < items_.size(); ++slot)
-        if (items_[slot].corners[0] == k)
-          activate(static_cast<std::uint32_t>(slot));
-      return;
-    }
     for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
       if (f != mesh_->null_face())
-        activate(slot_of_face_[static_cast<std::size_t>(f)]);
+        set(slot_of_face_[static_cast<std::size_t>(f)], motion_of(items_[slot_of_face_[static_cast<std::size_t>(f)]].corners), true);
   }
 };
 

@@ -11,20 +11,19 @@ namespace internal {
 /// Has an axis move look at all faces where many move, else at those that move and those whose boxes they sweep over:
 /// what they could meet stands still and is found by a broad phase.
 template <class Mesh, class Broad_phase>
-void take_for(Axis_move<Mesh>& move, const Mesh& mesh, Broad_phase& broad_phase,
-              const std::vector<typename Mesh::Vertex_index>& isolated, int axis, const Axis_ways<Mesh>& ways) {
+void take_for(Axis_move<Mesh>& move, const Mesh& mesh, Broad_phase& broad_phase, int axis,
+              const Axis_ways<Mesh>& ways) {
   if (move.has_taken_all())
     return;
   constexpr std::size_t many = 8; // an eighth of all vertices: then the search costs more than it spares
   if (many * ways.size() >= mesh.number_of_vertices())
-    return move.take(mesh.faces(), isolated, true);
+    return move.take(mesh.faces(), true);
   std::vector<std::pair<std::size_t, double>> ends; // by index
   std::vector<typename Mesh::Face_index> faces;
   for (const auto& [v, end] : ways) {
     ends.emplace_back(static_cast<std::size_t>(v), end);
-    if (!mesh.is_isolated(v))
-      for (const auto f : mesh.faces_around_target(mesh.halfedge(v)))
-        faces.push_back(f);
+    for (const auto f : mesh.faces_around_target(mesh.halfedge(v)))
+      faces.push_back(f);
   }
   std::sort(ends.begin(), ends.end());
   const auto keep_each_once = [&faces] {
@@ -46,15 +45,8 @@ void take_for(Axis_move<Mesh>& move, const Mesh& mesh, Broad_phase& broad_phase,
     }
     broad_phase.query(box, faces);
   }
-  for (const auto& [v, end] : ways)
-    if (mesh.is_isolated(v)) {
-      std::array<double, 3> p = vertex_coordinates(mesh, v);
-      Box_3 box(p);
-      p[axis] = end;
-      broad_phase.query(box.include(p), faces);
-    }
   keep_each_once();
-  move.take(faces, isolated, false);
+  move.take(faces, false);
 }
 
 } // namespace internal

@@ -126,12 +126,6 @@ public:
     assign(mesh, corners_of, star, candidates, region, [](Vertex_index) {});
   }
 
-  /// Adds vertices without faces, which the star's faces may touch. \pre assigned, and the star has faces
-  void add_isolated(const Mesh& mesh, const std::vector<Vertex_index>& isolated) {
-    for (const Vertex_index v : isolated)
-      vertices_.push_back({v, vertex_coordinates(mesh, v)});
-  }
-
 private:
   std::vector<Vertex> vertices_;
   std::vector<Edge> edges_;

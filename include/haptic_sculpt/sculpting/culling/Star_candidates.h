@@ -6,7 +6,6 @@
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
 #include <haptic_sculpt/sculpting/geometry/Work.h>
 #include <haptic_sculpt/sculpting/geometry/stop.h>
-#include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
@@ -21,11 +20,10 @@ class Star_candidates {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
 
-  /// \param isolated stand in the way of stars, where they are given
   /// \param runs working memory, to be shared \param work where faces looked up are counted
   Star_candidates(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
-                  Isolated_vertices<Mesh>* isolated, Star_runs<Mesh>& runs, Work& work, Fetch fetch)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(isolated), runs_(&runs), work_(&work)
+                  Star_runs<Mesh>& runs, Work& work, Fetch fetch)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), runs_(&runs), work_(&work)
     , fetch_(std::move(fetch)) {}
 
   Star<Mesh>& star() { return star_; }
@@ -39,13 +37,11 @@ public:
   void collect(Vertex_index v) {
     // While the star is read, each of whose faces is found by what memory tells of the last one, the broad phase can wait
     // for its own memory: the surroundings are about as large as those of the star before.
-    if (!mesh_->is_isolated(v)) {
-      const double size = usual_reach * link_extent();
-      Box_3 about(vertex_coordinates(*mesh_, v));
-      for (int i = 0; i < 3; ++i)
-        about.lower[i] -= size, about.upper[i] += size;
-      broad_phase_->fetch_ahead(about);
-    }
+    const double size = usual_reach * link_extent();
+    Box_3 about(vertex_coordinates(*mesh_, v));
+    for (int i = 0; i < 3; ++i)
+      about.lower[i] -= size, about.upper[i] += size;
+    broad_phase_->fetch_ahead(about);
     star_.collect(*mesh_, v, [this](Vertex_index neighbour) {
       fetch_(neighbour);
       broad_phase_->fetch_on();
@@ -63,7 +59,6 @@ public:
     list_.reserve(valence, faces);
     candidates_.reserve(faces);
     whole_candidates_.reserve(faces);
-    isolated_near_.reserve(usual_isolated);
     runs_->reserve(valence + 3 * faces, 3 * faces);
   }
 
@@ -80,7 +75,7 @@ public:
   /// decided; if there is none the faces found are left for the list.
   bool is_certainly_free(const Coordinates& source, const Coordinates& target) {
     has_looked_ = false;
-    if (!is_for_one_motion_ || star_.valence() == 0 || is_long(source, target) || has_isolated() ||
+    if (!is_for_one_motion_ || star_.valence() == 0 || is_long(source, target) ||
         !convex_star_.assign(star_, source, target))
       return false;
     look_at(star_.swept(source, target));
@@ -134,7 +129,7 @@ public:
         part.until /= 16;
       for (; part.until < 1; part.until *= 16) {
         look_at(part);
-        if (!take_candidates(part) || is_enough(part))
+        if (!take_candidates() || is_enough(part))
           return;
       }
       part.until = 1;
@@ -144,7 +139,7 @@ public:
         look_at(part);
       is_crowded_ = candidates_.size() > few_faces;
     }
-    if (take_candidates(part))
+    if (take_candidates())
       is_enough(part);
   }
 
@@ -152,7 +147,6 @@ private:
   const Mesh* mesh_;
   Broad_phase* broad_phase_;
   const Face_corners<Mesh>* corners_of_;
-  Isolated_vertices<Mesh>* isolated_;
   Star_runs<Mesh>* runs_;
   Work* work_;
   Fetch fetch_;
@@ -166,8 +160,6 @@ private:
   bool is_for_one_motion_ = false, has_looked_ = false; ///< has_looked_: the candidates are those of the motion at hand
   Convex_star<Mesh> convex_star_;
   std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
-  static constexpr std::size_t usual_isolated = 16; ///< near a star: mostly there is one probe in all
-  std::vector<Vertex_index> isolated_near_;
 
   /// How much larger than the motion, in extents of the link, the region of a list is: of the first, which has to be filled from
   /// memory not seen lately, and of those that follow in one grab.
@@ -187,8 +179,6 @@ private:
 
   /// About a probe's motion no more are listed: each motion looks through all of them.
   static constexpr std::size_t few_about_probe = 64;
-
-  bool has_isolated() const { return isolated_ != nullptr && !isolated_->is_empty(); }
 
   /// Longer than the link is wide.
   bool is_long(const Coordinates& source, const Coordinates& target) const {
@@ -215,7 +205,7 @@ private:
     }
     if (!has_looked_)
       look_at(motion);
-    take_candidates(motion);
+    take_candidates();
   }
 
   /// Makes the list complete for a probe's motion and half as much about it, where few faces are: a slide makes many
@@ -240,7 +230,7 @@ private:
       return false;
     }
     work_->spend(candidates_.size());
-    take_candidates(anywhere, region);
+    take_candidates(region);
     return true;
   }
 
@@ -259,7 +249,7 @@ private:
     Swept_star_3 anywhere = star_.swept(region.lower, region.upper);
     anywhere.is_box = true;
     look_at(anywhere);
-    take_candidates(anywhere, region);
+    take_candidates(region);
   }
 
   /// Where more is near than there is work left, the work is spent and what was found is of no use.
@@ -288,9 +278,9 @@ private:
     candidates_.resize(others);
   }
 
-  /// \param part what has been looked at \param region empty for one motion alone: the next one asks again
+  /// \param region empty for one motion alone: the next one asks again
   /// Returns false, and leaves the list as it was, where the work is spent.
-  bool take_candidates(const Swept_star_3& part, const Box_3& region = Box_3()) {
+  bool take_candidates(const Box_3& region = Box_3()) {
     if (work_->is_spent())
       return false;
     pairs_.clear();
@@ -298,11 +288,6 @@ private:
     // broad phase's.
     std::sort(candidates_.begin(), candidates_.end());
     list_.assign(*mesh_, *corners_of_, star_, candidates_, region, fetch_);
-    if (has_isolated() && star_.valence() != 0) {
-      isolated_near_.clear();
-      isolated_->query(part.box(), isolated_near_);
-      list_.add_isolated(*mesh_, isolated_near_);
-    }
     ++looks_;
     return true;
   }

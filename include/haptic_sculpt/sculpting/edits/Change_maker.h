@@ -10,7 +10,6 @@
 #include <haptic_sculpt/sculpting/edits/Write_state.h>
 #include <haptic_sculpt/sculpting/edits/faces_around.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
-#include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <type_traits>
@@ -35,9 +34,9 @@ public:
   using Face_index = typename Mesh::Face_index;
   using Halfedge_index = typename Mesh::Halfedge_index;
 
-  Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, internal::Isolated_vertices<Mesh>& isolated,
-               Mesh_watch<Mesh>& watch, Write_state& writing, Visitor visitor)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(&isolated), writing_(&writing)
+  Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Mesh_watch<Mesh>& watch,
+               Write_state& writing, Visitor visitor)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), writing_(&writing)
     , names_(mesh), room_(mesh, broad_phase, corners, watch, names_), kept_(mesh), visitor_(std::move(visitor)) {
     kept_.tell_lineage(visitor_);
   }
@@ -114,7 +113,6 @@ private:
   Mesh* mesh_;
   Broad_phase* broad_phase_;
   Face_corners<Mesh>* corners_of_;
-  internal::Isolated_vertices<Mesh>* isolated_;
   Write_state* writing_;
   Vertex_names<Mesh> names_;
   Element_room<Mesh, Broad_phase> room_;
@@ -150,7 +148,6 @@ private:
     writing_->begin();
     mesh_->point(v) = to_point(p);
     broad_phase_->faces_moved(star_.faces);
-    isolated_->moved(v);
     noted(v);
     writing_->end();
     visitor_.vertex_moved(v);
@@ -169,7 +166,6 @@ private:
       Coordinates p = vertex_coordinates(*mesh_, v);
       p[edit.vertex] = edit.ways[k][end];
       mesh_->point(v) = to_point(p);
-      isolated_->moved(v);
     }
     broad_phase_->faces_moved(faces_);
     noted(Vertex_index());

@@ -21,27 +21,18 @@ public:
 
   Collapse_proof(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
                  Filter_counters& counters)
-      : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), counters_(&counters), proof_(counters) {}
+      : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), proof_(counters) {}
 
   const Star<Mesh>& star() const { return star_; }
   const Coordinates& centre() const { return centre_; }
 
   /// Takes a vertex; refuses what holds whatever the neighbour.
-  /// \param isolated the vertices without faces, which may not be swept over either
-  Refused begin(Vertex_index v, const std::vector<Vertex_index>& isolated) {
-    if (mesh_->is_isolated(v))
-      return Refusal<Mesh>{Refusal_reason::isolated_vertex, {v}};
+  Refused begin(Vertex_index v) {
     star_.collect(*mesh_, v);
     Mesh_watch<Mesh>::check_faces(*corners_of_, star_.faces);
     centre_ = vertex_coordinates(*mesh_, v);
     if (is_tetrahedron())
       return Refusal<Mesh>{Refusal_reason::tetrahedron, {star_.link.begin(), star_.link.end()}};
-    // Whatever the pivot, the way stays in the hull of the star.
-    const Box_3 box = star_.swept(centre_, centre_).box();
-    isolated_.clear();
-    for (const Vertex_index w : isolated)
-      if (haptic_sculpt::contains(box, vertex_coordinates(*mesh_, w)))
-        isolated_.push_back(w);
     return std::nullopt;
   }
 
@@ -56,7 +47,7 @@ public:
     candidates_.clear();
     broad_phase_->query_star(star_.swept(centre_, star_.link_points[pivot]), candidates_);
     list_.assign(*mesh_, *corners_of_, star_, candidates_, Box_3());
-    if (!proof_.can_collapse(star_, list_, centre_, pivot, in_the_way) || !passes_isolated(pivot, in_the_way))
+    if (!proof_.can_collapse(star_, list_, centre_, pivot, in_the_way))
       return Refusal<Mesh>{Refusal_reason::blocked, in_the_way};
     return std::nullopt;
   }
@@ -64,7 +55,6 @@ public:
   void reserve(std::size_t usual_valence, std::size_t usual_candidates) {
     star_.reserve(usual_valence);
     candidates_.reserve(usual_candidates);
-    isolated_.reserve(usual_candidates);
     list_.reserve(usual_valence, usual_candidates);
     proof_.reserve(usual_valence + 3 * usual_candidates, 3 * usual_candidates);
   }
@@ -73,13 +63,11 @@ private:
   const Mesh* mesh_;
   Broad_phase* broad_phase_;
   const Face_corners<Mesh>* corners_of_;
-  Filter_counters* counters_;
   Edit_proof<Mesh, Filter_counters> proof_;
   Star<Mesh> star_;
   Coordinates centre_{};
   Candidate_list<Mesh> list_;
   std::vector<Face_index> candidates_;
-  std::vector<Vertex_index> isolated_; ///< those near the star
 
   bool is_tetrahedron() const {
     if (star_.valence() != 3)
@@ -115,21 +103,6 @@ private:
         return false;
       }
     }
-    return true;
-  }
-
-  /// The faces that move sweep over no isolated vertex.
-  bool passes_isolated(std::size_t pivot, Elements& in_the_way) const {
-    for (const Vertex_index v : isolated_)
-      for (std::size_t i = 0; i < star_.valence(); ++i)
-        if (i != pivot && star_.next(i) != pivot &&
-            face_vertex_verdict(Sweep_points{centre_, star_.link_points[pivot], star_.link_points[i],
-                                             star_.link_points[star_.next(i)], vertex_coordinates(*mesh_, v)},
-                                *counters_)
-                .hits) {
-          in_the_way = {v};
-          return false;
-        }
     return true;
   }
 };

@@ -31,9 +31,7 @@ public:
                  Filter_counters& counters)
       : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), proof_(counters) {}
 
-  /// \param isolated the vertices without faces, which may not be between the old and the new faces either
-  Refused refuse(const Old_halfedges& old_halfedges, const Coordinates& p, double delta,
-                 const std::vector<Vertex_index>& isolated) {
+  Refused refuse(const Old_halfedges& old_halfedges, const Coordinates& p, double delta) {
     old_faces_.clear(), new_faces_.clear();
     for (const Halfedge_index h : old_halfedges) {
       Mesh_watch<Mesh>::check_face(*corners_of_, mesh_->face(h));
@@ -53,12 +51,7 @@ public:
       for (std::size_t j = i + 1; j < new_faces_.size(); ++j)
         if (proof_.meet_improperly(new_faces_[i], new_faces_[j]))
           return Refusal<Mesh>{Refusal_reason::blocked, {new_faces_[j][1].index, new_faces_[j][2].index}};
-    if (Refused refused = refuse_what_is_near(old_halfedges, p))
-      return refused;
-    for (const Vertex_index v : isolated)
-      if (stands_between(vertex_coordinates(*mesh_, v), p))
-        return Refusal<Mesh>{Refusal_reason::blocked, {v}};
-    return std::nullopt;
+    return refuse_what_is_near(old_halfedges, p);
   }
 
   void reserve(std::size_t usual_candidates) {

@@ -9,8 +9,6 @@
 #include <haptic_sculpt/sculpting/edits/Edit_history.h>
 #include <haptic_sculpt/sculpting/edits/Flip_proof.h>
 #include <haptic_sculpt/sculpting/edits/Pivot_order.h>
-#include <haptic_sculpt/sculpting/edits/Placement_proof.h>
-#include <haptic_sculpt/sculpting/edits/Restoration_proof.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
@@ -28,14 +26,12 @@ public:
   using Point = typename Mesh::Point;
   using Result = Edit_result<Mesh>;
 
-  /// \param watch is told of what has changed \param isolated of probes that have moved \param writing while anything is written
-  /// \param records_probes whether the moves of probes are kept in the history
+  /// \param watch is told of what has changed \param writing while anything is written
   Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters, Mesh_watch<Mesh>& watch,
-         Isolated_vertices<Mesh>& isolated, Write_state& writing, bool records_probes, Visitor visitor = Visitor())
-    : mesh_(&mesh), watch_(&watch), writing_(&writing), changes_(mesh, broad_phase, corners, isolated, watch, writing, std::move(visitor)),
+         Write_state& writing, Visitor visitor = Visitor())
+    : mesh_(&mesh), watch_(&watch), writing_(&writing), changes_(mesh, broad_phase, corners, watch, writing, std::move(visitor)),
       creation_(mesh, broad_phase, corners, counters), collapse_(mesh, broad_phase, corners, counters),
-      flip_(mesh, broad_phase, corners, counters), placement_(mesh, broad_phase, counters),
-      restoration_(mesh, isolated, counters), isolated_(isolated.all()), records_probes_(records_probes) {}
+      flip_(mesh, broad_phase, corners, counters) {}
 
   const Vertex_names<Mesh>& names() const { return changes_.names(); }
   Visitor& visitor() { return changes_.visitor(); }
@@ -53,7 +49,6 @@ public:
     creation_.reserve(usual_candidates);
     collapse_.reserve(usual_valence, usual_candidates);
     flip_.reserve(usual_candidates);
-    placement_.reserve(usual_candidates);
     order_.reserve(usual_valence);
     edit_.around.reserve(usual_valence);
   }
@@ -62,42 +57,21 @@ public:
   void make_room_for_move() { history_.make_room_for_move(names().size()); }
   /// A drag that has been made. Allocates nothing.
   void note_move(Vertex_index v, const Coordinates& before, const Coordinates& after) {
-    if (records_probes_ || !mesh_->is_isolated(v))
-      history_.push_move(names().name(v), before, after);
+    history_.push_move(names().name(v), before, after);
   }
   /// The visitor is told of it.
   void tell_moved(Vertex_index v) { changes_.tell_moved(v); }
 
-  /// Puts a probe elsewhere, whatever is on the way. \param largest_coordinate bounds those of all vertices
-  Result place(Vertex_index probe, const Coordinates& p, const Clearance_rule& rule, double largest_coordinate) {
-    if (auto refusal = placement_.refuse(probe, p, rule, largest_coordinate))
-      return {std::nullopt, std::move(refusal)};
-    const Coordinates before = vertex_coordinates(*mesh_, probe);
-    if (before == p)
-      return Result::done(probe);
-    edit_.kind = Edit_kind::move;
-    edit_.vertex = names().name(probe);
-    edit_.before = before;
-    edit_.after = p;
-    edit_.around.clear();
-    history_.make_room_for(edit_);
-    return Result::done(changes_.make(edit_, place(history_.number_of_next(), true), [this](Vertex_index changed) {
-      watch(changed);
-      if (records_probes_)
-        history_.push(edit_);
-    }));
-  }
-
   Result insert_on_face(Face_index f, const Coordinates& p, double delta) {
     const Halfedge_index h = mesh_->halfedge(f);
-    if (auto refusal = creation_.refuse({h}, p, delta, isolated_))
+    if (auto refusal = creation_.refuse({h}, p, delta))
       return {std::nullopt, std::move(refusal)};
     describe(Edit_kind::insert_on_face, names().size(), p, {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))});
     return make();
   }
 
   Result insert_on_edge(Halfedge_index h, const Coordinates& p, double delta) {
-    if (auto refusal = creation_.refuse({h, mesh_->opposite(h)}, p, delta, isolated_))
+    if (auto refusal = creation_.refuse({h, mesh_->opposite(h)}, p, delta))
       return {std::nullopt, std::move(refusal)};
     describe(Edit_kind::insert_on_edge, names().size(), p, {mesh_->source(h), mesh_->target(h)});
     return make();
@@ -105,7 +79,7 @@ public:
 
   /// Draws the source of h into its target.
   Result collapse(Halfedge_index h, double delta) {
-    auto refusal = collapse_.begin(mesh_->source(h), isolated_);
+    auto refusal = collapse_.begin(mesh_->source(h));
     const std::vector<Vertex_index>& link = collapse_.star().link;
     const auto pivot = static_cast<std::size_t>(std::find(link.begin(), link.end(), mesh_->target(h)) - link.begin());
     if (!refusal)
@@ -115,7 +89,7 @@ public:
 
   /// Draws v into each neighbour in turn, the one first whose fan has the largest least angle, until one is free.
   Result remove(Vertex_index v, double delta) {
-    if (auto refusal = collapse_.begin(v, isolated_))
+    if (auto refusal = collapse_.begin(v))
       return {std::nullopt, std::move(refusal)};
     order_.begin(collapse_.star());
     std::optional<Refusal<Mesh>> gravest;
@@ -131,7 +105,7 @@ public:
   }
 
   Result flip(Halfedge_index h, double delta) {
-    if (auto refusal = flip_.refuse(h, delta, isolated_))
+    if (auto refusal = flip_.refuse(h, delta))
       return {std::nullopt, std::move(refusal)};
     const auto& [a, b, c, d] = flip_.corners();
     describe(Edit_kind::flip, names().name(a), {}, {a, b, c, d});
@@ -140,33 +114,24 @@ public:
 
   /// Moves many vertices along one axis, a motion that has been proven free; one change. \param ways where each is to be
   void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
-    Edit edit, without_probes; // not kept: there may be millions
-    edit.kind = without_probes.kind = Edit_kind::shift;
-    edit.vertex = without_probes.vertex = static_cast<std::size_t>(axis);
+    Edit edit; // not kept: there may be millions
+    edit.kind = Edit_kind::shift;
+    edit.vertex = static_cast<std::size_t>(axis);
     edit.around.reserve(ways.size());
     edit.ways.reserve(ways.size());
     for (const auto& [v, end] : ways) {
       edit.around.push_back(names().name(v));
       edit.ways.push_back({vertex_coordinates(*mesh_, v)[axis], end});
     }
-    const bool is_recorded_whole = records_probes_ || isolated_.empty();
-    if (!is_recorded_whole)
-      for (std::size_t k = 0; k < ways.size(); ++k)
-        if (!mesh_->is_isolated(ways[k].first)) {
-          without_probes.around.push_back(edit.around[k]);
-          without_probes.ways.push_back(edit.ways[k]);
-        }
-    const Edit& recorded = is_recorded_whole ? edit : without_probes;
-    history_.make_room_for(recorded);
+    history_.make_room_for(edit);
     changes_.make(edit, place(history_.number_of_next(), true), [&](Vertex_index changed) {
       watch(changed, edit);
-      if (!recorded.around.empty())
-        history_.push(recorded);
+      history_.push(edit);
     });
   }
 
-  /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. Only probes
-  /// that move outside of the history may be elsewhere now: a step that would jump over one is refused. What delta is now does not matter.
+  /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. What delta is now
+  /// does not matter.
   Result undo() {
     return go_through_step(Refusal_reason::nothing_to_undo, [this] { return history_.to_undo(); }, true);
   }
@@ -191,7 +156,7 @@ public:
   /// The halfedge from a to b, by number; the null index where there is none.
   Halfedge_index halfedge_of(std::size_t a, std::size_t b) const {
     const Vertex_index v = names().vertex(a), w = names().vertex(b);
-    if (!v.is_valid() || !w.is_valid() || v == w || mesh_->is_isolated(v) || mesh_->is_isolated(w))
+    if (!v.is_valid() || !w.is_valid() || v == w)
       return Halfedge_index();
     return mesh_->halfedge(v, w);
   }
@@ -208,42 +173,27 @@ private:
   Creation_proof<Mesh, Broad_phase> creation_;
   Collapse_proof<Mesh, Broad_phase> collapse_;
   Flip_proof<Mesh, Broad_phase> flip_;
-  Placement_proof<Mesh, Broad_phase> placement_;
-  Restoration_proof<Mesh> restoration_;
   Pivot_order<Mesh> order_;
-  const std::vector<Vertex_index>& isolated_; ///< they neither come nor go
-  bool records_probes_;
-  Edit edit_;                          ///< the one that is made, kept to allocate no more
+  Edit edit_; ///< the one that is made, kept to allocate no more
 
-  std::optional<Refusal<Mesh>> refuse_restoration(const Edit& edit, bool is_back) {
-    return records_probes_ ? std::nullopt : restoration_.refuse(edit, names(), is_back);
-  }
-
-  /// Takes a step back or makes it again, all of its changes or none: where one is refused, or lacks memory, those before it are made
-  /// undone. \param next gives the next change
+  /// Takes a step back or makes it again, all of its changes or none: where one lacks memory, those before it are made undone.
+  /// \param next gives the next change
   template <class Next>
   Result go_through_step(Refusal_reason nothing, const Next& next, bool is_back) {
     history_.end_stroke();
     if (next() == nullptr)
       return Result::refused(nothing);
     for (std::size_t changes = 0;; ++changes) {
-      std::optional<Refusal<Mesh>> refusal;
       changes_.expect_change();
       try {
-        refusal = refuse_restoration(*next(), is_back);
-        if (!refusal) {
-          const Vertex_index v = is_back ? take_back() : make_again();
-          if (history_.is_between_steps())
-            return Result::done(v);
-          continue;
-        }
+        const Vertex_index v = is_back ? take_back() : make_again();
+        if (history_.is_between_steps())
+          return Result::done(v);
       } catch (...) { // the visitor's comes when a change could be made; then the next call goes on
         if (!changes_.was_ready())
           reverse(changes, is_back);
         throw;
       }
-      reverse(changes, is_back);
-      return {std::nullopt, std::move(refusal)};
     }
   }
 

@@ -28,8 +28,7 @@ public:
   const std::array<Vertex_index, 4>& corners() const { return vertices_; }
 
   /// \param h from A to B
-  /// \param isolated the vertices without faces, which may not be in the tetrahedron either
-  Refused refuse(Halfedge_index h, double delta, const std::vector<Vertex_index>& isolated) {
+  Refused refuse(Halfedge_index h, double delta) {
     const Halfedge_index opposite = mesh_->opposite(h);
     old_faces_ = {mesh_->face(h), mesh_->face(opposite)};
     Mesh_watch<Mesh>::check_faces(*corners_of_, old_faces_);
@@ -50,14 +49,9 @@ public:
       // In a plane the new faces cover what the old ones covered, or they are folded.
       if (proof_.meet_improperly(new_faces_[0], new_faces_[1]))
         return Refusal<Mesh>{Refusal_reason::blocked, {a, b}};
-    } else if (Refused refused = refuse_what_is_near()) {
-      return refused;
+      return std::nullopt;
     }
-    const Corners<Mesh> base = {corner(0), corner(1), corner(2)};
-    for (const Vertex_index v : isolated)
-      if (proof_.contains(base, points_[3], vertex_coordinates(*mesh_, v)))
-        return Refusal<Mesh>{Refusal_reason::blocked, {v}};
-    return std::nullopt;
+    return refuse_what_is_near();
   }
 
   void reserve(std::size_t usual_candidates) {

@@ -4,13 +4,18 @@
 
 #include <haptic_sculpt/sculpting/Unfinished_change.h>
 
+#include <cstdint>
+
 namespace haptic_sculpt {
 namespace internal {
 
 /// Whether the mesh, or what is kept beside it, is being written. An exception that comes meanwhile leaves it so, for good.
 class Write_state {
 public:
-  void begin() noexcept { is_writing_ = true; }
+  void begin() noexcept {
+    is_writing_ = true;
+    ++changes_;
+  }
   void end() noexcept { is_writing_ = false; }
 
   /// \throw Unfinished_change if a change has been begun and never ended
@@ -19,8 +24,12 @@ public:
       throw Unfinished_change();
   }
 
+  /// How many changes have been begun: as long as this stays the mesh has not been written.
+  std::uint64_t changes() const noexcept { return changes_; }
+
 private:
   bool is_writing_ = false;
+  std::uint64_t changes_ = 0;
 };
 
 } // namespace internal

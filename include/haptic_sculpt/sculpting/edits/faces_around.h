@@ -30,9 +30,8 @@ void collect_faces_around(const Mesh& mesh, const Vertex_names<Mesh>& names, con
     return;
   }
   for (const std::size_t number : numbers)
-    if (const auto v = names.vertex(number); !mesh.is_isolated(v))
-      for (const auto f : mesh.faces_around_target(mesh.halfedge(v)))
-        faces.push_back(f);
+    for (const auto f : mesh.faces_around_target(mesh.halfedge(names.vertex(number))))
+      faces.push_back(f);
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
 }

@@ -3,11 +3,13 @@
 #define HAPTIC_SCULPT_SCULPTING_GUARDED_MESH_H
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
+#include <haptic_sculpt/sculpting/Probe.h>
 #include <haptic_sculpt/sculpting/axis_moves/axis_ways.h>
 #include <haptic_sculpt/sculpting/contact/Scene_bound.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
 #include <haptic_sculpt/sculpting/finding/Surface_finder.h>
 #include <haptic_sculpt/sculpting/finding/find_face_within.h>
+#include <haptic_sculpt/sculpting/finding/is_inside.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Hand.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
@@ -30,10 +32,10 @@ public:
   template <class Make_traits>
   Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Make_traits& make_traits,
                const Rounding_to_nearest& /*rounding*/)
-    : parameters(parameters), mesh_(&mesh), watch_(mesh), broad_phase_(checked_scene(mesh, parameters)), corners_(mesh), isolated_(mesh)
-    , editor_(mesh, broad_phase_, corners_, counters_, watch_, isolated_, writing_, parameters.probes_are_recorded, std::move(visitor))
-    , hand_(mesh, broad_phase_, corners_, isolated_, make_traits(counters_), watch_)
-    , probe_(mesh, broad_phase_, corners_, isolated_, make_traits(counters_), watch_)
+    : parameters(parameters), mesh_(&mesh), watch_(mesh), broad_phase_(checked_scene(mesh, parameters)), corners_(mesh)
+    , editor_(mesh, broad_phase_, corners_, counters_, watch_, writing_, std::move(visitor))
+    , hand_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
+    , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
     , finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh) {}
   Guarded_mesh(const Guarded_mesh&) = delete; // its parts refer to each other
   Guarded_mesh& operator=(const Guarded_mesh&) = delete;
@@ -66,6 +68,7 @@ public:
     const Rounding_to_nearest rounding; // the broad phase is told where a vertex is
     check_is_whole();
     hand_.release();
+    probe_.let_go();
   }
   void let_go() noexcept { hand_.let_go(); }
 
@@ -128,36 +131,45 @@ public:
     return first;
   }
 
-  Result probe(const Point& source, const Point& target, std::vector<Point>* path) {
+  /// Grows with each change of the mesh.
+  std::uint64_t changes() const { return writing_.changes(); }
+
+  /// Why no probe may begin at p; nothing where one may.
+  std::optional<Refusal<Mesh>> refuse_probe(const Point& p, Probe_start start) {
     const Rounding_to_nearest rounding;
-    if (path != nullptr)
-      path->assign(1, source);
-    check_point("the source", source);
-    check_point("the target", target);
+    check_point("the place of the probe", p);
+    look_at_surface();
     scene_.check_clearance_serves(parameters);
-    release();
-    look_for_changes();
-    const Coordinates s = coordinates(source), t = coordinates(target);
-    Result result;
-    settle_result(s, t, s, result);
-    if (const Face_index f = find_face_within(*mesh_, broad_phase_, s, Clearance_rule(parameters.clearance_length),
-                                              scene_.largest_coordinate(), faces_near_start_);
+    const Coordinates at = coordinates(p);
+    if (const Face_index f = find_face_within(*mesh_, broad_phase_, at, Clearance_rule(parameters.clearance_length),
+                                              scene_.largest_coordinate(), faces_near_probe_);
         f.is_valid()) {
-      Contact_3<Mesh> contact;
-      contact.vertices = corners_of_face(*mesh_, f);
-      contact.is_flat = true;
-      result.contacts.push_back(contact);
-      result.end = Drag_end::refused;
-      result.reached = false; // nothing was asked
-      return result;
+      const auto corners = corners_of_face(*mesh_, f);
+      return Refusal<Mesh>{Refusal_reason::too_near, {corners[0], corners[1], corners[2]}};
     }
-    if (s == t)
-      return result;
-    probe_.take_point();
-    const Coordinates end = probe_.move(s, t, parameters, result);
+    if (start == Probe_start::outside && is_inside(*mesh_, broad_phase_, at, counters_, faces_near_probe_))
+      return Refusal<Mesh>{Refusal_reason::inside, {}};
+    return std::nullopt;
+  }
+
+  /// Sweeps a point. What was looked up, and the contacts, are carried on where the last one ended here and the mesh is the same.
+  Result drag_probe(const Point& source, const Point& target, std::vector<Point>* path) {
+    const Rounding_to_nearest rounding;
+    check_point("the target", target);
+    check_is_whole();
+    watch_.check_counts();
+    hand_.tell_where_it_is();
+    scene_.check_clearance_serves(parameters);
+    const Coordinates s = coordinates(source), t = coordinates(target);
+    if (!probe_.is_ready() || probe_place_ != s || probe_changes_ != changes())
+      probe_.take_point();
+    Result result;
+    settle_result(s, t, t, result); // where there is no way to go
+    probe_place_ = s == t ? t : probe_.move(s, t, parameters, result);
+    probe_changes_ = changes();
     if (path != nullptr)
-      probe_.write_path(parameters.response_rule, s, end, *path);
-    probe_.release();
+      probe_.write_path(parameters.response_rule, s, probe_place_, *path);
+    probe_.check_candidates();
     return result;
   }
 
@@ -166,9 +178,7 @@ public:
     check_point("the point", p);
     if (!(within >= 0))
       throw Invalid_parameter("the distance within which a vertex is sought must be >= 0, not " + number(within));
-    check_is_whole();
-    hand_.tell_where_it_is();
-    look_for_changes();
+    look_at_surface();
     const Vertex_index v = finder_.nearest_vertex(coordinates(p), within);
     if (v.is_valid())
       watch_.check(v);
@@ -179,23 +189,12 @@ public:
     const Rounding_to_nearest rounding;
     check_point("the source", source);
     check_point("the target", target);
-    check_is_whole();
-    hand_.tell_where_it_is();
-    look_for_changes();
+    look_at_surface();
     const auto hit = finder_.first_hit(coordinates(source), coordinates(target));
     if (hit)
       for (const Vertex_index v : corners_(hit->face))
         watch_.check(v);
     return hit;
-  }
-
-  Edited place(Vertex_index probe, const Point& p) {
-    const Rounding_to_nearest rounding;
-    check_point("the place", p);
-    scene_.check_clearance_serves(parameters);
-    return edited([&] {
-      return editor_.place(probe, coordinates(p), Clearance_rule(parameters.clearance_length), scene_.largest_coordinate());
-    });
   }
 
   /// Runs an edit between looking for changes by others and noting what it changed.
@@ -232,7 +231,7 @@ public:
     look_for_changes();
     for (const Vertex_index v : mesh_->vertices())
       watch_.check(v);
-    take_for(move, *mesh_, broad_phase_, isolated_.all(), axis, ways);
+    take_for(move, *mesh_, broad_phase_, axis, ways);
     move.begin(axis, ways, most_held);
     if (!move.hold_back())
       return false;
@@ -253,6 +252,8 @@ public:
     check_is_whole();
     editor_.reserve(edits, moves);
     hand_.reserve(editor_.usual_valence, editor_.usual_candidates);
+    probe_.reserve(editor_.usual_valence, editor_.usual_candidates);
+    faces_near_probe_.reserve(editor_.usual_candidates);
   }
 
   void check_unchanged() const {
@@ -261,7 +262,7 @@ public:
     watch_.check_all(corners_);
   }
   std::size_t memory() const {
-    return broad_phase_.memory() + corners_.memory() + watch_.memory() + isolated_.memory() + editor_.names().memory();
+    return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory();
   }
 
 private:
@@ -271,12 +272,20 @@ private:
   Filter_counters counters_;
   Broad_phase broad_phase_;
   Face_corners<Mesh> corners_;
-  Isolated_vertices<Mesh> isolated_;
   Editor<Mesh, Broad_phase, Visitor> editor_;
   Hand<Mesh, Broad_phase, Traits> hand_, probe_;
   Surface_finder<Mesh, Broad_phase> finder_;
   Scene_bound<Mesh> scene_;
-  std::vector<Face_index> faces_near_start_; ///< of a probe; kept to allocate no more
+  std::vector<Face_index> faces_near_probe_; ///< kept to allocate no more
+  Coordinates probe_place_{};                ///< where the last probe was left
+  std::uint64_t probe_changes_ = 0;          ///< the changes of the mesh by then
+
+  /// For questions about the surface: lets nobody go.
+  void look_at_surface() {
+    check_is_whole();
+    hand_.tell_where_it_is();
+    look_for_changes();
+  }
 
   void look_for_changes() {
     watch_.check_counts();

@@ -17,10 +17,10 @@ class Hand {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
 
-  Hand(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, Isolated_vertices<Mesh>& isolated,
-       const Traits& traits, Mesh_watch<Mesh>& watch)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), isolated_(&isolated), watch_(&watch)
-    , guard_(mesh, broad_phase, corners, traits, &isolated, Fetch_watched{&watch}) {}
+  Hand(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, const Traits& traits,
+       Mesh_watch<Mesh>& watch)
+    : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), watch_(&watch)
+    , guard_(mesh, broad_phase, corners, traits, Fetch_watched{&watch}) {}
 
   /// Whether vertices are dragged once each: see Sculptor.
   void expect_single_drags(bool on) {
@@ -59,12 +59,15 @@ public:
     is_ready_ = true;
   }
 
-  /// Takes a point that is no vertex, for one way: release() after.
+  /// Takes a point that is no vertex.
   void take_point() {
     release();
     guard_.star().clear();
     guard_.invalidate();
+    is_ready_ = true;
   }
+  /// Whether what was looked up may be used on.
+  bool is_ready() const { return is_ready_; }
 
   /// Lets go, if anything is held. The next drag begins without contacts.
   void release() {
@@ -79,10 +82,8 @@ public:
 
   /// Tells the broad phase where the vertex has come to: it may be asked by others then.
   void tell_where_it_is() {
-    if (held_.is_valid() && has_moved_) {
+    if (held_.is_valid() && has_moved_)
       broad_phase_->faces_moved(guard_.star().faces);
-      isolated_->moved(held_);
-    }
     has_moved_ = false;
   }
 
@@ -137,7 +138,6 @@ private:
   const Mesh* mesh_;
   Broad_phase* broad_phase_;
   const Face_corners<Mesh>* corners_;
-  Isolated_vertices<Mesh>* isolated_;
   Mesh_watch<Mesh>* watch_;
   Guarded_star<Mesh, Broad_phase, Traits, Fetch_watched> guard_;
   Responses<Mesh> responses_;

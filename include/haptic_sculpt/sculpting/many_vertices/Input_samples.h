@@ -35,7 +35,6 @@ public:
       return;
     first_.assign(mesh.num_faces(), none);
     for (const Vertex_index v : mesh.vertices())
-      if (!mesh.is_isolated(v))
         for (const Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v)))
           if (marks.is_in_range(mesh.face(h))) {
             points_.push_back(points(v));

@@ -101,7 +101,7 @@ public:
   }
   /// Whether v is in the range and may move, be it along constrained edges only.
   bool may_move(Vertex_index v) const {
-    return !is_fixed(v) && !mesh_->is_isolated(v) && is_in_range(mesh_->face(mesh_->halfedge(v)));
+    return !is_fixed(v) && is_in_range(mesh_->face(mesh_->halfedge(v)));
   }
 
   /// Before e is split.

@@ -35,9 +35,8 @@ inline double distance(const Coordinates& p, const Coordinates& q) {
 template <class Mesh>
 bool are_ways_short(const Mesh& mesh, const std::vector<Moving_vertex<Mesh>>& vertices) {
   for (const Moving_vertex<Mesh>& v : vertices)
-    if (mesh.is_isolated(v.vertex) ||
-        4 * distance(v.source, v.target) >
-            distance(v.source, vertex_coordinates(mesh, mesh.source(mesh.halfedge(v.vertex)))))
+    if (4 * distance(v.source, v.target) >
+        distance(v.source, vertex_coordinates(mesh, mesh.source(mesh.halfedge(v.vertex)))))
       return false;
   return true;
 }
@@ -143,7 +142,7 @@ std::vector<std::uint32_t> leaders_first(const Mesh& mesh, const std::vector<Mov
   const auto meet = [&](std::uint32_t k) {
     is_met[k] = 1;
     const Vertex_index v = vertices[k].vertex;
-    const auto first = mesh.is_isolated(v) ? Mesh::null_halfedge() : mesh.halfedge(v);
+    const auto first = mesh.halfedge(v);
     stack.push_back({k, first, first});
   };
   for (std::uint32_t seed = 0; seed < vertices.size(); ++seed) {

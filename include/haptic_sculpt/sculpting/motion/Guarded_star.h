@@ -30,11 +30,10 @@ public:
   using Vertex_index = typename Mesh::Vertex_index;
   using Coordinates = internal::Coordinates;
 
-  /// \param isolated stand in the way of stars, where they are given
   Guarded_star(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners, const Traits& traits,
-               Isolated_vertices<Mesh>* isolated = nullptr, Fetch fetch = Fetch())
+               Fetch fetch = Fetch())
     : narrow_phase_(traits)
-    , candidates_(mesh, broad_phase, corners, isolated, narrow_phase_.runs(), narrow_phase_.work(), std::move(fetch)) {}
+    , candidates_(mesh, broad_phase, corners, narrow_phase_.runs(), narrow_phase_.work(), std::move(fetch)) {}
   Guarded_star(const Guarded_star&) = delete; // the candidates refer to the narrow phase
   Guarded_star& operator=(const Guarded_star&) = delete;
 
