@@ -7,9 +7,11 @@
 
 #include <haptic_sculpt/sculpting/Allow_embedded_move.h>
 #include <haptic_sculpt/sculpting/Sculptor.h>
+#include <haptic_sculpt/sculpting/apply_guarded.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/guarded_point_map.h>
 #include <haptic_sculpt/sculpting/isotropic_remeshing.h>
+#include <haptic_sculpt/sculpting/move_rigidly.h>
 #include <haptic_sculpt/sculpting/move_vertices.h>
 
 #endif

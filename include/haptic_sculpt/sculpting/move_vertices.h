@@ -17,24 +17,10 @@ namespace internal {
 template <class Sculptor, class Vertex_range, class Target_map>
 std::vector<Moving_vertex<typename Sculptor::Mesh_type>>
 read_targets(const Sculptor& sculptor, const Vertex_range& vertices, const Target_map& target_map) {
-  using Mesh = typename Sculptor::Mesh_type;
-  const Mesh& mesh = sculptor.mesh();
-  std::vector<Moving_vertex<Mesh>> moving;
-  moving.reserve(static_cast<std::size_t>(std::distance(std::begin(vertices), std::end(vertices))));
-  std::vector<bool> is_given(mesh.num_vertices(), false);
+  const auto moving = moving_vertices(sculptor.mesh(), vertices, [&](auto v) -> decltype(auto) { return get(target_map, v); });
   double largest = 0;
-  for (const typename Mesh::Vertex_index v : vertices) {
-    check_vertex(mesh, v);
-    if (is_given[static_cast<std::size_t>(v)])
-      continue;
-    is_given[static_cast<std::size_t>(v)] = true;
-    const typename Mesh::Point& target = get(target_map, v);
-    const Coordinates t = coordinates(target);
-    if (!is_in_range(t))
-      throw_out_of_range("the target of vertex " + std::to_string(static_cast<std::size_t>(v)), t);
-    largest = std::fmax(largest, largest_magnitude(t));
-    moving.push_back({v, vertex_coordinates(mesh, v), t});
-  }
+  for (const auto& v : moving)
+    largest = std::fmax(largest, largest_magnitude(v.target));
   if (const auto& clearance = sculptor.options().clearance_length;
       clearance && *clearance < unit_in_the_last_place(largest))
     throw Invalid_parameter("the clearance " + number(*clearance) +

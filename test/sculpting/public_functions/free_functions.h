@@ -138,6 +138,36 @@ inline std::vector<Public_function> free_functions() {
                        outcome.number(static_cast<double>(behind.size()));
                        outcome.mesh(scene.mesh);
                      }});
+  all.push_back({"apply_guarded", [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   tell(apply_guarded(sculptor, [&](auto&, auto map) {
+                     for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i)
+                       put(map, Scaled_scene::vertex(i), scene.beyond(Scaled_scene::vertex(i), 1.25));
+                   }), outcome);
+                   outcome.mesh(scene.mesh);
+                 }});
+  for (const double along : {0.125, 2.0})
+    all.push_back({"move_rigidly", [=](double unit, Outcome& outcome) {
+                     Scaled_scene scene(unit);
+                     Sculptor<Mesh> sculptor(scene.mesh);
+                     std::vector<Vertex_index> ball;
+                     for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i)
+                       ball.push_back(Scaled_scene::vertex(i));
+                     using Transformation = CGAL::Aff_transformation_3<meshes::Kernel>;
+                     const double x = scene.length(along);
+                     for (const auto& t : {Transformation(1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0),
+                                           Transformation(0.6, -0.8, 0, -x / 8, 0.8, 0.6, 0, x / 4, 0, 0, 1, 0)}) {
+                       const auto report = move_rigidly(sculptor, ball, t);
+                       outcome.number(report.share), outcome.number(static_cast<double>(report.asked));
+                       for (const auto& contact : report.contacts) {
+                         outcome.number(static_cast<int>(contact.kind));
+                         for (const auto v : contact.vertices)
+                           outcome.index(v);
+                       }
+                     }
+                     outcome.mesh(scene.mesh);
+                   }});
   all.push_back({"isotropic_remeshing", [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);

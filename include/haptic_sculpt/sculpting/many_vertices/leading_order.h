@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/geometry/separation.h>
 #include <haptic_sculpt/sculpting/geometry/stop.h>
+#include <haptic_sculpt/sculpting/many_vertices/Moving_vertex.h>
 #include <haptic_sculpt/surface/broad_phase/spatial_order.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
@@ -12,13 +13,6 @@
 
 namespace haptic_sculpt {
 namespace internal {
-
-/// A vertex and where it is to go.
-template <class Mesh>
-struct Moving_vertex {
-  typename Mesh::Vertex_index vertex;
-  Coordinates source, target;
-};
 
 /// Between two points; where squares would leave the range of doubles, in another unit.
 inline double distance(const Coordinates& p, const Coordinates& q) {

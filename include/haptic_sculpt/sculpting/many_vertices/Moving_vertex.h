@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_MOVING_VERTEX_H
+#define HAPTIC_SCULPT_SCULPTING_MOVING_VERTEX_H
+
+#include <haptic_sculpt/sculpting/Sculptor.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// A vertex and where it is to go.
+template <class Mesh>
+struct Moving_vertex {
+  typename Mesh::Vertex_index vertex;
+  Coordinates source, target;
+};
+
+/// Vertices and their targets, each once, all read before anything moves. \param target_of `target_of(v)`, a point
+/// \throw Unknown_vertex, Out_of_range
+template <class Mesh, class Vertex_range, class Target_of>
+std::vector<Moving_vertex<Mesh>> moving_vertices(const Mesh& mesh, const Vertex_range& vertices, const Target_of& target_of) {
+  std::vector<Moving_vertex<Mesh>> moving;
+  moving.reserve(static_cast<std::size_t>(std::distance(std::begin(vertices), std::end(vertices))));
+  std::vector<bool> is_given(mesh.num_vertices(), false);
+  for (const typename Mesh::Vertex_index v : vertices) {
+    check_vertex(mesh, v);
+    if (is_given[static_cast<std::size_t>(v)])
+      continue;
+    is_given[static_cast<std::size_t>(v)] = true;
+    const Coordinates target = coordinates(target_of(v));
+    if (!is_in_range(target))
+      throw_out_of_range("the target of vertex " + std::to_string(static_cast<std::size_t>(v)), target);
+    moving.push_back({v, vertex_coordinates(mesh, v), target});
+  }
+  return moving;
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

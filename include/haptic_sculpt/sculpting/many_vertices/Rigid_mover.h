@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_RIGID_MOVER_H
+#define HAPTIC_SCULPT_SCULPTING_RIGID_MOVER_H
+
+#include <haptic_sculpt/sculpting/Rigid_move_report.h>
+#include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
+#include <haptic_sculpt/sculpting/many_vertices/Moving_vertex.h>
+#include <haptic_sculpt/sculpting/many_vertices/Rigid_way.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Moves vertices as one, in steps that are made by all or by none, each along x, then y, then z, to places worked out from
+/// where all were at the start: so what is rounded does not add up.
+template <class Sculptor>
+class Rigid_mover {
+public:
+  using Mesh = typename Sculptor::Mesh_type;
+  using Moving = Moving_vertex<Mesh>;
+
+  Rigid_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Rigid_way& way)
+      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), way_(way), move_(guarded_.axis_move()) {}
+
+  /// Step after step, half as long after one that is blocked and twice as long after one that is not.
+  void run(Rigid_move_report<Mesh>& report) {
+    double step = 1;
+    while (report.share < 1) {
+      const double next = std::fmin(1, report.share + step);
+      if (make_step(next, step == least_step ? &report.contacts : nullptr))
+        report.share = next, step *= 2;
+      else if (step == least_step)
+        return;
+      else
+        step /= 2;
+    }
+  }
+
+private:
+  static constexpr double least_step = 1.0 / 1024;
+
+  using Ways = Axis_ways<Mesh>;
+
+  std::decay_t<decltype(Sculptor_access::guarded(std::declval<Sculptor&>()))>& guarded_;
+  const std::vector<Moving>& vertices_;
+  const Rigid_way& way_;
+  Axis_move<Mesh> move_;
+
+  Coordinates place(const Moving& v, double share) const {
+    return share == 1 ? v.target : plus(v.source, way_.at(share, minus(v.target, v.source)));
+  }
+
+  /// \param contacts where it is not null, told all that is in the way of a step that is not made
+  bool make_step(double share, std::vector<Blocking_pair<Mesh>>* contacts) {
+    std::vector<Coordinates> places;
+    places.reserve(vertices_.size());
+    for (const Moving& v : vertices_) {
+      places.push_back(place(v, share));
+      if (!is_in_range(places.back()))
+        return false; // an arc may lead farther out than both of its ends are
+    }
+    std::vector<std::pair<int, Ways>> made;
+    for (int axis = 0; axis < 3; ++axis) {
+      Ways ways, before;
+      for (std::size_t k = 0; k < vertices_.size(); ++k)
+        if (const double at = vertex_coordinates(guarded_.mesh(), vertices_[k].vertex)[axis]; at != places[k][axis]) {
+          ways.emplace_back(vertices_[k].vertex, places[k][axis]);
+          before.emplace_back(vertices_[k].vertex, at);
+        }
+      if (ways.empty())
+        continue;
+      if (!guarded_.shift(move_, axis, ways, 0)) {
+        if (contacts != nullptr)
+          name_contacts(axis, ways, *contacts);
+        take_back(made);
+        return false;
+      }
+      made.emplace_back(axis, std::move(before));
+    }
+    return true;
+  }
+
+  void take_back(std::vector<std::pair<int, Ways>>& made) {
+    for (; !made.empty(); made.pop_back())
+      if (!guarded_.shift(move_, made.back().first, made.back().second, 0))
+        throw Mesh_changed("a motion that was free is not when it is taken back");
+  }
+
+  void name_contacts(int axis, const Ways& ways, std::vector<Blocking_pair<Mesh>>& contacts) {
+    const Rounding_to_nearest rounding;
+    move_.begin(axis, ways); // the search had ended with the first that was found
+    for (const Axis_obstacle& obstacle : move_.obstacles()) {
+      Blocking_pair<Mesh> pair{static_cast<Blocking_kind>(obstacle.kind), {}};
+      for (int k = 0; k < obstacle.size(); ++k)
+        pair.vertices[k] = typename Mesh::Vertex_index(obstacle.vertices[k]);
+      contacts.push_back(pair);
+    }
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
