@@ -47,7 +47,6 @@ std::string report_of(const Run_result& r, const Settings& settings, const std::
         {"observer", r.observed},
         {"observer_least", r.least_observed},
         {"virtual_mass", r.mass_energy},
-        {"compensated_inertia", r.compensation_energy},
         {"is_true", r.has_true_energy}}},
       {"limits", {{"passive_k", r.passive_stiffness}, {"stable_k", nullptr}, {"friction", r.friction},
         {"largest_b", r.largest_damping}, {"largest_mass", r.largest_mass}, {"largest_controller", r.largest_controller}}},

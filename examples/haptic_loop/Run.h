@@ -41,7 +41,7 @@ struct Run_result {
   double port = 0, dissipated = 0, observed = 0, least_observed = 0; ///< J
   double friction = 0, passive_stiffness = 0;
   double largest_damping = 0, largest_mass = 0, largest_controller = 0; ///< that serve
-  double mass_energy = 0, compensation_energy = 0; ///< taken by virtual mass and carried inertia, J
+  double mass_energy = 0; ///< taken by the virtual mass, J
   std::size_t grabbed = 0, created = 0, removed = 0, released = 0, refused = 0;
   std::vector<std::pair<double, std::string>> faults; ///< s
   std::array<double, Happenings::number> happened{};  ///< when first, s; NaN: not

@@ -148,7 +148,6 @@ json json_of(const Settings& s) {
           {"reach", s.reach},
           {"work", s.work},
           {"virtual_mass", s.virtual_mass},
-          {"compensated_inertia", s.compensated_inertia},
           {"controller", s.controller ? json(*s.controller) : json()},
           {"map", s.map},
           {"device", json_of(s.device)}};
@@ -161,7 +160,8 @@ Settings settings_of(const json& j) {
     s.reach = j.at("reach"), s.map = j.at("map").get<std::vector<double>>();
     s.work = j.at("work").is_number_unsigned() ? j.at("work").get<std::size_t>() : 0; // 0 is refused below
     s.virtual_mass = j.value("virtual_mass", 0.0); // older recordings have none
-    s.compensated_inertia = j.value("compensated_inertia", 0.0);
+    if (j.value("compensated_inertia", 0.0) != 0)
+      throw Foreign_recording("`compensated_inertia` is no setting any more; record anew without it");
     const json controller = j.value("controller", json(0.0));
     s.controller = controller.is_null() ? std::nullopt : std::optional<double>(controller.get<double>());
     s.device = device_of(j.at("device"));
@@ -192,8 +192,6 @@ std::optional<Bad_setting> bad_setting(const Settings& s) {
     return Bad_setting{"damping", "must be a finite number >= 0, N s/m"};
   if (!(s.virtual_mass >= 0 && s.virtual_mass <= 10))
     return Bad_setting{"virtual-mass", "must be from 0 to 10 kg"};
-  if (!(s.compensated_inertia >= 0 && s.compensated_inertia <= 1))
-    return Bad_setting{"compensated-inertia", "must be from 0 to 1"};
   if (!is_length(s.controller.value_or(0)))
     return Bad_setting{"controller", "must be a finite number >= 0, N s/m"};
   if (!is_length(s.reach))

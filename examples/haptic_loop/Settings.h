@@ -32,7 +32,7 @@ struct Injected_fault {
 /// What a run is about, apart from where its results go. All of it is in a recording.
 struct Settings {
   double rate = 1000, delay = 0, stiffness = 500, damping = 0, reach = 0.001;
-  double virtual_mass = 0, compensated_inertia = 0; ///< kg, a share
+  double virtual_mass = 0; ///< kg
   std::optional<double> controller;                 ///< N s/m; nothing: half of what may be asked for
   std::size_t work = 400;
   std::vector<double> map; ///< scale, origin and, if given, the rotation vector; empty: the scene is fitted

@@ -138,9 +138,6 @@ int run(int argc, char** argv) {
   app.add_option("--damping", settings.damping, "Of the coupling, at the handle, N s/m")->capture_default_str();
   app.add_option("--virtual-mass", settings.virtual_mass, "What is grabbed weighs so much more when shaken, kg")
       ->capture_default_str();
-  app.add_option("--compensated-inertia", settings.compensated_inertia,
-                 "Share of the device's own inertia that its motors carry, 0 to 1")
-      ->capture_default_str();
   app.add_option("--controller", settings.controller,
                  "The most that the passivity controller may damp, N s/m; 0: there is none; by default half of what may be");
   app.add_option("--map", settings.map,

@@ -74,8 +74,7 @@ public:
     Haptic_parameters parameters;
     parameters.tick = tick_, parameters.delay = settings_.delay;
     parameters.coupling = {settings_.stiffness, settings_.damping};
-    parameters.inertia.mass = settings_.virtual_mass;
-    parameters.inertia.compensated = settings_.compensated_inertia;
+    parameters.virtual_mass.mass = settings_.virtual_mass;
     parameters.controller_damping = settings_.controller;
     parameters.reach = settings_.reach, parameters.work = settings_.work;
     const Passivity_limits limits = limits_of(parameters, scene);
@@ -132,7 +131,7 @@ private:
   /// \throw Unstable_coupling that says more where the device is the reason
   void check(const Haptic_parameters& parameters, const Passivity_limits& limits) const {
     try {
-      check_dynamics(parameters.coupling.damping, parameters.inertia,
+      check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass,
                      parameters.controller_damping.value_or(0), limits);
       check_coupling(parameters.coupling, limits);
     } catch (const Unstable_coupling& error) {
@@ -289,8 +288,7 @@ private:
     const Workspace_map& map = scene.map;
     result_.observed = loop.observer().energy();
     result_.least_observed = loop.observer().least();
-    result_.mass_energy = loop.inertia().mass_energy();
-    result_.compensation_energy = loop.inertia().compensation_energy();
+    result_.mass_energy = loop.interaction().virtual_mass().energy();
     if (!result_.has_true_energy)
       result_.port = loop.observer().port(), result_.dissipated = loop.observer().dissipated();
     const Tool_edits& edits = loop.tool().edits();

@@ -219,7 +219,7 @@ def recordings(folder, mesh):
     check(loop(mesh, "--no-wait", "--seconds", "0.01", "--record", recording).returncode == 0, "a recording")
     head, rest = open(recording).read().split("\n", 1)
     for key, value in (("rate", -1.0), ("rate", 5), ("work", 0), ("work", -1), ("work", 1.5), ("map", [1, 2]), ("map", [0, 0, 0, 0]), ("delay", 99), ("stiffness", -1),
-                       ("damping", -1), ("reach", -1), ("virtual_mass", 11), ("compensated_inertia", 2), ("controller", -1)):
+                       ("damping", -1), ("reach", -1), ("virtual_mass", 11), ("compensated_inertia", 0.5), ("controller", -1)):
         bad = write(f"{folder}/bad.rec", json.dumps({**json.loads(head), key: value}) + "\n" + rest)
         fails(6, [key], loop(mesh, "--replay", bad), f"a recording with {key} = {value}")
     check(loop(mesh, "--replay", recording).returncode == 0, "the recording itself")

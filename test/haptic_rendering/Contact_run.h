@@ -25,7 +25,7 @@ struct Contact_setup {
   double greatest = 0;        ///< sigma_max(J), m/rad, for which the coupling was chosen; a run ends beyond
   double most_condition = 10; ///< cond(J) beyond which it ends too
   Force_limits limits{};
-  Inertia_parameters inertia{};
+  Virtual_mass_parameters virtual_mass{};
   double controller_damping = 0; ///< N s/m
   bool follows_pose = false;     ///< Haptic_parameters::follows_pose; couplings are chosen for the poses of a run
   double burst_every = 0;        ///< s; 0: no edits are refused
@@ -41,7 +41,7 @@ struct Contact_setup {
   }
   Haptic_parameters parameters() const {
     Haptic_parameters all;
-    all.tick = tick, all.delay = delay, all.coupling = coupling, all.limits = limits, all.inertia = inertia;
+    all.tick = tick, all.delay = delay, all.coupling = coupling, all.limits = limits, all.virtual_mass = virtual_mass;
     all.follows_pose = follows_pose;
     return all;
   }
@@ -56,7 +56,7 @@ struct Contact_outcome {
   double largest_port = 0;      ///< magnitude
   double observer_error = 0;    ///< the observer's port against the true one, at most
   double least_observed = 0;    ///< of the observer's energy with its credit, plus the dissipation that it sees
-  double inertia_energy = 0;    ///< taken from the hand by virtual mass and compensation, before limits
+  double mass_energy = 0;       ///< taken from the hand by virtual mass, before limits
   double largest_force = 0;     ///< N, rendered
   double limited = 0;           ///< share of the ticks in which limits changed the force
   bool has_left = false;        ///< the poses for which the coupling was chosen
@@ -111,7 +111,7 @@ Contact_outcome run_contact(Contact_setup setup, double seconds, const Each& eac
       break;
   }
   outcome.least_observed = observer.least();
-  outcome.inertia_energy = loop.side().inertia().mass_energy() + loop.side().inertia().compensation_energy();
+  outcome.mass_energy = loop.virtual_mass().energy();
   outcome.limited = limited / std::fmax(1, outcome.time / setup.tick);
   outcome.fault = loop.fault();
   return outcome;

@@ -215,10 +215,10 @@ BOOST_AUTO_TEST_CASE(what_is_grabbed_is_heavy_and_nothing_else_is) {
   Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
   Sculptor<Mesh> sculptor(mesh);
   Haptic_parameters parameters;
-  parameters.inertia.mass = 0.05, parameters.limits.ramp_time = 1e-9, parameters.reach = 0.002;
+  parameters.virtual_mass.mass = 0.05, parameters.limits.ramp_time = 1e-9, parameters.reach = 0.002;
   parameters.follows_pose = false; // this device has no friction, which would leave no force
   Passivity_limits limits;
-  limits.passive_stiffness = 1e7, limits.tick = parameters.tick, limits.largest_mass = parameters.inertia.mass;
+  limits.passive_stiffness = 1e7, limits.tick = parameters.tick, limits.largest_mass = parameters.virtual_mass.mass;
   Haptic_loop<Sculptor<Mesh>> loop(sculptor, device, *home, map, parameters, limits);
   const Vector3d away = -map.direction_to_device(Vector3d(1, 1, 1)).normalized();
   const double omega = 2 * M_PI * 3, amplitude = 0.002;
@@ -241,7 +241,7 @@ BOOST_AUTO_TEST_CASE(what_is_grabbed_is_heavy_and_nothing_else_is) {
     const Vector3d exact = -0.05 * amplitude * omega * omega * std::cos(omega * swing) * away;
     worst = std::max(worst, (made.rendered.force - exact).norm()), largest = std::max(largest, exact.norm());
     const double kinetic = 0.05 * std::pow(amplitude * omega * std::sin(omega * swing), 2) / 2;
-    worst_energy = std::max(worst_energy, std::abs(loop.inertia().mass_energy() - kinetic));
+    worst_energy = std::max(worst_energy, std::abs(loop.interaction().virtual_mass().energy() - kinetic));
     largest_energy = std::max(largest_energy, kinetic);
   }
   BOOST_TEST_MESSAGE("a vertex of 50 g in the loop: force off by " << 100 * worst / largest << " %, its energy by "

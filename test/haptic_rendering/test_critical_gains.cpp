@@ -148,10 +148,8 @@ BOOST_AUTO_TEST_CASE(what_is_larger_than_stable_is_refused_with_what_serves) {
         for (const Vector3d& way : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1), Vector3d(0.6, 0, 0.8)})
           BOOST_TEST(way.dot(mass * way) >= limits.apparent_mass);
       }
-  Inertia_parameters inertia;
   const auto check = [&](double damping, double mass, double controller) {
-    inertia.mass = mass;
-    check_dynamics(damping, inertia, controller, limits);
+    check_dynamics(damping, mass, controller, limits);
   };
   check(limits.largest_damping, limits.largest_mass, limits.largest_controller);
   const auto names = [](const char* what, double largest) {

@@ -53,21 +53,6 @@ BOOST_AUTO_TEST_CASE(what_the_proxy_does_is_slewed_and_what_the_hand_does_is_not
   BOOST_TEST((chain.follow(4 * up, 0.0005) - (1.7 + 0.3 + 0.5 + damper) * up).norm() <= 1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(inertia_that_motors_carry_in_free_space_is_no_fault) {
-  const Knocked_device knocked(Device_form::general);
-  Knock k;
-  k.stiffness_share = 0.5, k.hand = Simulated_hand::finger(), k.damping_share = 0;
-  std::vector<Hand_path::Row> rows{{0, knocked.home.position + 0.01 * k.normal, 0}};
-  for (int i = 1; i < 40; ++i) // shaken in free space
-    rows.push_back({0.1 * i, knocked.home.position + (i % 2 == 0 ? 0.01 : 0.002) * k.normal, 0});
-  Contact_setup setup = knock(knocked, k);
-  setup.path = Hand_path(rows), setup.inertia.compensated = 0.5;
-  setup.start = *reach_position(knocked.device, knocked.home, rows[0].position);
-  const Contact_outcome outcome = run_contact(setup, 4.0 / 3);
-  BOOST_TEST((outcome.fault == Loop_fault::none), name_of(outcome.fault));
-  BOOST_TEST_MESSAGE("compensated inertia gave " << -1e3 * outcome.inertia_energy << " mJ");
-}
-
 BOOST_AUTO_TEST_CASE(a_device_that_gives_energy_ends_as_a_fault) {
   const Knocked_device knocked(Device_form::ditetrahedral);
   for (const double times : {20.0, 40.0}) { // what nobody foresaw: the device is not what it was taken to be

@@ -137,9 +137,8 @@ inline Json effects(const Options& options) {
   measure("k = 2 k_p, by the pose", bad_poses,
           [](Contact_setup& s) { s.coupling.stiffness *= 2, s.follows_pose = true, s.greatest = 1e9; });
   measure("burst every 0.5 s", plain, [](Contact_setup& s) { s.burst_every = 0.5; });
-  measure("virtual mass 10 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.01; });
-  measure("virtual mass 30 g", plain, [](Contact_setup& s) { s.inertia.mass = 0.03; });
-  measure("compensated inertia 0.5", plain, [](Contact_setup& s) { s.inertia.compensated = 0.5; });
+  measure("virtual mass 10 g", plain, [](Contact_setup& s) { s.virtual_mass.mass = 0.01; });
+  measure("virtual mass 30 g", plain, [](Contact_setup& s) { s.virtual_mass.mass = 0.03; });
   measure("k = 2 k_p", plain, [](Contact_setup& s) { s.coupling.stiffness *= 2; });
   measure("k = 10 k_p", plain, [](Contact_setup& s) { s.coupling.stiffness *= 10; });
   measure("k = 10 k_p, controller", plain,

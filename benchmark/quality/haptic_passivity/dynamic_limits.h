@@ -14,7 +14,7 @@ inline bool is_calm_in_every_hand(const Device_parameters<double>& device, const
                                   double delay) {
   for (const Simulated_hand& hand : hands_of_chart()) {
     Contact_setup setup = pressed(device, pose, hand, coupling, tick, delay);
-    setup.inertia.mass = mass, setup.controller_damping = controller;
+    setup.virtual_mass.mass = mass, setup.controller_damping = controller;
     if (!is_calm(setup))
       return false;
   }

@@ -87,7 +87,7 @@ inline double largest_stable_mass(const Device_parameters<double>& device, const
     bool is_stable = true;
     for (const Simulated_hand& hand : hands_of_chart()) {
       Contact_setup setup = pressed(device, pose, hand, {0, 0}, tick, delay);
-      setup.inertia.mass = middle;
+      setup.virtual_mass.mass = middle;
       is_stable = is_stable && is_calm(setup);
     }
     (is_stable ? low : high) = middle;

@@ -4,14 +4,13 @@
 
 #include <haptic_sculpt/device/gravity_torque.h>
 #include <haptic_sculpt/device/spatial_dynamics.h>
-#include <haptic_sculpt/device/planar_dynamics.h>
 #include <haptic_sculpt/haptic_rendering/loop/Force_chain.h>
 #include <haptic_sculpt/haptic_rendering/Handle_motion.h>
 
 namespace haptic_sculpt {
 
 /// What carries the mechanism's weight, so that the hand need not.
-enum class Gravity_compensation { none, spatial, planar };
+enum class Gravity_compensation { none, spatial };
 
 /// A force in axes of the device, N, and the torques of the motors, N m.
 struct Rendered_force {
@@ -101,13 +100,6 @@ private:
   Eigen::Vector3d weight_torque(const Handle_motion& handle) const {
     if (compensation_ == Gravity_compensation::spatial)
       return gravity_torque(handle.parameters(), handle.pose(), handle.jacobian());
-    if (compensation_ == Gravity_compensation::planar) {
-      const auto motion =
-          device_motion(handle.parameters(), handle.pose(), Device_vector<double>(Device_vector<double>::Zero()));
-      if (motion)
-        if (const auto terms = planar_dynamics(handle.parameters(), *motion); terms)
-          return terms->gravity;
-    }
     return Eigen::Vector3d::Zero();
   }
 };

@@ -29,8 +29,7 @@ public:
       : Haptic_loop(sculptor, device, start, map, parameters,
                     limits_of(sculptor, device, map, parameters)) {}
 
-  const Handle_motion& handle() const { return this->interaction().side().handle(); }       ///< in the last tick
-  const Inertia_rendering& inertia() const { return this->interaction().side().inertia(); } ///< tells its energies
+  const Handle_motion& handle() const { return this->interaction().side().handle(); } ///< in the last tick
 
 private:
   static Passivity_limits limits_of(const Sculptor_& sculptor,
@@ -44,7 +43,7 @@ private:
     }
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (upper - lower).norm());
     return passivity_limits(device, parameters.limits, map, lower - margin, upper + margin,
-                            parameters.coupling.damping, parameters.tick, parameters.delay, parameters.inertia.cutoff);
+                            parameters.coupling.damping, parameters.tick, parameters.delay, parameters.virtual_mass.cutoff);
   }
 };
 

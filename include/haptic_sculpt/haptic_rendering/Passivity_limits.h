@@ -4,7 +4,7 @@
 
 #include <haptic_sculpt/device/dynamics.h>
 #include <haptic_sculpt/haptic_rendering/Force_limit.h>
-#include <haptic_sculpt/haptic_rendering/Inertia_rendering.h>
+#include <haptic_sculpt/haptic_rendering/Acceleration_estimate.h>
 #include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
 #include <haptic_sculpt/haptic_rendering/critical_gains.h>
 #include <haptic_sculpt/haptic_rendering/reach_position.h>

@@ -17,6 +17,7 @@ struct Pose_loop_parameters {
   double delay = 0;          ///< from a command to its force, ticks
   double speed = 10;         ///< of a handle that is in order at most, along each axis, m/s; may be infinite
   double stall_time = 0.02;  ///< s between two ticks
+  Virtual_mass_parameters virtual_mass;     ///< of what is grabbed; off by default
   std::optional<double> controller_damping; ///< N s/m; nothing: half of what may be asked for
   double reach = 0.001;                     ///< of a grab, m in the device
   std::size_t work = 400; ///< pairs a drag may decide; more where a vertex of high valence is in hand (doc/work.md)
@@ -38,6 +39,11 @@ struct Pose_loop_parameters {
     return has_force() ? device.mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity()) : 0;
   }
 
+  /// The virtual mass that may be asked for, kg: a share of that of the handle. 0 without force.
+  double largest_mass() const {
+    return has_force() ? stable_share * device.mass * critical_mass_ratio(tick, delay, virtual_mass.cutoff) : 0;
+  }
+
   /// As all loops have them. \throw Error naming what cannot be used
   Haptic_parameters checked() const {
     if (has_force())
@@ -46,7 +52,7 @@ struct Pose_loop_parameters {
     internal::require_number("the resolution of a pose device", "m", device.resolution, 0, 0.01);
     Haptic_parameters all;
     all.tick = tick, all.delay = delay, all.coupling = coupling, all.limits = limits, all.reach = reach;
-    all.work = work, all.controller_damping = controller_damping;
+    all.work = work, all.controller_damping = controller_damping, all.virtual_mass = virtual_mass;
     all.watchdog.joint_rate = speed, all.watchdog.stall_time = stall_time;
     all.check();
     return all;
@@ -73,9 +79,9 @@ public:
     limits.friction = parameters.device.friction, limits.passive_stiffness = parameters.passive_stiffness();
     limits.largest_damping = std::fmin(limits.friction, parameters.device.mass *
                                                             largest_damping_rate(parameters.tick, parameters.delay));
-    limits.largest_controller = parameters.largest_controller();
+    limits.largest_controller = parameters.largest_controller(), limits.largest_mass = parameters.largest_mass();
     check_coupling(parameters.coupling, limits);
-    check_dynamics(parameters.coupling.damping, Inertia_parameters(), parameters.controller_damping.value_or(0),
+    check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0),
                    limits);
   }
 };

@@ -25,7 +25,7 @@ inline void check_coupling(const Virtual_coupling& coupling, const Passivity_lim
 }
 
 /// \throw Unstable_coupling for a damping, virtual mass or controller that is larger than what serves
-inline void check_dynamics(double damping, const Inertia_parameters& inertia, double controller,
+inline void check_dynamics(double damping, double virtual_mass, double controller,
                            const Passivity_limits& limits) {
   const auto check = [](const char* what, const char* unit, double asked, double largest) {
     if (!(asked <= largest))
@@ -34,7 +34,7 @@ inline void check_dynamics(double damping, const Inertia_parameters& inertia, do
                               internal::number(largest) + ' ' + unit);
   };
   check("damping", "N s/m", damping, limits.largest_damping);
-  check("virtual mass", "kg", inertia.mass, limits.largest_mass);
+  check("virtual mass", "kg", virtual_mass, limits.largest_mass);
   check("damping of the passivity controller", "N s/m", controller, limits.largest_controller);
 }
 
@@ -44,10 +44,10 @@ inline void check_limits(const Passivity_limits& limits, const Device_parameters
                          const Haptic_parameters& parameters) {
   parameters.check();
   if (!limits.are_for(device, parameters.coupling.damping, parameters.tick, parameters.delay,
-                      parameters.inertia.cutoff))
+                      parameters.virtual_mass.cutoff))
     throw Error("the limits of passivity were made for another device, tick, delay, damping or cutoff; make them anew "
                 "with passivity_limits()");
-  check_dynamics(parameters.coupling.damping, parameters.inertia, parameters.controller_damping.value_or(0), limits);
+  check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0), limits);
   check_coupling(parameters.coupling, limits);
 }
 

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_HAPTIC_PARAMETERS_H
 
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
-#include <haptic_sculpt/haptic_rendering/Inertia_rendering.h>
+#include <haptic_sculpt/haptic_rendering/Virtual_mass.h>
 #include <haptic_sculpt/haptic_rendering/Watchdog.h>
 
 #include <optional>
@@ -17,8 +17,8 @@ struct Haptic_parameters {
   Virtual_coupling coupling; ///< between hand and tool; refused where it is not passive
   Force_limits limits;       ///< of what reaches the hand
   Watchdog_limits watchdog;  ///< beyond them the loop lets go
-  Gravity_compensation gravity = Gravity_compensation::spatial; ///< by the full model, unless it is changed
-  Inertia_parameters inertia;                                   ///< off by default
+  Gravity_compensation gravity = Gravity_compensation::spatial; ///< unless it is changed
+  Virtual_mass_parameters virtual_mass;                         ///< of what is grabbed; off by default
   /// The most that the passivity controller may damp, N s/m; 0: there is none. Nothing: half of what may be asked for.
   std::optional<double> controller_damping;
   /// Where the device has less friction at its handle than the coupling needs, the force is less: beyond the scene as
@@ -36,7 +36,7 @@ struct Haptic_parameters {
   void check() const {
     internal::require_number("the tick", "s", tick, Force_chain::least_tick, Force_chain::most_tick);
     internal::require_number("the delay", "ticks", delay, 0, Torque_delay<double>::most_ticks);
-    coupling.check(), limits.check(), watchdog.check(), inertia.check();
+    coupling.check(), limits.check(), watchdog.check(), virtual_mass.check();
     internal::require_number("the damping of the passivity controller", "N s/m", controller_damping.value_or(0), 0,
                              1e5);
     internal::require_number("the reach of a grab", "m", reach, 0, 1);

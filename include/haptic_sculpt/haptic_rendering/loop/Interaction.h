@@ -33,7 +33,8 @@ public:
       , coupling_(parameters.coupling)
       , watchdog_(limits_for(side, parameters.watchdog), parameters.tick, side.effort_limit())
       , observer_(parameters.delay, parameters.tick, side.has_force() ? side.friction() : 0, side.resolution())
-      , controller_(controller_damping, parameters.tick) {
+      , controller_(controller_damping, parameters.tick)
+      , virtual_mass_(parameters.virtual_mass, parameters.tick, parameters.delay) {
     parameters.check();
   }
 
@@ -53,10 +54,9 @@ public:
   void render(const Touch& touch) {
     const bool pulls = !touch.is_free && !touch.is_starved;
     spring_ = pulls ? Eigen::Vector3d(coupling_.stiffness * touch.way) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    wanted_ =
-        spring_ + coupling_.damping_force(touch.span, side_.velocity(), !pulls) + side_.inertial_force(touch.holds);
+    wanted_ = spring_ + coupling_.damping_force(touch.span, side_.velocity(), !pulls);
     if (side_.has_force())
-      wanted_ += controller_.force(observer_, side_.step());
+      wanted_ += virtual_mass_.force(side_.step(), touch.holds) + controller_.force(observer_, side_.step());
     rendered_ = side_.render(wanted_, touch.is_starved ? 0 : side_.step().norm());
     if (rendered_.is_overloaded)
       watchdog_.report(Loop_fault::torque);
@@ -84,12 +84,13 @@ public:
   const Side& side() const { return side_; }                             ///< towards the device
   const Passivity_observer& observer() const { return observer_; }       ///< of all ticks so far that were no fault
   const Passivity_controller& controller() const { return controller_; } ///< tells what it has damped
+  const Virtual_mass& virtual_mass() const { return virtual_mass_; }     ///< tells its energy
 
   /// After a fault: forces come back slowly, from 0. What the observer missed is forgotten.
   void restart() {
     if (watchdog_.fault() == Loop_fault::energy)
       observer_.restart();
-    watchdog_.reset(), side_.restart();
+    watchdog_.reset(), side_.restart(), virtual_mass_.restart();
     spring_.setZero(), rendered_ = Rendered_force();
   }
 
@@ -99,6 +100,7 @@ private:
   Watchdog watchdog_;
   Passivity_observer observer_;
   Passivity_controller controller_;
+  Virtual_mass virtual_mass_;
   Eigen::Vector3d spring_ = Eigen::Vector3d::Zero(), wanted_ = Eigen::Vector3d::Zero();
   Rendered_force rendered_;
   double elapsed_ = 0;

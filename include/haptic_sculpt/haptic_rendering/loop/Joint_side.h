@@ -18,8 +18,7 @@ public:
              const Haptic_parameters& parameters)
       : handle_(device, start, parameters.tick)
       , renderer_(parameters.limits, parameters.coupling, parameters.gravity, parameters.tick,
-                  parameters.follows_pose ? parameters.needed_friction() : 0)
-      , inertia_(parameters.inertia, device, parameters.tick, parameters.delay) {}
+                  parameters.follows_pose ? parameters.needed_friction() : 0) {}
 
   /// \name What a reading says
   ///@{
@@ -33,8 +32,6 @@ public:
   const Eigen::Vector3d& step() const { return handle_.step(); }              ///< of the handle since the last tick, m
   const Eigen::Vector3d& velocity() const { return handle_.velocity(); }      ///< of the handle, low-passed, m/s
   const Eigen::Vector3d& effort_step() const { return handle_.joint_step(); } ///< what efforts work on, rad
-  /// The force of virtual mass and carried inertia, N.
-  Eigen::Vector3d inertial_force(bool is_grabbed) { return inertia_.force(handle_, is_grabbed); }
 
   /// \param wanted N \param way of the handle that made it, m
   const Rendered_force& render(const Eigen::Vector3d& wanted, double way) {
@@ -45,7 +42,7 @@ public:
   /// A refused edit is felt along a direction.
   void refuse(const Eigen::Vector3d& direction) { renderer_.refuse(handle_, direction); }
   /// Forces begin at 0; no step leads to the next reading.
-  void restart() { handle_.restart(), renderer_.restart(), inertia_.restart(); }
+  void restart() { handle_.restart(), renderer_.restart(); }
 
   /// \name The device
   ///@{
@@ -54,13 +51,11 @@ public:
   double resolution() const { return handle_.parameters().encoder_step(); }   ///< rad; 0: exact
   bool has_force() const { return true; }                                     ///< motors render
   ///@}
-  const Handle_motion& handle() const { return handle_; }       ///< where the handle was in the last tick
-  const Inertia_rendering& inertia() const { return inertia_; } ///< tells its energies
+  const Handle_motion& handle() const { return handle_; } ///< where the handle was in the last tick
 
 private:
   Handle_motion handle_;
   Force_renderer renderer_;
-  Inertia_rendering inertia_;
 };
 
 } // namespace haptic_sculpt

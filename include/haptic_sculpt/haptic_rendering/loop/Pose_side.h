@@ -42,7 +42,6 @@ public:
   const Eigen::Vector3d& step() const { return step_; }                    ///< of the handle since the last tick, m
   const Eigen::Vector3d& velocity() const { return velocity_.value(); }    ///< of the handle, low-passed, m/s
   const Eigen::Vector3d& effort_step() const { return step_; }             ///< what efforts work on, m
-  Eigen::Vector3d inertial_force(bool) { return Eigen::Vector3d::Zero(); } ///< none
 
   /// \param wanted N \param way of the handle that made it, m
   const Rendered_force& render(const Eigen::Vector3d& wanted, double way) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Virtual mass, and the mechanism's own that motors carry.
+// Virtual mass.
 #include "haptic_rendering/devices_of_tests.h"
 
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
-#include <haptic_sculpt/haptic_rendering/Inertia_rendering.h>
+#include <haptic_sculpt/haptic_rendering/Pose_loop.h>
+#include <haptic_sculpt/haptic_rendering/Virtual_mass.h>
 #include <haptic_sculpt/haptic_rendering/reach_position.h>
 
 #include <boost/test/unit_test.hpp>
@@ -22,9 +23,9 @@ double error_of_mass(const Device_parameters<double>& parameters, double rate, d
   const auto home = home_pose(parameters);
   const Vector3d direction = Vector3d(0.3, -0.5, 0.8).normalized();
   Handle_motion handle(parameters, *home, 1 / rate);
-  Inertia_parameters wanted;
+  Virtual_mass_parameters wanted;
   wanted.mass = mass, wanted.cutoff = cutoff;
-  Inertia_rendering inertia(wanted, parameters, 1 / rate, 0);
+  Virtual_mass inertia(wanted, 1 / rate, 0);
   Force_renderer renderer(no_limits(), Virtual_coupling(), Gravity_compensation::none, 1 / rate);
   Device_pose<double> pose = *home;
   const double settled = 0.5, periods = std::max(1.0, std::floor(frequency)), end = settled + periods / frequency;
@@ -33,7 +34,7 @@ double error_of_mass(const Device_parameters<double>& parameters, double rate, d
     const double t = k / rate;
     pose = *reach_position(parameters, pose, Vector3d(home->position + amplitude * std::sin(omega * t) * direction));
     handle.follow(pose.theta);
-    const Vector3d force = renderer.render(handle, inertia.force(handle, true)).force;
+    const Vector3d force = renderer.render(handle, inertia.force(handle.step(), true)).force;
     const Vector3d exact = mass * amplitude * omega * omega * std::sin(omega * t) * direction;
     if (t < settled)
       continue;
@@ -60,9 +61,9 @@ BOOST_AUTO_TEST_CASE(a_virtual_mass_comes_and_goes_and_its_energy_is_told) {
   const auto home = home_pose(parameters);
   const double rate = 1000, mass = 0.05;
   Handle_motion handle(parameters, *home, 1 / rate);
-  Inertia_parameters wanted;
+  Virtual_mass_parameters wanted;
   wanted.mass = mass;
-  Inertia_rendering inertia(wanted, parameters, 1 / rate, 0);
+  Virtual_mass inertia(wanted, 1 / rate, 0);
   Device_pose<double> pose = *home;
   Vector3d last = Vector3d::Zero();
   double energy = 0, kinetic = 0;
@@ -74,59 +75,46 @@ BOOST_AUTO_TEST_CASE(a_virtual_mass_comes_and_goes_and_its_energy_is_told) {
     pose = *next;
     handle.follow(pose.theta);
     const bool is_grabbed = k >= 100 && k < 300;
-    const Vector3d force = inertia.force(handle, is_grabbed);
+    const Vector3d force = inertia.force(handle.step(), is_grabbed);
     if (k < 100 || k >= 351)
       BOOST_TEST(force == Vector3d::Zero());
-    BOOST_TEST((force - last).norm() <= mass * 0.8 * (1 / (rate * Inertia_rendering::fade_time) + 0.03));
+    BOOST_TEST((force - last).norm() <= mass * 0.8 * (1 / (rate * Virtual_mass::fade_time) + 0.03));
     last = force;
     if (k == 299)
       kinetic = mass * std::pow(0.005 * omega * std::sin(omega * t), 2) / 2;
   }
-  BOOST_TEST(std::abs(inertia.mass_energy() - energy) <= 5e-3 * std::abs(energy));
+  BOOST_TEST(std::abs(inertia.energy() - energy) <= 5e-3 * std::abs(energy));
   BOOST_TEST(std::abs(energy) > 1e-6);
   BOOST_TEST(kinetic > 0);
-  Inertia_parameters bad;
+  Virtual_mass_parameters bad;
   bad.mass = -1;
-  BOOST_CHECK_THROW(Inertia_rendering(bad, parameters, 0.001, 0), Error);
-  bad.mass = 0, bad.compensated = 1.5;
-  BOOST_CHECK_THROW(Inertia_rendering(bad, parameters, 0.001, 0), Error);
-  bad.compensated = 0.5, bad.cutoff = 0;
-  BOOST_CHECK_THROW(Inertia_rendering(bad, parameters, 0.001, 0), Error);
+  BOOST_CHECK_THROW(Virtual_mass(bad, 0.001, 0), Error);
+  bad.mass = 0.5, bad.cutoff = 0;
+  BOOST_CHECK_THROW(Virtual_mass(bad, 0.001, 0), Error);
 }
 
-/// The force that a hand gives to lead the handle along a sinusoid: the mechanism's own inertia and friction, less what
-/// motors carry. Joint torques by inverse dynamics on the exact motion.
-BOOST_AUTO_TEST_CASE(compensated_inertia_is_not_felt) {
-  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
-    Device_description<double> description = named_design<double>(Named_design::D1, form);
-    description.gravity = 0;
-    const Device_parameters<double> parameters(description);
-    const auto home = home_pose(parameters);
-    const double rate = 1000, omega = 2 * M_PI * 4;
-    for (const double share : {0.5, 0.8}) {
-      Handle_motion handle(parameters, *home, 1 / rate);
-      Inertia_parameters wanted;
-      wanted.compensated = share;
-      Inertia_rendering inertia(wanted, parameters, 1 / rate, 0);
-      double square = 0, all = 0;
-      for (int k = 0; k < 1000; ++k) {
-        const double t = k / rate;
-        const Vector3d swing = 0.1 * Vector3d(1, -0.4, 0.6);
-        const auto pose = forward_kinematics(parameters, Vector3d(home->theta + swing * std::sin(omega * t)), *home);
-        handle.follow(pose->theta);
-        const Vector3d force = inertia.force(handle, false);
-        if (k < 200)
-          continue;
-        const auto torque = spatial_inverse_dynamics(parameters, *pose, Vector3d(swing * omega * std::cos(omega * t)),
-                                                     Vector3d(-swing * omega * omega * std::sin(omega * t)));
-        const Vector3d exact = share * torque->torque;
-        square += (handle.jacobian().linear.transpose() * force - exact).squaredNorm(), all += exact.squaredNorm();
-      }
-      BOOST_TEST(std::sqrt(square / all) <= 0.02);
-      BOOST_TEST(inertia.mass_energy() == 0);
-      BOOST_TEST_MESSAGE("compensated inertia off by " << 100 * std::sqrt(square / all) << " %");
-    }
+BOOST_AUTO_TEST_CASE(a_virtual_mass_is_the_same_on_a_device_of_pose_and_force) {
+  const double omega = 2 * M_PI * 2, amplitude = 0.004;
+  Pose_loop_parameters parameters(5);
+  parameters.virtual_mass.mass = 0.9 * parameters.largest_mass();
+  const Haptic_parameters all = parameters.checked();
+  Interaction<Pose_side> loop(Pose_side(parameters.device, all), all, 0);
+  const Vector3d direction = Vector3d(0.3, -0.5, 0.8).normalized();
+  double worst = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const double t = k * all.tick;
+    Pose_reading reading;
+    reading.position = amplitude * std::sin(omega * t) * direction, reading.elapsed = all.tick;
+    BOOST_REQUIRE(loop.follow(reading));
+    Touch touch;
+    touch.holds = true;
+    loop.render(touch), loop.end_tick();
+    const Vector3d exact = parameters.virtual_mass.mass * amplitude * omega * omega * std::sin(omega * t) * direction;
+    if (t > 0.5)
+      worst = std::max(worst, (loop.wanted() - exact).norm());
   }
+  BOOST_TEST(parameters.virtual_mass.mass > 0.01);
+  BOOST_TEST(worst <= 0.01 * parameters.virtual_mass.mass * amplitude * omega * omega);
 }
 
 } // namespace
