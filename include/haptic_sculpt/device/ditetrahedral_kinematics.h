@@ -53,7 +53,8 @@ inline Device_vector<W> apex_pair_widened(const Device_parameters<S>& parameters
   for (int leg = 0; leg < 3; ++leg)
     elbows.col(leg) = Leg_frame<W>::in_leg_plane(leg, W(parameters.base_radius()) + W(parameters.primary_length()) * cos(W(theta[leg])),
                                                  W(parameters.primary_length()) * sin(W(theta[leg])));
-  apex_pair(elbows, W(parameters.secondary_length()), W(parameters.base_radius()) + W(parameters.primary_length()), pair);
+  apex_pair(elbows, W(parameters.secondary_length()), W(W(parameters.base_radius()) + W(parameters.primary_length())),
+            pair);
   return elbows.col(0);
 }
 
