@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The reference has no warnings, no undocumented name, and nothing internal, and in its HTML every picture and every link within it
+"""The reference has no warnings, no undocumented name, and nothing internal, not in a public signature either, and in its HTML every picture and every link within it
 exists: check_reference.py ROOT"""
 import html.parser
 import pathlib
@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import urllib.parse
+import xml.etree.ElementTree
 
 SKIPPED = 77
 
@@ -52,6 +53,21 @@ def broken_links(folder):
     return sorted(set(broken)), len(pages), pictures
 
 
+def internal_in_signatures(folder):
+    """Public functions and members whose type, parameters or template parameters name what is internal."""
+    faults = []
+    for path in folder.glob("*.xml"):
+        for compound in xml.etree.ElementTree.parse(path).getroot().findall("compounddef"):
+            if compound.get("kind") in ("file", "dir", "page"):  # they list what stands in a class or namespace already
+                continue
+            for member in compound.iter("memberdef"):
+                parts = [member.find("type"), member.find("argsstring"), member.find("templateparamlist")]
+                signature = " ".join("".join(part.itertext()) for part in parts if part is not None)
+                if member.get("prot") == "public" and member.get("kind") != "friend" and "internal::" in signature:
+                    faults.append(f"{compound.findtext('compoundname')}::{member.findtext('name')}: internal in a public signature: {signature}")
+    return sorted(faults)
+
+
 if shutil.which("doxygen") is None:
     print("reference: doxygen is not installed, so the reference is not checked; bash .ci/install_packages installs it")
     sys.exit(SKIPPED)
@@ -69,6 +85,7 @@ with tempfile.TemporaryDirectory() as folder:
     for name in ("haptic_sculpt::Sculptor", "haptic_sculpt::Swept_collision_traits_3", "SweptCollisionTraits_3"):
         if name not in names:  # then nothing was read, and no warning means nothing
             faults.append(f"not in the reference: {name}")
+    faults += internal_in_signatures(pathlib.Path(folder, "xml"))
     faults += warnings_of("", r"doc/[\w/]+\.md|README\.md")  # links of pages that lead nowhere
     broken, pages, pictures = broken_links(pathlib.Path(folder, "html"))
     faults += broken
