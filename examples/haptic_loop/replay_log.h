@@ -24,8 +24,8 @@ public:
     sculptor_.set_work_limit(std::nullopt);
     for (const Command& command : commands)
       make(command);
-    sculptor_.release();
-    strokes_.clear();
+    while (sculptor_.apply(Edit::of(Edit_kind::end))) // strokes that are open
+      ;
     sculptor_.set_response(Response::slide);
     sculptor_.set_default_clearance();
     if (sculptor_.options().delta_length != 0)
@@ -35,45 +35,18 @@ public:
 private:
   Scene& scene_;
   Sculptor_type& sculptor_;
-  std::optional<typename Sculptor_type::Grab_type> grab_;
-  bool held_ = false;
-  std::vector<typename Sculptor_type::Stroke_type> strokes_;
 
   void make(const Command& c) {
-    if (c.kind != Kind::drag)
-      held_ = false;
+    if (const auto edit = sculpt_program::edit_of(c)) {
+      try {
+        sculptor_.apply(*edit);
+      } catch (const Invalid_parameter&) { // a clearance that the scene has outgrown: the edit was refused then, too
+        sculptor_.release();
+      }
+      return;
+    }
+    sculptor_.release();
     switch (c.kind) {
-    case Kind::drag:
-      drag(c);
-      break;
-    case Kind::insert_face:
-      sculptor_.insert_on_face(sculptor_.face_of(c.indices[0], c.indices[1], c.indices[2]), point(c));
-      break;
-    case Kind::insert_edge:
-      sculptor_.insert_on_edge(sculptor_.edge_of(c.indices[0], c.indices[1]), point(c));
-      break;
-    case Kind::remove:
-      sculptor_.remove(sculptor_.vertex(c.indices[0]));
-      break;
-    case Kind::collapse:
-      sculptor_.collapse(halfedge(c));
-      break;
-    case Kind::flip:
-      sculptor_.flip(sculptor_.edge_of(c.indices[0], c.indices[1]));
-      break;
-    case Kind::undo:
-      sculptor_.undo();
-      break;
-    case Kind::redo:
-      sculptor_.redo();
-      break;
-    case Kind::stroke:
-      strokes_.push_back(sculptor_.stroke());
-      break;
-    case Kind::end:
-      if (!strokes_.empty())
-        strokes_.pop_back();
-      break;
     case Kind::response:
       sculptor_.set_response(*response_named(c.word));
       break;
@@ -90,37 +63,11 @@ private:
       sculpt_program::carry_out_remesh(sculptor_, c);
       break;
     default:
-      sculptor_.release();
-    }
-  }
-
-  static auto point(const Command& c) {
-    return typename Scene::Mesh::Point(c.points[0][0], c.points[0][1], c.points[0][2]);
-  }
-  auto halfedge(const Command& c) const {
-    const auto e = sculptor_.edge_of(c.indices[0], c.indices[1]);
-    if (!e.is_valid())
-      return typename Scene::Mesh::Halfedge_index();
-    const auto h = scene_.mesh.halfedge(e);
-    return scene_.mesh.source(h) == sculptor_.vertex(c.indices[0]) ? h : scene_.mesh.opposite(h);
-  }
-
-  void drag(const Command& c) {
-    const auto v = sculptor_.vertex(c.indices[0]);
-    if (!v.is_valid())
-      return;
-    if (!grab_ || grab_->vertex() != v || !held_)
-      grab_.emplace(sculptor_.grab(v));
-    held_ = true;
-    try {
-      grab_->drag_to(point(c));
-    } catch (const Invalid_parameter&) { // a clearance that the scene has outgrown: the edit was refused then, too
-      held_ = false;
+      break;
     }
   }
 
   void clearance(const Command& c) {
-    sculptor_.release();
     if (c.word == "default")
       return sculptor_.set_default_clearance();
     try {
@@ -129,7 +76,6 @@ private:
     }
   }
   void delta(const Command& c) {
-    sculptor_.release();
     if (c.length == sculptor_.options().delta_length)
       return;
     try {

@@ -31,7 +31,7 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
                "  drag V X Y Z | release | probe X Y Z X2 Y2 Z2\n"
                "  insert_face A B C X Y Z | insert_edge A B X Y Z | remove V | collapse A B | flip A B\n"
                "  brush grab|inflate|smooth|flatten|pinch X Y Z RADIUS STRENGTH [NX NY NZ] | remesh L\n"
-               "  undo | redo | stroke ... end (what is between is one step of undo)\n"
+               "  shift AXIS N, N lines V C, end | undo | redo | stroke ... end (what is between is one step of undo)\n"
                "  response slide|stop|paper | clearance L|default | delta L | mesh SHA256");
   const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
   app.set_version_flag("--version", std::string("sculpt of haptic_sculpt ") + HAPTIC_SCULPT_VERSION);

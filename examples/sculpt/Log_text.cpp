@@ -41,7 +41,7 @@ std::string text_of(const Command& command) {
     std::for_each(command.points.begin() + 1, command.points.end(), add);
     return text;
   }
-  for (std::size_t index : command.indices)
+  for (const std::size_t index : command.indices) // of a shift: the axis, and how many lines follow
     text += ' ' + std::to_string(index);
   std::for_each(command.points.begin(), command.points.end(), add);
   if ((command.kind == Kind::clearance && command.word.empty()) || command.kind == Kind::delta || command.kind == Kind::remesh)
@@ -81,9 +81,13 @@ public:
   Log_contents read() {
     while (read_line_here())
       ;
-    contents_.whole_size = at_;
     contents_.unfinished = text_.substr(at_);
     check_unfinished();
+    if (lines_.is_within_shift()) { // a killed process may leave part of it
+      at_ = shift_at_, checksum_ = shift_checksum_;
+      contents_.unfinished = "a shift without its end";
+    }
+    contents_.whole_size = at_;
     const std::size_t head = begins_with(text_, version_word) ? 1 + Settings().directives().size() : 1;
     if (contents_.commands.size() < head)
       throw Foreign_log("'" + name_ + "' ends within its head, at line " + std::to_string(number_) +
@@ -99,6 +103,9 @@ private:
   Log_contents contents_;
   std::string checksum_; ///< of the line before
   std::size_t at_ = 0, number_ = 0;
+  Line_joiner lines_;
+  std::string shift_checksum_; ///< before the shift under way
+  std::size_t shift_at_ = 0;   ///< where that begins
 
   [[noreturn]] void fail(const std::string& what) const { throw Script_error(name_, number_, 1, what); }
 
@@ -114,6 +121,8 @@ private:
     if (end == std::string_view::npos)
       return false;
     const std::string_view line = text_.substr(at_, end - at_);
+    if (!lines_.is_within_shift())
+      shift_at_ = at_, shift_checksum_ = checksum_;
     if (!contents_.has_checksums && begins_with(line, version_word))
       read_version(line);
     else if (contents_.has_checksums)
@@ -156,6 +165,8 @@ private:
 
   void read_checked(std::string_view line) {
     const std::string_view payload = check(line, "");
+    if (lines_.is_within_shift() && begins_with(payload, "#"))
+      fail("a shift stands here without its end");
     if (begins_with(payload, pass_word)) {
       read_pass(payload.substr(pass_word.size()));
       return;
@@ -202,7 +213,7 @@ private:
   }
 
   void read_command(std::string_view text, std::size_t script_line) {
-    auto command = read_line(std::string(text), number_, name_);
+    auto command = lines_.take(std::string(text), number_, name_);
     if (!command)
       return;
     command->is_logged = true;
@@ -269,7 +280,14 @@ std::string Log_writer::version(std::string_view before) {
 }
 
 std::string Log_writer::command(const Command& command, std::size_t script_line) {
-  return line(text_of(command) + std::string(line_word) + std::to_string(script_line));
+  std::string lines, last = text_of(command);
+  if (command.kind == Kind::shift) {
+    lines = line(last);
+    for (const auto& [vertex, coordinate] : command.ways)
+      lines += line(std::to_string(vertex) + ' ' + hexadecimal(coordinate));
+    last = name_of(Kind::end);
+  }
+  return lines + line(last + std::string(line_word) + std::to_string(script_line));
 }
 
 std::string Log_writer::ends(std::size_t open) {

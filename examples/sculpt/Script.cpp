@@ -14,6 +14,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace haptic_sculpt::sculpt_program {
 namespace {
@@ -25,23 +26,25 @@ struct Syntax {
   const char* name;
   Kind kind;
   int indices, points;
-  enum Last { nothing, length, word, brush } last;
+  enum Last { nothing, length, word, brush, count } last;
+  Edit_kind edit = Edit_kind::none; ///< that it is by value
 };
 
-constexpr Syntax syntaxes[] = {{"drag", Kind::drag, 1, 1, Syntax::nothing},
+constexpr Syntax syntaxes[] = {{"drag", Kind::drag, 1, 1, Syntax::nothing, Edit_kind::move},
                                {"release", Kind::release, 0, 0, Syntax::nothing},
                                {"probe", Kind::probe, 0, 2, Syntax::nothing},
-                               {"insert_face", Kind::insert_face, 3, 1, Syntax::nothing},
-                               {"insert_edge", Kind::insert_edge, 2, 1, Syntax::nothing},
-                               {"remove", Kind::remove, 1, 0, Syntax::nothing},
-                               {"collapse", Kind::collapse, 2, 0, Syntax::nothing},
-                               {"flip", Kind::flip, 2, 0, Syntax::nothing},
+                               {"insert_face", Kind::insert_face, 3, 1, Syntax::nothing, Edit_kind::insert_on_face},
+                               {"insert_edge", Kind::insert_edge, 2, 1, Syntax::nothing, Edit_kind::insert_on_edge},
+                               {"remove", Kind::remove, 1, 0, Syntax::nothing, Edit_kind::remove},
+                               {"collapse", Kind::collapse, 2, 0, Syntax::nothing, Edit_kind::collapse},
+                               {"flip", Kind::flip, 2, 0, Syntax::nothing, Edit_kind::flip},
+                               {"shift", Kind::shift, 0, 0, Syntax::count, Edit_kind::shift},
                                {"brush", Kind::brush, 0, 0, Syntax::brush},
                                {"remesh", Kind::remesh, 0, 0, Syntax::length},
-                               {"undo", Kind::undo, 0, 0, Syntax::nothing},
-                               {"redo", Kind::redo, 0, 0, Syntax::nothing},
-                               {"stroke", Kind::stroke, 0, 0, Syntax::nothing},
-                               {"end", Kind::end, 0, 0, Syntax::nothing},
+                               {"undo", Kind::undo, 0, 0, Syntax::nothing, Edit_kind::undo},
+                               {"redo", Kind::redo, 0, 0, Syntax::nothing, Edit_kind::redo},
+                               {"stroke", Kind::stroke, 0, 0, Syntax::nothing, Edit_kind::stroke},
+                               {"end", Kind::end, 0, 0, Syntax::nothing, Edit_kind::end},
                                {"response", Kind::response, 0, 0, Syntax::word},
                                {"clearance", Kind::clearance, 0, 0, Syntax::length},
                                {"delta", Kind::delta, 0, 0, Syntax::length},
@@ -69,6 +72,11 @@ public:
   }
 
   double number(const std::string& expected) { return number(expected, word(expected)); }
+  std::size_t next_index(const char* expected) { return index(word(expected)); }
+  void end(const std::string& what = "this line") {
+    if (const auto surplus = next_word())
+      fail("'" + printable(*surplus) + "' is more than " + what + " takes");
+  }
 
   /// The one place where a number is read. \param found the word just read
   double number(const std::string& expected, const std::string& found) const {
@@ -96,6 +104,9 @@ public:
       command.places.push_back({command.indices.size(), place(found)});
     command.indices.push_back(found[0] == '@' ? 0 : index(found));
   }
+
+  /// \param found the word just read
+  std::size_t index_in(const std::string& found) const { return index(found); }
 
   [[noreturn]] void fail(const std::string& what) const { throw Script_error(script_, number_, begin_ + 1, what); }
 
@@ -146,6 +157,11 @@ void read_brush(Line& line, Command& command) {
 void read_last(Line& line, const Syntax& syntax, Command& command) {
   if (syntax.last == Syntax::brush) {
     read_brush(line, command);
+  } else if (syntax.last == Syntax::count) {
+    command.indices = {line.next_index("an axis, 0, 1 or 2"), 0};
+    if (command.indices[0] > 2)
+      line.fail("the axis must be 0, 1 or 2");
+    command.indices[1] = line.next_index("how many vertices are moved");
   } else if (syntax.last == Syntax::length) {
     const bool may_be_default = command.kind == Kind::clearance;
     const std::string expected = may_be_default ? "a length, or 'default'" : "a length";
@@ -176,6 +192,60 @@ const char* name_of(Kind kind) {
   return std::find_if(std::begin(syntaxes), std::end(syntaxes), [kind](const Syntax& s) { return s.kind == kind; })->name;
 }
 
+std::optional<Edit> edit_of(const Command& command) {
+  const auto syntax = std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return s.kind == command.kind; });
+  if (syntax->edit == Edit_kind::none)
+    return std::nullopt;
+  Edit edit;
+  edit.kind = syntax->edit;
+  std::copy_n(command.indices.begin(), syntax->indices, edit.vertices.begin());
+  if (!command.points.empty())
+    edit.point = command.points[0];
+  if (edit.kind == Edit_kind::shift)
+    edit.axis = static_cast<int>(command.indices[0]), edit.ways = command.ways;
+  return edit;
+}
+
+Command command_of(const Edit& edit) {
+  const auto syntax = std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return s.edit == edit.kind; });
+  Command command;
+  command.kind = syntax->kind;
+  command.indices.assign(edit.vertices.begin(), edit.vertices.begin() + syntax->indices);
+  command.points.assign(static_cast<std::size_t>(syntax->points), edit.point);
+  if (edit.kind == Edit_kind::shift)
+    command.indices = {static_cast<std::size_t>(edit.axis), edit.ways.size()}, command.ways = edit.ways;
+  return command;
+}
+
+std::optional<Command> Line_joiner::take(const std::string& text, std::size_t number, const std::string& script) {
+  if (!shift_) {
+    auto command = read_line(text, number, script);
+    if (!command || command->kind != Kind::shift)
+      return command;
+    shift_ = std::move(command);
+    return std::nullopt;
+  }
+  Line line(script, text, number);
+  const bool is_whole = shift_->ways.size() == shift_->indices[1];
+  const auto first = line.next_word();
+  if (!first)
+    return std::nullopt;
+  if (is_whole && *first != "end")
+    line.fail("'" + printable(*first) + "' stands where the shift of line " + std::to_string(shift_->line) + " has to end");
+  if (!is_whole) {
+    const std::size_t vertex = line.index_in(*first);
+    shift_->ways.emplace_back(vertex, line.number("a coordinate"));
+  }
+  line.end();
+  return is_whole ? std::exchange(shift_, std::nullopt) : std::nullopt;
+}
+
+void Line_joiner::check_end(const std::string& script) const {
+  if (shift_)
+    throw Script_error(script, shift_->line, 1, "this shift of " + std::to_string(shift_->indices[1]) + " vertices has " +
+                       std::to_string(shift_->ways.size()) + " lines of a vertex and a coordinate, and no `end`");
+}
+
 std::optional<Command> read_line(const std::string& text, std::size_t number, const std::string& script) {
   Line line(script, text, number);
   const auto first = line.next_word();
@@ -193,20 +263,21 @@ std::optional<Command> read_line(const std::string& text, std::size_t number, co
   for (int i = 0; i < syntax->points; ++i)
     command.points.push_back(line.coordinates("a coordinate"));
   read_last(line, *syntax, command);
-  if (const auto surplus = line.next_word())
-    line.fail("'" + printable(*surplus) + "' is more than '" + *first + "' takes");
+  line.end("'" + *first + "'");
   return command;
 }
 
 std::vector<Command> read_script(std::string_view text, const std::string& name) {
   std::vector<Command> commands;
+  Line_joiner lines;
   text = examples::without_byte_order_mark(text);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    if (auto command = read_line(std::string(text.substr(0, end)), number, name))
+    if (auto command = lines.take(std::string(text.substr(0, end)), number, name))
       commands.push_back(std::move(*command));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
+  lines.check_end(name);
   return commands;
 }
 

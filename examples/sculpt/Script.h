@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_EXAMPLES_SCRIPT_H
 
 #include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/sculpting/Edit.h>
 
 #include <array>
 #include <optional>
@@ -15,9 +16,8 @@ namespace haptic_sculpt::sculpt_program {
 /// One line of a script: an edit or a directive.
 struct Command {
   enum class Kind {
-    drag, release, probe, insert_face, insert_edge, remove, collapse, flip, undo, redo, // edits
-    brush, remesh,                                                                      // edits of many vertices
-    stroke, end,                                                                        // what is between is one step of undo
+    drag, insert_face, insert_edge, remove, collapse, flip, shift, undo, redo, stroke, end, // as Edit_kind has them
+    release, probe, brush, remesh,                                                          // what takes more than an Edit
     response, clearance, delta, mesh                                                    // directives
   };
 
@@ -25,7 +25,7 @@ struct Command {
   bool is_logged = false;      ///< read from a log, not from a script
   std::size_t script_line = 0; ///< of what is logged: the line of the script that it came from; 0 where the log does not say
   Kind kind = Kind::release;
-  std::vector<std::size_t> indices;        ///< of vertices
+  std::vector<std::size_t> indices;        ///< of vertices; of a shift, the axis
   /// Of `indices` those that are yet to be found: the vertex nearest to a point when the line's turn comes.
   struct Place {
     std::size_t which;
@@ -35,11 +35,17 @@ struct Command {
   std::vector<std::array<double, 3>> points; ///< brush: the centre, and the direction where one is given
   double length = 0;                         ///< clearance, delta; brush: the radius; remesh: of an edge
   double strength = 0;                       ///< brush
+  std::vector<std::pair<std::size_t, double>> ways; ///< shift
   std::string word; ///< response; brush: its kind; mesh: in lower case; clearance: "default", or empty for `length`
 };
 
 /// The word that a line of this kind begins with.
 const char* name_of(Command::Kind kind);
+
+/// Of a line that is an edit by value.
+std::optional<Edit> edit_of(const Command& command);
+/// The line of an edit. \pre it is not of kind `none`, and straight: as a loop's journal has them
+Command command_of(const Edit& edit);
 
 /// A script that cannot be read. Says line and column (both from 1).
 class Script_error : public Error {
@@ -52,6 +58,20 @@ public:
 /// Reads a line, without its end. \param script how messages call the whole. \return none of a line that holds a comment only, or
 /// nothing \throw Script_error
 std::optional<Command> read_line(const std::string& text, std::size_t number, const std::string& script);
+
+/// Puts lines together: each is a command, but a shift, which goes on until its `end`.
+class Line_joiner {
+public:
+  /// \return the command that the line completes, if any \throw Script_error
+  std::optional<Command> take(const std::string& text, std::size_t number, const std::string& script);
+  /// Lines of a shift have been taken, and not its `end`.
+  bool is_within_shift() const { return shift_.has_value(); }
+  /// \throw Script_error if it is
+  void check_end(const std::string& script) const;
+
+private:
+  std::optional<Command> shift_;
+};
 
 /// Reads a whole script. \param name how messages call it. \throw Script_error
 std::vector<Command> read_script(std::string_view text, const std::string& name);

@@ -53,7 +53,6 @@ private:
 
   Mesh& mesh_;
   Sculptor<Mesh, Broad_phase> sculptor_;
-  std::vector<Stroke<Sculptor<Mesh, Broad_phase>>> strokes_; ///< begun and not ended by a line, each within the one before
   Run_result result_;
   std::set<std::size_t> moved_;
 
@@ -77,109 +76,75 @@ private:
   }
 
   void carry_out(const Command& command) {
-    if (command.kind != Kind::drag)
-      held_ = false; // any other line ends the grab
+    if (const auto edit = edit_of(command)) {
+      apply(command, *edit);
+      return;
+    }
+    sculptor_.release(); // only moves that follow each other are one grab
     switch (command.kind) {
-    case Kind::drag: drag(command); break;
     case Kind::probe: probe(command); break;
     case Kind::clearance: clearance(command); break;
     case Kind::delta: delta(command); break;
-    case Kind::insert_face: insert_on_face(command); break;
-    case Kind::insert_edge: insert_on_edge(command); break;
-    case Kind::remove: remove(command); break;
-    case Kind::collapse: collapse(command); break;
-    case Kind::flip: flip(command); break;
     case Kind::brush: many_vertices(command, [&] { return carry_out_brush(sculptor_, command); }); break;
     case Kind::remesh: many_vertices(command, [&] { return carry_out_remesh(sculptor_, command); }); break;
-    case Kind::stroke: strokes_.push_back(sculptor_.stroke()); break;
-    case Kind::end: end_stroke(command); break;
-    case Kind::undo: edit(command, [&] { return sculptor_.undo(); }); break;
-    case Kind::redo: edit(command, [&] { return sculptor_.redo(); }); break;
     case Kind::response: sculptor_.set_response(*response_named(command.word)); break;
-    default: sculptor_.release(); // release; mesh was checked before the first edit
+    default: break; // release; mesh was checked before the first edit
     }
   }
 
   static Kernel::Point_3 point(const Edit_record::Coordinates& p) { return {p[0], p[1], p[2]}; }
   static Edit_record::Coordinates coordinates(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-  void drag(const Command& command) {
-    const std::size_t index = command.indices[0];
-    const Vertex_index v = sculptor_.vertex(index);
-    if (!v.is_valid()) {
-      refuse(command, "unknown-element", {index});
-      return;
-    }
-    const Kernel::Point_3 start = mesh_.point(v);
+  void apply(const Command& command, const Edit& edit) {
+    const Vertex_index v = edit.kind == Edit_kind::move ? sculptor_.vertex(edit.vertices[0]) : Vertex_index();
+    const Kernel::Point_3 start = v.is_valid() ? mesh_.point(v) : Kernel::Point_3();
     const auto begin = Clock::now();
-    // A grab of the vertex already in hand would let go of it first.
-    if (!grab_ || grab_->vertex() != v || !held_)
-      grab_.emplace(sculptor_.grab(v));
-    held_ = true;
     try {
-      const Result done = grab_->drag_to(point(command.points[0]), way_);
-      finish(command, begin, done, coordinates(start), command.points[0], {index});
-      if (done.position != start)
-        moved_.insert(index);
+      const auto done = sculptor_.apply(edit);
+      if (!done)
+        refuse(command, done.refusal->reason, done.refusal->elements);
+      else if (done.drag)
+        tell_drag(command, begin, done, start);
+      else if (edit.kind != Edit_kind::stroke && edit.kind != Edit_kind::end)
+        tell_edit(command, begin, done);
     } catch (const Invalid_parameter& error) { // the scene has outgrown the clearance
-      refuse(command, clearance_of_no_use, {index}).detail = outgrown(error);
+      refuse(command, clearance_of_no_use, command.indices).detail = outgrown(error);
     }
   }
 
-  void insert_on_face(const Command& command) {
-    const auto f = sculptor_.face_of(command.indices[0], command.indices[1], command.indices[2]);
-    edit(command, [&] { return sculptor_.insert_on_face(f, point(command.points[0])); });
+  template <class Elements>
+  void refuse(const Command& command, Refusal_reason reason, const Elements& vertices) {
+    std::vector<std::size_t> elements;
+    for (const Vertex_index v : vertices)
+      elements.push_back(sculptor_.name(v));
+    const bool names_axis = command.kind == Kind::shift;
+    refuse(command, name_of(reason), elements.empty() && !names_axis ? command.indices : elements);
   }
 
-  void insert_on_edge(const Command& command) {
-    const auto e = sculptor_.edge_of(command.indices[0], command.indices[1]);
-    edit(command, [&] { return sculptor_.insert_on_edge(e, point(command.points[0])); });
+  void tell_drag(const Command& command, Clock::time_point begin, const Applied<Mesh>& done, const Kernel::Point_3& start) {
+    way_.assign(1, start);
+    if (done.edit.kind == Edit_kind::move) {
+      for (const auto& leg : done.edit.legs)
+        way_.push_back(point(leg));
+      way_.push_back(point(done.edit.point));
+      moved_.insert(command.indices[0]);
+    }
+    finish(command, begin, *done.drag, coordinates(start), command.points[0], command.indices);
   }
 
-  void remove(const Command& command) {
-    const Vertex_index v = sculptor_.vertex(command.indices[0]);
-    edit(command, [&] { return sculptor_.remove(v); });
-  }
-
-  void collapse(const Command& command) {
-    edit(command, [&] {
-      const auto e = sculptor_.edge_of(command.indices[0], command.indices[1]);
-      auto h = e.is_valid() ? mesh_.halfedge(e) : Mesh::Halfedge_index();
-      if (e.is_valid() && mesh_.source(h) != sculptor_.vertex(command.indices[0]))
-        h = mesh_.opposite(h);
-      return sculptor_.collapse(h);
-    });
-  }
-
-  void flip(const Command& command) {
-    edit(command, [&] { return sculptor_.flip(sculptor_.edge_of(command.indices[0], command.indices[1])); });
-  }
-
-  /// The innermost. Undo may have ended it already.
-  void end_stroke(const Command& command) {
-    if (strokes_.empty())
-      refuse(command, "no-stroke", {});
-    else
-      strokes_.pop_back();
-  }
-
-  template <class Edit>
-  void edit(const Command& command, const Edit& make) {
-    const auto begin = Clock::now();
-    const auto done = make();
-    if (!done) {
-      std::vector<std::size_t> elements;
-      for (const Vertex_index v : done.refusal->elements)
-        elements.push_back(sculptor_.name(v));
-      refuse(command, name_of(done.refusal->reason), elements.empty() ? command.indices : elements);
+  void tell_edit(const Command& command, Clock::time_point begin, const Applied<Mesh>& done) {
+    result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
+    ++result_.reached;
+    for (const auto& way : done.edit.ways)
+      moved_.insert(way.first);
+    if (command.kind == Kind::shift) {
+      record(command, Status::reached, nullptr, {});
       return;
     }
-    result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
     const std::size_t name = sculptor_.name(*done.vertex);
     const Edit_record::Coordinates p = coordinates(mesh_.point(*done.vertex));
     if (command.kind == Kind::insert_face || command.kind == Kind::insert_edge)
       moved_.insert(name);
-    ++result_.reached;
     const bool names_an_edge = command.kind == Kind::collapse || command.kind == Kind::flip;
     Edit_record& done_edit = record(command, Status::reached, nullptr, names_an_edge ? command.indices : std::vector{name});
     if (command.kind != Kind::flip) // which leaves every vertex where it is
@@ -188,7 +153,6 @@ private:
 
   template <class Edit>
   void many_vertices(const Command& command, const Edit& make) {
-    sculptor_.release();
     const auto begin = Clock::now();
     const Many_vertices_outcome done = make();
     if (done.refusal) {
@@ -221,7 +185,6 @@ private:
   static constexpr const char* clearance_of_no_use = "clearance-of-no-use";
 
   void clearance(const Command& command) {
-    sculptor_.release();
     if (command.word == "default") {
       sculptor_.set_default_clearance();
       return;
@@ -239,10 +202,8 @@ private:
   }
 
   void delta(const Command& command) {
-    if (command.length == sculptor_.options().delta_length) { // a log begins so; looking at all triangles again finds nothing
-      sculptor_.release();
+    if (command.length == sculptor_.options().delta_length) // a log begins so; looking at all triangles again finds nothing
       return;
-    }
     try {
       sculptor_.set_delta(command.length);
     } catch (const Invalid_surface& error) {
@@ -256,8 +217,6 @@ private:
     }
   }
 
-  std::optional<typename Sculptor<Mesh, Broad_phase>::Grab_type> grab_;
-  bool held_ = false;
   std::vector<Kernel::Point_3> way_; ///< of the last drag or probe
 
   template <class Ids = std::vector<std::size_t>>
@@ -294,7 +253,7 @@ private:
   }
 
   Edit_record& refuse(const Command& command, const char* reason, std::vector<std::size_t> elements) {
-    held_ = false;
+    sculptor_.release(); // the next drag begins anew
     ++result_.refused;
     return record(command, Status::refused, reason, std::move(elements));
   }

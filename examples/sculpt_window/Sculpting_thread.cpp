@@ -34,9 +34,9 @@ struct Sculpting_thread::Parts {
   std::uint64_t failures = 0;                   ///< that were told
   std::vector<Model*> models;                   ///< the loop's, in the order in which they are entered
 
-  bool ask(Command::Kind kind) {
+  bool ask(Command::Kind kind, Edit_kind edit = Edit_kind::none) {
     Command command;
-    command.kind = kind;
+    command.kind = kind, command.edit.kind = edit;
     return loop->desk.ask(command);
   }
   template <class Task, class Tell>
@@ -157,7 +157,7 @@ struct Sculpting_thread::Parts {
     }
     if (answer.done)
       return false;
-    report.text = (answer.kind == Command::Kind::undo ? "nothing is undone: " : "nothing is redone: ") +
+    report.text = (answer.edit == Edit_kind::undo ? "nothing is undone: " : "nothing is redone: ") +
                   std::string(name_of(answer.reason));
     return true;
   }
@@ -189,9 +189,9 @@ bool Sculpting_thread::ask(const Request& request) {
     return p.ask(std::make_shared<Choose_response>(request.response == 0 ? Response::slide : Response::stop),
                  Parts::tell_refusal);
   case Kind::undo:
-    return p.ask(Asked_kind::undo);
+    return p.ask(Asked_kind::edit, Edit_kind::undo);
   case Kind::redo:
-    return p.ask(Asked_kind::redo);
+    return p.ask(Asked_kind::edit, Edit_kind::redo);
   default:
     return p.ask(Asked_kind::let_go);
   }

@@ -53,10 +53,8 @@ protected:
       refusal += ' ' + std::to_string(scene.sculptor.name(v));
     return true;
   }
-  static Journal_entry entry(const Scene& scene, Journal_entry::Kind kind, Vertex_index a, Vertex_index b) {
-    Journal_entry wanted;
-    wanted.kind = kind, wanted.vertices = {scene.sculptor.name(a), scene.sculptor.name(b), 0};
-    return wanted;
+  static Edit edit_of(Edit_kind kind, const Scene& scene, Vertex_index a, Vertex_index b) {
+    return Edit::of(kind, {scene.sculptor.name(a), scene.sculptor.name(b), 0});
   }
 };
 
@@ -124,7 +122,7 @@ private:
       return refuse("there is nothing to take hold of: point at the surface");
     const Vertex_index nearest = nearest_corner(scene.mesh, *hit);
     if (which_ == Tool::remove)
-      return refuse_unless(tool.edit(entry(scene, Journal_entry::Kind::remove, nearest, nearest)), scene,
+      return refuse_unless(tool.edit(edit_of(Edit_kind::remove, scene, nearest, nearest)), scene,
                            "the vertex cannot be removed: ");
     if (which_ == Tool::drag) {
       tool.take(nearest);
@@ -165,15 +163,14 @@ private:
     return best;
   }
 
-  static Journal_entry creation(const Scene& scene, const Surface_hit<Mesh>& hit) {
+  static Edit creation(const Scene& scene, const Surface_hit<Mesh>& hit) {
     const Mesh& mesh = scene.mesh;
     const auto h = mesh.halfedge(hit.face);
-    Journal_entry wanted = internal::creation_at(
+    Edit wanted = internal::creation_at(
         scene.sculptor, {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))}, internal::vector_of(hit.point));
     if (hit.feature == Surface_feature::edge)
-      wanted.vertices = entry(scene, wanted.kind = Journal_entry::Kind::insert_on_edge, mesh.vertex(hit.edge, 0),
-                              mesh.vertex(hit.edge, 1))
-                            .vertices;
+      wanted.kind = Edit_kind::insert_on_edge,
+      wanted.vertices = {scene.sculptor.name(mesh.vertex(hit.edge, 0)), scene.sculptor.name(mesh.vertex(hit.edge, 1)), 0};
     return wanted;
   }
 };
@@ -192,8 +189,8 @@ private:
     const auto h = pointed_edge(scene);
     if (!h.is_valid())
       return refuse("there is no edge here: point at one, on the surface");
-    const auto kind = flips_ ? Journal_entry::Kind::flip : Journal_entry::Kind::collapse;
-    return refuse_unless(tool.edit(entry(scene, kind, scene.mesh.source(h), scene.mesh.target(h))), scene,
+    const auto kind = flips_ ? Edit_kind::flip : Edit_kind::collapse;
+    return refuse_unless(tool.edit(edit_of(kind, scene, scene.mesh.source(h), scene.mesh.target(h))), scene,
                          flips_ ? "the edge cannot be flipped: " : "the edge cannot be collapsed: ");
   }
 

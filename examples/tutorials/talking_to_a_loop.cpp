@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
     std::cout << "seen from above: a " << name_of(look.seen->feature) << " at " << look.seen->point << '\n';
 
   Loop_command<Scene> undo;
-  undo.kind = Loop_command<Scene>::Kind::undo;
+  undo.kind = Loop_command<Scene>::Kind::edit, undo.edit = Edit::of(Edit_kind::undo);
   desk.ask(undo);
   while (!desk.take(answer)) // done, or refused and why
     std::this_thread::yield();

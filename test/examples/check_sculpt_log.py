@@ -64,6 +64,44 @@ def edits_and_log(folder, mesh):
         check(bytes_of(cut) == complete[:length], "a log cut within its head is left as it is")
 
 
+SHIFTS = ("drag 3 0.1 0.1 2\nshift 2 3\n0 -1\n1 -0.5 # a comment\n2 -0x1p-1\nend\nstroke\nshift 0 2\n3 0.5\n1 1.25\nend\nend\n"
+          "shift 2 1\n3 -5\nend\nundo\nredo\nshift 1 0\nend\nshift 1 1\n17 0\nend\ndrag 2 0 1.5 -0.5\n")
+
+
+def shifts(folder, mesh):
+    """Many vertices at once, over several lines: in a log whole or not at all."""
+    log, report, script = f"{folder}/shifts.log", f"{folder}/shifts.json", write(f"{folder}/shifts.script", SHIFTS)
+    whole, again = f"{folder}/shifted.off", f"{folder}/shifted again.off"
+    done = run(mesh, "-o", whole, "--log", log, "--report", report, "--script", script)
+    check(done.returncode == 0, f"shifts: {done.stderr}")
+    check(points(whole) == [(0, 0, -1), (1.25, 0, -0.5), (0, 1.5, -0.5), (0.5, 0.1, 2)], f"where they went: {points(whole)}")
+    told = [(e["op"], e["status"], e["reason"], e["line"]) for e in json.load(open(report))["edits"]]
+    check([t for t in told if t[0] == "shift"] == [("shift", "reached", None, 2), ("shift", "reached", None, 8), ("shift", "refused", "blocked", 13),
+          ("shift", "reached", None, 18), ("shift", "refused", "unknown-element", 20)], f"what is told: {told}")
+    complete, expected = bytes_of(log), bytes_of(whole)
+    check(run(mesh, "--script", log, "-o", again).returncode == 0 and bytes_of(again) == expected, "a log with shifts is a script")
+    lines = complete.splitlines(keepends=True)
+    head = sum(map(len, lines[:HEAD]))
+    for length in range(head, len(complete), 11):
+        cut = write(f"{folder}/cut.log", complete[:length])
+        kept, begin, left = lines[:complete[:length].count(b"\n")], None, 0
+        for i, line in enumerate(kept):
+            if begin is not None:
+                left -= 1
+                begin = begin if left else None
+            elif words(line)[:1] == [b"shift"]:
+                begin, left = i, int(words(line)[2]) + 1
+        kept = b"".join(kept[:begin])
+        check(run(mesh, "-o", again, "--log", cut).returncode == 0 and bytes_of(cut) == kept, f"cut at {length}: what is left of a shift is dropped")
+        done = run(mesh, "-o", again, "--log", cut, "--script", script)
+        check(done.returncode == 0 and bytes_of(again) == expected, f"cut at {length} goes on to another mesh: {done.stderr}")
+        check(bytes_of(cut) == complete, f"cut at {length}: the log ends otherwise than without the break")
+    for text, line, column, part in (("shift 3 1\n0 0\nend\n", 1, 7, "the axis must be"), ("shift 0 2\n0 0\nend\n", 3, 1, "'end'"),
+                                     ("shift 0 1\n0 0\n1 0\nend\n", 3, 1, "has to end"), ("drag 0 0 0 0\nshift 0 1\n0 0\n", 2, 1, "no `end`"),
+                                     ("shift 0 1\n0 inf\nend\n", 2, 3, "finite"), ("shift 0 1\n0 0 0\nend\n", 2, 5, "more than")):
+        fails(4, [f"line {line}, column {column}", part], run(mesh, "--script", "/dev/stdin", script=text), f"shift: {text!r}")
+
+
 def settings(folder, mesh):
     script, log = write(f"{folder}/s.script", "drag 3 0.2 0.3 -1\ndrag 3 0.5 0.2 -0.5\n"), f"{folder}/settings.log"
     out, again = f"{folder}/s.off", f"{folder}/t.off"
@@ -328,7 +366,7 @@ def full_disk(folder, mesh):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
-        for part in (edits_and_log, settings, rerun, strokes, no_logs, changed_logs, first_format, two_processes, places, full_disk):
+        for part in (edits_and_log, shifts, settings, rerun, strokes, no_logs, changed_logs, first_format, two_processes, places, full_disk):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             start = time.monotonic()

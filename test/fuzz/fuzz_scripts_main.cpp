@@ -135,7 +135,7 @@ private:
   std::string point() { return ' ' + number() + ' ' + number() + ' ' + number(); }
 
   std::string line() {
-    switch (below(20)) {
+    switch (below(21)) {
     case 0:
       return "insert_face " + index() + ' ' + index() + ' ' + index() + point();
     case 1:
@@ -164,6 +164,14 @@ private:
       return "flip " + index() + ' ' + index();
     case 13:
       return below(2) ? "stroke" : "end";
+    case 14: {
+      std::string shift = "shift " + std::to_string(below(3)) + ' ';
+      const std::size_t vertices = below(4);
+      shift += std::to_string(vertices) + '\n';
+      for (std::size_t k = 0; k < vertices; ++k)
+        shift += std::to_string(below(6)) + ' ' + number() + '\n';
+      return shift + "end";
+    }
     default:
       return "drag " + index() + point();
     }

@@ -24,14 +24,9 @@ struct Bench {
   Tool_step move(const Vector3d& hand) { return tool.move(map_of_tests.to_device(hand), 0); }
   bool is_made_again() {
     Entries entries;
-    for (Journal_entry entry; journal.take(entry);)
+    for (Edit entry; journal.take(entry);)
       entries.push_back(entry);
     return made_again(ball, entries) == surface_of(*scene);
-  }
-  Journal_entry entry(Journal_entry::Kind kind, std::size_t a, std::size_t b = 0) const {
-    Journal_entry wanted;
-    wanted.kind = kind, wanted.vertices = {a, b, 0};
-    return wanted;
   }
 };
 
@@ -59,7 +54,7 @@ BOOST_AUTO_TEST_CASE(a_vertex_that_is_taken_is_anchored_where_it_is_and_held_in_
   BOOST_TEST(!bench.tool.holds_vertex());
   BOOST_TEST(bench.scene->sculptor.history().number_of_undo_steps() == 1u);
   BOOST_TEST(bench.is_made_again());
-  BOOST_TEST(static_cast<bool>(bench.tool.edit(bench.entry(Journal_entry::Kind::undo, 0))));
+  BOOST_TEST(static_cast<bool>(bench.tool.edit(Edit::of(Edit_kind::undo, {0, 0, 0}))));
   BOOST_TEST((bench.place(v) == before));
 }
 
@@ -98,7 +93,7 @@ BOOST_AUTO_TEST_CASE(a_probe_goes_on_after_edits_where_it_was_or_else_at_the_han
     bench.move(out - 0.01 * k * home); // pressed against the vertex, or beside it
   const auto probe = [&bench] { return internal::vector_of(bench.tool.probe()->position()); };
   const Vector3d pressed = probe();
-  BOOST_REQUIRE(static_cast<bool>(bench.tool.edit(bench.entry(Journal_entry::Kind::remove, 90)))); // far from it
+  BOOST_REQUIRE(static_cast<bool>(bench.tool.edit(Edit::of(Edit_kind::remove, {90, 0, 0})))); // far from it
   BOOST_TEST(!*bench.tool.probe());
   BOOST_TEST((bench.move(0.4 * home).end == Drag_end::reached)); // anchored where it is
   BOOST_REQUIRE((bench.tool.holds_probe() && bool(*bench.tool.probe())));
@@ -120,6 +115,23 @@ BOOST_AUTO_TEST_CASE(a_probe_goes_on_after_edits_where_it_was_or_else_at_the_han
   BOOST_TEST((bench.tool.holds_probe() && (probe() - bench.place(v) - home).norm() <= 1e-12));
 }
 
+BOOST_AUTO_TEST_CASE(moves_by_value_are_told_as_their_legs) {
+  Bench bench;
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::size_t slides = 0;
+  for (int k = 0; k < 100; ++k) { // through the ball, most of them
+    const Edit wanted = Edit::of(Edit_kind::move, {random() % 160, 0, 0}, {number(random), number(random), number(random)});
+    const auto made = bench.tool.edit(wanted);
+    slides += !made.edit.legs.empty();
+  }
+  BOOST_TEST(slides >= 20u);
+  const std::size_t steps = bench.scene->sculptor.history().number_of_undo_steps();
+  for (std::size_t k = 0; k < steps; k += 2)
+    BOOST_TEST(bool(bench.tool.edit(Edit::of(Edit_kind::undo)))); // as many steps again
+  BOOST_TEST(bench.is_made_again());
+}
+
 BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_says) {
   std::mt19937_64 random(5);
   for (const bool carries : {true, false}) {
@@ -137,13 +149,13 @@ BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_
       const std::size_t a = sculptor.name(mesh.source(h)), b = sculptor.name(mesh.target(h));
       switch (random() % 4) {
       case 0:
-        done[0] += static_cast<bool>(bench.tool.edit(bench.entry(Journal_entry::Kind::flip, a, b)));
+        done[0] += static_cast<bool>(bench.tool.edit(Edit::of(Edit_kind::flip, {a, b, 0})));
         break;
       case 1:
-        done[1] += static_cast<bool>(bench.tool.edit(bench.entry(Journal_entry::Kind::collapse, a, b)));
+        done[1] += static_cast<bool>(bench.tool.edit(Edit::of(Edit_kind::collapse, {a, b, 0})));
         break;
       case 2: {
-        Journal_entry wanted = internal::creation_at(
+        Edit wanted = internal::creation_at(
             sculptor, {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))},
             (bench.place(mesh.source(h)) + bench.place(mesh.target(h)) + bench.place(mesh.target(mesh.next(h)))) / 3);
         const auto made = bench.tool.create_and_take(wanted);

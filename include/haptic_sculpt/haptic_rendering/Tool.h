@@ -25,7 +25,7 @@ public:
   using Point = typename Mesh::Point;               ///< in the scene
   using Grab_type = typename Sculptor::Grab_type;   ///< what holds the vertex
   using Probe_type = typename Sculptor::Probe_type; ///< what touches while no vertex is held
-  using Edited = typename Sculptor::Edited;         ///< what an edit gives
+  using Edited = Applied<Mesh>;                     ///< what an edit gives
   using Result = typename Sculptor::Result;         ///< what a drag gives
 
   /// In free motion the offset of the target fades with this time, s.
@@ -86,7 +86,7 @@ public:
     hold(v);
   }
   /// Makes a creation and takes the vertex, both in one stroke. \pre its kind is one of the creations
-  Edited create_and_take(const Journal_entry& wanted) {
+  Edited create_and_take(const Edit& wanted) {
     const internal::Rounding_to_nearest rounding;
     let_go();
     auto made = mesh_edits_.make_in_stroke(wanted);
@@ -101,9 +101,8 @@ public:
     drop_probe();
     return put_probe(place);
   }
-  /// Does an edit: an undo or redo, a creation, removal, collapse or flip.
-  /// \param wanted with `Sculptor::name()`s \pre its kind is one of these
-  Edited edit(const Journal_entry& wanted) {
+  /// Does an edit. \pre it is no stroke and no end
+  Edited edit(const Edit& wanted) {
     const internal::Rounding_to_nearest rounding;
     let_go();
     return mesh_edits_.make(wanted);
@@ -248,12 +247,12 @@ private:
     }
     if (!touched_ || !*probe_)
       return Tool_event::refused;
-    const Journal_entry wanted = internal::creation_at(*sculptor_, *touched_, aim(hand));
+    const Edit wanted = internal::creation_at(*sculptor_, *touched_, aim(hand));
     const auto made = mesh_edits_.make_in_stroke(wanted);
     if (!made)
       return Tool_event::refused;
     hold(*made.vertex);
-    return wanted.kind == Journal_entry::Kind::insert_on_edge ? Tool_event::created_on_edge
+    return wanted.kind == Edit_kind::insert_on_edge ? Tool_event::created_on_edge
                                                               : Tool_event::created_on_face;
   }
 
@@ -308,10 +307,7 @@ private:
     const Eigen::Vector3d place = place_of(v), away = internal::vertex_normal(sculptor_->mesh(), v);
     const bool was_held = grab_.has_value();
     grab_.reset();
-    Journal_entry wanted;
-    wanted.kind = Journal_entry::Kind::remove;
-    wanted.vertices = {sculptor_->name(v), 0, 0};
-    const auto made = mesh_edits_.make(wanted);
+    const auto made = mesh_edits_.make(Edit::of(Edit_kind::remove, {sculptor_->name(v), 0, 0}));
     mesh_edits_.end_stroke();
     if (was_held)
       put_probe_near(place, away, hand);

@@ -3,7 +3,6 @@
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_FINDING_AND_PLACING_H
 
 #include <haptic_sculpt/collision/arithmetic/unit_of.h>
-#include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
 #include <haptic_sculpt/sculpting.h>
 
 #include <Eigen/Core>
@@ -51,12 +50,10 @@ constexpr double edge_share = 0.05;
 
 /// A creation at p on the face of three corners, or on an edge of it that is near.
 template <class Sculptor>
-Journal_entry creation_at(const Sculptor& sculptor, const std::array<typename Sculptor::Vertex_index, 3>& face,
+Edit creation_at(const Sculptor& sculptor, const std::array<typename Sculptor::Vertex_index, 3>& face,
                           const Eigen::Vector3d& p) {
-  Journal_entry wanted;
-  wanted.kind = Journal_entry::Kind::insert_on_face;
-  wanted.vertices = {sculptor.name(face[0]), sculptor.name(face[1]), sculptor.name(face[2])};
-  wanted.point = {p[0], p[1], p[2]};
+  Edit wanted = Edit::of(Edit_kind::insert_on_face,
+                         {sculptor.name(face[0]), sculptor.name(face[1]), sculptor.name(face[2])}, {p[0], p[1], p[2]});
   const auto place_of = [&](int i) { return vector_of(sculptor.mesh().point(face[i])); };
   const Eigen::Vector3d corners[3] = {place_of(0), place_of(1), place_of(2)};
   // Products of four lengths: in a unit of the face's own.
@@ -67,7 +64,7 @@ Journal_entry creation_at(const Sculptor& sculptor, const std::array<typename Sc
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
     if (way(a, b).cross(way(a, p)).dot(normal) < edge_share * normal.squaredNorm()) {
-      wanted.kind = Journal_entry::Kind::insert_on_edge;
+      wanted.kind = Edit_kind::insert_on_edge;
       wanted.vertices = {wanted.vertices[(i + 1) % 3], wanted.vertices[(i + 2) % 3], 0};
       break;
     }

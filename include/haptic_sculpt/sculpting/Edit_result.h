@@ -21,15 +21,16 @@ enum class Refusal_reason : std::uint8_t {
   blocked,           ///< the new surface would touch or cross another part, or jump over it
   nothing_to_undo,
   nothing_to_redo,
-  too_near, ///< a probe would be nearer to a face than the clearance, or on it
+  no_stroke, ///< there is none to be ended
+  too_near,  ///< a probe would be nearer to a face than the clearance, or on it
   inside    ///< a probe would be inside of a solid; no vertices are named
 };
 
 /// The name used in reports, e.g. "coincident-vertex".
 inline const char* name_of(Refusal_reason reason) {
   constexpr const char* names[] = {"unknown-element", "coincident-vertex", "tetrahedron",     "doubled-edge",   "delta",
-                                   "blocked",         "nothing-to-undo",   "nothing-to-redo", "too-near",
-                                   "inside"};
+                                   "blocked",         "nothing-to-undo",   "nothing-to-redo", "no-stroke",
+                                   "too-near",        "inside"};
   return names[static_cast<int>(reason)];
 }
 

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 #define HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
 
+#include <haptic_sculpt/sculpting/Applied.h>
 #include <haptic_sculpt/sculpting/Grab.h>
 #include <haptic_sculpt/sculpting/Probe.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
@@ -88,14 +89,13 @@ public:
     return Grab_type(*this, name(v));
   }
 
-  /// Whether vertices are dragged once each, as a rule: then each drag looks up what is near for itself alone, with no room for
-  /// further drags, and only the points of the star are compared with where they were left. Off at first. No result depends on it.
+  /// Whether vertices are dragged once each: then a drag looks up what is near for itself alone, and only the points of the star are
+  /// compared with where they were left. Off at first. No result depends on it.
   void expect_single_drags(bool on) { guarded_.expect_single_drags(on); }
   bool expects_single_drags() const { return guarded_.expects_single_drags(); } ///< what expect_single_drags() was told last
 
-  /// Moves v straight to `target` if nothing is touched on the way and the delta rule is kept; else it stays where it is. For
-  /// callers that would rather try a shorter way than have the vertex stopped in front of what is in the way. A step of the history.
-  /// Returns whether it is at the target. \throw Unknown_vertex, Out_of_range, Mesh_changed. Cost: that of a drag.
+  /// Moves v straight to `target` if nothing is touched on the way and the delta rule is kept; else it stays where it is. A step of
+  /// the history. Returns whether it is at the target. \throw Unknown_vertex, Out_of_range, Mesh_changed. Cost: that of a drag.
   bool move_if_free(Vertex_index v, const Point& target) { return guarded_.move_if_free(v, target); }
 
   /// What v would touch first on its straight way to `target`, as the free function first_impact() tells, at the cost of a drag.
@@ -169,14 +169,17 @@ public:
     return edited(e, mesh().num_edges(), [&](auto& editor) { return editor.flip(mesh().halfedge(e), delta()); });
   }
 
-  /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one that is
-  /// given again. Done where the surface stays embedded, and the delta rule kept, at every time of the motion;
-  /// decided exactly, whatever the traits (doc/axis_moves.md). Else refused, with the vertices of a place that is in the way, and nothing has
-  /// changed. One change of the history; the visitor hears of the moves when all stand. \param axis 0, 1 or 2
+  /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one given again. Done
+  /// where the surface stays embedded, and the delta rule kept, at every time; decided exactly, whatever the traits
+  /// (doc/axis_moves.md). Else refused, with the vertices of a place that is in the way. One change of the history. \param axis 0 to 2
   /// \post Nothing has died. \throw Unknown_vertex, Out_of_range. Cost: n log n in what moves and is near
   Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
     return internal::shift_all(guarded_, axis, ways);
   }
+
+  /// Does an edit given by value, and gives it back as it can be done again. Strokes begun by one are ended by another; moves of one
+  /// vertex that follow each other are one grab. \throw as the functions that the kinds are named after
+  Applied<Mesh_type> apply(const Edit& edit) { return applier_.apply(*this, edit); }
 
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as the history
   /// keeps. Ends the stroke under way first. A new change clears what could be redone. Restores what was, whatever delta is now.
@@ -197,19 +200,16 @@ public:
   void set_history_limit(const History_limit& limit) { guarded_.whole_editor().history().set_limit(limit); }
 
   /// Makes room, in the mesh too: after it so many edits (flips, collapses, creations, removals) and so many moves allocate nothing,
-  /// nor do undo and redo, as long as no vertex has more than 28 neighbours, no star has more than 512 faces about it, and no
-  /// decision takes rational numbers; with the Box_tree_broad_phase. A slide's own lists are warm after a few drags. Cost: linear
-  /// in the mesh.
+  /// nor do undo and redo, as long as no vertex has more than 28 neighbours, no star more than 512 faces about it, and no decision
+  /// takes rational numbers; with the Box_tree_broad_phase. A slide's lists are warm after a few drags. Cost: linear in the mesh.
   void reserve(std::size_t edits, std::size_t moves) { guarded_.reserve(edits, moves); }
   ///@}
 
   /// Keeps the values of a property map from now on: what undo and redo revive has its values again, and what edits
   /// create gets a value made of those of the elements it comes from (doc/properties.md); where it comes from none, the
   /// mesh's default.
-  ///
   /// \param map a model of `ReadWritePropertyMap`, copied; its keys are vertices, halfedges, edges or faces of the mesh
   /// \param carry `value carry(const Property_origin<value>&)`: Copy_property, Interpolate_property, or your own
-  ///
   /// What the functions of the map and `carry` throw goes on to the caller of the edit, which stands; where a value
   /// cannot be copied before the edit, the edit is not made. Cost: while a map is kept, an edit looks up its names, n log
   /// n in the valence; the history keeps the values of what dies, which `history().bytes()` does not count.
@@ -228,9 +228,11 @@ public:
   std::size_t number_of_names() const { return guarded_.whole_editor().names().size(); }
   /// The face of three corners, by number and in any order; the null index where there is none.
   Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return guarded_.whole_editor().face_of(a, b, c); }
+  /// From a to b, by number; the null index where there is none.
+  Halfedge_index halfedge_of(std::size_t a, std::size_t b) const { return guarded_.whole_editor().halfedge_of(a, b); }
   /// The edge between two vertices, by number; the null index where there is none.
   Edge_index edge_of(std::size_t a, std::size_t b) const {
-    const auto h = guarded_.whole_editor().halfedge_of(a, b);
+    const Halfedge_index h = halfedge_of(a, b);
     return h.is_valid() ? mesh().edge(h) : Edge_index();
   }
   ///@}
@@ -249,8 +251,7 @@ public:
     return internal::Clearance_rule(options().clearance_length).at(internal::largest_magnitude(internal::coordinates(p)));
   }
 
-  /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene as it is (Sculptor_parameters), and
-  /// nothing changes. Cost: reads every point.
+  /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene (Sculptor_parameters). Cost: reads every point.
   void set_clearance(double length) {
     const internal::Rounding_to_nearest rounding;
     guarded_.check_is_whole();
@@ -264,8 +265,7 @@ public:
   void set_default_clearance() { guarded_.settings().clearance_length.reset(); }
 
   /// Of drags and edits from here on; undo and redo restore what was, and altitudes that are lower then may only grow (doc/stop.md).
-  /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already, and nothing changes. Cost: that
-  /// of validate().
+  /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already. Cost: that of validate().
   void set_delta(double length) {
     const internal::Rounding_to_nearest rounding;
     release();
@@ -286,8 +286,7 @@ public:
   /// \throw Mesh_changed if anything was changed by others, points or connectivity. Cost: reads all of the mesh.
   void check_unchanged() const { guarded_.check_unchanged(); }
 
-  /// Bytes held that grow with the mesh, capacity included: the broad phase, the corners of the faces, the copy of the points, the
-  /// numbers of the vertices. Not the mesh itself, nor the history.
+  /// Bytes held that grow with the mesh, capacity included. Not the mesh itself, nor the history.
   std::size_t memory() const { return guarded_.memory(); }
 
 private:
@@ -300,6 +299,7 @@ private:
 
   internal::Guarded_mesh<Mesh_type, Broad_phase, Visitor, Traits> guarded_;
   Grab_type* holder_ = nullptr; ///< the Grab that has the hand
+  internal::Edit_applier<Sculptor, Mesh_type> applier_;
 
   double delta() const { return options().delta_length; }
 

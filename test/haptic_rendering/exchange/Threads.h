@@ -11,7 +11,7 @@ namespace exchange_tests {
 
 using Loop = Pose_loop<Scene::Sculptor_type>;
 using Session = Loop_session<Loop, Scene>;
-using Entries = std::vector<Journal_entry>;
+using Entries = std::vector<Edit>;
 
 /// A loop, a window and a writer, each with a thread.
 struct Threads {
@@ -45,11 +45,11 @@ struct Threads {
       has_ended = true;
     });
     std::thread writer([&] {
-      Journal_entry entry;
+      Edit entry;
       for (bool was_ended = false; keeps_journal;) {
         while (journal.take(entry)) {
           entries.push_back(entry);
-          journal.wrote(entry.kind == Journal_entry::Kind::tick);
+          journal.wrote(entry.kind == Edit_kind::none);
         }
         if (was_ended)
           break;

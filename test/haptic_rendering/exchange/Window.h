@@ -36,24 +36,26 @@ public:
   void ask_for_something() {
     Command command;
     const auto vertex = random_() % 160;
-    using Kind = Command::Kind;
-    constexpr Kind kinds[] = {Kind::undo,   Kind::redo, Kind::remove, Kind::insert_on_face,
-                              Kind::let_go, Kind::undo, Kind::flip,   Kind::collapse};
-    command.kind = kinds[random_() % 8];
-    command.vertices = {vertex, vertex + 1, vertex + 2};
-    if ((command.kind == Kind::flip || command.kind == Kind::collapse) && shown) {
+    using Kind = Edit_kind;
+    constexpr Kind kinds[] = {Kind::undo, Kind::redo, Kind::remove, Kind::insert_on_face,
+                              Kind::none, Kind::undo, Kind::flip,   Kind::collapse};
+    Edit& edit = command.edit;
+    edit = Edit::of(kinds[random_() % 8], {vertex, vertex + 1, vertex + 2});
+    if (edit.kind != Kind::none) // lets go
+      command.kind = Command::Kind::edit;
+    if ((edit.kind == Kind::flip || edit.kind == Kind::collapse) && shown) {
       const auto& f = shown->faces[random_() % 200];
       if (f[0] != Scene_copy::no_corner)
-        command.vertices = {shown->names[f[0]], shown->names[f[1]], 0};
+        edit.vertices = {shown->names[f[0]], shown->names[f[1]], 0};
     }
-    if (command.kind == Kind::insert_on_face && shown) { // on a face that is seen; maybe it is gone by then
+    if (edit.kind == Kind::insert_on_face && shown) { // on a face that is seen; maybe it is gone by then
       const auto& f = shown->faces[random_() % 200];
       if (f[0] == Scene_copy::no_corner)
         return;
       for (int i = 0; i < 3; ++i) {
-        command.vertices[i] = shown->names[f[i]];
+        edit.vertices[i] = shown->names[f[i]];
         for (int k = 0; k < 3; ++k)
-          command.point[k] += shown->points[f[i]][k] / 3;
+          edit.point[k] += shown->points[f[i]][k] / 3;
       }
     }
     desk_.ask(command);

@@ -8,15 +8,15 @@
 
 namespace exchange_tests {
 
-using Entries = std::vector<Journal_entry>;
+using Entries = std::vector<Edit>;
 
 /// What a journal says, made again by other means: no tool, no slide, each leg by itself.
 inline Surface made_again(Mesh mesh, const Entries& entries) {
   Sculptor<Mesh> sculptor(mesh, parameters::response(Response::stop));
   std::vector<Sculptor<Mesh>::Stroke_type> strokes;
   std::size_t failed = 0;
-  for (const Journal_entry& e : entries) {
-    using Kind = Journal_entry::Kind;
+  for (const Edit& e : entries) {
+    using Kind = Edit_kind;
     const Mesh::Point p(e.point[0], e.point[1], e.point[2]);
     const auto& v = e.vertices;
     switch (e.kind) {
@@ -53,8 +53,10 @@ inline Surface made_again(Mesh mesh, const Entries& entries) {
     case Kind::end:
       strokes.pop_back();
       break;
-    case Kind::tick:
+    case Kind::none: // the end of a tick
       break;
+    case Kind::shift:
+      ++failed;
     }
   }
   BOOST_TEST(failed == 0u);

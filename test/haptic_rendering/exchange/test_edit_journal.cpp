@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(a_removal_where_a_probe_stands_is_told_as_the_collapse_that
     kept += tool.holds_probe() && bool(*tool.probe()); // placed again, where it was or at the hand
     Entries entries(1);
     BOOST_TEST(journal.take(entries[0]));
-    BOOST_TEST((entries[0].kind == Journal_entry::Kind::collapse));
+    BOOST_TEST((entries[0].kind == Edit_kind::collapse));
     Mesh alone = mesh;
     Sculptor<Mesh> sculptor(alone);
     const auto made = sculptor.remove(sculptor.vertex(entries[0].vertices[0]));
@@ -57,8 +57,8 @@ BOOST_AUTO_TEST_CASE(a_removal_where_a_probe_stands_is_told_as_the_collapse_that
 }
 
 BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_tick) {
-  Journal_entry move, taken;
-  move.kind = Journal_entry::Kind::move;
+  Edit move, taken;
+  move.kind = Edit_kind::move;
   { // too old: a tick waits, and nothing else happens
     Edit_journal journal(100);
     journal.add(move);
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_
     std::uint64_t whole = 0, rest = 0;
     while (journal.take(taken)) {
       ++rest;
-      if (taken.kind == Journal_entry::Kind::tick) {
+      if (taken.kind == Edit_kind::none) {
         BOOST_TEST(taken.vertices[0] == whole);
         ++whole, rest = 0;
       }
@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_
       journal.add(move);
       journal.end_tick(tick);
       while (tick % 90 == 0 && journal.take(taken))
-        journal.wrote(taken.kind == Journal_entry::Kind::tick);
+        journal.wrote(taken.kind == Edit_kind::none);
     }
     BOOST_TEST(!journal.has_overrun());
     BOOST_TEST(journal.lost() == 0u);

@@ -102,12 +102,12 @@ BOOST_AUTO_TEST_CASE(another_scene_is_entered_once_no_task_is_under_way_and_with
   BOOST_TEST((d.answers() == Tickets{3, 4, 5}));
   BOOST_TEST((two.seen == d.scene.get() && later.seen == d.other.get()));
   BOOST_TEST(d.session.journal() == &d.journal_of_other);
-  Journal_entry entry, last_edit;
+  Edit entry, last_edit;
   while (d.journal.take(entry))
-    if (entry.kind != Journal_entry::Kind::tick)
+    if (entry.kind != Edit_kind::none)
       last_edit = entry;
-  BOOST_TEST((last_edit.kind == Journal_entry::Kind::end)); // what was held in the old scene, ends there
-  BOOST_TEST((entry.kind == Journal_entry::Kind::tick));
+  BOOST_TEST((last_edit.kind == Edit_kind::end)); // what was held in the old scene, ends there
+  BOOST_TEST((entry.kind == Edit_kind::none));
   BOOST_TEST(!d.journal_of_other.take(entry));
 }
 
@@ -151,12 +151,12 @@ BOOST_AUTO_TEST_CASE(what_throws_is_answered_with_its_reason_and_the_desk_and_th
   const auto face = *d.scene->mesh.faces().begin();
   const auto probe_before = d.loop.tool().probe()->position();
   for (const double x : {std::nan(""), 1e305, -std::numeric_limits<double>::infinity()})
-    for (const auto kind : {Command::Kind::insert_on_face, Command::Kind::insert_on_edge}) {
+    for (const auto kind : {Edit_kind::insert_on_face, Edit_kind::insert_on_edge}) {
       Command command;
-      command.kind = kind, command.ticket = 5, command.point = {x, 0, 0};
+      command.kind = Command::Kind::edit, command.ticket = 5, command.edit = Edit::of(kind, {}, {x, 0, 0});
       int i = 0;
       for (const auto v : d.scene->mesh.vertices_around_face(d.scene->mesh.halfedge(face)))
-        command.vertices[static_cast<std::size_t>(i++)] = d.scene->sculptor.name(v);
+        command.edit.vertices[static_cast<std::size_t>(i++)] = d.scene->sculptor.name(v);
       BOOST_TEST(d.desk.ask(command));
       const Haptic_tick& made = d.session.tick(reading_at(0));
       BOOST_TEST((d.answers() == Tickets{5}));

@@ -55,7 +55,7 @@ Refusal_reason expected_reason(Flip_obstacle obstacle) {
   }
 }
 
-struct Tally {
+struct Flip_tally {
   std::map<Flip_obstacle, std::size_t> verdicts;
   std::size_t asked = 0, wrong = 0, wrong_reason = 0, not_restored = 0, invalid = 0, differs_from_composition = 0;
 
@@ -79,7 +79,7 @@ struct Tally {
 };
 
 /// Flips, compares, and takes it back. \return whether it was done
-bool flip_and_back(Sculptor<Mesh>& sculptor, Edge_index e, Flip_obstacle obstacle, Tally& tally) {
+bool flip_and_back(Sculptor<Mesh>& sculptor, Edge_index e, Flip_obstacle obstacle, Flip_tally& tally) {
   ++tally.asked;
   ++tally.verdicts[obstacle];
   const Mesh& mesh = sculptor.mesh();
@@ -127,7 +127,7 @@ std::vector<std::array<Vertex_index, 2>> edges_of(const Mesh& mesh) {
 }
 
 /// Every edge of a mesh whose vertices have even integer coordinates.
-void check_edges(const meshes::Triangle_list& list, double delta, bool by_composition, Tally& tally) {
+void check_edges(const meshes::Triangle_list& list, double delta, bool by_composition, Flip_tally& tally) {
   Mesh mesh = meshes::to_mesh(list);
   Sculptor<Mesh> sculptor(mesh, parameters::delta(delta));
   constexpr int unit = 8;
@@ -187,7 +187,7 @@ meshes::Triangle_list grid_scene(Random& random) {
 BOOST_AUTO_TEST_CASE(flips_agree_with_an_independent_decision_on_grids) {
   Random random(seed_from_environment(41));
   const std::size_t edges = count_from_environment("HAPTIC_SCULPT_FLIPS", 12000);
-  Tally tally;
+  Flip_tally tally;
   for (std::size_t scene = 0; tally.asked < edges; ++scene) {
     const meshes::Triangle_list list = grid_scene(random);
     const double delta = scene % 2 == 0 && validate(meshes::to_mesh(list), 1.25).is_valid() ? 1.25 : 0;
@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(flips_agree_with_an_independent_decision_on_meshes) {
       points.push_back(vertex_coordinates(mesh, v));
     const Exact_mesh<mpz_class> exact(mesh, oracle::scaled_to_integers(points));
     const Mesh_snapshot before = snapshot(sculptor);
-    Tally tally;
+    Flip_tally tally;
     std::size_t composed = 0, wrongly_composed = 0;
     std::vector<double> times;
     const std::size_t step = std::max<std::size_t>(1, mesh.num_edges() / most);

@@ -86,6 +86,29 @@ inline std::vector<Public_function> sculptor_functions() {
                    outcome.number(bool(sculptor.probe(scene.at(0, 0, 0), Probe_start::anywhere)));
                    outcome.mesh(scene.mesh);
                  }});
+  all.push_back({"Sculptor::apply Sculptor::halfedge_of", [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   const auto told = [&](const Edit& edit) {
+                     const auto done = sculptor.apply(edit);
+                     outcome.edit(done);
+                     if (done.drag)
+                       outcome.drag(*done.drag);
+                     for (const auto& leg : done.edit.legs)
+                       outcome.point(Point_3(leg[0], leg[1], leg[2]));
+                   };
+                   for (const std::size_t v : {0, 7, 20}) {
+                     const Point_3 p = scene.beyond(Scaled_scene::vertex(v), -1.5);
+                     told(Edit::of(Edit_kind::move, {v, 0, 0}, {p.x(), p.y(), p.z()}));
+                     told(Edit::of(Edit_kind::remove, {v + 1, 0, 0}));
+                   }
+                   Edit shift = Edit::of(Edit_kind::shift);
+                   for (const std::size_t v : {3, 4, 5})
+                     shift.ways.emplace_back(v, scene.length(0.125 * static_cast<double>(v)));
+                   told(shift);
+                   outcome.number(sculptor.halfedge_of(2, 3).is_valid());
+                   outcome.mesh(scene.mesh);
+                 }});
   all.push_back({"Sculptor::insert_on_face Sculptor::insert_on_edge Sculptor::remove Sculptor::collapse Sculptor::flip Sculptor::undo "
                  "Sculptor::redo Sculptor::reserve Sculptor::keep",
                  [](double unit, Outcome& outcome) {

@@ -2,41 +2,17 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_EDIT_JOURNAL_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_EDIT_JOURNAL_H
 
+#include <haptic_sculpt/sculpting/Edit.h>
+
 #include <boost/lockfree/spsc_queue.hpp>
 
-#include <array>
 #include <atomic>
-#include <cstdint>
-#include <vector>
 
 namespace haptic_sculpt {
 
-/// What was done to a sculpture, by value. Made again one after the other, each entry is certain to succeed: a move is
-/// one straight leg that was proven free, and a removal is the collapse that it was; so no contact and no bound on work
-/// plays a role in it.
-struct Journal_entry {
-  /// What was done. A move is that of the first of `vertices`, a collapse draws the first into the second, a flip is of
-  /// the edge between them; `stroke` and `end` are about what is one step of undo; `tick` ends the entries of a tick.
-  enum class Kind : std::uint8_t {
-    move,
-    insert_on_face,
-    insert_on_edge,
-    remove,
-    collapse,
-    flip,
-    undo,
-    redo,
-    stroke,
-    end,
-    tick
-  };
-  Kind kind = Kind::tick;                  ///< which of the members below count
-  std::array<std::uint64_t, 3> vertices{}; ///< `Sculptor::name()`s; of a tick: its number
-  std::array<double, 3> point{};           ///< in the scene: where a move leads, or a vertex is created
-};
-
-/// What the loop's thread has done, on its way to the thread that writes it down. Bounded, without a lock; the entries
-/// of a tick come through whole or not at all.
+/// What the loop's thread has done, on its way to the thread that writes it down, each as it can be done again: a move
+/// is one straight leg, so no contact and no bound on work plays a role in it. Bounded, without a lock; the edits of a tick come
+/// through whole or not at all, and one of kind `none` ends them.
 ///
 /// Once an entry finds no room, or the oldest that waits is older than `most_age` ticks, the journal has overrun: it
 /// takes nothing more, so that what is written ends at the end of a tick, and the run should end.
@@ -50,8 +26,8 @@ public:
   ///@{
 
   /// Takes what was done in the tick under way; where there is no room the journal has overrun.
-  void add(const Journal_entry& entry) {
-    if (!has_overrun_ && !queue_.push(entry))
+  void add(const Edit& edit) {
+    if (!has_overrun_ && !queue_.push(edit))
       has_overrun_ = true;
     lost_ += has_overrun_;
     has_entries_ = true;
@@ -63,8 +39,7 @@ public:
       has_overrun_ = true;
     if (!std::exchange(has_entries_, false) || has_overrun_)
       return;
-    Journal_entry end;
-    end.vertices[0] = tick;
+    const Edit end = Edit::of(Edit_kind::none, {static_cast<std::size_t>(tick), 0, 0});
     if (ended_ - taken == waiting_.size() || !queue_.push(end)) {
       has_overrun_ = true;
       return;
@@ -91,14 +66,14 @@ public:
 
   /// Takes the next entry. \return false where there is none yet. The entries of the last tick may be followed by none:
   /// they wait for its end.
-  bool take(Journal_entry& entry) { return queue_.pop(entry); }
+  bool take(Edit& edit) { return queue_.pop(edit); }
   /// So many more ticks are written, or cannot be.
   void wrote(std::uint64_t ticks) { taken_.fetch_add(ticks, std::memory_order_release); }
   ///@}
 
 private:
   std::uint64_t most_age_;
-  boost::lockfree::spsc_queue<Journal_entry> queue_;
+  boost::lockfree::spsc_queue<Edit> queue_;
   std::vector<std::uint64_t> waiting_; ///< numbers of the ticks that are not written, by how many were before
   std::uint64_t ended_ = 0, lost_ = 0;
   bool has_entries_ = false, has_overrun_ = false;

@@ -13,11 +13,10 @@ namespace haptic_sculpt {
 template <class Sculptor>
 class Journaled_edits {
 public:
-  using Kind = Journal_entry::Kind;                     ///< of entries
   using Vertex_index = typename Sculptor::Vertex_index; ///< of the mesh
   using Point = typename Sculptor::Point;               ///< in the scene
   using Grab_type = typename Sculptor::Grab_type;       ///< what holds a vertex
-  using Edited = typename Sculptor::Edited;             ///< what an edit gives
+  using Edited = Applied<typename Sculptor::Mesh_type>; ///< what an edit gives
   using Result = typename Sculptor::Result;             ///< what a drag gives
 
   explicit Journaled_edits(Sculptor& sculptor) : sculptor_(&sculptor) { legs_.reserve(most_legs); } ///< without a journal
@@ -28,30 +27,30 @@ public:
   /// What follows is one step of undo.
   void begin_stroke() {
     stroke_.emplace(sculptor_->stroke());
-    add(Kind::stroke);
+    add(Edit::of(Edit_kind::stroke));
   }
   /// Of the stroke under way, if there is one.
   void end_stroke() {
     if (stroke_)
-      add(Kind::end);
+      add(Edit::of(Edit_kind::end));
     stroke_.reset();
   }
 
-  /// \param wanted with `Sculptor::name()`s \pre its kind is an edit of elements, an undo or a redo
-  Edited make(const Journal_entry& wanted) {
-    auto made = edit(wanted);
+  /// \pre it is no stroke and no end
+  Edited make(const Edit& wanted) {
+    auto made = sculptor_->apply(wanted);
     if (made)
-      note(wanted, made);
+      tell(made.edit);
     return made;
   }
   /// Makes an edit and begins a stroke with it. Where it is refused, or throws, there is no stroke.
-  Edited make_in_stroke(const Journal_entry& wanted) {
+  Edited make_in_stroke(const Edit& wanted) {
     std::optional<typename Sculptor::Stroke_type> begun(sculptor_->stroke());
-    auto made = edit(wanted);
+    auto made = sculptor_->apply(wanted);
     if (made) {
       stroke_.emplace(std::move(*begun));
-      add(Kind::stroke);
-      note(wanted, made);
+      add(Edit::of(Edit_kind::stroke));
+      tell(made.edit);
     }
     return made;
   }
@@ -100,55 +99,26 @@ private:
     Telling_moves& operator=(const Telling_moves&) = delete;
   };
 
-  Edited edit(const Journal_entry& wanted) {
-    const auto& v = wanted.vertices;
-    const Point p(wanted.point[0], wanted.point[1], wanted.point[2]);
-    switch (wanted.kind) {
-    case Kind::undo:
-      return sculptor_->undo();
-    case Kind::redo:
-      return sculptor_->redo();
-    case Kind::insert_on_face:
-      return sculptor_->insert_on_face(sculptor_->face_of(v[0], v[1], v[2]), p);
-    case Kind::insert_on_edge:
-      return sculptor_->insert_on_edge(sculptor_->edge_of(v[0], v[1]), p);
-    case Kind::flip:
-      return sculptor_->flip(sculptor_->edge_of(v[0], v[1]));
-    case Kind::collapse: {
-      const auto& mesh = sculptor_->mesh();
-      const auto e = sculptor_->edge_of(v[0], v[1]);
-      const auto h = e.is_valid() ? mesh.halfedge(e) : typename Sculptor::Halfedge_index();
-      return sculptor_->collapse(!h.is_valid() || mesh.source(h) == sculptor_->vertex(v[0]) ? h : mesh.opposite(h));
-    }
-    default:
-      return sculptor_->remove(sculptor_->vertex(v[0]));
-    }
-  }
-
-  /// Which neighbour a removal has taken is said.
-  void note(Journal_entry made, const Edited& edited) {
-    if (made.kind == Kind::remove) {
-      made.kind = Kind::collapse;
-      made.vertices[1] = sculptor_->name(*edited.vertex);
-    }
-    add(made);
-  }
-
   void add_move(Vertex_index v, const Point& to) {
-    Journal_entry entry;
-    entry.kind = Kind::move;
-    entry.vertices = {sculptor_->name(v), 0, 0};
-    entry.point = {to.x(), to.y(), to.z()};
-    add(entry);
+    add(Edit::of(Edit_kind::move, {sculptor_->name(v), 0, 0}, {to.x(), to.y(), to.z()}));
   }
-  void add(Kind kind) {
-    Journal_entry entry;
-    entry.kind = kind;
-    add(entry);
+  /// A slide as its legs, each a move of its own, all one step; of what has changed nothing, nothing.
+  void tell(const Edit& made) {
+    const bool is_slide = !made.legs.empty() && !stroke_;
+    if (is_slide)
+      add(Edit::of(Edit_kind::stroke));
+    for (const auto& leg : made.legs)
+      add(Edit::of(Edit_kind::move, made.vertices, leg));
+    if (made.kind == Edit_kind::move)
+      add(Edit::of(Edit_kind::move, made.vertices, made.point));
+    else if (made.kind != Edit_kind::none)
+      add(made);
+    if (is_slide)
+      add(Edit::of(Edit_kind::end));
   }
-  void add(const Journal_entry& entry) {
+  void add(const Edit& edit) {
     if (journal_ != nullptr)
-      journal_->add(entry);
+      journal_->add(edit);
   }
 };
 

@@ -28,23 +28,16 @@ struct Loop_command {
   /// What is asked for.
   enum class Kind : std::uint8_t {
     let_go, ///< what the hand holds, until the button is pressed again
-    undo,   ///< a grab, from the button's press to its release, is one step
-    redo,
-    insert_on_face, ///< a vertex at `point` on the face of three `vertices`
-    insert_on_edge, ///< a vertex at `point` on the edge of the first two
-    remove,         ///< the first of `vertices`
-    collapse,       ///< of the edge between the first two: the first is drawn into the second
-    flip,           ///< of the edge between the first two
-    task,           ///< `task`; what is asked for later is done beside it
-    enter,          ///< `scene` in place of the one sculpted so far, which comes back, once no task is under way
-    restart         ///< after a fault
+    edit,   ///< `edit`, no stroke and no end; to undo, a grab from the button's press to its release is one step
+    task,   ///< `task`; what is asked for later is done beside it
+    enter,  ///< `scene` in place of the one sculpted so far, which comes back, once no task is under way
+    restart ///< after a fault
   };
-  Kind kind = Kind::let_go;                ///< says which of the members below count
-  std::uint64_t ticket = 0;                ///< comes back with the answer
-  std::array<std::uint64_t, 3> vertices{}; ///< `Sculptor::name()`s
-  std::array<double, 3> point{};           ///< in the scene
-  Loop_task<Scene>* task = nullptr;        ///< the asking thread's; not to be touched until the answer
-  Scene* scene = nullptr;                  ///< from here on the loop's
+  Kind kind = Kind::let_go;         ///< says which of the members below count
+  std::uint64_t ticket = 0;         ///< comes back with the answer
+  Edit edit;                        ///< vertices by number, points in the scene
+  Loop_task<Scene>* task = nullptr; ///< the asking thread's; not to be touched until the answer
+  Scene* scene = nullptr;           ///< from here on the loop's
   Edit_journal* journal = nullptr; ///< of `scene`: a log is of one mesh. None is refused where one is kept so far
 };
 
@@ -52,6 +45,7 @@ struct Loop_command {
 template <class Scene>
 struct Loop_answer {
   typename Loop_command<Scene>::Kind kind{}; ///< of the command
+  Edit_kind edit{};                          ///< of the command's edit
   std::uint64_t ticket = 0,                  ///< of the command
       tick = 0;                              ///< the first tick after it
   bool done = false;                         ///< false: refused

@@ -95,7 +95,7 @@ private:
 
   Loop_answer<Scene> answer_to(const Loop_command<Scene>& command, bool done) const {
     Loop_answer<Scene> answer;
-    answer.kind = command.kind, answer.ticket = command.ticket, answer.tick = ticks_;
+    answer.kind = command.kind, answer.edit = command.edit.kind, answer.ticket = command.ticket, answer.tick = ticks_;
     answer.done = done, answer.task = command.task;
     return answer;
   }
@@ -144,7 +144,7 @@ private:
       if (answer.done)
         answer.left = enter(*command.scene, command.journal);
       break;
-    default:
+    case Kind::edit:
       edit(command, answer);
     }
     return true;
@@ -167,16 +167,7 @@ private:
   }
 
   void edit(const Loop_command<Scene>& command, Loop_answer<Scene>& answer) {
-    Journal_entry entry;
-    entry.kind = command.kind == Kind::undo             ? Journal_entry::Kind::undo
-                 : command.kind == Kind::redo           ? Journal_entry::Kind::redo
-                 : command.kind == Kind::insert_on_face ? Journal_entry::Kind::insert_on_face
-                 : command.kind == Kind::insert_on_edge ? Journal_entry::Kind::insert_on_edge
-                 : command.kind == Kind::collapse       ? Journal_entry::Kind::collapse
-                 : command.kind == Kind::flip           ? Journal_entry::Kind::flip
-                                                        : Journal_entry::Kind::remove;
-    entry.vertices = command.vertices, entry.point = command.point;
-    const auto made = loop_->tool().edit(entry);
+    const auto made = loop_->tool().edit(command.edit);
     answer.done = static_cast<bool>(made);
     if (made)
       answer.vertex = made.vertex && made.vertex->is_valid() ? scene_->sculptor.name(*made.vertex) : 0;

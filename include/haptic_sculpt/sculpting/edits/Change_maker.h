@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_CHANGE_MAKER_H
 
 #include <haptic_sculpt/sculpting/Edit_visitor.h>
-#include <haptic_sculpt/sculpting/edits/Edit.h>
+#include <haptic_sculpt/sculpting/edits/Change.h>
 #include <haptic_sculpt/sculpting/edits/Element_room.h>
 #include <haptic_sculpt/sculpting/edits/Kept_properties.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
@@ -54,7 +54,7 @@ public:
   /// \return the vertex moved or created; of a removal, the neighbour it went into; of a flip, an end of the new edge
   /// \throw Mesh_changed where the faces to be replaced are not those known; std::bad_alloc; and nothing has changed
   template <class Noted>
-  Vertex_index make(const Edit& edit, const Place& place, const Noted& noted) {
+  Vertex_index make(const Change& edit, const Place& place, const Noted& noted) {
     begin(edit, false, place);
     switch (edit.kind) {
     case Edit_kind::move:
@@ -74,14 +74,14 @@ public:
 
   /// \return the vertex moved or revived; of a creation, a neighbour of what was created; of a flip, an end of the old edge
   template <class Noted>
-  Vertex_index take_back(const Edit& edit, const Place& place, const Noted& noted) {
+  Vertex_index take_back(const Change& edit, const Place& place, const Noted& noted) {
     begin(edit, true, place);
     switch (edit.kind) {
     case Edit_kind::move:
       return put(edit.vertex, edit.before, noted);
     case Edit_kind::shift:
       return put_all(edit, 0, noted);
-    case Edit_kind::remove:
+    case Edit_kind::collapse:
       return star_instead_of_fan(edit, noted);
     case Edit_kind::flip:
       return flip(edit, 2, noted);
@@ -125,7 +125,7 @@ private:
   bool is_ready_ = false;
 
   Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
-  void begin(const Edit& edit, bool is_back, const Place& place) {
+  void begin(const Change& edit, bool is_back, const Place& place) {
     if (edit.kind != Edit_kind::move && edit.kind != Edit_kind::shift)
       kept_.begin(edit, is_back, place);
   }
@@ -156,7 +156,7 @@ private:
 
   /// All at once: the visitor is told when all stand. \param end 0: as before, 1: as after
   template <class Noted>
-  Vertex_index put_all(const Edit& edit, int end, const Noted& noted) {
+  Vertex_index put_all(const Change& edit, int end, const Noted& noted) {
     // All that allocates comes before the first point is written.
     collect_faces_around(*mesh_, names_, edit.around, faces_);
     is_ready_ = true;
@@ -177,7 +177,7 @@ private:
   }
 
   template <class Noted>
-  Vertex_index create_on_face(const Edit& edit, const Noted& noted) {
+  Vertex_index create_on_face(const Change& edit, const Noted& noted) {
     const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
     fan_.assign(1, h);
     make_room_for_star(edit, 3, {1, 3, 2}, {});
@@ -186,7 +186,7 @@ private:
   }
 
   template <class Noted>
-  Vertex_index create_on_edge(const Edit& edit, const Noted& noted) {
+  Vertex_index create_on_edge(const Change& edit, const Noted& noted) {
     const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
     fan_.assign(1, mesh_->opposite(h));
     fan_.push_back(h);
@@ -196,7 +196,7 @@ private:
   }
 
   template <class Noted>
-  Vertex_index star_instead_of_fan(const Edit& edit, const Noted& noted) {
+  Vertex_index star_instead_of_fan(const Change& edit, const Noted& noted) {
     link_.clear();
     for (const std::size_t name : edit.around)
       link_.push_back(vertex(name));
@@ -208,7 +208,7 @@ private:
   }
 
   template <class Noted>
-  Vertex_index fan_instead_of_star(const Edit& edit, const Noted& noted) {
+  Vertex_index fan_instead_of_star(const Change& edit, const Noted& noted) {
     const Vertex_index v = vertex(edit.vertex), apex = vertex(edit.around[0]);
     star_.collect(*mesh_, v);
     Mesh_watch<Mesh>::check_faces(*corners_of_, star_.faces);
@@ -225,7 +225,7 @@ private:
 
   /// \param old where in edit.around the ends of the edge that dies are: 0 or 2
   template <class Noted>
-  Vertex_index flip(const Edit& edit, std::size_t old, const Noted& noted) {
+  Vertex_index flip(const Change& edit, std::size_t old, const Noted& noted) {
     const Halfedge_index h = halfedge(vertex(edit.around[old]), vertex(edit.around[old + 1]));
     faces_.assign(1, mesh_->face(h));
     faces_.push_back(mesh_->face(mesh_->opposite(h)));
@@ -261,7 +261,7 @@ private:
   auto inside_of_fan() const { return CGAL::make_range(fan_.begin() + 1, fan_.end()); }
 
   /// Looks up and compares the fan that a star of this valence is to replace, and makes room for all that will be written.
-  void make_room_for_star(const Edit& edit, std::size_t valence, const Elements& born, const Elements& dead) {
+  void make_room_for_star(const Change& edit, std::size_t valence, const Elements& born, const Elements& dead) {
     collect_fan_faces();
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
     star_.reserve(valence);
@@ -315,7 +315,7 @@ private:
   }
 
   template <class Noted>
-  Vertex_index star_created(Vertex_index v, const Edit& edit, const Noted& noted) {
+  Vertex_index star_created(Vertex_index v, const Change& edit, const Noted& noted) {
     names_.give(edit.vertex, v);
     star_.collect(*mesh_, v);
     corners_of_->update(star_.faces);

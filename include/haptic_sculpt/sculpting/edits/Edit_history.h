@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_EDIT_HISTORY_H
 
 #include <haptic_sculpt/sculpting/History_limit.h>
-#include <haptic_sculpt/sculpting/edits/Edit.h>
+#include <haptic_sculpt/sculpting/edits/Change.h>
 #include <haptic_sculpt/sculpting/edits/Record_queue.h>
 
 #include <cstring>
@@ -81,7 +81,7 @@ public:
     if (is_in_stroke() && latest_.size() < names)
       latest_.resize(names, no_move);
   }
-  void make_room_for(const Edit& edit) {
+  void make_room_for(const Change& edit) {
     if (edit.kind == Edit_kind::move)
       return make_room_for_move(edit.vertex + 1);
     if (is_off())
@@ -107,12 +107,12 @@ public:
     ++moves_done_;
     end_record();
   }
-  void push(const Edit& edit) {
+  void push(const Change& edit) {
     if (edit.kind == Edit_kind::move)
       return push_move(edit.vertex, edit.before, edit.after);
     if (!begin_record())
       return;
-    const auto& point = edit.kind == Edit_kind::remove ? edit.before : edit.after;
+    const auto& point = edit.kind == Edit_kind::collapse ? edit.before : edit.after;
     edits_.push_back(
         {edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(words_of(edit)), edit.kind});
     for (const std::size_t name : edit.around)
@@ -130,13 +130,13 @@ public:
   /// What is told here is good until something is told again.
   ///@{
   /// The change that was made last and not taken back; nullptr where there is none.
-  const Edit* to_undo() {
+  const Change* to_undo() {
     if (number_of_undo_steps() == 0)
       return nullptr;
     return is_edit_last() ? read(edits_[edits_done_ - 1]) : read(moves_[moves_done_ - 1]);
   }
   /// The change that was taken back last; nullptr where there is none.
-  const Edit* to_redo() {
+  const Change* to_redo() {
     if (edits_done_ < edits_.end() && edits_[edits_done_].moves_before == moves_done_)
       return read(edits_[edits_done_]);
     return moves_done_ < moves_.end() ? read(moves_[moves_done_]) : nullptr;
@@ -203,7 +203,7 @@ private:
   Record_queue<Place, room> steps_; ///< the end of each
   Place first_{0, 0};                         ///< the begin of the first step
   std::size_t moves_done_ = 0, edits_done_ = 0, steps_done_ = 0;
-  Edit current_; ///< what was told last
+  Change current_; ///< what was told last
   History_limit limit_;
 
   std::size_t open_ = 0;                    ///< how many began the stroke under way and have not ended it
@@ -214,7 +214,7 @@ private:
 
   static_assert(sizeof(std::size_t) == sizeof(double), "coordinates are kept among numbers of vertices");
   /// That are kept of it besides.
-  static std::size_t words_of(const Edit& edit) { return edit.around.size() * (edit.kind == Edit_kind::shift ? 3 : 1); }
+  static std::size_t words_of(const Change& edit) { return edit.around.size() * (edit.kind == Edit_kind::shift ? 3 : 1); }
   static std::size_t word_of(double x) {
     std::size_t word;
     std::memcpy(&word, &x, sizeof word);
@@ -241,7 +241,7 @@ private:
     return edits_done_ > edits_.begin() && edits_[edits_done_ - 1].moves_before == moves_done_;
   }
 
-  const Edit* read(const Move& move) {
+  const Change* read(const Move& move) {
     current_.kind = Edit_kind::move;
     current_.vertex = move.vertex;
     current_.before = move.before;
@@ -249,7 +249,7 @@ private:
     current_.around.clear();
     return &current_;
   }
-  const Edit* read(const Other& other) {
+  const Change* read(const Other& other) {
     current_.kind = other.kind;
     current_.vertex = other.vertex;
     current_.before = current_.after = other.point;

@@ -114,7 +114,7 @@ public:
 
   /// Moves many vertices along one axis, a motion that has been proven free; one change. \param ways where each is to be
   void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
-    Edit edit; // not kept: there may be millions
+    Change edit; // not kept: there may be millions
     edit.kind = Edit_kind::shift;
     edit.vertex = static_cast<std::size_t>(axis);
     edit.around.reserve(ways.size());
@@ -174,7 +174,7 @@ private:
   Collapse_proof<Mesh, Broad_phase> collapse_;
   Flip_proof<Mesh, Broad_phase> flip_;
   Pivot_order<Mesh> order_;
-  Edit edit_; ///< the one that is made, kept to allocate no more
+  Change edit_; ///< the one that is made, kept to allocate no more
 
   /// Takes a step back or makes it again, all of its changes or none: where one lacks memory, those before it are made undone.
   /// \param next gives the next change
@@ -213,7 +213,7 @@ private:
 
   Vertex_index take_back() {
     const auto at = place(history_.number_to_undo(), false);
-    const Edit& edit = *history_.to_undo();
+    const Change& edit = *history_.to_undo();
     return changes_.take_back(edit, at, [&](Vertex_index changed) {
       watch(changed, edit);
       history_.undone();
@@ -221,7 +221,7 @@ private:
   }
   Vertex_index make_again() {
     const auto at = place(history_.number_to_redo(), false);
-    const Edit& edit = *history_.to_redo();
+    const Change& edit = *history_.to_redo();
     return changes_.make(edit, at, [&](Vertex_index changed) {
       watch(changed, edit);
       history_.redone();
@@ -243,7 +243,7 @@ private:
 
   Result collapse_into(std::size_t pivot) {
     const Star<Mesh>& star = collapse_.star();
-    describe(Edit_kind::remove, names().name(star.centre), collapse_.centre(), {});
+    describe(Edit_kind::collapse, names().name(star.centre), collapse_.centre(), {});
     for (std::size_t i = 0; i < star.valence(); ++i)
       edit_.around.push_back(names().name(star.link[(pivot + i) % star.valence()]));
     return make();
@@ -258,7 +258,7 @@ private:
   }
 
   /// Of a shift all that it moves.
-  void watch(Vertex_index changed, const Edit& edit) {
+  void watch(Vertex_index changed, const Change& edit) {
     watch(changed);
     if (edit.kind == Edit_kind::shift)
       for (const std::size_t name : edit.around)

@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_ELEMENT_NAMES_H
 #define HAPTIC_SCULPT_SCULPTING_ELEMENT_NAMES_H
 
-#include <haptic_sculpt/sculpting/edits/Edit.h>
+#include <haptic_sculpt/sculpting/edits/Change.h>
 #include <haptic_sculpt/sculpting/edits/Vertex_names.h>
 
 #include <algorithm>
@@ -55,12 +55,12 @@ Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typena
 class Edit_lineage {
 public:
   /// \param is_directed whether the names are those of halfedges
-  Edit_lineage(const Edit& edit, bool is_back, bool is_directed)
+  Edit_lineage(const Change& edit, bool is_back, bool is_directed)
       : edit_(&edit), is_back_(is_back), is_directed_(is_directed) {}
 
   /// Of a collapse, what `created` comes from, if there was one such; of other edits none is said.
   std::optional<Element_names> only_origin(Element_names created) const {
-    if (edit_->kind != Edit_kind::remove)
+    if (edit_->kind != Edit_kind::collapse)
       return std::nullopt;
     const std::size_t v = edit_->vertex, p = edit_->around[0];
     std::replace(created.begin(), created.end(), is_back_ ? v : p, is_back_ ? p : v);
@@ -73,7 +73,7 @@ public:
   }
 
 private:
-  const Edit* edit_;
+  const Change* edit_;
   bool is_back_, is_directed_;
 
   /// As the edit is made.

@@ -16,7 +16,7 @@ namespace internal {
 
 /// An edit that is under way, as property maps see it.
 struct Edit_under_way {
-  const Edit* edit;
+  const Change* edit;
   bool is_back;                  ///< whether it is taken back
   std::array<double, 3> weights; ///< of edit->around, for a vertex that is created in the middle of these
 };

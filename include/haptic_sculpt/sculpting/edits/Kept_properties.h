@@ -51,7 +51,7 @@ public:
 
   /// \name In this order, for each edit
   ///@{
-  void begin(const Edit& edit, bool is_back, const Place& place) {
+  void begin(const Change& edit, bool is_back, const Place& place) {
     under_way_ = {&edit, is_back, {}};
     place_ = place;
     for (const auto& map : maps_)

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_APPLIED_H
+#define HAPTIC_SCULPT_SCULPTING_APPLIED_H
+
+#include <haptic_sculpt/sculpting/Drag_result.h>
+#include <haptic_sculpt/sculpting/Edit.h>
+#include <haptic_sculpt/sculpting/Edit_result.h>
+#include <haptic_sculpt/sculpting/Stroke.h>
+#include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
+
+namespace haptic_sculpt {
+
+/// What came of an edit that was given by value.
+template <class Mesh>
+struct Applied : Edit_result<Mesh> {
+  /// As it can be done again: a slide as its legs, a removal as the collapse that it was. Of kind `none` where it was refused, or
+  /// nothing has moved.
+  Edit edit;
+  std::optional<Drag_result<Mesh>> drag; ///< of a move: the last leg's
+
+  operator const Edit&() const { return edit; }
+};
+
+namespace internal {
+
+/// Edits by value, made by a Sculptor's functions.
+template <class Sculptor, class Mesh>
+class Edit_applier {
+public:
+  using Point = typename Mesh::Point;
+  using Done = Applied<Mesh>;
+
+  Done apply(Sculptor& sculptor, const Edit& edit) {
+    const auto& v = edit.vertices;
+    const Point p = point(edit.point);
+    if (edit.kind != Edit_kind::move)
+      sculptor.release();
+    switch (edit.kind) {
+    case Edit_kind::move:
+      return move(sculptor, edit);
+    case Edit_kind::insert_on_face:
+      return done(edit, sculptor.insert_on_face(sculptor.face_of(v[0], v[1], v[2]), p));
+    case Edit_kind::insert_on_edge:
+      return done(edit, sculptor.insert_on_edge(sculptor.edge_of(v[0], v[1]), p));
+    case Edit_kind::remove: {
+      Done result = done(edit, sculptor.remove(sculptor.vertex(v[0])));
+      if (result)
+        result.edit = Edit::of(Edit_kind::collapse, {v[0], sculptor.name(*result.vertex), 0});
+      return result;
+    }
+    case Edit_kind::collapse:
+      return done(edit, sculptor.collapse(sculptor.halfedge_of(v[0], v[1])));
+    case Edit_kind::flip:
+      return done(edit, sculptor.flip(sculptor.edge_of(v[0], v[1])));
+    case Edit_kind::shift:
+      return shift(sculptor, edit);
+    case Edit_kind::undo:
+      return done(edit, sculptor.undo());
+    case Edit_kind::redo:
+      return done(edit, sculptor.redo());
+    case Edit_kind::stroke:
+      strokes_.push_back(sculptor.stroke());
+      break;
+    case Edit_kind::end:
+      if (strokes_.empty())
+        return done(edit, Edit_result<Mesh>::refused(Refusal_reason::no_stroke));
+      strokes_.pop_back();
+      break;
+    case Edit_kind::none:
+      break;
+    }
+    return done(edit, {});
+  }
+
+private:
+  std::vector<Stroke<Sculptor>> strokes_; ///< begun and not ended, each within the one before
+  std::vector<Point> path_;                             ///< of the last drag; kept to allocate no more
+
+  static Point point(const std::array<double, 3>& p) { return Point(p[0], p[1], p[2]); }
+
+  static Done done(const Edit& edit, Edit_result<Mesh>&& result) {
+    Done done;
+    static_cast<Edit_result<Mesh>&>(done) = std::move(result);
+    if (done)
+      done.edit = edit;
+    return done;
+  }
+
+  /// Contacts are carried on from the last edit, if that was a move of the same vertex.
+  Done move(Sculptor& sculptor, const Edit& edit) {
+    const auto v = sculptor.vertex(edit.vertices[0]);
+    if (!v.is_valid())
+      return done(edit, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
+    Done result;
+    result.vertex = v;
+    const auto drag_to = [&](const std::array<double, 3>& p) {
+      result.drag = Sculptor_access::guarded(sculptor).drag(v, point(p), &path_);
+      for (std::size_t k = 1; k < path_.size(); ++k)
+        if (path_[k] != path_[k - 1]) // +0 and -0 are one place
+          result.edit.legs.push_back({path_[k].x(), path_[k].y(), path_[k].z()});
+    };
+    std::optional<Stroke<Sculptor>> all_are_one_step;
+    if (!edit.legs.empty())
+      all_are_one_step.emplace(sculptor.stroke());
+    for (const auto& leg : edit.legs)
+      drag_to(leg);
+    drag_to(edit.point);
+    if (result.edit.legs.empty())
+      return result;
+    result.edit.kind = Edit_kind::move, result.edit.vertices = {edit.vertices[0], 0, 0};
+    result.edit.point = result.edit.legs.back();
+    result.edit.legs.pop_back();
+    return result;
+  }
+
+  static Done shift(Sculptor& sculptor, const Edit& edit) {
+    std::vector<std::pair<typename Mesh::Vertex_index, double>> ways;
+    ways.reserve(edit.ways.size());
+    for (const auto& [name, end] : edit.ways) {
+      ways.emplace_back(sculptor.vertex(name), end);
+      if (!ways.back().first.is_valid())
+        return done(edit, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
+    }
+    return done(edit, sculptor.shift(edit.axis, ways));
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Edits by value: what apply() gives back makes the same again, to the bit, of another copy of the mesh that nobody slides in.
+#include "sculpting/Mesh_snapshot.h"
+#include "sculpting/edits/random_edits.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <map>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+/// Of elements that are there, mostly; here and there of some that are not.
+Edit random_value(const Sculptor<Mesh>& sculptor, Random& random) {
+  std::uniform_real_distribution<double> number(-1, 1);
+  const Mesh& mesh = sculptor.mesh();
+  const auto h = pick(mesh.halfedges(), mesh.number_of_halfedges(), random);
+  const auto name = [&](Vertex_index v) { return random() % 20 == 0 ? random() % 300 : sculptor.name(v); };
+  const Vertex_index a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h));
+  const Point_3 p = mesh.point(a), inside = in_face(mesh, mesh.face(h), 0.3, 0.4), middle = CGAL::midpoint(p, mesh.point(b));
+  const auto array_of = [](const Point_3& q) { return std::array<double, 3>{q.x(), q.y(), q.z()}; };
+  switch (random() % 12) {
+  case 0: case 1: case 2: {
+    const double x = number(random), y = number(random), z = number(random);
+    return Edit::of(Edit_kind::move, {name(a), 0, 0}, array_of(p + (random() % 3 == 0 ? 3 : 0.2) * meshes::Kernel::Vector_3(x, y, z)));
+  }
+  case 3: return Edit::of(Edit_kind::insert_on_face, {name(b), name(a), name(c)}, array_of(inside));
+  case 4: return Edit::of(Edit_kind::insert_on_edge, {name(b), name(a), 0}, array_of(middle));
+  case 5: return Edit::of(Edit_kind::remove, {name(a), 0, 0});
+  case 6: return Edit::of(Edit_kind::collapse, {name(a), name(b), 0});
+  case 7: return Edit::of(Edit_kind::flip, {name(a), name(b), 0});
+  case 8: {
+    Edit shift = Edit::of(Edit_kind::shift);
+    shift.axis = static_cast<int>(random() % 3);
+    for (const Vertex_index v : {a, b, c})
+      shift.ways.emplace_back(name(v), mesh.point(v)[shift.axis] + 0.1 * number(random));
+    return shift;
+  }
+  case 9: return Edit::of(Edit_kind::undo);
+  case 10: return Edit::of(Edit_kind::redo);
+  default: return Edit::of(random() % 2 == 0 ? Edit_kind::stroke : Edit_kind::end);
+  }
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(what_was_applied_can_be_done_again) {
+  const std::size_t edits = count_from_environment("HAPTIC_SCULPT_APPLIED_EDITS", 4000);
+  Random random(seed_from_environment(61));
+  std::map<Edit_kind, std::size_t> done, refused;
+  std::size_t legs = 0, different = 0, not_again = 0, changed_by_refusal = 0, other_steps = 0;
+  for (std::size_t i = 0; i < edits;) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05)), copy = mesh;
+    Sculptor<Mesh> sculptor(mesh), other(copy, parameters::response(Response::stop));
+    for (std::size_t k = 0; k < 100; ++k, ++i) {
+      const Edit wanted = random_value(sculptor, random);
+      const Mesh_snapshot before = snapshot(sculptor);
+      const auto result = sculptor.apply(wanted);
+      ++(result ? done : refused)[wanted.kind];
+      if (!result)
+        changed_by_refusal += snapshot(sculptor) != before || result.edit.kind != Edit_kind::none;
+      const Edit again = result; // by value
+      legs += again.legs.size();
+      const auto second = other.apply(again);
+      not_again += !second || (second.drag && !second.drag->reached);
+      different += snapshot(sculptor) != snapshot(other);
+      other_steps += sculptor.history().number_of_undo_steps() != other.history().number_of_undo_steps() ||
+                     sculptor.history().number_of_redo_steps() != other.history().number_of_redo_steps();
+    }
+    BOOST_TEST(validate(mesh).is_valid());
+    while (sculptor.apply(Edit::of(Edit_kind::end)))
+      ;
+    BOOST_TEST((sculptor.apply(Edit::of(Edit_kind::end)).refusal->reason == Refusal_reason::no_stroke));
+  }
+  for (int kind = 1; kind <= static_cast<int>(Edit_kind::end); ++kind) {
+    const auto of = static_cast<Edit_kind>(kind);
+    BOOST_TEST_MESSAGE("kind " << kind << ": " << done[of] << " done, " << refused[of] << " refused");
+    BOOST_TEST(done[of] > edits / 200);
+  }
+  BOOST_TEST_MESSAGE(legs << " legs before the last ones");
+  BOOST_TEST(legs > edits / 50);
+  BOOST_TEST(changed_by_refusal == 0u);
+  BOOST_TEST(not_again == 0u);
+  BOOST_TEST(different == 0u);
+  BOOST_TEST(other_steps == 0u);
+}
+
+// A removal is the collapse that it was, a vertex that nothing moves gives nothing, and moves that follow each other are one grab.
+BOOST_AUTO_TEST_CASE(what_apply_says) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1)), copy = mesh;
+  Sculptor<Mesh> sculptor(mesh), by_functions(copy);
+  const auto into = by_functions.remove(Vertex_index(5));
+  const auto removed = sculptor.apply(Edit::of(Edit_kind::remove, {5, 0, 0}));
+  BOOST_REQUIRE((into && removed));
+  BOOST_TEST((removed.edit.kind == Edit_kind::collapse));
+  BOOST_TEST((removed.edit.vertices == std::array<std::size_t, 3>{5, by_functions.name(*into.vertex), 0}));
+  BOOST_TEST((snapshot(sculptor) == snapshot(by_functions)));
+  const Point_3 p = mesh.point(Vertex_index(7));
+  const auto still = sculptor.apply(Edit::of(Edit_kind::move, {7, 0, 0}, {p.x(), p.y(), p.z()}));
+  BOOST_TEST((still && still.drag->reached && still.edit.kind == Edit_kind::none));
+  BOOST_TEST(!sculptor.apply(Edit::of(Edit_kind::move, {5, 0, 0}, {0, 0, 9})));
+  auto grab = by_functions.grab(Vertex_index(7));
+  for (const double x : {-1., -1.1, -1.2, -1.3}) { // pressed on through the ball: contacts are carried on
+    const auto by_value = sculptor.apply(Edit::of(Edit_kind::move, {7, 0, 0}, {x * p.x(), x * p.y(), x * p.z() + 0.1}));
+    const auto by_grab = grab.drag_to(Point_3(x * p.x(), x * p.y(), x * p.z() + 0.1));
+    BOOST_TEST((by_value.drag->position == by_grab.position && by_value.drag->work == by_grab.work));
+  }
+  BOOST_CHECK_THROW(sculptor.apply(Edit::of(Edit_kind::move, {7, 0, 0}, {0, std::nan(""), 0})), Non_finite_point);
+  Edit shift = Edit::of(Edit_kind::shift);
+  shift.axis = 3;
+  BOOST_CHECK_THROW(sculptor.apply(shift), Invalid_parameter);
+}
