@@ -29,6 +29,8 @@ inline std::string message_of(const std::exception& error) {
     text += "`sculpt MESH --triangulate -o OUT` divides polygons into triangles.\n";
   if (refused->report().is_repairable())
     text += "`sculpt MESH --repair -o OUT` repairs what can be repaired.";
+  else
+    text += "doc/validity.md says what a surface has to be.";
   while (!text.empty() && text.back() == '\n')
     text.pop_back();
   return text;

@@ -2,6 +2,7 @@
 #include "read_mesh.h"
 
 #include "divide_polygon.h"
+#include "refusal.h"
 
 #include <haptic_sculpt/surface/read_surface.h>
 
@@ -56,32 +57,32 @@ Face_soup triangulated(const Face_soup& soup, const std::string& path) {
 
 } // namespace
 
-Mesh read_triangulated(const std::string& path, double delta, std::vector<std::string>& left_out, Validity_report& found) {
+Mesh read_mesh(const Arguments& arguments, std::vector<std::string>& left_out, Validity_report& found) {
+  const std::string& path = arguments.mesh;
+  const double delta = arguments.delta.value_or(0);
   Face_soup soup = read_face_soup(path);
   left_out = std::move(soup.left_out);
+  const auto refuse = [&](const std::string& subject, Validity_report report) {
+    if (!arguments.report.empty() || !arguments.picture.empty())
+      write_refusal(arguments, soup,
+                    report.has_more_intersections ? validate_soup(soup, delta, Validity_report::all_intersections) : report);
+    throw Invalid_surface(subject, std::move(report));
+  };
   Validity_report report = validate_soup(soup, delta);
   if (!report.is_valid()) {
     Validity_report others = report;
     others.non_triangular_faces.clear();
     const bool are_polygons = std::all_of(report.non_triangular_faces.begin(), report.non_triangular_faces.end(),
                                           [&](const auto f) { return is_polygon(soup, static_cast<std::size_t>(f)); });
-    if (!others.is_valid() || !are_polygons)
-      throw Invalid_surface("'" + path + "'", std::move(report));
+    if (!arguments.triangulate || !others.is_valid() || !are_polygons)
+      refuse("'" + path + "'", std::move(report));
     soup = triangulated(soup, path); // and looked at again
     report = validate_soup(soup, delta);
     if (!report.is_valid())
-      throw Invalid_surface("'" + path + "', its faces divided into triangles,", std::move(report));
+      refuse("'" + path + "', its faces divided into triangles,", std::move(report));
   }
   found = std::move(report);
-  Mesh mesh;
-  for (const auto& p : soup.points)
-    mesh.add_vertex({p.x(), p.y(), p.z()});
-  std::vector<std::array<Vertex_index, 3>> faces(soup.number_of_faces());
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k)
-      faces[f][k] = Vertex_index(soup.begin(f)[k]);
-  CGAL::Euler::add_faces(faces, mesh);
-  return mesh;
+  return internal::mesh_of<Mesh>(soup);
 }
 
 } // namespace haptic_sculpt::sculpt_program

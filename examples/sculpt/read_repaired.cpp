@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "read_repaired.h"
+#include "refusal.h"
 #include "repair_json.h"
 
 #include <haptic_sculpt/surface/io/replace_file.h>
@@ -21,8 +22,10 @@ Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_ou
   if (!arguments.repair.report.empty())
     replace_file(arguments.repair.report, json_of(report));
   told = report.message(Validity_report::Reader::user);
-  if (!report.is_repaired())
-    throw Read_error("cannot repair '" + arguments.mesh + "':\n" + told);
+  if (!report.is_repaired()) {
+    write_refusal(arguments, report.attempt, report.left);
+    throw Read_error("cannot repair '" + arguments.mesh + "':\n" + told + "doc/repair.md says what is refused, and what to do then");
+  }
   left_out = std::move(soup.left_out);
   return make_surface<Mesh>(soup, parameters.delta_length);
 }

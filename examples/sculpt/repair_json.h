@@ -2,6 +2,8 @@
 #ifndef HAPTIC_SCULPT_EXAMPLES_REPAIR_JSON_H
 #define HAPTIC_SCULPT_EXAMPLES_REPAIR_JSON_H
 
+#include "faults_json.h"
+
 #include <haptic_sculpt/surface/repair/Repair_report.h>
 
 #include <nlohmann/json.hpp>
@@ -24,16 +26,8 @@ inline std::string json_of(const Repair_report& report) {
                      {"failure", step.failure.empty() ? Json() : Json(step.failure)}});
   }
   const Validity_report& left = report.left;
-  const Json faults = {{"non_finite_vertices", left.non_finite_vertices.size()},
-                       {"non_triangular_faces", left.non_triangular_faces.size()},
-                       {"degenerate_faces", left.degenerate_faces.size()},
-                       {"low_faces", left.low_faces.size()},
-                       {"boundary_edges", left.boundary_edges.size()},
-                       {"non_manifold_edges", left.non_manifold_edges.size()},
-                       {"inconsistently_oriented_edges", left.inconsistently_oriented_edges.size()},
-                       {"non_manifold_vertices", left.non_manifold_vertices.size()},
-                       {"coincident_vertices", left.coincident_vertices.size()},
-                       {"intersecting_faces", left.intersecting_faces.size()}};
+  Json faults = Json::object();
+  for_each_kind_of_fault(left, [&](const char* key, const auto& list) { faults[key] = list.size(); });
   const Json all = {{"repaired", report.is_repaired()},
                     {"steps", std::move(steps)},
                     {"moved", report.moved},

@@ -5,6 +5,7 @@
 #include "../common/numbers.h"
 #include "../common/output_targets.h"
 #include "Log_file.h"
+#include "Patience.h"
 #include "nearest_vertices.h"
 #include "printable.h"
 #include "read_mesh.h"
@@ -17,7 +18,6 @@
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/orient_components.h>
-#include <haptic_sculpt/surface/read_surface.h>
 
 #include <cmath>
 #include <iostream>
@@ -120,13 +120,16 @@ Mesh mesh_of(const Arguments& arguments, std::vector<std::string>& left_out, Val
   const double delta = arguments.delta.value_or(0);
   if (arguments.repair.is_asked) {
     std::string told;
-    Mesh mesh = read_repaired(arguments, left_out, told);
+    Mesh mesh = [&] {
+      const Patience patience("repairing '" + arguments.mesh + "'");
+      return read_repaired(arguments, left_out, told);
+    }();
     std::cout << told;
     return mesh;
   }
   try {
-    return arguments.triangulate ? read_triangulated(arguments.mesh, delta, left_out, found)
-                                 : read_surface<Mesh>(arguments.mesh, delta, &left_out, &found);
+    const Patience patience("reading and validating '" + arguments.mesh + "'");
+    return read_mesh(arguments, left_out, found);
   } catch (const Invalid_surface& error) {
     const auto& low = error.report().low_faces;
     if (low.empty() || low.size() != error.report().number_of_faults())
@@ -215,7 +218,7 @@ int sculpt(const Arguments& arguments) {
   Result_writer writer("sculpt");
   if (const std::string remarks = found.remarks(); !remarks.empty())
     writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are. --orient turns components "
-                "over that are inside out");
+                "over that are inside out, of which the brush `inflate` makes less");
   if (!arguments.out.empty() && !left_out.empty())
     writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh +
                 "' has besides its faces: " + listed(left_out));

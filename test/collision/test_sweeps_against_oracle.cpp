@@ -5,6 +5,8 @@
 #include "oracle/hexadecimal.h"
 #include "oracle/sample_queries.h"
 
+#include <shared_data.h>
+
 #include <boost/test/unit_test.hpp>
 #include <cfenv>
 #include <cmath>
@@ -251,17 +253,15 @@ BOOST_AUTO_TEST_CASE(equal_times_of_different_kinds) {
 }
 
 BOOST_AUTO_TEST_CASE(published_queries) {
-  const std::string file = HAPTIC_SCULPT_SHARED_DATA "/ccd/sample_queries.txt";
-  if (!std::filesystem::exists(file)) {
-    BOOST_TEST_MESSAGE("skipped: no " << file);
+  const auto file = haptic_sculpt::test::shared_data("ccd/sample_queries.txt");
+  if (!file)
     return;
-  }
   const Traits traits;
   std::mt19937_64 engine(2);
   Tally tally;
   Recent_impacts recent;
   int disagreements = 0;
-  for (const Sample_query& sample : read_sample_queries(file)) {
+  for (const Sample_query& sample : read_sample_queries(file->string())) {
     const Sweep_query query{sample.kind, sample.x};
     BOOST_REQUIRE(standing_features_are_simplices(query.kind, query.x));
     if (const std::optional<Timed_impact> impact = check(traits, query, tally))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "maximal_coordinates.h"
 #include "device/symplectic_step.h"
+#include <shared_data.h>
+
 #include <boost/test/unit_test.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -145,11 +147,10 @@ BOOST_AUTO_TEST_CASE(energy_and_constraints_over_ten_seconds_on_springs) {
 }
 
 BOOST_AUTO_TEST_CASE(reference_trajectory) {
-  std::ifstream file(std::string(HAPTIC_SCULPT_SHARED_DATA) + "/device/reference_sample.json");
-  if (!file) {
-    BOOST_TEST_MESSAGE("skipped: no reference data");
+  const auto path = haptic_sculpt::test::shared_data("device/reference_sample.json");
+  if (!path)
     return;
-  }
+  std::ifstream file(*path);
   const nlohmann::json reference = nlohmann::json::parse(file);
   auto vector = [](const nlohmann::json& j) { return Vector(j[0].get<double>(), j[1].get<double>(), j[2].get<double>()); };
   for (const auto& t : reference["trajectories"]) {

@@ -74,6 +74,40 @@ def refusals(folder):
     check(run(mesh, "--repair-report", f"{folder}/x.json").returncode == 2, "a report of no repair")
 
 
+def faults_are_all_told(folder):
+    """On the screen the first of a kind, in the report all, in the picture red."""
+    vertices, faces = parsed_box()
+    gone = faces[2:-9]
+    uses = {}
+    for f in gone:
+        for i in range(3):
+            uses.setdefault(tuple(sorted((f[i], f[i - 1]))), []).append(f)
+    border = sorted(list(e) for e, of in uses.items() if len(of) == 1)
+    mesh, out, picture = write(f"{folder}/open box.off", off(vertices, gone)), f"{folder}/faults.json", f"{folder}/faults.png"
+    done = run(mesh, "--report", out, "--picture", picture)
+    fails(3, [f"{len(border)} boundary edge(s)", f"(8 of {len(border)})"], done, "an open box")
+    told = json.loads(bytes_of(out))
+    check(told["refused"] == mesh and told["faults"]["boundary_edges"] == border, f"faults of an open box: {told}")
+    check(told["number_of_faults"] == sum(map(len, told["faults"].values())), f"their number: {told}")
+    if "cannot draw" in done.stderr or "OpenGL" in done.stderr:
+        print("skipped: nothing can be drawn here")
+    else:
+        check(bytes_of(picture)[:8] == b"\x89PNG\r\n\x1a\n", f"a picture of the faults: {done.stderr}")
+        try:
+            from PIL import Image
+        except ImportError:
+            print("skipped: no PIL to look at the picture of the faults")
+        else:
+            red = sum(r > 150 and g < 70 and b < 80 for r, g, b in Image.open(picture).convert("RGB").getdata())
+            check(red > 500, f"{red} red pixels at {len(border)} boundary edges")
+    # Sheets upon sheets: more pairs than are looked for unless a report is asked for.
+    stack = [(x, y, 0.0) for i in range(60) for x, y in ((i % 7, 0), (10 + i % 5, 1), (3, 9 + i % 3))]
+    mesh = write(f"{folder}/stack.off", off(stack, [[3 * i, 3 * i + 1, 3 * i + 2] for i in range(60)]))
+    fails(3, ["(8 of at least 1000)"], run(mesh, "--report", out), "a stack of triangles")
+    pairs = json.loads(bytes_of(out))["faults"]["intersecting_faces"]
+    check(len(pairs) == 60 * 59 // 2, f"all triangles of the plane hold (3.5, 1), {len(pairs)} pairs")
+
+
 def orients(folder):
     vertices, faces = parsed_box()
     n = len(vertices)
@@ -98,5 +132,6 @@ with tempfile.TemporaryDirectory() as folder:
     repairs(folder)
     goes_on_to_sculpt(folder)
     refusals(folder)
+    faults_are_all_told(folder)
     orients(folder)
 end()

@@ -6,6 +6,8 @@
 
 #include <meshes/broken_meshes.h>
 
+#include <shared_data.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <gmpxx.h>
@@ -105,12 +107,10 @@ BOOST_AUTO_TEST_CASE(broken_meshes_come_through) {
 }
 
 BOOST_AUTO_TEST_CASE(the_elk) {
-  const std::filesystem::path path = std::filesystem::path(HAPTIC_SCULPT_SHARED_DATA) / "meshes/cgal_elk.off";
-  if (!std::filesystem::exists(path)) {
-    BOOST_TEST_MESSAGE("skipped: no " << path);
+  const auto path = haptic_sculpt::test::shared_data("meshes/cgal_elk.off");
+  if (!path)
     return;
-  }
-  Face_soup soup = haptic_sculpt::read_face_soup(path);
+  Face_soup soup = haptic_sculpt::read_face_soup(*path);
   const Face_soup broken = soup;
   const Repair_report report = repair(soup);
   BOOST_TEST_MESSAGE(report.message());

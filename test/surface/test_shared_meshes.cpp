@@ -8,6 +8,8 @@
 
 #include <CGAL/IO/polygon_soup_io.h>
 
+#include <shared_data.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -21,14 +23,12 @@ BOOST_AUTO_TEST_SUITE(reading_and_writing)
 
 // The readers of CGAL see the same in good files, and count the same intersections.
 BOOST_AUTO_TEST_CASE(shared_meshes) {
-  const fs::path shared = fs::path(HAPTIC_SCULPT_SHARED_DATA) / "meshes";
-  if (!fs::is_directory(shared)) {
-    BOOST_TEST_MESSAGE("skipped: no " << shared);
+  const auto shared = haptic_sculpt::test::shared_data("meshes");
+  if (!shared)
     return;
-  }
   const Temporary_folder folder;
   std::size_t good = 0, refused = 0;
-  for (const auto& entry : fs::directory_iterator(shared)) {
+  for (const auto& entry : fs::directory_iterator(*shared)) {
     const fs::path path = entry.path();
     if (!mesh_file_format(path) || fs::file_size(path) > 5000000)
       continue; // the million is read by the case below
@@ -69,17 +69,15 @@ BOOST_AUTO_TEST_CASE(shared_meshes) {
 }
 
 BOOST_AUTO_TEST_CASE(the_million) {
-  const fs::path path = fs::path(HAPTIC_SCULPT_SHARED_DATA) / "meshes" / "gen_cgal_knot_loop4.ply";
-  if (!fs::exists(path)) {
-    BOOST_TEST_MESSAGE("skipped: no " << path);
+  const auto path = haptic_sculpt::test::shared_data("meshes/gen_cgal_knot_loop4.ply");
+  if (!path)
     return;
-  }
   using Clock = std::chrono::steady_clock;
   const auto seconds = [](Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
   };
   const auto start = Clock::now();
-  const Face_soup soup = read_face_soup(path);
+  const Face_soup soup = read_face_soup(*path);
   const auto parsed = Clock::now();
   const Validity_report report = validate_soup(soup);
   const auto validated = Clock::now();

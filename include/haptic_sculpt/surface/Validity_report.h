@@ -99,7 +99,7 @@ struct Validity_report {
       text += std::to_string(elements.size()) + ' ' + kind + ':';
       for (std::size_t i = 0; i < elements.size() && i < named; ++i)
         text += (i == 0 ? " " : ", ") + name(elements[i]);
-      text += elements.size() > named ? ", ...\n" : "\n";
+      text += elements.size() > named ? ", ... (" + std::to_string(named) + " of " + std::to_string(elements.size()) + ")\n" : "\n";
     };
     list(inside_out_components, "component(s) inside out, with the faces");
     return text;
@@ -123,7 +123,7 @@ struct Validity_report {
       for (std::size_t i = 0; i < elements.size() && i < named; ++i)
         out << (i == 0 ? " " : ", ") << name(elements[i]);
       if (elements.size() > named)
-        out << ", ...";
+        out << ", ... (" << named << " of " << (has_more ? "at least " : "") << elements.size() << ')';
       out << ". " << (reader == Reader::user ? cure : by_cgal) << '\n';
     };
     const std::string low = "face(s) with an altitude below delta = " + number(delta);

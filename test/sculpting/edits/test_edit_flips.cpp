@@ -7,6 +7,8 @@
 
 #include <haptic_sculpt/surface.h>
 
+#include <shared_data.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <chrono>
@@ -236,11 +238,11 @@ BOOST_AUTO_TEST_CASE(flips_agree_with_an_independent_decision_on_meshes) {
   };
   check(meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.05)), "bumpy sphere");
   check(meshes::to_mesh(meshes::ball_in_a_cavity(1)), "ball in a cavity");
-  const std::filesystem::path folder = std::string(HAPTIC_SCULPT_SHARED_DATA) + "/meshes";
-  if (!std::filesystem::exists(folder))
+  const auto folder = haptic_sculpt::test::shared_data("meshes");
+  if (!folder)
     return;
   std::set<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  for (const auto& entry : std::filesystem::directory_iterator(*folder))
     if (entry.path().filename() != "cgal_elk.off" && entry.path().extension() != ".md" && entry.file_size() < 400000)
       files.insert(entry.path());
   for (const auto& file : files) {

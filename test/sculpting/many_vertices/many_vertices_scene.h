@@ -8,9 +8,10 @@
 #include <haptic_sculpt/sculpting.h>
 #include <haptic_sculpt/surface.h>
 
+#include <shared_data.h>
+
 #include <boost/test/unit_test.hpp>
 
-#include <fstream>
 #include <string>
 
 namespace haptic_sculpt::test {
@@ -40,11 +41,9 @@ inline std::vector<Named_mesh> scenes(bool with_shared = true) {
                                     {"sliver stack", meshes::to_mesh(meshes::sliver_stack(20, 0x1p-12))},
                                     {"C tube", meshes::to_mesh(meshes::c_tube(0.01))}};
   if (with_shared)
-    for (const char* name : {"cgal_eight.off", "cgal_joint.off", "oded_spot_low_resolution.obj"}) {
-      const std::string path = std::string(HAPTIC_SCULPT_SHARED_DATA) + "/meshes/" + name;
-      if (std::ifstream(path))
-        result.push_back({name, read_surface<Mesh>(path)});
-    }
+    for (const char* name : {"cgal_eight.off", "cgal_joint.off", "oded_spot_low_resolution.obj"})
+      if (const auto path = shared_data(std::string("meshes/") + name))
+        result.push_back({name, read_surface<Mesh>(*path)});
   return result;
 }
 

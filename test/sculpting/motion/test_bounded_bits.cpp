@@ -7,6 +7,8 @@
 #include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 
+#include <shared_data.h>
+
 #include <boost/test/unit_test.hpp>
 
 using namespace haptic_sculpt;
@@ -173,8 +175,8 @@ BOOST_AUTO_TEST_CASE(a_bound_on_the_work_knows_no_broad_phase) {
   auto meshes = scenes();
   meshes.push_back({"long blades", meshes::to_mesh(meshes::bipyramid(40))});
   for (const char* name : {"gen_extreme_exponent_tet.off", "gen_sliver_stack_2p-39.off", "cgal_oblong.off"})
-    if (const std::string path = std::string(HAPTIC_SCULPT_SHARED_DATA) + "/meshes/" + name; std::ifstream(path))
-      meshes.push_back({name, read_surface<Mesh>(path)});
+    if (const auto path = haptic_sculpt::test::shared_data(std::string("meshes/") + name))
+      meshes.push_back({name, read_surface<Mesh>(*path)});
   for (std::size_t k = 0; k < scripts; ++k)
     play(meshes[k % meshes.size()], std::size_t{20} << (seed + k / meshes.size()) % 8, seed + k, 12);
   BOOST_TEST_MESSAGE(drags << " drags, of which " << cut_short << " cut short; " << dabs << " dabs of a brush");
@@ -183,12 +185,10 @@ BOOST_AUTO_TEST_CASE(a_bound_on_the_work_knows_no_broad_phase) {
 }
 
 BOOST_AUTO_TEST_CASE(a_brush_on_a_machine_part_knows_no_broad_phase) {
-  const std::string file = std::string(HAPTIC_SCULPT_SHARED_DATA) + "/meshes/cgal_joint.off";
-  if (!std::ifstream(file)) {
-    BOOST_TEST_MESSAGE("skipped: " << file << " is not there");
+  const auto file = haptic_sculpt::test::shared_data("meshes/cgal_joint.off");
+  if (!file)
     return;
-  }
-  const Mesh mesh = read_surface<Mesh>(file);
+  const Mesh mesh = read_surface<Mesh>(*file);
   const auto dab = [&](auto broad_phase) {
     using Broad_phase = typename decltype(broad_phase)::type;
     Mesh copy = mesh;

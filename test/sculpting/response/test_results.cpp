@@ -6,6 +6,8 @@
 #include "sculpting/Mover_hand.h"
 #include "sculpting/response/outside_scenes.h"
 
+#include <shared_data.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <map>
@@ -72,8 +74,8 @@ BOOST_AUTO_TEST_CASE(no_result_contradicts_itself) {
   const std::size_t drags = count_from_environment("HAPTIC_SCULPT_RESULTS", 4000);
   Random random(seed);
   std::vector<Outside_scene> scenes = outside_scenes(random);
-  if (const std::filesystem::path folder = std::filesystem::path(HAPTIC_SCULPT_SHARED_DATA) / "meshes"; std::filesystem::exists(folder))
-    for (Outside_scene& scene : shared_scenes(folder, 2000))
+  if (const auto folder = haptic_sculpt::test::shared_data("meshes"))
+    for (Outside_scene& scene : shared_scenes(*folder, 2000))
       scenes.push_back(std::move(scene));
   Tally tally;
   for (const Outside_scene& scene : scenes) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Slides around solids: every end is a constrained local minimum, whatever was touched on the way.
+#include <shared_data.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include "sculpting/Mover_hand.h"
@@ -160,16 +162,14 @@ BOOST_AUTO_TEST_CASE(every_end_is_a_local_minimum) {
 }
 
 BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
-  const std::filesystem::path folder = std::filesystem::path(HAPTIC_SCULPT_SHARED_DATA) / "meshes";
-  if (!std::filesystem::exists(folder)) {
-    BOOST_TEST_MESSAGE("skipped: " << folder << " is not there");
+  const auto folder = haptic_sculpt::test::shared_data("meshes");
+  if (!folder)
     return;
-  }
   const std::size_t drags = count_from_environment("HAPTIC_SCULPT_SLIDES", 3000) / 6;
   const std::size_t largest = count_from_environment("HAPTIC_SCULPT_SLIDE_FACES", 2000);
   const std::uint64_t seed = seed_from_environment(509);
   Outside_findings found;
-  const auto scenes = shared_scenes(folder, largest);
+  const auto scenes = shared_scenes(*folder, largest);
   std::vector<Random> streams; // each mesh has its own: what is found on one does not hang on what other files there are
   for (const Outside_scene& scene : scenes)
     streams.emplace_back(seed_of(scene.name, seed));

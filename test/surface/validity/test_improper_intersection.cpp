@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 
 using haptic_sculpt::Face_soup;
@@ -93,6 +94,78 @@ BOOST_AUTO_TEST_CASE(degenerate_faces_meet_others) {
     (f >= F(12) ? among : with_cube).emplace_back(f, g);
   BOOST_TEST(among == (Pairs{{12, 13}, {12, 14}, {13, 14}}));
   BOOST_TEST(with_cube.size() == 1u);
+}
+
+// Three hubs of some hundred faces each, fans upon fans on a small grid and off it, against every pair of faces.
+BOOST_AUTO_TEST_CASE(hubs_agree_with_all_pairs) {
+  constexpr unsigned seed = 33;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 random(seed);
+  std::size_t hits = 0;
+  for (int round = 0; round < 4; ++round) {
+    Face_soup soup;
+    const auto add_at_random = [&] {
+      double p[3];
+      for (double& x : p)
+        x = round % 2 ? double(random() % 40) : random() / 1e8;
+      soup.add_point(p[0], p[1], p[2]);
+    };
+    for (int i = 0; i < 500; ++i)
+      add_at_random();
+    for (unsigned i = 0; i < 960; ++i) {
+      unsigned a = random() % 500, b = random() % 500, hub = i % 3;
+      if (round % 4 < 2) { // near to each other, so that not all faces meet
+        a = 3 + i % 497, b = 3 + (i + 1) % 497;
+      }
+      if (i % 50 == 0)
+        a = (hub + 1) % 3; // two hubs
+      if (a != b && a != hub && b != hub)
+        soup.add_face(std::array<unsigned, 3>{hub, a, b});
+    }
+    for (int i = 0; i < 200; ++i) {
+      const unsigned a = 3 + random() % 165, b = 170 + random() % 165, c = 340 + random() % 160;
+      soup.add_face(std::array<unsigned, 3>{a, b, c});
+    }
+    const haptic_sculpt::internal::Meet_improperly meet_improperly(soup);
+    std::vector<bool> flat;
+    std::vector<Face_soup::Index> faces;
+    for (Face_soup::Index f = 0; f < soup.number_of_faces(); ++f) {
+      faces.push_back(f);
+      flat.push_back(meet_improperly.is_flat(f));
+    }
+    std::vector<std::pair<Face_soup::Index, Face_soup::Index>> expected;
+    for (const auto f : faces)
+      for (const auto g : faces)
+        if (f < g && (flat[f] || flat[g] ? meet_improperly.degenerate(f, g) : meet_improperly(f, g)))
+          expected.emplace_back(f, g);
+    const auto found = haptic_sculpt::internal::improper_intersections(soup, faces, flat, Validity_report::all_intersections);
+    BOOST_TEST((found.pairs == expected), "round " << round << ": " << found.pairs.size() << ", not " << expected.size());
+    hits += expected.size();
+    const auto some = haptic_sculpt::internal::improper_intersections(soup, faces, flat, 100);
+    BOOST_TEST(some.has_more);
+    BOOST_TEST(some.pairs.size() == 100u);
+  }
+  BOOST_TEST_MESSAGE(hits << " improper pairs");
+  BOOST_TEST(hits > 10000u);
+}
+
+// Counted, for times are those of a machine: all pairs would be 12 million.
+BOOST_AUTO_TEST_CASE(faces_at_one_vertex_are_not_all_paired) {
+  Face_soup soup;
+  constexpr unsigned n = 5000;
+  for (unsigned i = 0; i < n; ++i)
+    soup.add_point(std::cos(2 * CGAL_PI * i / n), std::sin(2 * CGAL_PI * i / n), 0);
+  soup.add_point(0, 0, 1);
+  std::vector<Face_soup::Index> faces;
+  for (unsigned i = 0; i < n; ++i) {
+    faces.push_back(i);
+    soup.add_face(std::array<unsigned, 3>{i, (i + 1) % n, n});
+  }
+  std::size_t pairs = 0;
+  haptic_sculpt::internal::Near_faces(soup, faces).for_each_pair([&](auto, auto) { ++pairs; });
+  BOOST_TEST_MESSAGE(pairs << " pairs of " << n << " faces at one vertex");
+  BOOST_TEST(pairs >= n);
+  BOOST_TEST(pairs < 10 * n);
 }
 
 BOOST_AUTO_TEST_CASE(agrees_with_polygon_mesh_processing) {

@@ -3,13 +3,13 @@
 #define HAPTIC_SCULPT_SURFACE_IMPROPER_INTERSECTION_H
 
 #include <haptic_sculpt/surface/validity/Face_soup.h>
+#include <haptic_sculpt/surface/validity/near_faces.h>
 
-#include <CGAL/Box_intersection_d/Box_with_info_d.h>
-#include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -106,45 +106,28 @@ struct Improper_intersections {
 };
 
 /// Pairs of triangles of `faces` that meet improperly: all if there are at most `most`, else the first `most` that are
-/// found. Pairs whose boxes meet are found by CGAL's box intersection, O(n log^3 n + pairs), always in the same order;
-/// each is then decided exactly.
+/// found. Pairs that are near are found by Near_faces, always in the same order; each is then decided exactly.
 /// \param flat[f] whether face f is degenerate
 inline Improper_intersections improper_intersections(const Face_soup& soup, const std::vector<Face_soup::Index>& faces,
                                                      const std::vector<bool>& flat, std::size_t most) {
   using Index = Face_soup::Index;
   struct Enough {}; // thrown through the box intersection: it has no other way to end early
-  using Box =
-      CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index, CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
-  std::vector<Box> boxes;
-  boxes.reserve(faces.size());
-  for (const Index f : faces) {
-    CGAL::Bbox_3 bounds;
-    for (const Index* corner = soup.begin(f); corner != soup.end(f); ++corner)
-      bounds += soup.points[*corner].bbox();
-    boxes.emplace_back(bounds, f);
-  }
-  std::vector<const Box*> pointers;
-  pointers.reserve(boxes.size());
-  for (const Box& box : boxes)
-    pointers.push_back(&box);
-
   Improper_intersections found;
+  std::set<std::pair<Index, Index>> pairs;
   const Meet_improperly meet_improperly(soup);
-  const auto decide = [&](const Box* a, const Box* b) {
-    const Index f = std::min(a->info(), b->info()), g = std::max(a->info(), b->info());
-    if (!(flat[f] || flat[g] ? meet_improperly.degenerate(f, g) : meet_improperly(f, g)))
+  const auto decide = [&](Index f, Index g) {
+    if (!(flat[f] || flat[g] ? meet_improperly.degenerate(f, g) : meet_improperly(f, g)) || pairs.count({f, g}) != 0)
       return;
-    if (found.pairs.size() == most)
+    if (pairs.size() == most)
       throw Enough();
-    found.pairs.emplace_back(f, g);
+    pairs.emplace(f, g);
   };
-  constexpr std::ptrdiff_t cutoff = 2000; // below so many boxes all pairs are tried; the figure PMP uses
   try {
-    CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), decide, cutoff);
+    Near_faces(soup, faces).for_each_pair(decide);
   } catch (const Enough&) {
     found.has_more = true;
   }
-  std::sort(found.pairs.begin(), found.pairs.end());
+  found.pairs.assign(pairs.begin(), pairs.end());
   return found;
 }
 
