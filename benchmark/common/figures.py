@@ -106,9 +106,7 @@ def names_beside(one, ends, may_stand_above=True):
         text.set_path_effects([patheffects.withStroke(linewidth=3, foreground="white")])
 
 
-def lines(series, x_label, y_label, times=True):
-    """\\param series {name: [(x, y), ...]}, ours first. Both axes are logarithmic."""
-    figure, one = axes()
+def draw_lines(one, series, x_label, heights, times):
     one.set_xscale("log"), one.set_yscale("log")
     ends = []
     for (name, points), colour, marker in zip(list(series.items())[:MOST_SERIES], COLOURS, MARKERS):
@@ -117,13 +115,35 @@ def lines(series, x_label, y_label, times=True):
             continue
         one.plot(*zip(*points), marker=marker, markersize=5, color=colour, linewidth=2 if colour == COLOURS[0] else 1.4)
         ends.append((*points[-1], name, colour))
-    heights = [y for name in list(series)[:MOST_SERIES] for _, y in series[name] if y > 0]
     if heights:
         one.set_ylim(*whole_decades(min(heights), max(heights)))
-    one.set_xlabel(x_label), one.set_ylabel(y_label)
+    one.set_xlabel(x_label)
     if times:
         time_axis(one.yaxis)
     names_beside(one, ends, may_stand_above=False)
+
+
+def heights_of(series):
+    return [y for points in list(series.values())[:MOST_SERIES] for _, y in points if y > 0]
+
+
+def lines(series, x_label, y_label, times=True):
+    """\\param series {name: [(x, y), ...]}, ours first. Both axes are logarithmic."""
+    figure, one = axes()
+    one.set_ylabel(y_label)
+    draw_lines(one, series, x_label, heights_of(series), times)
+    return data_address(figure)
+
+
+def two_panels(left, right, y_label):
+    """Beside each other, with the same heights. \\param left, right (series, label of x)"""
+    figure, panels = plt.subplots(1, 2, figsize=(9.4, 4.0), sharey=True)
+    figure.subplots_adjust(wspace=0.62)
+    for one, (series, x_label) in zip(panels, (left, right)):
+        one.grid(True, which="major", color="#e6e6e6", linewidth=0.8)
+        one.tick_params(which="both", length=0)
+        draw_lines(one, series, x_label, heights_of(left[0]) + heights_of(right[0]), True)
+    panels[0].set_ylabel(y_label)
     return data_address(figure)
 
 

@@ -13,7 +13,11 @@ STEPS = [
          quick=Effort("--drags 20 --ways 200 --near-degenerate 0.01 --seed {seed}", 10),
          full=Effort("--drags 20000 --seed {seed}", 240, shards=16)),
     Step("sweeps_by_oracle", "test_collision", folder="test/collision",
-         full=Effort("--run_test=*sweep* --log_level=message", 480, shards=32),
+         full=Effort("--run_test=sweeps_agree_with_the_oracle --log_level=message", 480, shards=32),
          environment={"HAPTIC_SCULPT_SWEEP_QUERIES": "{share}", "HAPTIC_SCULPT_SEED": "{seed_of_shard}"},
          promise="every sweep agrees with the rational oracle", count={"full": 10**9}),
+    Step("axis_moves_by_oracle", "test_axis_moves", folder="test/sculpting",
+         full=Effort("--run_test=free_motions_are_embedded_all_the_way --log_level=message", 240, shards=16),
+         environment={"HAPTIC_SCULPT_AXIS_MOVES": "{share}", "HAPTIC_SCULPT_SEED": "{seed_of_shard}"},
+         promise="a free axis move is embedded at all times looked at", count={"full": 10**6}),
 ]
