@@ -2,7 +2,6 @@
 #include "write_picture.h"
 #include "Mesh_view.h"
 #include "Offscreen_context.h"
-#include "draw_plot.h"
 #include "write_png.h"
 #include "write_words.h"
 #include <cfenv>
@@ -152,19 +151,6 @@ std::string write_picture(const Scene& scene, const std::filesystem::path& path,
 
 std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view) {
   const Image image = drawn(scenes, view);
-  return write_png(path, image.width, image.height, image.bytes);
-}
-
-std::string write_figure(const Scene& scene, const std::vector<Plot>& plots, const std::filesystem::path& path,
-                         const View& view) {
-  const Image left = drawn({scene}, view);
-  Image image(view.width + 2 * view.width / 3, view.height, view.background);
-  for (int row = 0; row < view.height; ++row)
-    std::copy_n(left.bytes.begin() + std::ptrdiff_t(3) * row * left.width, std::ptrdiff_t(3) * left.width,
-                image.bytes.begin() + std::ptrdiff_t(3) * row * image.width);
-  const int number = std::max(1, int(plots.size()));
-  for (int i = 0; i < int(plots.size()); ++i)
-    Plot_painter(image, {view.width, view.height * i / number}, {image.width, view.height * (i + 1) / number}, plots[i]);
   return write_png(path, image.width, image.height, image.bytes);
 }
 

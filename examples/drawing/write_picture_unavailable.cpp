@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compiled instead of the drawing code where the libraries it needs were not found.
-#include "write_figure.h"
 #include "write_picture.h"
 
 namespace haptic_sculpt::drawing {
@@ -20,10 +19,6 @@ std::string write_picture(const Scene&, const std::filesystem::path& path, const
 }
 
 std::string write_pictures(const std::vector<Scene>&, const std::filesystem::path& path, const View&) {
-  refuse(path);
-}
-
-std::string write_figure(const Scene&, const std::vector<Plot>&, const std::filesystem::path& path, const View&) {
   refuse(path);
 }
 

@@ -255,7 +255,7 @@ private:
     happenings_->add(time, made.tool, session_->scene().sculptor, held);
     const double force = made.rendered.force.norm();
     if (!plan_.picture.empty())
-      sample(made, time, cpu_taken);
+      sample(made.tool);
     result_.largest_force = std::fmax(result_.largest_force, force);
     if (!made.tool.reached || made.tool.event == Tool_event::refused || made.fault != Loop_fault::none)
       free_since_ = time;
@@ -268,11 +268,8 @@ private:
     return !loop.has_stopped();
   }
 
-  void sample(const Haptic_tick& made, double time, std::uint64_t cpu) {
-    const Tool_step& tool = made.tool;
-    samples_.add({time, made.coupling.norm(), made.rendered.force.norm(), port_, dissipated_, tool.target, tool.proxy,
-                  !tool.reached},
-                 cpu);
+  void sample(const Tool_step& tool) {
+    samples_.add({tool.target, tool.proxy, !tool.reached});
     constexpr const char* words[] = {"", "grabbed", "created", "created", "released", "removed", "refused"};
     if (tool.event != Tool_event::none)
       samples_.events.push_back({tool.proxy, words[static_cast<int>(tool.event)]});
@@ -321,7 +318,7 @@ private:
     log_->finish();
     writer_.write(plan_.out, [&](const std::string& path) { return write_surface(path, sculpted, options); });
     writer_.write(plan_.picture, [&](const std::string& path) {
-      return write_run_picture(drawing::scene_of(sculpted), samples_, result_.has_true_energy, path);
+      return write_run_picture(drawing::scene_of(sculpted), samples_, path);
     });
     for (Row_file* const rows : {&trace_, &record_})
       writer_.write(rows == &trace_ ? plan_.trace : plan_.record, [&](const std::string&) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Script_runner.h"
 
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 
 template haptic_sculpt::sculpt_program::Run_result
 haptic_sculpt::sculpt_program::run_script<haptic_sculpt::Six_list_broad_phase<haptic_sculpt::sculpt_program::Mesh>>(

@@ -13,9 +13,9 @@
 #include "sha256_of_file.h"
 #include "write_results.h"
 
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/orient_components.h>
 #include <haptic_sculpt/surface/read_surface.h>
 

@@ -7,27 +7,24 @@
 
 #include <iostream>
 
-/// The boxes of all faces, one after another. A model of BroadPhase (doc/broad_phase.md).
+/// The boxes of all faces, one after another. A model of BroadPhase: it has what its base has not.
 template <class Mesh>
-class Box_list {
+class Box_list : public haptic_sculpt::Broad_phase_base<Mesh, Box_list<Mesh>> {
 public:
   using Face_index = typename Mesh::Face_index;
-  explicit Box_list(const Mesh& mesh) : mesh_(&mesh) { faces_inserted(mesh.faces()); }
+  explicit Box_list(const Mesh& mesh) : haptic_sculpt::Broad_phase_base<Mesh, Box_list>(mesh) { faces_inserted(mesh.faces()); }
 
   void query(const haptic_sculpt::Box_3& box, std::vector<Face_index>& faces) const {
     for (std::size_t f = 0; f < boxes_.size(); ++f)
       if (haptic_sculpt::do_meet(boxes_[f], box))
         faces.emplace_back(static_cast<typename Mesh::size_type>(f));
   }
-  void query(const haptic_sculpt::Swept_star_3& star, std::vector<Face_index>& faces) const {
-    query(star.box(), faces);
-  }
 
   template <class Faces>
   void faces_inserted(const Faces& faces) {
-    boxes_.resize(mesh_->num_faces()); // a default box meets no other
+    boxes_.resize(this->mesh().num_faces()); // a default box meets no other
     for (const Face_index f : faces)
-      boxes_[f] = haptic_sculpt::face_box(*mesh_, f);
+      boxes_[f] = haptic_sculpt::face_box(this->mesh(), f);
   }
   template <class Faces>
   void faces_moved(const Faces& faces) {
@@ -40,7 +37,6 @@ public:
   }
 
 private:
-  const Mesh* mesh_;
   std::vector<haptic_sculpt::Box_3> boxes_; ///< by index of face
 };
 

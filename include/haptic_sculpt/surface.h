@@ -7,7 +7,6 @@
 #include <haptic_sculpt/surface/Validity_report.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/delta_rule.h>
 #include <haptic_sculpt/surface/read_surface.h>
 #include <haptic_sculpt/surface/star.h>

@@ -44,6 +44,14 @@ at = lambda name: os.path.join(folder, name)
 
 run(MESH, "--no-wait", "-o", at("a.off"), "--report", at("a.json"), "--trace", at("a.csv"), "--record", at("a.rec"), "--picture", at("a.png"))
 check(open(at("a.png"), "rb").read(8) == b"\x89PNG\r\n\x1a\n", "a picture")
+DRAW = os.path.join(SOURCE, "examples/haptic_loop/draw_trace.py")
+done = subprocess.run([sys.executable, DRAW, at("a.csv"), at("plots.png")], capture_output=True, text=True)
+if "No module named 'matplotlib'" in done.stderr:
+    print("the plots of a trace are not checked: python3-matplotlib is not installed")
+else:
+    check(done.returncode == 0 and open(at("plots.png"), "rb").read(8) == b"\x89PNG\r\n\x1a\n", f"plots of a trace: {done.stderr}")
+    refused = subprocess.run([sys.executable, DRAW, at("a.json"), at("none.png")], capture_output=True, text=True)
+    check(refused.returncode == 1 and "has no column 't'" in refused.stderr, f"what is no trace is refused: {refused.stderr}")
 report = json.load(open(at("a.json")))
 check(KEYS <= set(report), f"keys of the report: {sorted(report)}")
 check(report["valid"] is True and report["faults"] == [], "the run is valid and has no faults")

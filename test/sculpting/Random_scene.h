@@ -41,6 +41,9 @@ inline double share_of_sizes() {
   return text != nullptr ? std::strtod(text, nullptr) : 1;
 }
 
+/// Whether a population was met more than `least` times: asked of runs of full size only.
+inline bool is_enough(std::size_t times, std::size_t least) { return share_of_sizes() < 1 || times > least; }
+
 inline std::size_t count_from_environment(const char* name, std::size_t otherwise) {
   const char* text = std::getenv(name);
   const auto share = static_cast<std::size_t>(share_of_sizes() * static_cast<double>(otherwise));

@@ -2,8 +2,7 @@
 #ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RTREE_BROAD_PHASE_H
 #define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RTREE_BROAD_PHASE_H
 
-#include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -13,19 +12,18 @@ namespace haptic_sculpt::benchmark {
 /// Boost.Geometry's R*-tree of the boxes of all faces, packed when built; a face that moves is taken out and put in again. A model of
 /// BroadPhase, to compare with. It holds doubles: nothing is to be rounded outward.
 template <class Mesh>
-class Rtree_broad_phase {
+class Rtree_broad_phase : public Broad_phase_base<Mesh, Rtree_broad_phase<Mesh>> {
 public:
   using Face_index = typename Mesh::Face_index;
 
-  explicit Rtree_broad_phase(const Mesh& mesh) : mesh_(&mesh), boxes_(mesh.num_faces()) {
+  explicit Rtree_broad_phase(const Mesh& mesh)
+    : Broad_phase_base<Mesh, Rtree_broad_phase>(mesh), boxes_(mesh.num_faces()) {
     std::vector<Entry> entries;
     entries.reserve(mesh.number_of_faces());
     for (const Face_index f : mesh.faces())
       entries.emplace_back(boxes_[f] = to_boost(face_box(mesh, f)), f);
     tree_ = Tree(entries.begin(), entries.end());
   }
-
-  void query(const Swept_star_3& star, std::vector<Face_index>& faces) { query(star.box(), faces); }
 
   void query(const Box_3& box, std::vector<Face_index>& faces) {
     for (auto it = tree_.qbegin(boost::geometry::index::intersects(to_boost(box))); it != tree_.qend(); ++it)
@@ -36,16 +34,16 @@ public:
   void faces_moved(const Faces& faces) {
     for (const Face_index f : faces) {
       tree_.remove(Entry(boxes_[f], f));
-      tree_.insert(Entry(boxes_[f] = to_boost(face_box(*mesh_, f)), f));
+      tree_.insert(Entry(boxes_[f] = to_boost(face_box(this->mesh(), f)), f));
     }
   }
 
   template <class Faces>
   void faces_inserted(const Faces& faces) {
-    boxes_.resize(std::max(boxes_.size(), static_cast<std::size_t>(mesh_->num_faces())));
+    boxes_.resize(std::max(boxes_.size(), static_cast<std::size_t>(this->mesh().num_faces())));
     for (const Face_index f : faces) {
       tree_.remove(Entry(boxes_[f], f)); // told again
-      tree_.insert(Entry(boxes_[f] = to_boost(face_box(*mesh_, f)), f));
+      tree_.insert(Entry(boxes_[f] = to_boost(face_box(this->mesh(), f)), f));
     }
   }
 
@@ -64,7 +62,6 @@ private:
   };
   using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<16>, boost::geometry::index::indexable<Entry>, Equal>;
 
-  const Mesh* mesh_;
   std::vector<Boost_box> boxes_;
   Tree tree_;
 

@@ -10,17 +10,23 @@ namespace haptic_sculpt::benchmark {
 
 /// The box tree with a stopwatch in front of it.
 template <class Mesh>
-class Timed_broad_phase {
+class Timed_broad_phase : public Broad_phase_base<Mesh, Timed_broad_phase<Mesh>> {
 public:
   using Face_index = typename Mesh::Face_index;
 
-  explicit Timed_broad_phase(const Mesh& mesh) : tree_(mesh) {}
+  explicit Timed_broad_phase(const Mesh& mesh) : Broad_phase_base<Mesh, Timed_broad_phase>(mesh), tree_(mesh) {}
 
-  template <class Query>
-  void query(const Query& query, std::vector<Face_index>& faces) {
+  void query(const Box_3& box, std::vector<Face_index>& faces) {
     const std::uint64_t start = Query_timer::now();
-    tree_.query(query, faces);
+    tree_.query(box, faces);
     asking() += timer().nanoseconds(start, Query_timer::now());
+  }
+  bool query_star(const Swept_star_3& star, std::vector<Face_index>& faces,
+                  std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    const std::uint64_t start = Query_timer::now();
+    const bool is_whole = tree_.query_star(star, faces, most);
+    asking() += timer().nanoseconds(start, Query_timer::now());
+    return is_whole;
   }
   void fetch_ahead(const Box_3& box) { tree_.fetch_ahead(box); }
   void fetch_on() { tree_.fetch_on(); }

@@ -99,7 +99,7 @@ void fill_lists(const Mesh& mesh, const std::vector<Wanted_list>& wanted, Latenc
       swept.source = one.region.lower, swept.target = one.region.upper;
       swept.is_box = true;
     }
-    tree.query(swept, faces);
+    tree.query_star(swept, faces);
     times.measure([&] { list.assign(mesh, corners, star, faces, one.region); });
   }
 }

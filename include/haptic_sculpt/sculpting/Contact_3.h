@@ -45,9 +45,11 @@ struct Contact_3 {
   int side = 0;
 };
 
+namespace internal {
+
 /// The contact of an impact. `at` describes its path, see path_at_plane().
 template <class Mesh, class Impact>
-Contact_3<Mesh> contact_of(const Star_impact<Mesh, Impact>& impact, const internal::Path_at_plane& at) {
+Contact_3<Mesh> contact_of(const Star_impact<Mesh, Impact>& impact, const Path_at_plane& at) {
   Contact_3<Mesh> contact;
   contact.kind = static_cast<Contact_kind>(impact.feature());
   contact.vertices = impact.vertices();
@@ -58,8 +60,6 @@ Contact_3<Mesh> contact_of(const Star_impact<Mesh, Impact>& impact, const intern
   contact.side = at.side;
   return contact;
 }
-
-namespace internal {
 
 /// Of the still features of a contact.
 template <class Mesh>

@@ -72,7 +72,7 @@ Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, ty
   star.collect(mesh, v);
   std::vector<typename Mesh::Face_index> candidates;
   const Swept_star_3 swept = star.swept(source, end);
-  Brute_force_broad_phase<Mesh>(mesh).query(swept, candidates);
+  Brute_force_broad_phase<Mesh>(mesh).query(swept.box(), candidates);
   internal::Candidate_list<Mesh> list;
   list.assign(mesh, [&mesh](auto f) { return internal::corners_of_face(mesh, f); }, star, candidates, swept.box());
   if (star.valence() != 0) {

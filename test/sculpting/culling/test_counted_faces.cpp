@@ -3,9 +3,8 @@
 #include "meshes/generated_meshes.h"
 #include "sculpting/Random_scene.h"
 
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/query_up_to.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -47,9 +46,9 @@ struct Counted_star {
 };
 
 template <class Broad_phase>
-Faces counted_faces(const Mesh& mesh, const internal::Box_scale& scale, Broad_phase& broad_phase, const Swept_star_3& star, std::size_t most, bool& is_whole) {
+Faces counted_faces(Broad_phase& broad_phase, const Swept_star_3& star, std::size_t most, bool& is_whole) {
   Faces faces;
-  is_whole = internal::query_up_to(mesh, scale, broad_phase, star, most, faces);
+  is_whole = broad_phase.query_star(star, faces, most);
   std::sort(faces.begin(), faces.end());
   return faces;
 }
@@ -69,7 +68,6 @@ BOOST_AUTO_TEST_CASE(every_broad_phase_answers_with_the_faces_that_pass) {
       };
       for (const Vertex_index v : mesh.vertices())
         put(v, mesh.point(v));
-      const auto scale = internal::Box_scale::of(mesh);
       Box_tree_broad_phase<Mesh> tree(mesh);
       Six_list_broad_phase<Mesh> six_lists(mesh);
       Brute_force_broad_phase<Mesh> brute_force(mesh);
@@ -88,19 +86,19 @@ BOOST_AUTO_TEST_CASE(every_broad_phase_answers_with_the_faces_that_pass) {
           p[0] += shift * unit;
         drawn.star.source[0] += shift * unit, drawn.star.target[0] += shift * unit;
         bool is_whole = false;
-        const Faces expected = counted_faces(mesh, scale, brute_force, drawn.star, mesh.num_faces(), is_whole);
+        const Faces expected = counted_faces(brute_force, drawn.star, mesh.num_faces(), is_whole);
         BOOST_REQUIRE(is_whole);
-        BOOST_REQUIRE((counted_faces(mesh, scale, tree, drawn.star, mesh.num_faces(), is_whole) == expected));
-        BOOST_REQUIRE((counted_faces(mesh, scale, six_lists, drawn.star, mesh.num_faces(), is_whole) == expected));
+        BOOST_REQUIRE((counted_faces(tree, drawn.star, mesh.num_faces(), is_whole) == expected));
+        BOOST_REQUIRE((counted_faces(six_lists, drawn.star, mesh.num_faces(), is_whole) == expected));
         // It is given up for the same reason: one face too many.
         if (!expected.empty()) {
-          counted_faces(mesh, scale, tree, drawn.star, expected.size() - 1, is_whole);
+          counted_faces(tree, drawn.star, expected.size() - 1, is_whole);
           BOOST_REQUIRE(!is_whole);
         }
-        counted_faces(mesh, scale, tree, drawn.star, expected.size(), is_whole);
+        counted_faces(tree, drawn.star, expected.size(), is_whole);
         BOOST_REQUIRE(is_whole);
         Faces in_box;
-        brute_force.query(drawn.star, in_box);
+        brute_force.query(drawn.star.box(), in_box);
         none += expected.empty(), many += expected.size() > 64, fewer_than_boxes += expected.size() < in_box.size();
       }
     }

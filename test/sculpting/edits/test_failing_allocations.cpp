@@ -5,7 +5,7 @@
 #include "sculpting/Mesh_snapshot.h"
 #include "sculpting/edits/random_edits.h"
 
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -4,7 +4,7 @@
 
 #include "oracle/sweep_oracle.h"
 
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 
 #include <boost/test/unit_test.hpp>
 

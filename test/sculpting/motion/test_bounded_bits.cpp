@@ -4,8 +4,8 @@
 #include "sculpting/many_vertices/many_vertices_scene.h"
 #include "sculpting/motion/same_bits.h"
 
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -16,13 +16,17 @@ namespace {
 
 /// Answers with every face, in another order each time: all that the concept permits.
 template <class M>
-class Careless_broad_phase {
+class Careless_broad_phase : public Broad_phase_base<M, Careless_broad_phase<M>> {
 public:
   using Face_index = typename M::Face_index;
 
-  explicit Careless_broad_phase(const M& mesh) : mesh_(&mesh) {}
-  void query(const Swept_star_3&, std::vector<Face_index>& faces) { append_all(faces); }
-  void query(const Box_3&, std::vector<Face_index>& faces) { append_all(faces); }
+  explicit Careless_broad_phase(const M& mesh) : Broad_phase_base<M, Careless_broad_phase>(mesh) {}
+  void query(const Box_3&, std::vector<Face_index>& faces) {
+    const auto first = static_cast<std::ptrdiff_t>(faces.size());
+    for (const Face_index f : this->mesh().faces())
+      faces.push_back(f);
+    std::shuffle(faces.begin() + first, faces.end(), random_);
+  }
   template <class Faces>
   void faces_moved(const Faces&) {}
   template <class Faces>
@@ -31,15 +35,7 @@ public:
   void faces_removed(const Faces&) {}
 
 private:
-  const M* mesh_;
   Random random_{1};
-
-  void append_all(std::vector<Face_index>& faces) {
-    const auto first = static_cast<std::ptrdiff_t>(faces.size());
-    for (const Face_index f : mesh_->faces())
-      faces.push_back(f);
-    std::shuffle(faces.begin() + first, faces.end(), random_);
-  }
 };
 
 template <class T>

@@ -5,7 +5,7 @@
 
 #include "oracle/sweep_oracle.h"
 
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
@@ -154,7 +154,7 @@ void check_queries(std::uint64_t seed) {
     swept.collect(mesh, w);
     const auto source = vertex_coordinates(mesh, w), target = point();
     found.clear();
-    broad_phase.query(swept.swept(source, target), found);
+    broad_phase.query_star(swept.swept(source, target), found);
     unique = {found.begin(), found.end()};
     const auto is_free_of = [&](const std::vector<Mesh::Face_index>& faces) {
       internal::Candidate_list<Mesh> list;

@@ -5,8 +5,8 @@
 #include "surface/broad_phase/random_points.h"
 #include "surface/broad_phase/swept_faces.h"
 
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/star.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>

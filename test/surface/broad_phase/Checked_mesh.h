@@ -25,10 +25,10 @@ struct Checked_mesh : Changing_mesh {
     six_lists.query(box, lists);
     tree.query(box, leaves);
     // Of the tree it is known exactly what it should say: which of the rounded boxes meet.
-    const internal::Float_box around = tree.scale().query(box);
+    const internal::Float_box around = internal::Broad_phase_access::scale(tree).query(box);
     for (const Face_index f : mesh.faces()) {
       internal::Box_node node;
-      node.set(0, tree.scale().around(face_box(mesh, f)));
+      node.set(0, internal::Broad_phase_access::scale(tree).around(face_box(mesh, f)));
       if (node.meeting(around) == 1)
         rounded.push_back(f);
     }
@@ -39,7 +39,7 @@ struct Checked_mesh : Changing_mesh {
   template <class Model>
   void check_star(Model& model, const Swept_star_3& star, const std::vector<Face_index>& swept) {
     std::vector<Face_index> found;
-    model.query(star, found);
+    model.query_star(star, found);
     found = sorted(found);
     BOOST_TEST((std::adjacent_find(found.begin(), found.end()) == found.end()));
     for (const Face_index f : found)
@@ -56,10 +56,10 @@ struct Checked_mesh : Changing_mesh {
   /// An answer that is said to be whole is; and one that is small enough, is.
   void check_giving_up(const Swept_star_3& star) {
     std::vector<Face_index> all, found;
-    tree.query(star, all);
+    tree.query_star(star, all);
     for (const std::size_t most : {std::size_t(0), all.size() / 2, all.size(), 8 * all.size() + 1}) {
       found.clear();
-      const bool is_whole = tree.query(star, found, most);
+      const bool is_whole = tree.query_star(star, found, most);
       BOOST_TEST((!is_whole || (all.size() <= most && sorted(found) == sorted(all))));
       BOOST_TEST((is_whole || most <= all.size() || found.empty())); // else there were many nodes to read
       given_up += !is_whole && most < all.size();

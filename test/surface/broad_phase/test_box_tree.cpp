@@ -29,8 +29,8 @@ double share_of_boxes(const Swept_of& swept_of) {
     const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
     star.collect(mesh, v);
     const Swept_star_3 swept = swept_of(mesh, v, star, random);
-    brute_force.query(swept, in_box);
-    tree.query(swept, found);
+    brute_force.query(swept.box(), in_box);
+    tree.query_star(swept, found);
   }
   return static_cast<double>(found.size()) / static_cast<double>(in_box.size());
 }

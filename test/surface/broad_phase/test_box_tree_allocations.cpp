@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(neither_queries_nor_moves_allocate) {
       star.collect(mesh, v);
       const Coordinates s = vertex_coordinates(mesh, v), t = random_point(script, 2);
       found.clear();
-      tree.query(star.swept(s, t), found);
+      tree.query_star(star.swept(s, t), found);
       tree.query(star.swept(s, s).box(), found);
       mesh.point(v) = Point_3(t[0], t[1], t[2]);
       tree.faces_moved(star.faces);

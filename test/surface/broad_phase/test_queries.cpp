@@ -65,8 +65,8 @@ BOOST_AUTO_TEST_CASE(rounding_modes_lose_nothing) {
         std::vector<Face_index> found;
         std::fesetround(mode);
         Box_tree_broad_phase<Mesh> tree(changing.mesh);
-        tree.query(swept, found);
-        changing.tree.query(swept, found);
+        tree.query_star(swept, found);
+        changing.tree.query_star(swept, found);
         std::fesetround(FE_TONEAREST);
         found = sorted(found);
         found.erase(std::unique(found.begin(), found.end()), found.end());

@@ -4,8 +4,8 @@
 #include "surface/broad_phase/swept_faces.h"
 
 #include <haptic_sculpt/sculpting.h>
+#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/Six_list_broad_phase.h>
 
 #include <boost/test/unit_test.hpp>
 

@@ -7,8 +7,6 @@
 #include <haptic_sculpt/sculpting/geometry/Work.h>
 #include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/surface/broad_phase/Isolated_vertices.h>
-#include <haptic_sculpt/surface/broad_phase/fetch_ahead.h>
-#include <haptic_sculpt/surface/broad_phase/query_up_to.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
@@ -28,10 +26,7 @@ public:
   Star_candidates(const Mesh& mesh, Broad_phase& broad_phase, const Face_corners<Mesh>& corners,
                   Isolated_vertices<Mesh>* isolated, Star_runs<Mesh>& runs, Work& work, Fetch fetch)
     : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), isolated_(isolated), runs_(&runs), work_(&work)
-    , fetch_(std::move(fetch)) {
-    if (!Answers_are_filtered<Broad_phase>::value)
-      scale_ = Box_scale::of(mesh);
-  }
+    , fetch_(std::move(fetch)) {}
 
   Star<Mesh>& star() { return star_; }
   const Star<Mesh>& star() const { return star_; }
@@ -49,11 +44,11 @@ public:
       Box_3 about(vertex_coordinates(*mesh_, v));
       for (int i = 0; i < 3; ++i)
         about.lower[i] -= size, about.upper[i] += size;
-      fetch_ahead(*broad_phase_, about);
+      broad_phase_->fetch_ahead(about);
     }
     star_.collect(*mesh_, v, [this](Vertex_index neighbour) {
       fetch_(neighbour);
-      fetch_on(*broad_phase_);
+      broad_phase_->fetch_on();
     });
     invalidate();
   }
@@ -161,7 +156,6 @@ private:
   Star_runs<Mesh>* runs_;
   Work* work_;
   Fetch fetch_;
-  Box_scale scale_; ///< of the boxes by which faces count as near
   Star<Mesh> star_;
   Candidate_list<Mesh> list_;
   Near_pairs<Mesh> pairs_;
@@ -241,7 +235,7 @@ private:
     anywhere.is_box = true;
     candidates_.clear();
     // Of a drag's work no more than a quarter: what is left has to do for the motions.
-    if (!query_up_to(*mesh_, scale_, *broad_phase_, anywhere, std::min(few_about_probe, work_->left() / 4), candidates_)) {
+    if (!broad_phase_->query_star(anywhere, candidates_, std::min(few_about_probe, work_->left() / 4))) {
       crowded_way_ = way / 2;
       return false;
     }
@@ -272,7 +266,7 @@ private:
   void look_at(const Swept_star_3& part) {
     candidates_.clear();
     const std::size_t left = work_->left(), most = left < Work::unbounded - star_.valence() ? left + star_.valence() : left;
-    if (query_up_to(*mesh_, scale_, *broad_phase_, part, most, candidates_)) {
+    if (broad_phase_->query_star(part, candidates_, most)) {
       leave_own_faces_out();
       if (candidates_.size() <= left)
         return work_->spend(candidates_.size());

@@ -54,7 +54,7 @@ public:
       return Refusal<Mesh>{Refusal_reason::delta, in_the_way};
     // Each way by itself: the box around a star that was drawn far out may hold a good part of the mesh.
     candidates_.clear();
-    broad_phase_->query(star_.swept(centre_, star_.link_points[pivot]), candidates_);
+    broad_phase_->query_star(star_.swept(centre_, star_.link_points[pivot]), candidates_);
     list_.assign(*mesh_, *corners_of_, star_, candidates_, Box_3());
     if (!proof_.can_collapse(star_, list_, centre_, pivot, in_the_way) || !passes_isolated(pivot, in_the_way))
       return Refusal<Mesh>{Refusal_reason::blocked, in_the_way};

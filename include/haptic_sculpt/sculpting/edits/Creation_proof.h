@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_CREATION_PROOF_H
 
 #include <haptic_sculpt/sculpting/Edit_result.h>
+#include <haptic_sculpt/sculpting/culling/Convex_star.h>
 #include <haptic_sculpt/sculpting/edits/Edit_proof.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
@@ -60,7 +61,10 @@ public:
     return std::nullopt;
   }
 
-  void reserve(std::size_t usual_candidates) { candidates_.reserve(usual_candidates); }
+  void reserve(std::size_t usual_candidates) {
+    candidates_.reserve(usual_candidates);
+    star_.reserve(4);
+  }
 
 private:
   const Mesh* mesh_;
@@ -70,6 +74,26 @@ private:
   boost::container::static_vector<Corners<Mesh>, 2> old_faces_;
   boost::container::static_vector<Corners<Mesh>, 4> new_faces_;
   std::vector<Face_index> candidates_;
+  Star<Mesh> star_;                ///< the corners about the new vertex
+  Convex_star<Mesh> convex_star_;
+
+  /// Whether the corners of the old faces, seen along some direction, are a convex polygon with p inside: then old and new faces
+  /// are within its walls, and a face beyond one of them is near neither. So of the needles about a split one, whose boxes all
+  /// meet its own, few are left for exact decisions.
+  bool is_convex(const Coordinates& p) {
+    star_.clear();
+    const auto add = [this](const Corner<Mesh>& corner) {
+      star_.link.push_back(corner.index);
+      star_.link_points.push_back(corner.point);
+    };
+    const Corners<Mesh>& old = old_faces_[0];
+    add(old[0]);
+    if (old_faces_.size() == 2) // beyond their common edge, from the first corner to the second
+      add(old_faces_[1][2]);
+    add(old[1]);
+    add(old[2]);
+    return convex_star_.assign(star_, p, p);
+  }
 
   bool stands_between(const Coordinates& vertex, const Coordinates& p) const {
     for (const Corners<Mesh>& old : old_faces_)
@@ -91,21 +115,24 @@ private:
         apex = i, shortest = length;
     }
     const std::array<Coordinates, 2> edge = {old[(apex + 1) % 3].point, old[(apex + 2) % 3].point};
-    broad_phase_->query(Swept_star_3{old[apex].point, p, edge.data(), edge.size()}, candidates_);
+    broad_phase_->query_star(Swept_star_3{old[apex].point, p, edge.data(), edge.size()}, candidates_);
   }
 
   Refused refuse_what_is_near(const Old_halfedges& old_halfedges, const Coordinates& p) {
     candidates_.clear();
     for (const Corners<Mesh>& old : old_faces_)
       add_candidates(old, p);
+    const bool has_walls = is_convex(p);
+    const auto is_out = [&](Face_index f) {
+      for (const Halfedge_index h : old_halfedges)
+        if (mesh_->face(h) == f)
+          return true;
+      return has_walls && convex_star_.is_apart(*mesh_, (*corners_of_)(f));
+    };
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), is_out), candidates_.end());
     std::sort(candidates_.begin(), candidates_.end());
     candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
     for (const Face_index f : candidates_) {
-      bool is_old = false;
-      for (const Halfedge_index h : old_halfedges)
-        is_old |= mesh_->face(h) == f;
-      if (is_old)
-        continue;
       const Corners<Mesh> other = corners_at(*mesh_, mesh_->halfedge(f));
       for (const Corner<Mesh>& corner : other)
         if (corner.point == p)

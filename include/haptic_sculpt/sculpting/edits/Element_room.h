@@ -4,7 +4,6 @@
 
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/edits/Vertex_names.h>
-#include <haptic_sculpt/surface/broad_phase/reserve_faces.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -75,13 +74,13 @@ private:
     corners_->reserve(room.faces);
     watch_->reserve(room.vertices);
     names_->reserve_slots(room.vertices);
-    reserve_faces(*broad_phase_, room.faces, 0);
+    broad_phase_->reserve(room.faces, 0);
     room_ = room;
     points_ = points();
   }
 
   void reserve_insertions(std::size_t insertions) {
-    reserve_faces(*broad_phase_, room_.faces, insertions);
+    broad_phase_->reserve(room_.faces, insertions);
     insertions_ = insertions;
   }
 };

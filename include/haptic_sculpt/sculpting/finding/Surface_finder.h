@@ -7,8 +7,7 @@
 #include <haptic_sculpt/sculpting/finding/box_bounds.h>
 #include <haptic_sculpt/sculpting/finding/compare_distances.h>
 #include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
-#include <haptic_sculpt/surface/broad_phase/nearest_first.h>
+#include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <optional>
@@ -59,10 +58,7 @@ public:
       return limit;
     };
     const Distance_bound bound(p, scale());
-    if constexpr (Visits_nearest_first<Broad_phase, Distance_bound, decltype(visit)>::value)
-      broad_phase_->visit_nearest_first(bound, limit, visit);
-    else
-      visit_all(box_around(p, within), visit);
+    broad_phase_->visit_nearest_first(box_around(p, within), bound, limit, visit);
     return best;
   }
 
@@ -85,10 +81,7 @@ public:
       return limit;
     };
     const Entry_bound bound(source, target, scale());
-    if constexpr (Visits_nearest_first<Broad_phase, Entry_bound, decltype(visit)>::value)
-      broad_phase_->visit_nearest_first(bound, limit, visit);
-    else
-      visit_all(Swept_star_3{source, target}, visit);
+    broad_phase_->visit_nearest_first(Box_3(source).include(target), bound, limit, visit);
     if (!first)
       return std::nullopt;
     return hit(*first);
@@ -108,24 +101,8 @@ private:
   Broad_phase* broad_phase_;
   const Face_corners<Mesh>* corners_of_;
   Filter_counters* counters_;
-  std::vector<Face_index> faces_;
 
-  /// That of the boxes, where there are any.
-  Box_scale scale() const {
-    if constexpr (Has_scale<Broad_phase>::value)
-      return broad_phase_->scale();
-    else
-      return Box_scale();
-  }
-
-  /// Where a broad phase does not search nearest first: all that it names.
-  template <class Region, class Visit>
-  void visit_all(const Region& region, const Visit& visit) {
-    faces_.clear();
-    broad_phase_->query(region, faces_);
-    for (const Face_index f : faces_)
-      visit(f);
-  }
+  const Box_scale& scale() const { return Broad_phase_access::scale(*broad_phase_); }
 
   static Box_3 box_around(const Coordinates& p, double within) {
     constexpr double largest = std::numeric_limits<double>::max();

@@ -4,8 +4,8 @@
 
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
+#include <haptic_sculpt/sculpting/guarded_mesh/Responses.h>
 #include <haptic_sculpt/sculpting/motion/Guarded_star.h>
-#include <haptic_sculpt/sculpting/response/Responses.h>
 
 namespace haptic_sculpt {
 namespace internal {

@@ -75,7 +75,7 @@ public:
       for (const Impact& first : star_->firsts_) {
         const Path_at_plane at = path_at_plane(first.impact());
         time = at.time;
-        found(haptic_sculpt::contact_of(first, at), at.sine);
+        found(internal::contact_of(first, at), at.sine);
       }
       if (!star_->limits_.empty())
         time = star_->limits_.for_each_contact(star_->star(), source_, target_, [&](const Contact_3<Mesh>& contact) {

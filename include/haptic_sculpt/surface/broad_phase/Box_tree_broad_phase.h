@@ -2,9 +2,8 @@
 #ifndef HAPTIC_SCULPT_SURFACE_BOX_TREE_BROAD_PHASE_H
 #define HAPTIC_SCULPT_SURFACE_BOX_TREE_BROAD_PHASE_H
 
+#include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/broad_phase/Growing_box_tree.h>
-#include <haptic_sculpt/surface/broad_phase/Star_filter.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
 #include <haptic_sculpt/surface/broad_phase/spatial_order.h>
 
 namespace haptic_sculpt {
@@ -21,43 +20,38 @@ namespace haptic_sculpt {
 /// Cost: build n log n; a query log n plus its answer; an update log n. 35.4 bytes a face, about 60 for one in the
 /// overflow. A query allocates nothing once its output has grown; neither do moves.
 template <class Mesh>
-class Box_tree_broad_phase {
+class Box_tree_broad_phase : public Broad_phase_base<Mesh, Box_tree_broad_phase<Mesh>> {
+  using Base = Broad_phase_base<Mesh, Box_tree_broad_phase>;
+  using Base::unlimited;
+
 public:
   using Face_index = typename Mesh::Face_index; ///< what queries append
 
-  /// Answers for a star name the faces that pass its filter, no others (doc/broad_phase.md, "Which faces count").
-  static constexpr bool answers_are_filtered = true;
-
   /// Builds the tree: n log n. \param mesh has to outlive this
-  explicit Box_tree_broad_phase(const Mesh& mesh) : mesh_(&mesh) {
+  explicit Box_tree_broad_phase(const Mesh& mesh) : Base(mesh) {
     touched_.reserve(most_touched + 1);
     build();
   }
 
   /// Appends at least every face whose closed box meets the closed box.
   void query(const Box_3& box, std::vector<Face_index>& faces) {
-    const internal::Float_box around = scale_.query(box);
+    const internal::Float_box around = scale().query(box);
     descend([&around](const Node& node) { return node.meeting(around); }, faces);
   }
 
-  /// Appends at least every face that meets one of the tetrahedra that the star sweeps.
-  void query(const Swept_star_3& star, std::vector<Face_index>& faces) { query(star, faces, unlimited); }
-
-  /// The same, given up when there are more than `most` faces. Returns whether the answer is whole.
-  bool query(const Swept_star_3& star, std::vector<Face_index>& faces, std::size_t most) {
-    const internal::Star_filter filter(star, scale_);
+  /// Appends the faces whose boxes pass the filter of the star; gives up where there are more than `most`. Returns whether the
+  /// answer is whole.
+  bool query_star(const Swept_star_3& star, std::vector<Face_index>& faces, std::size_t most = unlimited) {
+    const internal::Star_filter filter(star, scale());
     return descend([&filter](const Node& node) { return filter.meeting(node); }, faces, most);
   }
-
-  /// By what coordinates are multiplied in the boxes of nodes.
-  const internal::Box_scale& scale() const { return scale_; }
 
   /// Visits faces about in the order of a lower bound of what is sought, until nothing is left within the limit.
   /// \param bound `bound(node, lowest)` writes a lower bound for each of a node's eight boxes, and returns the bits of
   /// those that count, none of them empty \param visit `visit(face)` returns the limit from then on: faces whose boxes
   /// have a larger bound are left out. Cost: log n and what is visited.
   template <class Bound, class Visit>
-  void visit_nearest_first(const Bound& bound, double limit, const Visit& visit) {
+  void visit_nearest_first(const Box_3& /*region*/, const Bound& bound, double limit, const Visit& visit) {
     nearest_.clear();
     if (levels_ != 0)
       nearest_.push({-std::numeric_limits<double>::infinity(), 0, levels_ - 1});
@@ -84,7 +78,7 @@ public:
   void fetch_ahead(const Box_3& box) {
     if (levels_ == 0 || level_begin_[0] < nodes_in_cache)
       return;
-    ahead_ = scale_.query(box);
+    ahead_ = scale().query(box);
     to_root();
     while (is_worth_fetching() && level_begin_[level_ - 1] < nodes_in_cache)
       fetch_on();
@@ -101,7 +95,7 @@ public:
     touched_.clear();
     const bool are_many = faces.size() >= nodes_.size(); // then refitting all costs less than noting what has changed
     for (const Face_index f : faces) {
-      const internal::Float_box box = scale_.around(face_box(*mesh_, f));
+      const internal::Float_box box = scale().around(face_box(mesh(), f));
       if (const std::uint32_t slot = slot_of_face_[f]; are_many && !is_in_overflow(slot))
         nodes_[level_begin_[0] + slot / width].set(slot % width, box);
       else
@@ -114,12 +108,12 @@ public:
   template <class Faces>
   void faces_inserted(const Faces& faces) {
     touched_.clear();
-    const std::size_t size = mesh_->num_faces();
+    const std::size_t size = mesh().num_faces();
     if (size > slot_of_face_.capacity())
       slot_of_face_.reserve(size + size / 16); // not doubled: memory is promised
     slot_of_face_.resize(std::max(size, slot_of_face_.size()), no_slot);
     for (const Face_index f : faces) {
-      const internal::Float_box box = scale_.around(face_box(*mesh_, f));
+      const internal::Float_box box = scale().around(face_box(mesh(), f));
       std::uint32_t& slot = slot_of_face_[f];
       if (slot == no_slot)
         slot = free_slot_beside(f);
@@ -183,10 +177,9 @@ private:
   static constexpr std::size_t usual_queue = 8192;  ///< room is made for so many
   static constexpr std::size_t most_touched = 256;  ///< before they are refitted: there is room for so many
 
-  static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+  using Base::mesh;
+  using Base::scale;
 
-  const Mesh* mesh_;
-  internal::Box_scale scale_;
   std::vector<Node> nodes_;                              ///< level by level from the root
   std::array<std::uint32_t, most_levels> level_begin_{}; ///< of the lowest level first; the last is the root's, 0
   int levels_ = 0;
@@ -203,9 +196,8 @@ private:
   static bool is_in_overflow(std::uint32_t slot) { return slot >= first_overflow && slot != no_slot; }
 
   void build() {
-    slot_of_face_.assign(mesh_->num_faces(), no_slot);
-    scale_ = internal::Box_scale::of(*mesh_);
-    const std::vector<internal::Face_middle> order = internal::faces_in_spatial_order(*mesh_, mesh_->faces(), scale_);
+    slot_of_face_.assign(mesh().num_faces(), no_slot);
+    const std::vector<internal::Face_middle> order = internal::faces_in_spatial_order(mesh(), mesh().faces(), scale());
     if (order.empty())
       return;
     std::array<std::uint32_t, most_levels> sizes{};
@@ -222,7 +214,7 @@ private:
       const Face_index f(order[slot].face);
       face_of_slot_[slot] = order[slot].face;
       slot_of_face_[f] = slot;
-      nodes_[level_begin_[0] + slot / width].set(slot % width, scale_.around(face_box(*mesh_, f)));
+      nodes_[level_begin_[0] + slot / width].set(slot % width, scale().around(face_box(mesh(), f)));
     }
     internal::refit_all(nodes_, level_begin_.data(), levels_);
   }
@@ -278,9 +270,9 @@ private:
 
   /// A free slot in the node of a face that shares an edge with f, or no_slot.
   std::uint32_t free_slot_beside(Face_index f) const {
-    auto h = mesh_->halfedge(f);
-    for (int i = 0; i < 3; ++i, h = mesh_->next(h)) {
-      const Face_index g = mesh_->face(mesh_->opposite(h));
+    auto h = mesh().halfedge(f);
+    for (int i = 0; i < 3; ++i, h = mesh().next(h)) {
+      const Face_index g = mesh().face(mesh().opposite(h));
       if (static_cast<std::size_t>(g) >= slot_of_face_.size() || slot_of_face_[g] >= first_overflow)
         continue;
       const auto begin = face_of_slot_.begin() + slot_of_face_[g] / width * width, end = begin + width;

@@ -4,7 +4,6 @@
 
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
 
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -67,23 +66,6 @@ public:
 private:
   std::vector<Entry> entries_;
 };
-
-/// Whether a broad phase multiplies coordinates before they become bounds of its nodes: has `scale()`.
-template <class Broad_phase, class = void>
-struct Has_scale : std::false_type {};
-
-template <class Broad_phase>
-struct Has_scale<Broad_phase, std::void_t<decltype(std::declval<const Broad_phase&>().scale())>> : std::true_type {};
-
-/// Whether a broad phase has `visit_nearest_first(bound, limit, visit)` (doc/broad_phase.md).
-template <class Broad_phase, class Bound, class Visit, class = void>
-struct Visits_nearest_first : std::false_type {};
-
-template <class Broad_phase, class Bound, class Visit>
-struct Visits_nearest_first<Broad_phase, Bound, Visit,
-                            std::void_t<decltype(std::declval<Broad_phase&>().visit_nearest_first(
-                                std::declval<const Bound&>(), double(), std::declval<const Visit&>()))>>
-    : std::true_type {};
 
 } // namespace internal
 } // namespace haptic_sculpt

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_SIX_LIST_BROAD_PHASE_H
-#define HAPTIC_SCULPT_SURFACE_SIX_LIST_BROAD_PHASE_H
+#ifndef HAPTIC_SCULPT_SCULPTING_SIX_LIST_BROAD_PHASE_H
+#define HAPTIC_SCULPT_SCULPTING_SIX_LIST_BROAD_PHASE_H
 
-#include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
-#include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/make_room.h>
 
 #include <algorithm>
@@ -22,12 +21,12 @@ namespace haptic_sculpt {
 /// A face that moves: log n to find its entries, and as many steps as entries are passed. One that comes or goes: the n
 /// entries behind it are shifted.
 template <class Mesh>
-class Six_list_broad_phase {
+class Six_list_broad_phase : public Broad_phase_base<Mesh, Six_list_broad_phase<Mesh>> {
 public:
   using Face_index = typename Mesh::Face_index; ///< what queries append
 
   /// Sorts the lists: n log n. \param mesh has to outlive this
-  explicit Six_list_broad_phase(const Mesh& mesh) : mesh_(&mesh) {
+  explicit Six_list_broad_phase(const Mesh& mesh) : Broad_phase_base<Mesh, Six_list_broad_phase>(mesh) {
     make_room(mesh.num_faces());
     for (const Face_index f : mesh.faces()) {
       const std::size_t i = f;
@@ -41,9 +40,6 @@ public:
     for (int list = 3; list < 6; ++list) // no upper bound reaches the empty query box
       pointers_[list] = lists_[list].size();
   }
-
-  /// Appends every face whose closed box meets that of the star.
-  void query(const Swept_star_3& star, std::vector<Face_index>& faces) { query(star.box(), faces); }
 
   /// Appends every face whose closed box meets the closed box, to which the pointers run.
   void query(const Box_3& box, std::vector<Face_index>& faces) {
@@ -63,7 +59,7 @@ public:
   /// Reads their corners from the mesh; one that is in the lists already is put in anew.
   template <class Faces>
   void faces_inserted(const Faces& faces) {
-    make_room(mesh_->num_faces());
+    make_room(this->mesh().num_faces());
     for (const Face_index f : faces) {
       remove(f); // its index may be one used before
       insert(f);
@@ -91,7 +87,6 @@ private:
   /// A bound and its face; sorted by the bound first.
   using Entry = std::pair<double, std::uint32_t>;
 
-  const Mesh* mesh_;
   std::array<std::vector<Entry>, 6> lists_; ///< lower x, y, z; upper x, y, z
   std::array<std::size_t, 6>
       pointers_{};  ///< entries before it: lower bound <= query's upper; upper bound < query's lower
@@ -150,7 +145,7 @@ private:
 
   void move(Face_index f) {
     const auto i = static_cast<std::uint32_t>(f);
-    const Box_3 box = face_box(*mesh_, f);
+    const Box_3 box = face_box(this->mesh(), f);
     for (int list = 0; list < 6; ++list) {
       std::vector<Entry>& entries = lists_[list];
       const Entry from(bound(list, boxes_[i]), i), to(bound(list, box), i);
@@ -193,7 +188,7 @@ private:
 
   void insert(Face_index f) {
     const auto i = static_cast<std::uint32_t>(f);
-    boxes_[i] = face_box(*mesh_, f);
+    boxes_[i] = face_box(this->mesh(), f);
     alive_[i] = true;
     for (int list = 0; list < 6; ++list) {
       std::vector<Entry>& entries = lists_[list];

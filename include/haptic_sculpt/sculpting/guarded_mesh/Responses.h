@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_RESPONSES_H
 
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
-#include <haptic_sculpt/sculpting/response/Paper_response.h>
+#include <haptic_sculpt/sculpting/paper_1997/Paper_response.h>
 #include <haptic_sculpt/sculpting/response/Slide_response.h>
 #include <haptic_sculpt/sculpting/response/kkt_residual.h>
 #include <haptic_sculpt/sculpting/response/settle_result.h>

@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draws a trace of haptic_loop: draw_trace.py TRACE.csv PICTURE. Needs python3-matplotlib.
+
+Three plots: the forces over time, how far the proxy is behind the hand, and how many ticks took which time of the processor.
+"""
+import argparse
+import csv
+import math
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as pyplot
+
+COUPLING, RENDERED, LAG = "#e69f00", "#0072b2", "#009e73"  # told apart by colour-blind readers
+NEEDED = ["t", "tx", "ty", "tz", "x", "y", "z", "fcx", "fcy", "fcz", "fx", "fy", "fz", "cpu_ns"]
+
+
+def rows_of(path):
+    with open(path, newline="") as file:
+        reader = csv.DictReader(file)
+        missing = [name for name in NEEDED if name not in (reader.fieldnames or [])]
+        if missing:
+            sys.exit(f"{path} has no column '{missing[0]}'. Give a file that haptic_loop --trace has written.")
+        try:
+            rows = [{name: float(row[name]) for name in NEEDED} for row in reader]
+        except (TypeError, ValueError) as error:
+            sys.exit(f"{path}, line {reader.line_num}: {error}")
+    if not rows:
+        sys.exit(f"{path} has no row: nothing is drawn")
+    return rows
+
+
+def draw(rows, picture):
+    time = [row["t"] for row in rows]
+    norms = lambda *names: [math.hypot(*(row[name] for name in names)) for row in rows]
+    lag = [math.dist([row[n] for n in ("tx", "ty", "tz")], [row[n] for n in ("x", "y", "z")]) for row in rows]
+    cpu = [max(row["cpu_ns"], 1) / 1000 for row in rows]
+    figure, (force, behind, ticks) = pyplot.subplots(3, 1, figsize=(8, 8), constrained_layout=True)
+    force.plot(time, norms("fcx", "fcy", "fcz"), color=COUPLING, linewidth=1, label="coupling")
+    force.plot(time, norms("fx", "fy", "fz"), color=RENDERED, linewidth=1, label="rendered")
+    force.set(title="Force on the hand", xlabel="s", ylabel="N")
+    force.legend(frameon=False)
+    behind.plot(time, lag, color=LAG, linewidth=1)
+    behind.set(title="From the hand to the proxy", xlabel="s", ylabel="units of the scene")
+    edges = [0.1 * 2 ** (k / 4) for k in range(4 * math.ceil(math.log2(max(cpu) / 0.1)) + 2)]
+    ticks.hist(cpu, bins=edges, color=RENDERED)
+    ticks.set(title="Ticks by time of the processor", xlabel="µs", ylabel="ticks", xscale="log", yscale="log")
+    figure.savefig(picture, dpi=110)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("trace", help="what haptic_loop --trace has written")
+    parser.add_argument("picture", help="where the plots go: .png, .svg or .pdf")
+    arguments = parser.parse_args()
+    draw(rows_of(arguments.trace), arguments.picture)

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_BROAD_PHASE_BASE_H
+#define HAPTIC_SCULPT_SURFACE_BROAD_PHASE_BASE_H
+
+#include <haptic_sculpt/surface/broad_phase/Star_filter.h>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace haptic_sculpt {
+
+namespace internal {
+struct Broad_phase_access;
+}
+
+/// What every broad phase has without doing anything for it: each model of BroadPhase derives from this, and writes its own
+/// members in place of those here that it can do better.
+///
+/// \tparam Mesh_ the mesh \tparam Derived the broad phase itself: it has `query(box, faces)`
+template <class Mesh_, class Derived>
+class Broad_phase_base {
+public:
+  using Face_index = typename Mesh_::Face_index; ///< what queries append
+
+  /// Appends the faces whose boxes pass the filter of the star (doc/broad_phase.md, "Which faces count"), no others, in any
+  /// order: at least all faces that meet one of the tetrahedra that the star sweeps. Gives up where there are more than
+  /// `most`. Returns whether the answer is whole. Cost: here that of the query for a box, all of whose answer is read.
+  bool query_star(const Swept_star_3& star, std::vector<Face_index>& faces, std::size_t most = unlimited) {
+    const internal::Star_filter filter(star, scale_);
+    const std::size_t first = faces.size();
+    derived().query(filter.holding_what_passes(), faces);
+    internal::Box_node node; // of one box
+    const auto end = std::remove_if(faces.begin() + static_cast<std::ptrdiff_t>(first), faces.end(), [&](Face_index f) {
+      node.set(0, scale_.around(face_box(*mesh_, f)));
+      return (filter.meeting(node) & 1u) == 0;
+    });
+    faces.erase(end, faces.end());
+    return faces.size() - first <= most;
+  }
+
+  /// Visits at least the faces that count: `visit(face)` returns the limit from then on, and a face counts where a lower
+  /// bound of its box is not above the limit. Here all whose boxes meet the region are visited.
+  /// \param region holds all that counts at first
+  /// \param bound `bound(node, lowest)` writes a lower bound for each of the eight boxes of an `internal::Box_node`, and
+  /// returns the bits of those that count
+  template <class Bound, class Visit>
+  void visit_nearest_first(const Box_3& region, const Bound& bound, double limit, const Visit& visit) {
+    static_cast<void>(bound), static_cast<void>(limit);
+    visited_.clear();
+    derived().query(region, visited_);
+    for (const Face_index f : visited_)
+      visit(f);
+  }
+
+  /// A query about here may follow soon: its memory may be asked for. Changes no answer. Here nothing is done.
+  void fetch_ahead(const Box_3& /*box*/) {}
+  /// Called now and then until that query: goes on with asking. Here nothing is done.
+  void fetch_on() {}
+  /// Makes room for so many faces in all and so many insertions, so that they allocate nothing; asked before edits, again and
+  /// again. Here nothing is done: right where what comes and moves allocates nothing.
+  void reserve(std::size_t /*faces*/, std::size_t /*insertions*/) {}
+
+protected:
+  /// For `most`: any number of faces.
+  static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+
+  /// \param mesh has to outlive this. Cost: reads its points once
+  explicit Broad_phase_base(const Mesh_& mesh) : mesh_(&mesh), scale_(internal::Box_scale::of(mesh)) {}
+
+  const Mesh_& mesh() const { return *mesh_; } ///< the one given
+  /// By what coordinates are multiplied in the boxes of nodes: that of the mesh when this was made.
+  const internal::Box_scale& scale() const { return scale_; }
+
+private:
+  friend struct internal::Broad_phase_access;
+
+  const Mesh_* mesh_;
+  internal::Box_scale scale_;
+  std::vector<Face_index> visited_;
+
+  Derived& derived() { return static_cast<Derived&>(*this); }
+};
+
+namespace internal {
+
+/// For those who write bounds of a node's boxes.
+struct Broad_phase_access {
+  template <class Mesh, class Derived>
+  static const Box_scale& scale(const Broad_phase_base<Mesh, Derived>& broad_phase) {
+    return broad_phase.scale_;
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
