@@ -120,6 +120,9 @@ def draw_lines(one, series, x_label, heights, times):
     one.set_xlabel(x_label)
     if times:
         time_axis(one.yaxis)
+    else:
+        one.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:,g}"))
+        one.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     names_beside(one, ends, may_stand_above=False)
 
 
