@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import matplotlib
 
 matplotlib.use("Agg")
+import matplotlib.patheffects as patheffects
 import matplotlib.pyplot as plt
 
 # Okabe and Ito's colours. The first is ours, everywhere.
@@ -63,30 +64,49 @@ def seconds_text(seconds):
     return f"{seconds * 1e9:.3g} ns"
 
 
+def power_text(x):
+    """0.00000123 as 1·10⁻⁶."""
+    if x == 0 or 1e-3 <= abs(x) < 1e4:
+        return f"{x:.3g}"
+    digits, exponent = f"{x:.0e}".split("e")
+    return f"{digits}·10" + str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
 def time_axis(axis):
     axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda x, _: seconds_text(x)))
     axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
 
 
-def names_beside(one, ends):
-    """Names at the right of points, (x, y, name, colour), moved apart up and down where they would overlap."""
+def whole_decades(low, high):
+    """Limits that end at powers of ten, so that an axis has labels."""
+    return 10.0 ** math.floor(math.log10(low / 1.15)), 10.0 ** math.ceil(math.log10(high * 1.15))
+
+
+def names_beside(one, ends, may_stand_above=True):
+    """Names at the right of points, (x, y, name, colour): above where another point is in the way, moved up over others."""
     one.figure.canvas.draw()
-    size = 13 * one.figure.dpi / 72
-    placed = []
-    for x, y, name, colour in sorted(ends, key=lambda e: one.transData.transform((e[0], e[1]))[1]):
-        px, py = one.transData.transform((x, y))
-        low = py
-        for qx, qy, length in placed:
-            if abs(qy - low) < size and px < qx + length and qx < px + 6.2 * len(name) * one.figure.dpi / 72:
-                low = qy + size
-        placed.append((px, low, 6.2 * len(name) * one.figure.dpi / 72))
-        one.annotate(name, (x, y), xytext=(8, (low - py) * 72 / one.figure.dpi), textcoords="offset points", color=colour, va="center",
-                     fontsize=9.5, annotation_clip=False, fontweight="bold" if colour == COLOURS[0] else "normal")
+    points = one.figure.dpi / 72
+    height, gap = 13 * points, 9 * points
+    places = [one.transData.transform((x, y)) for x, y, _, _ in ends]
+    boxes = [(px - 0.7 * gap, py - 0.7 * gap, px + 0.7 * gap, py + 0.7 * gap) for px, py in places]  # of markers, then of names
+
+    def is_free(box, but):
+        return all(k == but or box[2] < b[0] or b[2] < box[0] or box[3] < b[1] or b[3] < box[1] for k, b in enumerate(boxes))
+
+    for k in sorted(range(len(ends)), key=lambda k: places[k][1]):
+        (x, y, name, colour), (px, py) = ends[k], places[k]
+        length = 6.6 * len(name) * points
+        for dx, dy in [(gap, 0), *([(-length / 2, 1.3 * height)] if may_stand_above else []), *((gap, up * 0.2 * height) for up in range(1, 40))]:
+            box = (px + dx, py + dy - 0.45 * height, px + dx + length, py + dy + 0.45 * height)
+            if is_free(box, k):
+                break
+        boxes.append(box)
+        text = one.annotate(name, (x, y), xytext=(dx / points, dy / points), textcoords="offset points", color=colour, va="center",
+                            fontsize=9.5, annotation_clip=False, fontweight="bold" if colour == COLOURS[0] else "normal")
+        text.set_path_effects([patheffects.withStroke(linewidth=3, foreground="white")])
 
 
-def lines(series, x_label, y_label, times=True):
-    """\\param series {name: [(x, y), ...]}, ours first. Both axes are logarithmic."""
-    figure, one = axes()
+def draw_lines(one, series, x_label, heights, times):
     one.set_xscale("log"), one.set_yscale("log")
     ends = []
     for (name, points), colour, marker in zip(list(series.items())[:MOST_SERIES], COLOURS, MARKERS):
@@ -95,10 +115,38 @@ def lines(series, x_label, y_label, times=True):
             continue
         one.plot(*zip(*points), marker=marker, markersize=5, color=colour, linewidth=2 if colour == COLOURS[0] else 1.4)
         ends.append((*points[-1], name, colour))
-    one.set_xlabel(x_label), one.set_ylabel(y_label)
+    if heights:
+        one.set_ylim(*whole_decades(min(heights), max(heights)))
+    one.set_xlabel(x_label)
     if times:
         time_axis(one.yaxis)
-    names_beside(one, ends)
+    else:
+        one.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:,g}"))
+        one.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+    names_beside(one, ends, may_stand_above=False)
+
+
+def heights_of(series):
+    return [y for points in list(series.values())[:MOST_SERIES] for _, y in points if y > 0]
+
+
+def lines(series, x_label, y_label, times=True):
+    """\\param series {name: [(x, y), ...]}, ours first. Both axes are logarithmic."""
+    figure, one = axes()
+    one.set_ylabel(y_label)
+    draw_lines(one, series, x_label, heights_of(series), times)
+    return data_address(figure)
+
+
+def two_panels(left, right, y_label):
+    """Beside each other, with the same heights. \\param left, right (series, label of x)"""
+    figure, panels = plt.subplots(1, 2, figsize=(9.4, 4.0), sharey=True)
+    figure.subplots_adjust(wspace=0.62)
+    for one, (series, x_label) in zip(panels, (left, right)):
+        one.grid(True, which="major", color="#e6e6e6", linewidth=0.8)
+        one.tick_params(which="both", length=0)
+        draw_lines(one, series, x_label, heights_of(left[0]) + heights_of(right[0]), True)
+    panels[0].set_ylabel(y_label)
     return data_address(figure)
 
 
@@ -108,20 +156,23 @@ def speed_error(points, y_label, x_label="time of one"):
     one.set_xscale("log")
     points = [p for p in points if p[1] > 0][:MOST_SERIES]
     errors = [e for _, _, e in points if e > 0]
-    floor = 10 ** (math.floor(math.log10(min(errors))) - 1) if errors else 1e-3
+    floor = 10.0 ** (math.floor(math.log10(min(errors))) - 1) if errors else 1e-3
+    has_zero = len(errors) < len(points)
+    low, high = whole_decades(min(errors, default=1), max(errors, default=1))
+    low = floor if has_zero else low
+    pad = (high / low) ** 0.07
     one.set_yscale("log")
-    top = max(errors, default=1)
-    one.set_ylim(floor / 2.5, top * 4)
-    one.axhline(floor, color=FAINT, linewidth=0.8, linestyle=(0, (4, 4)))
-    one.annotate("none", (0, floor), xycoords=("axes fraction", "data"), xytext=(4, 4), textcoords="offset points", color=FAINT, fontsize=9)
+    one.set_ylim(low / pad, high * pad)
+    if has_zero:
+        one.axhline(floor, color=FAINT, linewidth=0.8, linestyle=(0, (4, 4)))
+        one.annotate("none", (0, floor), xycoords=("axes fraction", "data"), xytext=(4, 5), textcoords="offset points", color=FAINT, fontsize=9)
     ends = []
     for (name, seconds, error), colour, marker in zip(points, COLOURS, MARKERS):
         y = error if error > 0 else floor
         one.plot(seconds, y, marker, color=colour, markersize=10)
         ends.append((seconds, y, name, colour))
     if points:
-        low, high = min(p[1] for p in points), max(p[1] for p in points)
-        one.set_xlim(low / 1.6, high * 2.5)
+        one.set_xlim(*whole_decades(min(p[1] for p in points), max(p[1] for p in points)))
     one.set_xlabel(x_label), one.set_ylabel(y_label)
     time_axis(one.xaxis)
     names_beside(one, ends)
@@ -129,14 +180,17 @@ def speed_error(points, y_label, x_label="time of one"):
 
 
 def bars(rows, x_label):
-    """\\param rows [(name, length, text at its end, is good)]; the axis is logarithmic"""
-    figure, one = axes(height=0.7 + 0.32 * len(rows))
+    """Each with its name above. \\param rows [(name, length, text at its end, is good)]; the axis is logarithmic"""
+    figure, one = axes(height=0.9 + 0.5 * len(rows))
     one.set_xscale("log")
+    one.set_xlim(0.7, 10 * max((length for _, length, _, _ in rows), default=1))
     for k, (name, length, text, good) in enumerate(rows):
-        one.barh(k, max(length, 1), left=0.5, height=0.62, color=COLOURS[0] if good else COLOURS[1])
-        one.annotate(text, (max(length, 1) + 0.5, k), xytext=(5, 0), textcoords="offset points", va="center", fontsize=9, color=INK if good else COLOURS[1])
-    one.set_yticks(range(len(rows)), [r[0] for r in rows], fontsize=9)
-    one.invert_yaxis()
+        one.barh(k, max(length, 1), left=0.7, height=0.3, color=COLOURS[0] if good else COLOURS[1])
+        one.annotate(name, (0.7, k), xytext=(2, 12), textcoords="offset points", va="center", fontsize=9.5, color=INK)
+        one.annotate(text, (max(length, 1) + 0.7, k), xytext=(6, 0), textcoords="offset points", va="center", fontsize=9.5, color=FAINT if good else COLOURS[1])
+    one.set_yticks([])
+    one.spines["left"].set_visible(False)
+    one.set_ylim(len(rows) - 0.6, -0.9)
     one.grid(False, axis="y")
     one.set_xlabel(x_label)
     return data_address(figure)

@@ -45,9 +45,10 @@ def circumstances(out):
 
 
 def reports(out):
-    """The merged report of each step of this run that has one."""
+    """The merged report of each step of this run all of whose shards have one."""
     wanted = circumstances(out)["steps"]
-    return {name: json.loads(path.read_text()) for name in wanted if (path := out / "results" / f"{name}.json").exists()}
+    return {name: json.loads(path.read_text()) for name in wanted
+            if (path := out / "results" / f"{name}.json").exists() and not deaths(out, [name])}
 
 
 def shards(out, name):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the page says of quality: speed against error of each stage, on one pair of axes each."""
-from figures import Finding, Table, lines, seconds_text, speed_error
+from figures import Finding, Table, lines, power_text, seconds_text, speed_error
 
 
 def of_arithmetics(populations, names, queries, error):
@@ -52,8 +52,8 @@ def sweeps(report):
                     f"{seconds_text(ours[1])} each; doubles give {percent(doubles[2])} wrong ones.", seconds_text(ours[1]), f"a verdict, of {total:,} degenerate sweeps",
                     speed_error(verdicts, "share of wrong verdicts", "mean time of a sweep"), "Time of a sweep against its wrong verdicts, by arithmetic",
                     [table_of_arithmetics(report)]),
-            Finding("sweeps", f"The time of impact is enclosed to {time[2]:.1g} of the way in {seconds_text(time[1])}; doubles are off by up to {times[1][2]:.2g}.",
-                    f"{time[2]:.1g}", "largest error of a time of impact, of the way", speed_error(times, "largest error of the time of impact", "mean time of a sweep"),
+            Finding("sweeps", f"The time of impact is enclosed to {power_text(time[2])} of the way in {seconds_text(time[1])}; doubles are off by up to {power_text(times[1][2])}.",
+                    power_text(time[2]), "largest error of a time of impact, of the way", speed_error(times, "largest error of the time of impact", "mean time of a sweep"),
                     "Time of a sweep against the error of the time of impact, by arithmetic")]
 
 
@@ -191,7 +191,7 @@ def device(report):
     for form, what, title in (("ditetra", "forward", "The forward kinematics"), ("ditetra", "inverse dynamics", "The inverse dynamics")):
         of = points(form, what)
         if of:
-            found.append(Finding("device", f"{title} in doubles take {seconds_text(of[0][1])}, with an error of {of[0][2]:.1g} of the condition.", seconds_text(of[0][1]),
+            found.append(Finding("device", f"{title} in doubles take {seconds_text(of[0][1])}, with an error of {power_text(of[0][2])} of the condition.", seconds_text(of[0][1]),
                                  f"{what}, doubles", speed_error(of, "median error over condition", "time of a call"),
                                  f"Time of the {what} against its error, by number type", [table] if not found else []))
     return found
@@ -201,10 +201,8 @@ def force(report):
     rows = [r for r in report["rate"] if r["encoder_step"] == 0]
     series = {f"delay of {d:g} ticks": [(r["rate_Hz"], r["mean_N"]) for r in rows if r["delay"] == d] for d in (0.0, 0.5, 1.0)}
     at = next(r for r in rows if r["delay"] == 0 and r["rate_Hz"] == 1000)
-    points = [(f"{r['rate_Hz']:g} Hz", 1 / r["rate_Hz"], r["mean_N"]) for r in rows if r["delay"] == 0]
     table = Table("Error of the force, 60 mm/s into 500 N/m", ["rate, Hz", "delay, ticks", "encoder step, rad", "mean, mN", "largest, mN"],
                   [[f"{r['rate_Hz']:g}", r["delay"], r["encoder_step"], f"{1e3 * r['mean_N']:.3g}", f"{1e3 * r['largest_N']:.3g}"] for r in report["rate"]])
-    del points
     return [Finding("force", f"At 1 kHz the force held over a tick is {1e3 * at['mean_N']:.3g} mN off in the mean, at 60 mm/s into 500 N/m; half the tick, half the error.",
                     f"{1e3 * at['mean_N']:.3g} mN", "mean error of the force at 1 kHz", lines(series, "rate, Hz", "mean error of the force, N", times=False),
                     "Error of the force against the rate, by delay", [table])]

@@ -45,4 +45,10 @@ def sweeps_by_oracle(report):
                         f"{p['asked']:,}", "sweeps asked twice", [])]
 
 
-CHARTS = {"drags_and_edits": drags_and_edits, "ends": ends, "sweeps_by_oracle": sweeps_by_oracle}
+def axis_moves_by_oracle(report):
+    p = report["promises"][0]
+    return [of_promises("axis_moves_by_oracle", report, f"{p['asked']:,} axis moves were looked at on the way, exactly; {'all free ones are embedded' if p['broken'] == 0 else 'some are not'}.",
+                        f"{p['asked']:,}", "axis moves looked at", [])]
+
+
+CHARTS = {"drags_and_edits": drags_and_edits, "ends": ends, "sweeps_by_oracle": sweeps_by_oracle, "axis_moves_by_oracle": axis_moves_by_oracle}
