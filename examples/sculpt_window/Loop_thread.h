@@ -154,7 +154,7 @@ private:
           break;
         status_.contact[static_cast<std::size_t>(status_.contacts++)] = view_of(contact);
       }
-    const auto& history = model.sculptor.history();
+    const auto history = model.sculptor.history();
     status_.undo_steps = history.number_of_undo_steps(), status_.redo_steps = history.number_of_redo_steps();
     status_.vertices = model.mesh.number_of_vertices(), status_.faces = model.mesh.number_of_faces();
     status_.vertex_slots = model.mesh.num_vertices(), status_.face_slots = model.mesh.num_faces();

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Applied.h>
 #include <haptic_sculpt/sculpting/Grab.h>
+#include <haptic_sculpt/sculpting/History_view.h>
 #include <haptic_sculpt/sculpting/Probe.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
@@ -189,7 +190,7 @@ public:
   Edited redo() { return guarded_.restored([&] { return guarded_.editor().redo(); }); }
 
   /// What undo and redo can make: number_of_undo_steps(), number_of_redo_steps(), bytes().
-  const internal::Edit_history& history() const { return guarded_.editor().history(); }
+  History_view history() const { return History_view(guarded_.editor().history()); }
 
   /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the moves of a vertex
   /// between two other edits are kept as one.

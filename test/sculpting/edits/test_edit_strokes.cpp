@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(a_stroke_is_one_step) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.05));
   Sculptor<Mesh> sculptor(mesh);
   const Mesh_snapshot begin = snapshot(sculptor);
-  const internal::Edit_history& history = sculptor.history();
+  const History_view history = sculptor.history();
   {
     const auto stroke = sculptor.stroke();
     BOOST_TEST(stroke.is_open());
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(a_stroke_is_one_step) {
 BOOST_AUTO_TEST_CASE(the_history_is_bounded) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.05));
   Sculptor<Mesh> sculptor(mesh);
-  const internal::Edit_history& history = sculptor.history();
+  const History_view history = sculptor.history();
   const auto drag = [&](std::size_t v) {
     sculptor.grab(Vertex_index(v)).drag_to(moved_by(mesh, Vertex_index(v), 0.001));
   };
