@@ -26,8 +26,9 @@ def drags_and_edits(report):
     tables = [Table("Meshes", ["mesh", "faces", "drags", "blocked", "mixed edits", "not valid after", "largest stop error, clearances", "mean drag"], rows)]
     if report["refused"]:
         tables.append(Table("Meshes refused", ["file", "had to be", "reason"], [[r["file"], "yes" if r["has_to_be"] else "no", r["reason"]] for r in report["refused"]]))
+    how = "" if report["response"] == "slide" else f", response {report['response']},"
     said = "no promise broke" if not broken else "broken: " + "; ".join(p["promise"] for p in broken)
-    return [of_promises("drags_and_edits", report, f"In {drags:,} drags and {edits:,} mixed edits of {meshes} hard meshes {said}.", str(len(broken)),
+    return [of_promises("drags", report, f"In {drags:,} drags and {edits:,} mixed edits of {meshes} hard meshes{how} {said}.", str(len(broken)),
                         f"broken promises of {len(report['promises'])}", tables)]
 
 
@@ -51,4 +52,4 @@ def axis_moves_by_oracle(report):
                         f"{p['asked']:,}", "axis moves looked at", [])]
 
 
-CHARTS = {"drags_and_edits": drags_and_edits, "ends": ends, "sweeps_by_oracle": sweeps_by_oracle, "axis_moves_by_oracle": axis_moves_by_oracle}
+CHARTS = {"drags_and_edits": drags_and_edits, "drags_with_stop": drags_and_edits, "drags_with_paper": drags_and_edits, "ends": ends, "sweeps_by_oracle": sweeps_by_oracle, "axis_moves_by_oracle": axis_moves_by_oracle}

@@ -4,10 +4,13 @@ from steps import Effort, Step
 
 STEPS = [
     Step("drags_and_edits", "robustness",
-         tiny=Effort("--drags 60 --edits 60 --batch 20 --edit-batch 20 --seed {seed}", shards=3),
-         quick=Effort("--drags 5000 --edits 1000 --drags-on-large 200 --edits-on-large 20 --seed {seed}", 10, shards=2),
-         full=Effort("--drags 7700000 --edits 100000 --extreme 20000 --batch 10000 --seed {seed}", 480, shards=64),
+         tiny=Effort("--hard --drags 60 --edits 60 --batch 20 --edit-batch 20 --seed {seed}", shards=3),
+         quick=Effort("--hard --drags 2000 --edits 500 --drags-on-large 200 --edits-on-large 20 --dump failures --seed {seed}", 10, shards=2),
+         full=Effort("--hard --drags 4200000 --edits 100000 --extreme 20000 --dump failures --seed {seed}", 480, shards=64),
          with_meshes="--meshes {meshes}"),
+    *(Step(f"drags_with_{response}", "robustness",
+           full=Effort(f"--hard --drags 100000 --edits 20000 --response {response} --dump failures --seed {{seed}}", 120, shards=8))
+      for response in ("stop", "paper")),
     Step("ends", "certify_ends",
          tiny=Effort("--drags 2 --per-scene 1 --ways 20 --seed {seed}", shards=2),
          quick=Effort("--drags 20 --ways 200 --near-degenerate 0.01 --seed {seed}", 10),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drags and edits real and generated meshes at random and on purpose, and checks every promise afterwards.
 #include "Run.h"
+#include "hard_meshes.h"
 
 #include <CLI/CLI.hpp>
 
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"slide", "stop", "paper"}))
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
+  app.add_flag("--hard", options.has_hard_meshes, "On meshes, too, that are an ulp thick, almost flat, nested, crumpled and so on");
   app.add_option("--dump", options.dump, "Folder for batches of drags that break a promise: a mesh and a script, for `sculpt` and `minimise`");
   options.shard.add_option(app, "batch");
   app.add_option("--json", options.json, "Where the report goes");
@@ -40,6 +42,9 @@ int main(int argc, char** argv) {
     robustness::Run run(options);
     for (const auto& [name, mesh] : robustness::robustness_meshes())
       run.mesh(name, mesh);
+    if (options.has_hard_meshes)
+      for (const auto& [name, mesh] : robustness::hard_meshes())
+        run.mesh(name, mesh, true);
     for (const auto& small : robustness::small_meshes())
       run.extreme(small.name, small.mesh, small.share);
     if (!options.folder.empty())
