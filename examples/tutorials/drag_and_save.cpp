@@ -15,7 +15,7 @@ int main(int argc, char** argv) try {
     return 2;
   }
   Mesh mesh = haptic_sculpt::read_surface<Mesh>(argv[1]); // refuses what is not a valid surface, and names why
-  haptic_sculpt::Sculptor<Mesh> sculptor(mesh);
+  haptic_sculpt::Sculptor<Mesh> sculptor(mesh, haptic_sculpt::parameters::known_valid(true)); // it was read as one
   auto grab = sculptor.grab(Mesh::Vertex_index(145));
   const auto result = grab.drag_to({2.2, 0, 0.25}); // goes there, or slides along what it may not cross
   std::cout << name_of(result.end) << " at " << result.position << " after " << result.legs << " straight legs\n";

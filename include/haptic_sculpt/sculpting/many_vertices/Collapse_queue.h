@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_COLLAPSE_QUEUE_H
+#define HAPTIC_SCULPT_SCULPTING_COLLAPSE_QUEUE_H
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <queue>
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Edges by cost, the cheapest first, of equal ones the lowest. An edge that is put in anew has its new cost only.
+template <class Mesh>
+class Collapse_queue {
+public:
+  using Edge_index = typename Mesh::Edge_index;
+
+  struct Entry {
+    double cost;
+    Edge_index edge;
+    bool into_end;      // that the placement is refused is known: into the one end or the other
+    std::uint32_t time; // which entry of the edge, counted from 1
+  };
+
+  explicit Collapse_queue(const Mesh& mesh) : mesh_(mesh) {}
+
+  void push(Edge_index e, double cost, bool into_end) { queue_.push({cost, e, into_end, ++time(e)}); }
+  void leave_out(Edge_index e) { ++time(e); }
+
+  /// The next one, or nothing.
+  std::optional<Entry> pop() {
+    while (!queue_.empty()) {
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (!mesh_.is_removed(entry.edge) && entry.time == time(entry.edge))
+        return entry;
+    }
+    return std::nullopt;
+  }
+
+private:
+  struct Comes_later {
+    bool operator()(const Entry& a, const Entry& b) const {
+      return a.cost != b.cost ? a.cost > b.cost : b.edge < a.edge;
+    }
+  };
+
+  std::uint32_t& time(Edge_index e) {
+    const auto i = static_cast<std::size_t>(e);
+    if (i >= times_.size())
+      times_.resize(i + 1, 0);
+    return times_[i];
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::uint32_t> times_;
+  std::priority_queue<Entry, std::vector<Entry>, Comes_later> queue_;
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
