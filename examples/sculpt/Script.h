@@ -15,7 +15,7 @@ namespace haptic_sculpt::sculpt_program {
 /// One line of a script: an edit or a directive.
 struct Command {
   enum class Kind {
-    drag, release, probe, insert_face, insert_edge, remove, collapse, flip, undo, redo, // edits
+    drag, release, probe, move, insert_face, insert_edge, remove, collapse, flip, undo, redo, // edits
     brush, remesh,                                                                      // edits of many vertices
     stroke, end,                                                                        // what is between is one step of undo
     response, clearance, delta, mesh                                                    // directives

@@ -89,6 +89,7 @@ private:
     case Kind::remove: remove(command); break;
     case Kind::collapse: collapse(command); break;
     case Kind::flip: flip(command); break;
+    case Kind::move: move(command); break;
     case Kind::brush: many_vertices(command, [&] { return carry_out_brush(sculptor_, command); }); break;
     case Kind::remesh: many_vertices(command, [&] { return carry_out_remesh(sculptor_, command); }); break;
     case Kind::stroke: strokes_.push_back(sculptor_.stroke()); break;
@@ -124,6 +125,19 @@ private:
     } catch (const Invalid_parameter& error) { // the scene has outgrown the clearance
       refuse(command, clearance_of_no_use, {index}).detail = outgrown(error);
     }
+  }
+
+  /// The component of a vertex, by a vector.
+  void move(const Command& command) {
+    const Vertex_index v = sculptor_.vertex(command.indices[0]);
+    if (!v.is_valid() || mesh_.is_isolated(v)) {
+      refuse(command, v.is_valid() ? "isolated-vertex" : "unknown-element", command.indices);
+      return;
+    }
+    std::vector<Vertex_index> blocking;
+    many_vertices(command, [&] { return carry_out_move(sculptor_, v, point(command.points[0]) - CGAL::ORIGIN, blocking); });
+    for (const Vertex_index w : blocking)
+      result_.edits.back().elements.push_back(sculptor_.name(w));
   }
 
   void insert_on_face(const Command& command) {
