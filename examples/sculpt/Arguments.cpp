@@ -30,6 +30,7 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
                "nearest to a point by @X,Y,Z:\n"
                "  drag V X Y Z | release | probe X Y Z X2 Y2 Z2\n"
                "  insert_face A B C X Y Z | insert_edge A B X Y Z | remove V | collapse A B | flip A B\n"
+               "  move V X Y Z (the object of V, by a vector)\n"
                "  brush grab|inflate|smooth|flatten|pinch X Y Z RADIUS STRENGTH [NX NY NZ] | remesh L\n"
                "  shift AXIS N, N lines V C, end | undo | redo | stroke ... end (what is between is one step of undo)\n"
                "  response slide|stop|paper | clearance L|default | delta L | mesh SHA256");

@@ -33,6 +33,7 @@ struct Syntax {
 constexpr Syntax syntaxes[] = {{"drag", Kind::drag, 1, 1, Syntax::nothing, Edit_kind::move},
                                {"release", Kind::release, 0, 0, Syntax::nothing},
                                {"probe", Kind::probe, 0, 2, Syntax::nothing},
+                               {"move", Kind::move, 1, 1, Syntax::nothing},
                                {"insert_face", Kind::insert_face, 3, 1, Syntax::nothing, Edit_kind::insert_on_face},
                                {"insert_edge", Kind::insert_edge, 2, 1, Syntax::nothing, Edit_kind::insert_on_edge},
                                {"remove", Kind::remove, 1, 0, Syntax::nothing, Edit_kind::remove},

@@ -17,7 +17,7 @@ namespace haptic_sculpt::sculpt_program {
 struct Command {
   enum class Kind {
     drag, insert_face, insert_edge, remove, collapse, flip, shift, undo, redo, stroke, end, // as Edit_kind has them
-    release, probe, brush, remesh,                                                          // what takes more than an Edit
+    release, probe, move, brush, remesh,                                                    // what takes more than an Edit
     response, clearance, delta, mesh                                                    // directives
   };
 

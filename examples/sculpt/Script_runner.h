@@ -85,6 +85,7 @@ private:
     case Kind::probe: probe(command); break;
     case Kind::clearance: clearance(command); break;
     case Kind::delta: delta(command); break;
+    case Kind::move: move(command); break;
     case Kind::brush: many_vertices(command, [&] { return carry_out_brush(sculptor_, command); }); break;
     case Kind::remesh: many_vertices(command, [&] { return carry_out_remesh(sculptor_, command); }); break;
     case Kind::response: sculptor_.set_response(*response_named(command.word)); break;
@@ -110,6 +111,19 @@ private:
     } catch (const Invalid_parameter& error) { // the scene has outgrown the clearance
       refuse(command, clearance_of_no_use, command.indices).detail = outgrown(error);
     }
+  }
+
+  /// The component of a vertex, by a vector.
+  void move(const Command& command) {
+    const Vertex_index v = sculptor_.vertex(command.indices[0]);
+    if (!v.is_valid()) {
+      refuse(command, "unknown-element", command.indices);
+      return;
+    }
+    std::vector<Vertex_index> blocking;
+    many_vertices(command, [&] { return carry_out_move(sculptor_, v, point(command.points[0]) - CGAL::ORIGIN, blocking); });
+    for (const Vertex_index w : blocking)
+      result_.edits.back().elements.push_back(sculptor_.name(w));
   }
 
   template <class Elements>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "comparison.h"
 
+#include "many_vertices_lines.h"
 #include "nearest_vertices.h"
 
 #include "../brushes.h"
@@ -18,7 +19,8 @@ namespace {
 
 using Kind = Command::Kind;
 
-void drag(Mesh& mesh, const Command& command) {
+/// The vertex of a line; not in the mesh where there is none of that number.
+std::size_t vertex_of(const Mesh& mesh, const Command& command) {
   std::size_t v = command.indices[0];
   if (!command.places.empty()) {
     std::vector<std::size_t> all(mesh.number_of_vertices());
@@ -27,9 +29,23 @@ void drag(Mesh& mesh, const Command& command) {
     const auto point_of = [&](std::size_t i) { return mesh.point(Vertex_index(static_cast<Mesh::size_type>(i))); };
     v = nearest_vertices(std::move(all), point_of, Kernel::Point_3(p[0], p[1], p[2]), 1).at(0);
   }
+  return v;
+}
+
+void drag(Mesh& mesh, const Command& command) {
+  const std::size_t v = vertex_of(mesh, command);
   const auto& target = command.points[0];
   if (v < mesh.number_of_vertices())
     mesh.point(Vertex_index(static_cast<Mesh::size_type>(v))) = Kernel::Point_3(target[0], target[1], target[2]);
+}
+
+void move(Mesh& mesh, const Command& command) {
+  const std::size_t v = vertex_of(mesh, command);
+  const auto& way = command.points[0];
+  if (v < mesh.number_of_vertices())
+    for (const Vertex_index w : component_of(mesh, Vertex_index(static_cast<Mesh::size_type>(v))))
+      if (const auto p = mesh.point(w) + Kernel::Vector_3(way[0], way[1], way[2]); internal::is_in_range({p.x(), p.y(), p.z()}))
+        mesh.point(w) = p;
 }
 
 void dab(Mesh& mesh, const Command& command) {
@@ -84,12 +100,13 @@ Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
   for (const Command& command : script)
     switch (command.kind) {
     case Kind::drag: drag(mesh, command); break;
+    case Kind::move: move(mesh, command); break;
     case Kind::brush: dab(mesh, command); break;
     case Kind::release: case Kind::response: case Kind::clearance: case Kind::delta: case Kind::mesh: case Kind::probe:
     case Kind::stroke: case Kind::end: break;
     default:
       throw Script_error("line " + std::to_string(command.line) + " ('" + name_of(command.kind) +
-                         "') does more than to move vertices: --compare takes scripts of drags and brushes only");
+                         "') does more than to move vertices: --compare takes scripts of drags, moves and brushes only");
     }
   return mesh;
 }

@@ -9,14 +9,14 @@
 #include <unordered_map>
 
 /// \file
-/// The lines `brush` and `remesh` of a script. Each is one step of undo.
+/// The lines `move`, `brush` and `remesh` of a script. Each is one step of undo.
 
 namespace haptic_sculpt::sculpt_program {
 
 /// What became of such a line.
 struct Many_vertices_outcome {
   const char* refusal = nullptr;    ///< nothing was done, for this reason
-  std::size_t asked = 0, done = 0;  ///< brush: vertices, and those at their targets; remesh: operations
+  std::size_t asked = 0, done = 0;  ///< move, brush: vertices, and those at their targets; remesh: operations
   std::string detail;               ///< for people
 };
 
@@ -40,6 +40,39 @@ Many_vertices_outcome carry_out_brush(Sculptor& sculptor, const Command& command
     return {"out-of-range", 0, 0, error.what()};
   } catch (const Invalid_parameter& error) {
     return {"clearance-of-no-use", 0, 0, error.what()};
+  }
+}
+
+/// The vertices that are joined to v by edges, v first.
+inline std::vector<Vertex_index> component_of(const Mesh& mesh, Vertex_index v) {
+  std::vector<Vertex_index> component{v};
+  std::vector<bool> is_met(mesh.num_vertices(), false);
+  is_met[v] = true;
+  for (std::size_t i = 0; i < component.size(); ++i)
+    for (const Vertex_index w : mesh.vertices_around_target(mesh.halfedge(component[i])))
+      if (!is_met[w]) {
+        is_met[w] = true;
+        component.push_back(w);
+      }
+  return component;
+}
+
+/// The component of v by a vector. \param blocking what is in the way, where not all of the way is gone: the first place
+template <class Sculptor>
+Many_vertices_outcome carry_out_move(Sculptor& sculptor, Vertex_index v, const Kernel::Vector_3& way,
+                                     std::vector<Vertex_index>& blocking) {
+  try {
+    const auto report = move_rigidly(sculptor, component_of(sculptor.mesh(), v),
+                                     CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, way));
+    if (!report.contacts.empty())
+      for (const Vertex_index w : report.contacts.front().vertices)
+        if (w.is_valid())
+          blocking.push_back(w);
+    std::ostringstream detail;
+    detail << "an object of " << report.asked << " vertices has gone " << 100 * report.share << " % of the way";
+    return {nullptr, report.asked, report ? report.asked : 0, detail.str()};
+  } catch (const Out_of_range& error) {
+    return {"out-of-range", 0, 0, error.what()};
   }
 }
 

@@ -171,6 +171,40 @@ def finding_vertices(folder, mesh):
         fails(4, [f"column {column}", part], run(mesh, "--script", "-", script=script), script)
 
 
+def objects(folder):
+    """An object that goes as far as another lets it: places by arithmetic of our own, one step of undo, logged, refused by name."""
+    two, out, report, log = f"{folder}/two.off", f"{folder}/two_moved.off", f"{folder}/two.json", f"{folder}/two.log"
+    lines = OCTAHEDRON.split("\n")
+    at, faces = lines[2:8], lines[8:16]
+    beyond = [f"{int(p.split()[0]) + 4} {p.split()[1]} {p.split()[2]}" for p in at]
+    others = ["3 " + " ".join(str(int(v) + 6) for v in f.split()[1:]) for f in faces]
+    write(two, "\n".join(["OFF", "12 16 0", *at, *beyond, *faces, *others, ""]))
+
+    def sculpt(script, *more):
+        done = run(two, "--script", "-", "-o", out, "--report", report, *more, script=script)
+        check(done.returncode == 0, f"{script!r}: {done.returncode} {done.stderr}")
+        return [(e["op"], e["status"], e["reason"], e["elements"], e["many"]) for e in json.load(open(report))["edits"]], surface(out)
+
+    whole = surface(two)
+    told, (after, _) = sculpt("move 3 0.5 0.25 -1\n")
+    check(told == [("move", "reached", None, [], {"asked": 6, "done": 6})], f"a free way: {told}")
+    check(after == [(x + 0.5, y + 0.25, z - 1) for x, y, z in whole[0][:6]] + whole[0][6:], f"moved: {after}")
+    script = "move @1,0,0 16 0 0\n"
+    told, (after, _) = sculpt(script, "--log", log)
+    share = 127 / 1024  # the last step before the points touch, at an eighth
+    check(told[0][:3] == ("move", "blocked", "in-part") and set(told[0][3]) >= {0, 7}, f"blocked by the other: {told}")
+    check(after == [(x + 16 * share, y, z) for x, y, z in whole[0][:6]] + whole[0][6:], f"as far as it may: {after}")
+    check(run(two, "--log", log, "-o", out).returncode == 0 and surface(out)[0] == after, "replayed from the log")
+    told, after = sculpt("move 3 0.5 0.25 -1\nmove 9 0 0 1\nundo\nundo\n")
+    check(after == whole, "a step of undo each")
+    told, after = sculpt("move 12 1 0 0\nmove 0 1e301 1e301 1e301\nmove 0 1e301 0 0\nmove 0 1e301 0 0\n")
+    check([t[1:3] for t in told[:1]] == [("refused", "unknown-element")], f"refused: {told}")
+    fails(4, ["column 9", "coordinate"], run(two, "--script", "-", script="move 0 1"), "move without a vector")
+    picture = f"{folder}/moved.png"
+    done = run(two, "--script", "-", "--compare", picture, script="move 0 3 0 0\n")
+    check(done.returncode == 0 and os.path.getsize(picture) > 5000, f"--compare of a move: {done.stderr}")
+
+
 def brushes_and_remeshing(folder, mesh):
     """The lines that move many vertices: where they end by arithmetic of our own, one step of undo each, logged, refused by name."""
     octahedron, out, report, log = write(f"{folder}/brush.off", OCTAHEDRON), f"{folder}/brushed.off", f"{folder}/brushed.json", f"{folder}/brush.log"
@@ -480,6 +514,7 @@ def main():
         extreme_numbers(folder, mesh)
         edges_and_strokes(folder, mesh)
         finding_vertices(folder, mesh)
+        objects(folder)
         brushes_and_remeshing(folder, mesh)
         what_people_read(folder, mesh)
         polygons(folder, mesh)

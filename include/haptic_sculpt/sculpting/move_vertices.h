@@ -12,21 +12,16 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Reads all targets before anything moves.
-/// \throw Unknown_vertex, Out_of_range, Invalid_parameter
-template <class Sculptor, class Vertex_range, class Target_map>
-std::vector<Moving_vertex<typename Sculptor::Mesh_type>>
-read_targets(const Sculptor& sculptor, const Vertex_range& vertices, const Target_map& target_map) {
-  const auto moving = moving_vertices(sculptor.mesh(), vertices, [&](auto v) -> decltype(auto) { return get(target_map, v); });
+/// \throw Invalid_parameter where the clearance does not serve where the targets are
+template <class Mesh>
+void check_clearance_at_targets(const std::vector<Moving_vertex<Mesh>>& moving, const std::optional<double>& clearance) {
   double largest = 0;
   for (const auto& v : moving)
     largest = std::fmax(largest, largest_magnitude(v.target));
-  if (const auto& clearance = sculptor.options().clearance_length;
-      clearance && *clearance < unit_in_the_last_place(largest))
+  if (clearance && *clearance < unit_in_the_last_place(largest))
     throw Invalid_parameter("the clearance " + number(*clearance) +
                             " does not serve where the targets are: give at least " +
                             number(unit_in_the_last_place(largest)) + " (an ulp of their largest coordinate), or none");
-  return moving;
 }
 
 /// Tells of the distances from where the vertices are to their targets.
@@ -41,6 +36,31 @@ void measure_distances(const Mesh& mesh, const std::vector<Moving_vertex<Mesh>>&
     sum += share * share;
   }
   l2 = largest * std::sqrt(sum);
+}
+
+/// As move_vertices(). \param target_of `target_of(v)`, asked of each vertex once, in their order
+template <class Sculptor, class Vertex_range, class Target_of, class Output_iterator>
+Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, const Target_of& target_of,
+                            const Move_parameters& parameters, Output_iterator left_behind) {
+  const auto asked = moving_vertices(sculptor.mesh(), vertices, target_of);
+  check_clearance_at_targets(asked, sculptor.options().clearance_length);
+  Move_report report;
+  report.asked = asked.size();
+  measure_distances(sculptor.mesh(), asked, report.asked_l2, report.asked_max);
+  {
+    const auto stroke = sculptor.stroke();
+    Vertices_mover<Sculptor>(sculptor, asked, parameters, report).run();
+  }
+  measure_distances(sculptor.mesh(), asked, report.left_l2, report.left_max);
+  // Each distance is exactly no longer than it was; its root may be rounded up.
+  report.left_l2 = std::fmin(report.left_l2, report.asked_l2);
+  report.left_max = std::fmin(report.left_max, report.asked_max);
+  for (const auto& v : asked)
+    if (vertex_coordinates(sculptor.mesh(), v.vertex) == v.target)
+      ++report.reached;
+    else
+      *left_behind++ = v.vertex;
+  return report;
 }
 
 } // namespace internal
@@ -65,28 +85,8 @@ Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, cons
                           const Move_parameters& parameters = Move_parameters(),
                           Output_iterator left_behind = Output_iterator()) {
   const internal::Rounding_to_nearest rounding;
-  const auto asked = internal::read_targets(sculptor, vertices, target_map);
-  Move_report report;
-  report.asked = asked.size();
-  internal::measure_distances(sculptor.mesh(), asked, report.asked_l2, report.asked_max);
-  {
-    auto moving = asked;
-    internal::order_in_space(moving);
-    const auto stroke = sculptor.stroke();
-    internal::Vertices_mover<Sculptor>(sculptor, moving, parameters,
-                                       internal::are_ways_short(sculptor.mesh(), moving), report)
-        .run();
-  }
-  internal::measure_distances(sculptor.mesh(), asked, report.left_l2, report.left_max);
-  // Each distance is exactly no longer than it was; its root may be rounded up.
-  report.left_l2 = std::fmin(report.left_l2, report.asked_l2);
-  report.left_max = std::fmin(report.left_max, report.asked_max);
-  for (const auto& v : asked)
-    if (vertex_coordinates(sculptor.mesh(), v.vertex) == v.target)
-      ++report.reached;
-    else
-      *left_behind++ = v.vertex;
-  return report;
+  return internal::move_to_targets(
+      sculptor, vertices, [&](auto v) -> decltype(auto) { return get(target_map, v); }, parameters, left_behind);
 }
 
 } // namespace haptic_sculpt

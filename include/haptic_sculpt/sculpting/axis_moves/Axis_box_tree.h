@@ -59,6 +59,14 @@ public:
     join_itself(static_cast<int>(levels_.size()) - 1, 0, found);
   }
 
+  /// Bytes held, capacity included.
+  std::size_t memory() const {
+    std::size_t nodes = 0;
+    for (const auto& level : levels_)
+      nodes += level.capacity();
+    return nodes * sizeof(Axis_box_node) + (touched_.capacity() + active_.capacity()) * sizeof(std::uint32_t);
+  }
+
 private:
   static constexpr std::uint32_t width = Axis_box_node::width;
 

@@ -28,32 +28,43 @@ class Axis_move {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
   using Face_index = typename Mesh::Face_index;
-  /// \param delta 0: no rule
-  Axis_move(const Mesh& mesh, double delta, Filter_counters& counters)
-    : mesh_(&mesh), counters_(&counters), delta_(delta) {}
+  Axis_move(const Mesh& mesh, Filter_counters& counters) : mesh_(&mesh), counters_(&counters) {}
 
-  /// Which faces are looked at from here on. \param are_all whether these are all;
-  /// else at least those that move and all that these could meet. Cost: n log n, which a few moves of the same pay off.
-  template <class Faces>
-  void take(const Faces& faces, bool are_all) {
+  /// Which faces are looked at from here on, until connectivity changes.
+  /// \param faces near ones side by side \param are_all whether these are all; else at least those that move and all that
+  /// these could meet. Cost: linear in what is taken
+  void take(const std::vector<Face_index>& faces, bool are_all) {
     are_all_ = are_all;
-    scale_ = Box_scale::of(*mesh_);
+    scale_ = Box_scale([&](const auto& visit) {
+      for (const Face_index f : faces)
+        visit(vertex_coordinates(*mesh_, mesh_->target(mesh_->halfedge(f))));
+    });
     items_.clear();
-    slot_of_face_.assign(mesh_->num_faces(), no_slot);
-    for (const Face_middle& f : faces_in_spatial_order(*mesh_, faces, scale_)) {
-      slot_of_face_[f.face] = static_cast<std::uint32_t>(items_.size());
-      items_.push_back(item_of(Face_index(f.face)));
+    items_.reserve(faces.size());
+    if (slot_of_face_.size() < mesh_->num_faces())
+      slot_of_face_.resize(mesh_->num_faces());
+    if (vertices_.size() < mesh_->num_vertices())
+      vertices_.resize(mesh_->num_vertices());
+    for (const Face_index f : faces) {
+      slot_of_face_[f] = static_cast<std::uint32_t>(items_.size());
+      items_.push_back(item_of(f));
     }
     tree_.resize(items_.size());
   }
 
-  /// A motion of the vertices given, each once. \param most it is given up as soon as it is known that more would be held
-  /// back; the search ends then. \pre every face of theirs has been taken
-  void begin(int axis, const Axis_ways<Mesh>& ways, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  /// Connectivity is to change: what was taken is of no use any more.
+  void forget() { are_all_ = false; }
+
+  /// A motion of the vertices given, each once. \param delta 0: no rule \param most it is given up as soon as it is known
+  /// that more would be held back; the search ends then. \pre every face of theirs has been taken
+  void begin(int axis, const Axis_ways<Mesh>& ways, double delta, std::size_t most = std::numeric_limits<std::size_t>::max()) {
     axis_ = axis;
+    delta_ = delta;
     held_ = 0;
     most_ = most;
-    vertices_.assign(mesh_->num_vertices(), Vertex{});
+    for (const Item& item : items_)
+      for (const std::uint32_t v : item.corners)
+        vertices_[v] = Vertex{};
     tree_.begin_round();
     for (const auto& [v, end] : ways)
       if (end != height(index(v)))
@@ -100,6 +111,12 @@ public:
 
   /// Whether all of the mesh is looked at.
   bool has_taken_all() const { return are_all_; }
+  const std::vector<Axis_item>& items() const { return items_; } ///< what is looked at
+  /// Bytes held, capacity included.
+  std::size_t memory() const {
+    return items_.capacity() * sizeof(Item) + slot_of_face_.capacity() * sizeof(std::uint32_t) +
+           vertices_.capacity() * sizeof(Vertex) + tree_.memory();
+  }
 
 private:
   using Item = Axis_item;
@@ -111,20 +128,19 @@ private:
     std::uint8_t pulls = 0;
     bool moves = false, is_pulled = false;
   };
-  static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
   static constexpr std::uint8_t most_pulls = 20;
 
   const Mesh* mesh_;
   Filter_counters* counters_;
-  double delta_;
+  double delta_ = 0;
   int axis_ = 0;
   Box_scale scale_;
   bool are_all_ = false;
   std::size_t held_ = 0; ///< vertices that have been pulled, or are to be in this round
   std::size_t most_ = 0;
   std::vector<Item> items_; ///< by slot; faces in the order of space, then vertices without
-  std::vector<std::uint32_t> slot_of_face_;
-  std::vector<Vertex> vertices_;
+  std::vector<std::uint32_t> slot_of_face_; ///< of those taken
+  std::vector<Vertex> vertices_;            ///< corners of what is taken; others are as they were left
   Axis_box_tree tree_;
   std::vector<std::uint32_t> active_; ///< slots to be looked at in this round
   std::vector<Axis_obstacle> obstacles_;

@@ -5,6 +5,8 @@
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_move.h>
+#include <haptic_sculpt/sculpting/axis_moves/Faces_on_the_way.h>
+#include <haptic_sculpt/surface/coordinate_range.h>
 
 #include <algorithm>
 
@@ -19,7 +21,7 @@ struct Sculptor_access {
   }
 };
 
-/// Whole ways or none. \throw Invalid_parameter, and what Guarded_mesh::shift() throws
+/// Whole ways or none. \throw Invalid_parameter, Unknown_vertex, Out_of_range, Mesh_changed
 template <class Guarded, class Mesh = std::decay_t<decltype(std::declval<Guarded&>().mesh())>>
 Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways) {
   using Vertex_index = typename Mesh::Vertex_index;
@@ -29,9 +31,18 @@ Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways) {
   std::stable_sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   ways.erase(std::unique(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
              ways.end());
-  Axis_move<Mesh> move = guarded.axis_move();
-  if (!guarded.shift(move, axis, ways, 0)) {
-    const Axis_obstacle& first = move.obstacles().front();
+  Vertex_targets<Mesh> targets;
+  targets.reserve(ways.size());
+  for (const auto& [v, end] : ways) {
+    check_vertex(guarded.mesh(), v);
+    if (!is_in_range(end))
+      throw_out_of_range("where vertex " + std::to_string(static_cast<std::size_t>(v)) + " is to go", {end, end, end});
+    targets.emplace_back(v, vertex_coordinates(guarded.mesh(), v));
+    targets.back().second[axis] = end;
+  }
+  guarded.look_around(targets);
+  if (!guarded.shift(axis, ways, 0)) {
+    const Axis_obstacle& first = guarded.axis_move().obstacles().front();
     const bool is_of_face = first.size() == 3;
     auto refused = Edit_result<Mesh>::refused(is_of_face ? Refusal_reason::delta : Refusal_reason::blocked);
     for (int k = 0; k < first.size(); ++k)

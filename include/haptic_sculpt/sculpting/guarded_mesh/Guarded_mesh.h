@@ -4,7 +4,8 @@
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/Probe.h>
-#include <haptic_sculpt/sculpting/axis_moves/axis_ways.h>
+#include <haptic_sculpt/sculpting/axis_moves/Axis_move.h>
+#include <haptic_sculpt/sculpting/axis_moves/Faces_on_the_way.h>
 #include <haptic_sculpt/sculpting/contact/Scene_bound.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
 #include <haptic_sculpt/sculpting/finding/Surface_finder.h>
@@ -36,7 +37,7 @@ public:
     , editor_(mesh, broad_phase_, corners_, counters_, watch_, writing_, std::move(visitor))
     , hand_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
     , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
-    , finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh) {}
+    , finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh), axis_move_(mesh, counters_) {}
   Guarded_mesh(const Guarded_mesh&) = delete; // its parts refer to each other
   Guarded_mesh& operator=(const Guarded_mesh&) = delete;
 
@@ -203,6 +204,7 @@ public:
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
+    axis_move_.forget();
     const Edited result = edit();
     if (result && !mesh_->is_removed(*result.vertex))
       scene_.include(vertex_coordinates(*mesh_, *result.vertex));
@@ -215,30 +217,45 @@ public:
     return edited(edit);
   }
 
-  /// Moves vertices at once along one axis as far as that is free, as one change; each vertex is given once.
-  /// \param move made by `axis_move()`; may be used again while the connectivity stays
-  /// \return false where more than `most_held` would be held back: then nothing has changed, and `move` knows why
-  /// \throw Unknown_vertex, Out_of_range, Mesh_changed
-  bool shift(Axis_move<Mesh>& move, int axis, const Axis_ways<Mesh>& ways, std::size_t most_held) {
+  /// Has axis moves look at what they may meet from here on: motions of these vertices, each in the box of its place and its
+  /// target, along any axis. Where many move that is all of the mesh, and is kept until connectivity changes.
+  void look_around(const Vertex_targets<Mesh>& targets) {
     const Rounding_to_nearest rounding;
-    for (const auto& way : ways) {
-      check_vertex(*mesh_, way.first);
-      if (!is_in_range(way.second))
-        throw_out_of_range("where vertex " + std::to_string(static_cast<std::size_t>(way.first)) + " is to go",
-                           {way.second, way.second, way.second});
-    }
     release();
     look_for_changes();
-    for (const Vertex_index v : mesh_->vertices())
-      watch_.check(v);
-    take_for(move, *mesh_, broad_phase_, axis, ways);
-    move.begin(axis, ways, most_held);
-    if (!move.hold_back())
+    if (axis_move_.has_taken_all())
+      return;
+    constexpr std::size_t many = 8; // an eighth of all vertices: then the search costs more than it spares
+    if (many * targets.size() < mesh_->number_of_vertices())
+      return axis_move_.take(on_the_way_.find(*mesh_, broad_phase_, targets), false);
+    std::vector<Face_index> faces;
+    faces.reserve(mesh_->number_of_faces());
+    broad_phase_.faces_in_order(faces);
+    axis_move_.take(faces, true);
+  }
+
+  /// Moves vertices at once along one axis as far as that is free, as one change; each vertex is given once.
+  /// \pre they have been told to look_around(), and nothing else has moved since
+  /// \return false where more than `most_held` would be held back: then nothing has changed, and axis_move() knows why
+  /// \throw Mesh_changed
+  bool shift(int axis, const Axis_ways<Mesh>& ways, std::size_t most_held) {
+    const Rounding_to_nearest rounding;
+    release();
+    look_for_changes();
+    if (axis_move_.has_taken_all())
+      for (const Vertex_index v : mesh_->vertices())
+        watch_.check(v);
+    else
+      for (const Axis_item& item : axis_move_.items())
+        for (const std::uint32_t v : item.corners)
+          watch_.check(Vertex_index(v));
+    axis_move_.begin(axis, ways, parameters.delta_length, most_held);
+    if (!axis_move_.hold_back())
       return false;
     Axis_ways<Mesh> made;
     for (const auto& [v, end] : ways)
-      if (Coordinates p = vertex_coordinates(*mesh_, v); move.end(v) != p[axis]) {
-        p[axis] = move.end(v);
+      if (Coordinates p = vertex_coordinates(*mesh_, v); axis_move_.end(v) != p[axis]) {
+        p[axis] = axis_move_.end(v);
         made.emplace_back(v, p[axis]);
         scene_.include(p);
       }
@@ -246,7 +263,14 @@ public:
       editor_.shift(axis, made);
     return true;
   }
-  Axis_move<Mesh> axis_move() { return Axis_move<Mesh>(*mesh_, parameters.delta_length, counters_); }
+  /// The last one.
+  const Axis_move<Mesh>& axis_move() const { return axis_move_; }
+  /// All that is in the way of a motion, not only what was found until it was given up. \pre as of shift()
+  const std::vector<Axis_obstacle>& obstacles_to(int axis, const Axis_ways<Mesh>& ways) {
+    const Rounding_to_nearest rounding;
+    axis_move_.begin(axis, ways, parameters.delta_length);
+    return axis_move_.obstacles();
+  }
 
   void reserve(std::size_t edits, std::size_t moves) {
     check_is_whole();
@@ -262,7 +286,8 @@ public:
     watch_.check_all(corners_);
   }
   std::size_t memory() const {
-    return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory();
+    return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory() + axis_move_.memory() +
+           on_the_way_.memory();
   }
 
 private:
@@ -276,6 +301,8 @@ private:
   Hand<Mesh, Broad_phase, Traits> hand_, probe_;
   Surface_finder<Mesh, Broad_phase> finder_;
   Scene_bound<Mesh> scene_;
+  Axis_move<Mesh> axis_move_;
+  Faces_on_the_way<Mesh> on_the_way_;
   std::vector<Face_index> faces_near_probe_; ///< kept to allocate no more
   Coordinates probe_place_{};                ///< where the last probe was left
   std::uint64_t probe_changes_ = 0;          ///< the changes of the mesh by then

@@ -4,7 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Move_report.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
-#include <haptic_sculpt/sculpting/many_vertices/leading_order.h>
+#include <haptic_sculpt/sculpting/many_vertices/Moving_vertex.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
@@ -23,14 +23,18 @@ public:
   /// \param report counts a motion for each vertex of a move along one axis
   Axis_walk(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
             Move_report& report)
-      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), parameters_(parameters), report_(report),
-        move_(guarded_.axis_move()) {}
+      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), parameters_(parameters), report_(report) {}
 
   /// Ends, too, where a move would be more motions than may be made: single drags may go on with what is left of these.
   /// \return false where it was cancelled
   bool run() {
+    Vertex_targets<Mesh> targets;
+    targets.reserve(vertices_.size());
+    for (const Moving& v : vertices_)
+      targets.emplace_back(v.vertex, v.target);
+    guarded_.look_around(targets); // no coordinate leaves the interval from where it is to its target
     // Steps that are taken back would use up what few motions there are.
-    const bool takes_steps = parameters_.drag_limit / work_of_steps >= vertices_.size();
+    const bool takes_steps = parameters_.takes_steps && parameters_.drag_limit / work_of_steps >= vertices_.size();
     double way = takes_steps ? 0 : 1, step = 1;
     std::size_t before = vertices_.size(); // so many were held back in the step twice as long
     while (way < 1 && goes_on_) {
@@ -74,7 +78,6 @@ private:
   const std::vector<Moving>& vertices_;
   const Move_parameters& parameters_;
   Move_report& report_;
-  Axis_move<Mesh> move_;
   std::vector<std::pair<int, Ways>> made_; ///< by the step under way: the axis, and where all were before
   bool goes_on_ = true;                    ///< neither cancelled nor without room for another move
 
@@ -107,7 +110,7 @@ private:
         continue;
       if (!may_move(ways.size(), share))
         return vertices_.size();
-      if (!guarded_.shift(move_, axis, ways, most))
+      if (!guarded_.shift(axis, ways, most))
         return vertices_.size();
       made_.emplace_back(axis, std::move(before));
     }
@@ -122,7 +125,7 @@ private:
   /// The step that was made: the same motions back are free.
   void take_back() {
     for (; !made_.empty(); made_.pop_back())
-      if (!guarded_.shift(move_, made_.back().first, made_.back().second, 0))
+      if (!guarded_.shift(made_.back().first, made_.back().second, 0))
         throw Mesh_changed("a motion that was free is not when it is taken back");
   }
 

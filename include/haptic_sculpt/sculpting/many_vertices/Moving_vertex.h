@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_MOVING_VERTEX_H
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
+#include <haptic_sculpt/sculpting/geometry/separation.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
@@ -14,6 +15,17 @@ struct Moving_vertex {
   typename Mesh::Vertex_index vertex;
   Coordinates source, target;
 };
+
+/// Between two points; where squares would leave the range of doubles, in another unit.
+inline double distance(const Coordinates& p, const Coordinates& q) {
+  const Vector d = minus(p, q);
+  const double square = quick_dot(d, d);
+  if (square > 0x1p-900 && square < 0x1p900)
+    return std::sqrt(square);
+  const double unit = unit_of(quick_magnitude(d));
+  const Vector e = scaled(d, unit);
+  return std::sqrt(quick_dot(e, e)) / unit;
+}
 
 /// Vertices and their targets, each once, all read before anything moves. \param target_of `target_of(v)`, a point
 /// \throw Unknown_vertex, Out_of_range

@@ -19,7 +19,7 @@ public:
   using Moving = Moving_vertex<Mesh>;
 
   Rigid_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Rigid_way& way)
-      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), way_(way), move_(guarded_.axis_move()) {}
+      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), way_(way) {}
 
   /// Step after step, half as long after one that is blocked and twice as long after one that is not.
   void run(Rigid_move_report<Mesh>& report) {
@@ -43,7 +43,6 @@ private:
   std::decay_t<decltype(Sculptor_access::guarded(std::declval<Sculptor&>()))>& guarded_;
   const std::vector<Moving>& vertices_;
   const Rigid_way& way_;
-  Axis_move<Mesh> move_;
 
   Coordinates place(const Moving& v, double share) const {
     return share == 1 ? v.target : plus(v.source, way_.at(share, minus(v.target, v.source)));
@@ -51,24 +50,25 @@ private:
 
   /// \param contacts where it is not null, told all that is in the way of a step that is not made
   bool make_step(double share, std::vector<Blocking_pair<Mesh>>* contacts) {
-    std::vector<Coordinates> places;
+    Vertex_targets<Mesh> places;
     places.reserve(vertices_.size());
     for (const Moving& v : vertices_) {
-      places.push_back(place(v, share));
-      if (!is_in_range(places.back()))
+      places.emplace_back(v.vertex, place(v, share));
+      if (!is_in_range(places.back().second))
         return false; // an arc may lead farther out than both of its ends are
     }
+    guarded_.look_around(places);
     std::vector<std::pair<int, Ways>> made;
     for (int axis = 0; axis < 3; ++axis) {
       Ways ways, before;
-      for (std::size_t k = 0; k < vertices_.size(); ++k)
-        if (const double at = vertex_coordinates(guarded_.mesh(), vertices_[k].vertex)[axis]; at != places[k][axis]) {
-          ways.emplace_back(vertices_[k].vertex, places[k][axis]);
-          before.emplace_back(vertices_[k].vertex, at);
+      for (const auto& [v, to] : places)
+        if (const double at = vertex_coordinates(guarded_.mesh(), v)[axis]; at != to[axis]) {
+          ways.emplace_back(v, to[axis]);
+          before.emplace_back(v, at);
         }
       if (ways.empty())
         continue;
-      if (!guarded_.shift(move_, axis, ways, 0)) {
+      if (!guarded_.shift(axis, ways, 0)) {
         if (contacts != nullptr)
           name_contacts(axis, ways, *contacts);
         take_back(made);
@@ -81,14 +81,12 @@ private:
 
   void take_back(std::vector<std::pair<int, Ways>>& made) {
     for (; !made.empty(); made.pop_back())
-      if (!guarded_.shift(move_, made.back().first, made.back().second, 0))
+      if (!guarded_.shift(made.back().first, made.back().second, 0))
         throw Mesh_changed("a motion that was free is not when it is taken back");
   }
 
   void name_contacts(int axis, const Ways& ways, std::vector<Blocking_pair<Mesh>>& contacts) {
-    const Rounding_to_nearest rounding;
-    move_.begin(axis, ways); // the search had ended with the first that was found
-    for (const Axis_obstacle& obstacle : move_.obstacles()) {
+    for (const Axis_obstacle& obstacle : guarded_.obstacles_to(axis, ways)) {
       Blocking_pair<Mesh> pair{static_cast<Blocking_kind>(obstacle.kind), {}};
       for (int k = 0; k < obstacle.size(); ++k)
         pair.vertices[k] = typename Mesh::Vertex_index(obstacle.vertices[k]);

@@ -6,7 +6,6 @@
 #include <haptic_sculpt/sculpting/many_vertices/Axis_walk.h>
 #include <haptic_sculpt/sculpting/many_vertices/Drag_budget.h>
 #include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
-#include <haptic_sculpt/sculpting/many_vertices/leading_order.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
@@ -21,25 +20,16 @@ public:
   using Mesh = typename Sculptor::Mesh_type;
   using Moving = Moving_vertex<Mesh>;
 
-  /// \param vertices successive ones near each other in space; all targets are in range
-  /// \param are_short whether the ways are so short that few vertices stand in each other's way: then the first drags
-  /// are made in a way that costs less where there is nothing in the way, and more where there is, and in any order
-  /// \param report filled in by run()
-  Vertices_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
-                 bool are_short, Move_report& report)
+  /// \param vertices all targets are in range \param report filled in by run()
+  Vertices_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters, Move_report& report)
       : sculptor_(sculptor), vertices_(vertices), parameters_(parameters), report_(&report), budget_(parameters, report)
-      , bound_(sculptor.options().work_bound), tries_whole_(are_short) {}
+      , bound_(sculptor.options().work_bound) {}
 
   /// Fills in what the report tells of drags, `cancelled` and `out_of_work`.
   void run() {
     asked_ = sum_left();
     const Response_scope scope(sculptor_, Response::stop, true);
-    Positions behind = all_behind();
-    const bool drags_first = !parameters_.takes_steps || tries_whole_ || behind.size() < many;
-    if (drags_first)
-      stop_passes(behind);
-    tries_whole_ = false;
-    if (parameters_.takes_steps && goes_on_ && behind.size() > (drags_first ? few(vertices_.size()) : 0))
+    if (vertices_.size() >= many)
       goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_).run();
     finish();
   }
@@ -64,7 +54,6 @@ private:
   Move_report* report_;
   Drag_budget budget_;
   std::optional<std::size_t> bound_; ///< on the work of a drag, as it was before
-  bool tries_whole_;
   bool goes_on_ = true; ///< neither cancelled nor out of work
   std::size_t behind_ = 0;
   double asked_ = 0; ///< a sum of distances
@@ -92,7 +81,7 @@ private:
       return result.reached;
     }
     budget_.count_drag();
-    return (tries_whole_ && sculptor_.move_if_free(v, target)) || sculptor_.grab(v).drag_to(target).reached;
+    return sculptor_.grab(v).drag_to(target).reached;
   }
 
   /// Whether another drag may be made; asks the progress function in its turn.
@@ -103,52 +92,6 @@ private:
         budget_.has_room() && parameters_.progress_function && budget_.is_call_due() &&
         !parameters_.progress_function(Move_progress{vertices_.size(), behind_, report_->drags, 1});
     return goes_on_ = !report_->cancelled && !report_->out_of_work;
-  }
-
-  /// Those that are not where they are to go, in an order in which they are least in each other's way: leaders first,
-  /// and where the faces leave it open the foremost, along the sum of all ways.
-  Positions ordered(const Positions& given) const {
-    struct Motion {
-      double advance;
-      Position position;
-      Moving moving;
-    };
-    std::vector<Motion> motions;
-    motions.reserve(given.size());
-    Vector whole{};
-    for (const Position k : given)
-      if (const Coordinates from = place(k), to = vertices_[k].target; from != to) {
-        motions.push_back({0, k, {vertices_[k].vertex, from, to}});
-        whole = plus(whole, minus(to, from));
-      }
-    whole = scaled(whole, unit_of(quick_magnitude(whole))); // its products with places stay in range
-    for (Motion& motion : motions)
-      motion.advance = quick_dot(whole, minus(motion.moving.source, Coordinates{}));
-    std::sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) {
-      return std::make_pair(b.advance, a.position) < std::make_pair(a.advance, b.position);
-    });
-    std::vector<Moving> sorted;
-    sorted.reserve(motions.size());
-    for (const Motion& motion : motions)
-      sorted.push_back(motion.moving);
-    Positions order = leaders_first(sculptor_.mesh(), sorted);
-    for (Position& k : order)
-      k = motions[k].position;
-    return order;
-  }
-
-  /// Drags those that are behind to their targets, again while they at least halve, few while a tenth comes along.
-  /// Leaves in `behind` those that stay behind.
-  void stop_passes(Positions& behind) {
-    if (!tries_whole_)
-      behind = ordered(behind);
-    for (;;) {
-      const std::size_t before = behind.size();
-      pass(behind);
-      const std::size_t gained = before - behind.size(), share = behind.size() <= few(vertices_.size()) ? 10 : 2;
-      if (!goes_on_ || behind.empty() || gained == 0 || share * gained < before)
-        return;
-    }
   }
 
   /// Drags each once.

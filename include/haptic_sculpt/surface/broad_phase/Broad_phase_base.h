@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/surface/broad_phase/Star_filter.h>
 #include <haptic_sculpt/surface/broad_phase/face_box.h>
+#include <haptic_sculpt/surface/broad_phase/spatial_order.h>
 
 #include <algorithm>
 #include <limits>
@@ -51,6 +52,12 @@ public:
     derived().query(region, visited_);
     for (const Face_index f : visited_)
       visit(f);
+  }
+
+  /// Appends all faces, near ones side by side. Here they are put in order anew: n log n.
+  void faces_in_order(std::vector<Face_index>& faces) const {
+    for (const auto& f : internal::faces_in_spatial_order(*mesh_, mesh_->faces(), scale_))
+      faces.push_back(Face_index(f.face));
   }
 
   /// A query about here may follow soon: its memory may be asked for. Changes no answer. Here nothing is done.

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_FACES_ON_THE_WAY_H
+#define HAPTIC_SCULPT_SCULPTING_FACES_ON_THE_WAY_H
+
+#include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+#include <haptic_sculpt/surface/broad_phase/spatial_order.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Vertices, and where they are to be.
+template <class Mesh>
+using Vertex_targets = std::vector<std::pair<typename Mesh::Vertex_index, std::array<double, 3>>>;
+
+/// Finds the faces that move with some vertices, and all that these could meet as long as each vertex stays in the box of its
+/// place and its target: what stands still is found by a broad phase, asked for some dozens of neighbours at a time.
+template <class Mesh>
+class Faces_on_the_way {
+public:
+  using Face_index = typename Mesh::Face_index;
+  using Vertex_index = typename Mesh::Vertex_index;
+
+  /// \return near ones side by side; until the next call. Cost: n log n in what moves and is near
+  template <class Broad_phase>
+  const std::vector<Face_index>& find(const Mesh& mesh, Broad_phase& broad_phase, const Vertex_targets<Mesh>& targets) {
+    faces_.clear();
+    if (place_.size() < mesh.num_vertices())
+      place_.resize(mesh.num_vertices());
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      place_[targets[k].first] = static_cast<std::uint32_t>(k);
+      for (const Face_index f : mesh.faces_around_target(mesh.halfedge(targets[k].first)))
+        faces_.push_back(f);
+    }
+    keep_each_once();
+    const auto moving = faces_in_spatial_order(mesh, faces_);
+    for (std::size_t i = 0; i < moving.size();) {
+      Box_3 box;
+      for (std::size_t end = std::min(i + faces_a_query, moving.size()); i < end; ++i)
+        for (const Vertex_index v : corners_of_face(mesh, Face_index(moving[i].face)))
+          include_way(mesh, v, targets, box);
+      broad_phase.query(box, faces_);
+    }
+    keep_each_once();
+    const auto ordered = faces_in_spatial_order(mesh, faces_);
+    for (std::size_t i = 0; i < ordered.size(); ++i)
+      faces_[i] = Face_index(ordered[i].face);
+    return faces_;
+  }
+
+  /// Bytes held, capacity included.
+  std::size_t memory() const { return place_.capacity() * sizeof(std::uint32_t) + faces_.capacity() * sizeof(Face_index); }
+
+private:
+  static constexpr std::size_t faces_a_query = 64; ///< fewer cost more queries, more have larger boxes
+
+  std::vector<std::uint32_t> place_; ///< of a vertex in the targets, where it is there; else anything
+  std::vector<Face_index> faces_;
+
+  void include_way(const Mesh& mesh, Vertex_index v, const Vertex_targets<Mesh>& targets, Box_3& box) const {
+    box.include(vertex_coordinates(mesh, v));
+    if (const std::size_t k = place_[v]; k < targets.size() && targets[k].first == v)
+      box.include(targets[k].second);
+  }
+
+  void keep_each_once() {
+    std::sort(faces_.begin(), faces_.end());
+    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
