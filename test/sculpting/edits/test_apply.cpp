@@ -63,8 +63,10 @@ BOOST_AUTO_TEST_CASE(what_was_applied_can_be_done_again) {
         changed_by_refusal += snapshot(sculptor) != before || result.edit.kind != Edit_kind::none;
       const Edit again = result; // by value
       legs += again.legs.size();
-      const auto second = other.apply(again);
-      not_again += !second || (second.drag && !second.drag->reached);
+      // Undo and redo end the stroke under way, refused or not.
+      const bool has_ended_stroke = !result && (wanted.kind == Edit_kind::undo || wanted.kind == Edit_kind::redo);
+      const auto second = other.apply(has_ended_stroke ? wanted : again);
+      not_again += bool(second) == has_ended_stroke || (second.drag && !second.drag->reached);
       different += snapshot(sculptor) != snapshot(other);
       other_steps += sculptor.history().number_of_undo_steps() != other.history().number_of_undo_steps() ||
                      sculptor.history().number_of_redo_steps() != other.history().number_of_redo_steps();
