@@ -99,9 +99,9 @@ BOOST_AUTO_TEST_CASE(free_motions_are_embedded_all_the_way) {
     const auto [list, scene] = random_motion(random);
     const Mesh mesh = meshes::to_mesh(list);
     Filter_counters counters;
-    Axis_move move(mesh, 0, counters);
-    move.take(mesh.faces(), true);
-    move.begin(scene.axis, ways_of(scene));
+    Axis_move move(mesh, counters);
+    move.take({mesh.faces().begin(), mesh.faces().end()}, true);
+    move.begin(scene.axis, ways_of(scene), 0);
     for (const Axis_obstacle& obstacle : move.obstacles()) {
       ++obstacles[static_cast<int>(obstacle.kind)];
       wrongly_named += !is_obstacle(scene, obstacle);
@@ -135,9 +135,9 @@ BOOST_AUTO_TEST_CASE(what_is_held_back_leaves_a_free_motion) {
     auto [list, scene] = random_motion(random);
     const Mesh mesh = meshes::to_mesh(list);
     Filter_counters counters;
-    Axis_move move(mesh, 0, counters);
-    move.take(mesh.faces(), true);
-    move.begin(scene.axis, ways_of(scene));
+    Axis_move move(mesh, counters);
+    move.take({mesh.faces().begin(), mesh.faces().end()}, true);
+    move.begin(scene.axis, ways_of(scene), 0);
     if (move.is_free())
       continue;
     ++motions;
@@ -162,13 +162,13 @@ BOOST_AUTO_TEST_CASE(what_is_held_back_leaves_a_free_motion) {
 BOOST_AUTO_TEST_CASE(shears_of_large_meshes_are_free) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(4, 0.3, 0.01));
   Filter_counters counters;
-  Axis_move move(mesh, 0, counters);
-  move.take(mesh.faces(), true);
+  Axis_move move(mesh, counters);
+  move.take({mesh.faces().begin(), mesh.faces().end()}, true);
   for (const auto& [axis, other, factor] : {std::tuple<int, int, double>(0, 1, -1.0), {1, 0, 1.0}, {0, 1, -1.0}}) {
     Ways ways;
     for (const Vertex_index v : mesh.vertices())
       ways.push_back({v, mesh.point(v)[axis] + factor * mesh.point(v)[other]});
-    move.begin(axis, ways);
+    move.begin(axis, ways, 0);
     BOOST_TEST(move.is_free());
     for (const auto& way : ways) {
       std::array<double, 3> p = vertex_coordinates(mesh, way.first);
@@ -184,13 +184,13 @@ BOOST_AUTO_TEST_CASE(noise_of_large_meshes_ends_valid) {
   for (const double size : {0.02, 0.2}) {
     Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(4, 0.3, 0.01));
     Filter_counters counters;
-    Axis_move move(mesh, 0, counters);
-    move.take(mesh.faces(), true);
+    Axis_move move(mesh, counters);
+    move.take({mesh.faces().begin(), mesh.faces().end()}, true);
     for (int axis = 0; axis < 3; ++axis) {
       Ways ways;
       for (const Vertex_index v : mesh.vertices())
         ways.push_back({v, mesh.point(v)[axis] + size * (static_cast<double>(random() % 2001) / 1000 - 1)});
-      move.begin(axis, ways);
+      move.begin(axis, ways, 0);
       move.hold_back();
       BOOST_TEST(move.is_free());
       std::size_t whole = 0;

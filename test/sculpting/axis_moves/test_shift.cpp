@@ -158,12 +158,12 @@ BOOST_AUTO_TEST_CASE(some_vertices_go_as_they_would_with_all_faces_looked_at) {
       ways.emplace_back(static_cast<Mesh::size_type>(v), scene.ends[v]);
     }
     Filter_counters counters;
-    internal::Axis_move<Mesh> move(mesh, 0, counters);
-    move.take(mesh.faces(), true);
+    internal::Axis_move<Mesh> move(mesh, counters);
+    move.take({mesh.faces().begin(), mesh.faces().end()}, true);
     internal::Axis_ways<Mesh> all;
     for (std::size_t v = 0; v < scene.ends.size(); ++v)
       all.emplace_back(static_cast<Mesh::size_type>(v), scene.ends[v]);
-    move.begin(scene.axis, all);
+    move.begin(scene.axis, all, 0);
     Sculptor<Mesh> sculptor(mesh);
     const bool is_done = bool(sculptor.shift(scene.axis, ways));
     ++shifts, done += is_done;
