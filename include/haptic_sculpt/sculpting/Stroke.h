@@ -40,7 +40,7 @@ public:
   }
 
   /// Whether edits are still added to its step.
-  bool is_open() const { return sculptor_ != nullptr && sculptor_->history().is_in_stroke(number_); }
+  bool is_open() const { return sculptor_ != nullptr && sculptor_->guarded_.editor().history().is_in_stroke(number_); }
 
 private:
   Sculptor* sculptor_; ///< nullptr once it has ended or was moved from
