@@ -20,7 +20,7 @@ struct Sum {
   int runs = 0, left = 0, faults = 0;
   std::size_t ticks = 0;
   double contact = 0, least = 0, least_port = 0, largest_port = 0, observer_error = 0, observer_error_whole = 0,
-         least_observed = 0, inertia_energy = 0, largest_force = 0, limited = 0;
+         least_observed = 0, mass_energy = 0, largest_force = 0, limited = 0;
   int active = 0, alarms = 0, false_alarms = 0;
 
   void add(const Contact_setup& setup, const Contact_outcome& o) {
@@ -32,7 +32,7 @@ struct Sum {
     double& error = setup.delay == std::floor(setup.delay) ? observer_error_whole : observer_error;
     error = std::fmax(error, o.observer_error);
     least_observed = std::fmin(least_observed, o.least_observed);
-    inertia_energy += o.inertia_energy, largest_force = std::fmax(largest_force, o.largest_force);
+    mass_energy += o.inertia_energy, largest_force = std::fmax(largest_force, o.largest_force);
     limited += o.limited;
   }
   Json json() const {
@@ -48,7 +48,7 @@ struct Sum {
             {"observer_error_whole_delays_J", observer_error_whole},
             {"observer_error_J", observer_error},
             {"least_observed_J", least_observed},
-            {"inertia_energy_J", inertia_energy},
+            {"mass_energy_J", inertia_energy},
             {"largest_force_N", largest_force},
             {"limited_share", limited / std::max(1, runs)}};
   }
