@@ -32,7 +32,7 @@ struct Sum {
     double& error = setup.delay == std::floor(setup.delay) ? observer_error_whole : observer_error;
     error = std::fmax(error, o.observer_error);
     least_observed = std::fmin(least_observed, o.least_observed);
-    mass_energy += o.inertia_energy, largest_force = std::fmax(largest_force, o.largest_force);
+    mass_energy += o.mass_energy, largest_force = std::fmax(largest_force, o.largest_force);
     limited += o.limited;
   }
   Json json() const {
@@ -48,7 +48,7 @@ struct Sum {
             {"observer_error_whole_delays_J", observer_error_whole},
             {"observer_error_J", observer_error},
             {"least_observed_J", least_observed},
-            {"mass_energy_J", inertia_energy},
+            {"mass_energy_J", mass_energy},
             {"largest_force_N", largest_force},
             {"limited_share", limited / std::max(1, runs)}};
   }
