@@ -43,8 +43,8 @@ struct Dab {
   std::optional<typename Kernel::Vector_3> direction = {}; ///< any length; the mean normal where none is given
 };
 
-/// Multiplied by the power of two that brings its largest coordinate to about 1: squares and products of what is measured in
-/// metres or in light years are doubles then. Zero for zero.
+/// Multiplied by the power of two that brings its largest coordinate to about 1: squares and products of what is
+/// measured in metres or in light years are doubles then. Zero for zero.
 template <class Vector_3>
 Vector_3 of_size_one(const Vector_3& v) {
   const double size = std::fmax(std::fabs(v.x()), std::fmax(std::fabs(v.y()), std::fabs(v.z())));
@@ -84,7 +84,8 @@ auto normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
   const int exponent = size > 0 ? -std::ilogb(size) : 0;
   const auto edge_to = [&](typename Mesh::Vertex_index w) {
     const auto edge = mesh.point(w) - mesh.point(v);
-    return decltype(edge)(std::ldexp(edge.x(), exponent), std::ldexp(edge.y(), exponent), std::ldexp(edge.z(), exponent));
+    return decltype(edge)(std::ldexp(edge.x(), exponent), std::ldexp(edge.y(), exponent),
+                          std::ldexp(edge.z(), exponent));
   };
   auto sum = mesh.point(v) - mesh.point(v);
   for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
@@ -100,8 +101,8 @@ double squared_share(const typename Kernel::Point_3& p, const Dab<Kernel>& dab) 
   return x * x + y * y + z * z;
 }
 
-/// The vertices within the radius that are connected to `nearest`: not those on the other side of a thin wall. Cost: that of
-/// what is touched. \pre nearest has faces
+/// The vertices within the radius that are connected to `nearest`: not those on the other side of a thin wall. Cost:
+/// that of what is touched. \pre nearest has faces
 template <class Mesh, class Kernel>
 std::vector<typename Mesh::Vertex_index> touched(const Mesh& mesh, const Dab<Kernel>& dab,
                                                  typename Mesh::Vertex_index nearest) {

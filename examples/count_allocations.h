@@ -3,7 +3,8 @@
 #define HAPTIC_SCULPT_EXAMPLES_COUNT_ALLOCATIONS_H
 
 /// \file
-/// Counts how often each thread asks for memory, in `allocations_so_far`. To be included by one source file of a program.
+/// Counts how often each thread asks for memory, in `allocations_so_far`. To be included by one source file of a
+/// program.
 
 #include <cstdlib>
 #include <new>

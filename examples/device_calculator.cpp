@@ -28,10 +28,12 @@ private:
 };
 
 /// Past this condition number the position's rounding, magnified by the condition and then again by the Jacobian's own
-/// sensitivity, costs more digits than a caller of a calculator expects; the answer is then found again in quadruple precision.
+/// sensitivity, costs more digits than a caller of a calculator expects; the answer is then found again in quadruple
+/// precision.
 constexpr double condition_for_quadruple = 50;
 
-using Quadruple = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_quad::backend_type, boost::multiprecision::et_off>;
+using Quadruple = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_quad::backend_type,
+                                                boost::multiprecision::et_off>;
 
 template <class S> double rounded(const S& value) { return static_cast<double>(value); }
 
@@ -50,7 +52,10 @@ template <class M> json to_json(const M& matrix) {
   return rows;
 }
 
-template <class S> Device_vector<S> widen(const Eigen::Vector3d& v) { return Device_vector<S>(S(v[0]), S(v[1]), S(v[2])); }
+template <class S>
+Device_vector<S> widen(const Eigen::Vector3d& v) {
+  return Device_vector<S>(S(v[0]), S(v[1]), S(v[2]));
+}
 
 template <class T> void demand(const Outcome<T>& outcome, const std::string& what) {
   if (outcome)
@@ -63,7 +68,8 @@ template <class T> void demand(const Outcome<T>& outcome, const std::string& wha
 
 struct Request {
   Device_description<double> description;
-  Eigen::Vector3d theta = Eigen::Vector3d::Zero(), rate = Eigen::Vector3d::Zero(), acceleration = Eigen::Vector3d::Zero();
+  Eigen::Vector3d theta = Eigen::Vector3d::Zero(), rate = Eigen::Vector3d::Zero(),
+                  acceleration = Eigen::Vector3d::Zero();
   int mode = 1;
   std::optional<Eigen::Vector3d> phi_seed;
   std::optional<Eigen::VectorXd> wrench;
@@ -80,7 +86,8 @@ Outcome<Device_pose<S>> forward_pose(const Device_parameters<S>& parameters, con
   return general_forward(parameters, theta);
 }
 
-template <class S> json terms_to_json(const Dynamics_terms<S>& terms, const Device_vector<S>& rate, const Device_vector<S>& acceleration) {
+template <class S>
+json terms_to_json(const Dynamics_terms<S>& terms, const Device_vector<S>& rate, const Device_vector<S>& acceleration) {
   return {{"M", to_json(terms.mass)},
           {"C", to_json(terms.coriolis)},
           {"gravity", to_json(terms.gravity)},
@@ -97,8 +104,11 @@ template <class S> json forward_answer(const Request& request, Device_pose<doubl
   const Outcome<Device_motion<S>> motion = device_motion(parameters, *pose, rate);
   demand(motion, "no Jacobian at this pose");
   const bool general = parameters.form() == Device_form::general;
-  json answer = {{"ok", true}, {"p", to_json(pose->position)}, {"Q", to_json(pose->orientation)},
-                 {"joints", to_json(Device_matrix<S>(pose->joints.transpose()))}, {"condA", rounded(condition->constraint_condition)}};
+  json answer = {{"ok", true},
+                 {"p", to_json(pose->position)},
+                 {"Q", to_json(pose->orientation)},
+                 {"joints", to_json(Device_matrix<S>(pose->joints.transpose()))},
+                 {"condA", rounded(condition->constraint_condition)}};
   Eigen::Matrix<S, 6, 3> both;
   both << motion->jacobian.linear, motion->jacobian.angular;
   answer["J"] = general ? to_json(both) : to_json(motion->jacobian.linear);
@@ -152,7 +162,8 @@ json answer_inverse(const Device_parameters<double>& parameters, const json& req
       for (int leg = 0; leg < 3; ++leg)
         if (!inverse->leg_reaches[leg])
           legs += (legs.empty() ? "" : ", ") + std::to_string(leg);
-      throw No_answer("unreachable", "legs that do not reach the point: " + legs + "; the worst |cosine| exceeds 1 by " + json(inverse.shortfall()).dump());
+      throw No_answer("unreachable", "legs that do not reach the point: " + legs +
+                                         "; the worst |cosine| exceeds 1 by " + json(inverse.shortfall()).dump());
     }
     demand(inverse, "no joint angles for this point");
     json pairs = json::array();
@@ -182,7 +193,8 @@ json answer_inverse(const Device_parameters<double>& parameters, const json& req
 json answer_modes(const Device_parameters<double>& parameters, const Eigen::Vector3d& theta) {
   if (parameters.form() == Device_form::ditetrahedral) {
     demand(ditetrahedral_forward(parameters, theta, 1), "no apex at these joint angles");
-    return {{"ok", true}, {"n_modes", 2}, {"all_phi", json::array()}}; // a point has no link angles seen from a platform
+    return {
+        {"ok", true}, {"n_modes", 2}, {"all_phi", json::array()}}; // a point has no link angles seen from a platform
   }
   const Outcome<Assembly_modes<double>> modes = assembly_modes(parameters, theta);
   demand(modes, "the assembly modes are not isolated");
@@ -201,12 +213,15 @@ json answer(const json& request) {
     throw Bad_request("`params` must be given");
   const json& params = request["params"];
   const std::string op = request["op"];
-  const json form = request.contains("form") ? request["form"] : params.is_object() && params.contains("form") ? params["form"] : json();
+  const json form = request.contains("form")                        ? request["form"]
+                    : params.is_object() && params.contains("form") ? params["form"]
+                                                                    : json();
   Request r;
   r.with_dynamics = op == "dynamics";
   r.description = device_description_from_json(params, device_form_from_json(form), r.with_dynamics);
   if (params.contains("r") && r.description.platform_radius == 0)
-    throw No_answer("invalid_parameters", "platform_radius (r) must be positive; leave it out where there is no platform");
+    throw No_answer("invalid_parameters",
+                    "platform_radius (r) must be positive; leave it out where there is no platform");
   const Device_parameters<double> parameters(r.description);
   if (op == "inverse")
     return answer_inverse(parameters, request);
@@ -215,7 +230,8 @@ json answer(const json& request) {
   r.theta = json_vector_3(request, "theta");
   if (op == "modes")
     return answer_modes(parameters, r.theta);
-  if (parameters.form() == Device_form::ditetrahedral && request.contains("mode") && request["mode"] != "home" && !request["mode"].is_null()) {
+  if (parameters.form() == Device_form::ditetrahedral && request.contains("mode") && request["mode"] != "home" &&
+      !request["mode"].is_null()) {
     if (request["mode"] != 1 && request["mode"] != -1)
       throw Bad_request("`mode` must be 1 or -1");
     r.mode = request["mode"] == 1 ? 1 : -1;
@@ -223,7 +239,8 @@ json answer(const json& request) {
   if (request.contains("phi_seed") && !request["phi_seed"].is_null() && parameters.form() == Device_form::general)
     r.phi_seed = json_vector_3(request, "phi_seed");
   if (request.contains("wrench") && !request["wrench"].is_null())
-    r.wrench = parameters.form() == Device_form::general ? json_vector(request, "wrench", 6, 3) : json_vector(request, "wrench", 3, 6);
+    r.wrench = parameters.form() == Device_form::general ? json_vector(request, "wrench", 6, 3)
+                                                         : json_vector(request, "wrench", 3, 6);
   if (r.with_dynamics) {
     r.rate = json_vector_3(request, "thetad");
     r.acceleration = json_vector_3(request, "thetadd");
@@ -231,7 +248,8 @@ json answer(const json& request) {
   return answer_forward(r);
 }
 
-/// The request's keys that mean nothing to any operation, those of `params` as `params.KEY`: a misspelt key must not go unseen.
+/// The request's keys that mean nothing to any operation, those of `params` as `params.KEY`: a misspelt key must not go
+/// unseen.
 json unknown_keys(const json& request) {
   json unknown = json::array();
   if (!request.is_object())
@@ -251,13 +269,17 @@ json unknown_keys(const json& request) {
 constexpr std::size_t longest_message = 1000;
 
 json failure(const char* code, const std::string& message) {
-  return {{"ok", false}, {"error", code}, {"message", message.size() > longest_message ? message.substr(0, longest_message) + "..." : message}};
+  return {{"ok", false},
+          {"error", code},
+          {"message", message.size() > longest_message ? message.substr(0, longest_message) + "..." : message}};
 }
 
 json answer_or_failure(const json& request) {
   try {
     json found = answer(request);
-    return is_finite_answer(found) ? found : failure("not_finite", "the numbers are so large or small that the answer overflows");
+    return is_finite_answer(found)
+               ? found
+               : failure("not_finite", "the numbers are so large or small that the answer overflows");
   } catch (const No_answer& reason) {
     return failure(reason.code(), reason.what());
   } catch (const Bad_request& error) {
@@ -319,13 +341,15 @@ int calculate(int argument_count, char** arguments) {
       return std::cout.flush() ? examples::done : examples::cannot_write;
     }
   if (argument_count > 1)
-    throw examples::Usage_error("unknown argument `" + std::string(arguments[1]) + "`. It reads JSON requests, one a line, from its input; see --help.");
+    throw examples::Usage_error("unknown argument `" + std::string(arguments[1]) +
+                                "`. It reads JSON requests, one a line, from its input; see --help.");
   Line_reader reader(std::cin);
   while (reader.next()) {
     try {
       std::cout << answer_line(reader).dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
     } catch (const std::bad_alloc&) { // what this line took has been given back by now
-      std::cout << R"({"error":"out_of_memory","message":"there is not enough memory to answer this line","ok":false})" << std::endl;
+      std::cout << R"({"error":"out_of_memory","message":"there is not enough memory to answer this line","ok":false})"
+                << std::endl;
     }
     if (!std::cout)
       return examples::cannot_write;
@@ -339,6 +363,8 @@ int main(int argument_count, char** arguments) {
   std::ios::sync_with_stdio(false); // first of all: it makes the streams anew
   return examples::run_program(
       "device_calculator", [&] { return calculate(argument_count, arguments); },
-      [](const std::exception& error) { return dynamic_cast<const examples::Usage_error*>(&error) != nullptr ? examples::usage : examples::failed; },
+      [](const std::exception& error) {
+        return dynamic_cast<const examples::Usage_error*>(&error) != nullptr ? examples::usage : examples::failed;
+      },
       [](const std::exception& error) { return std::string(error.what()); });
 }

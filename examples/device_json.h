@@ -9,7 +9,8 @@
 #include <string>
 
 /// \file
-/// Device descriptions from JSON, for the programs: `{"form", "R", "l1", "l2", "r", "m1", "m2", "M", "I", "Jm", "g"}` and, of the joints,
+/// Device descriptions from JSON, for the programs: `{"form", "R", "l1", "l2", "r", "m1", "m2", "M", "I", "Jm", "g"}`
+/// and, of the joints,
 /// `{"torque_limit", "angle_limits", "friction", "coulomb", "encoder_step"}`; SI units and radians.
 
 namespace haptic_sculpt {
@@ -27,9 +28,11 @@ inline double json_number(const nlohmann::json& object, const char* key) {
   return found->get<double>();
 }
 
-inline Eigen::VectorXd json_vector(const nlohmann::json& object, const char* key, std::size_t size, std::size_t other_size) {
+inline Eigen::VectorXd json_vector(const nlohmann::json& object, const char* key, std::size_t size,
+                                   std::size_t other_size) {
   const auto found = object.find(key);
-  const std::string wanted = "`" + std::string(key) + "` must be given, as an array of " + std::to_string(size) + " numbers";
+  const std::string wanted =
+      "`" + std::string(key) + "` must be given, as an array of " + std::to_string(size) + " numbers";
   if (found == object.end() || !found->is_array() || (found->size() != size && found->size() != other_size))
     throw Bad_request(wanted);
   Eigen::VectorXd values(found->size());
@@ -41,7 +44,9 @@ inline Eigen::VectorXd json_vector(const nlohmann::json& object, const char* key
   return values;
 }
 
-inline Eigen::Vector3d json_vector_3(const nlohmann::json& object, const char* key) { return json_vector(object, key, 3, 3); }
+inline Eigen::Vector3d json_vector_3(const nlohmann::json& object, const char* key) {
+  return json_vector(object, key, 3, 3);
+}
 
 inline bool is_one_of(const std::string& key, std::initializer_list<const char*> keys) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -49,17 +54,21 @@ inline bool is_one_of(const std::string& key, std::initializer_list<const char*>
 
 /// Whether a member of `params` has a meaning.
 inline bool is_device_key(const std::string& key) {
-  return is_one_of(key, {"form", "R", "l1", "l2", "r", "m1", "m2", "M", "I", "Jm", "g", "torque_limit", "angle_limits", "friction", "coulomb", "encoder_step"});
+  return is_one_of(key, {"form", "R", "l1", "l2", "r", "m1", "m2", "M", "I", "Jm", "g", "torque_limit", "angle_limits",
+                         "friction", "coulomb", "encoder_step"});
 }
 
-/// The description in `params`. Masses may be left out where only kinematics is asked (`with_masses` false), `r` in the di-tetrahedral
-/// form; `I` left out is a disc's, `g` 9.81, the limits are those of the default design, all else is 0.
+/// The description in `params`. Masses may be left out where only kinematics is asked (`with_masses` false), `r` in the
+/// di-tetrahedral form; `I` left out is a disc's, `g` 9.81, the limits are those of the default design, all else is 0.
 /// \throw Bad_request if a member is missing or has the wrong type
-inline Device_description<double> device_description_from_json(const nlohmann::json& params, Device_form form, bool with_masses) {
+inline Device_description<double> device_description_from_json(const nlohmann::json& params, Device_form form,
+                                                               bool with_masses) {
   if (!params.is_object())
     throw Bad_request("`params` must be an object");
   Device_description<double> d;
-  auto optional = [&](const char* key, double otherwise) { return params.contains(key) ? json_number(params, key) : otherwise; };
+  auto optional = [&](const char* key, double otherwise) {
+    return params.contains(key) ? json_number(params, key) : otherwise;
+  };
   d.form = form;
   d.base_radius = json_number(params, "R");
   d.primary_length = json_number(params, "l1");

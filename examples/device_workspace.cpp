@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prints the workspace, force and inertia figures of a design, and writes its samples for plot_device_workspace.py to draw.
+// Prints the workspace, force and inertia figures of a design, and writes its samples for plot_device_workspace.py to
+// draw.
 #include "common/process_state.h"
 #include "device_json.h"
 #include <haptic_sculpt/device.h>
@@ -22,11 +23,14 @@ struct Range {
       return;
     }
     std::sort(values.begin(), values.end());
-    std::printf("  %-44s %9.4g .. %9.4g, median %9.4g %s\n", what, values.front(), values.back(), values[values.size() / 2], unit);
+    std::printf("  %-44s %9.4g .. %9.4g, median %9.4g %s\n", what, values.front(), values.back(),
+                values[values.size() / 2], unit);
   }
 };
 
-Device_vector<double> eigenvalues(const Device_matrix<double>& m) { return Eigen::SelfAdjointEigenSolver<Device_matrix<double>>(m).eigenvalues(); }
+Device_vector<double> eigenvalues(const Device_matrix<double>& m) {
+  return Eigen::SelfAdjointEigenSolver<Device_matrix<double>>(m).eigenvalues();
+}
 
 void figures(Device_description<double> description, const char* name, int per_joint, std::ofstream* samples_file) {
   const Device_parameters<double> parameters(description);
@@ -51,15 +55,19 @@ void figures(Device_description<double> description, const char* name, int per_j
       continue;
     const Device_vector<double> felt = eigenvalues(apparent_mass(mass, position));
     light.values.push_back(felt[2] / felt[0]);
-    const Device_vector<double> felt_geared = eigenvalues(apparent_mass(spatial_dynamics(geared, *motion).mass, position));
+    const Device_vector<double> felt_geared =
+        eigenvalues(apparent_mass(spatial_dynamics(geared, *motion).mass, position));
     heavy.values.push_back(felt_geared[2] / felt_geared[0]);
     model_difference.values.push_back((planar->mass - mass).norm() / mass.norm());
     if (samples_file)
-      *samples_file << sample.pose.position.transpose() << ' ' << sample.condition << ' ' << sample.force << ' ' << felt.transpose() << ' ' << felt_geared.transpose() << '\n';
+      *samples_file << sample.pose.position.transpose() << ' ' << sample.condition << ' ' << sample.force << ' '
+                    << felt.transpose() << ' ' << felt_geared.transpose() << '\n';
   }
-  std::printf("%s: %zu regular poses of %d, %d inside all limits\n", name, samples.size(), per_joint * per_joint * per_joint, inside);
+  std::printf("%s: %zu regular poses of %d, %d inside all limits\n", name, samples.size(),
+              per_joint * per_joint * per_joint, inside);
   if (inside)
-    std::printf("  extent (mm)  x %.1f .. %.1f  y %.1f .. %.1f  z %.1f .. %.1f\n", 1e3 * low[0], 1e3 * high[0], 1e3 * low[1], 1e3 * high[1], 1e3 * low[2], 1e3 * high[2]);
+    std::printf("  extent (mm)  x %.1f .. %.1f  y %.1f .. %.1f  z %.1f .. %.1f\n", 1e3 * low[0], 1e3 * high[0],
+                1e3 * low[1], 1e3 * high[1], 1e3 * low[2], 1e3 * high[2]);
   condition.print("condition of the velocity equations", "");
   tilt.print("tilt", "rad");
   force.print("isotropic force at the torque limit", "N");
@@ -74,7 +82,8 @@ int main(int argument_count, char** arguments) {
   examples::put_process_in_order("device_workspace");
   if (argument_count > 1 && std::strcmp(arguments[1], "--help") == 0) {
     std::puts("device_workspace [SAMPLES.txt [DEVICE.json]]\n"
-              "Prints workspace, force and inertia of the designs D1, D2, D3 in both forms, or of DEVICE.json (the keys of doc/device.md);\n"
+              "Prints workspace, force and inertia of the designs D1, D2, D3 in both forms, or of DEVICE.json (the "
+              "keys of doc/device.md);\n"
               "writes the samples of the first one for examples/plot_device_workspace.py.");
     return 0;
   }
@@ -85,13 +94,15 @@ int main(int argument_count, char** arguments) {
     if (argument_count > 2) {
       std::ifstream design(arguments[2]);
       const nlohmann::json params = nlohmann::json::parse(design);
-      figures(device_description_from_json(params, device_form_from_json(params.value("form", nlohmann::json())), true), arguments[2], 21, &file);
+      figures(device_description_from_json(params, device_form_from_json(params.value("form", nlohmann::json())), true),
+              arguments[2], 21, &file);
       return file ? 0 : 1;
     }
     bool first = true;
     for (Device_form form : {Device_form::general, Device_form::ditetrahedral})
       for (Named_design design : {Named_design::D1, Named_design::D2, Named_design::D3}) {
-        const std::string name = std::string("D") + std::to_string(static_cast<int>(design) + 1) + (form == Device_form::general ? " general" : " di-tetrahedral");
+        const std::string name = std::string("D") + std::to_string(static_cast<int>(design) + 1) +
+                                 (form == Device_form::general ? " general" : " di-tetrahedral");
         figures(named_design<double>(design, form), name.c_str(), 21, first && file.is_open() ? &file : nullptr);
         first = false;
       }

@@ -42,7 +42,8 @@ struct Long_tally {
   }
 };
 
-/// Sculpts one mesh for long: vertices slide about as a hand would drag them, with creations, removals, undo and redo between.
+/// Sculpts one mesh for long: vertices slide about as a hand would drag them, with creations, removals, undo and redo
+/// between.
 class Long_sculpting {
 public:
   using Mesh = meshes::Mesh;
@@ -50,9 +51,11 @@ public:
   using Vector_3 = meshes::Kernel::Vector_3;
   using Vertex_index = Mesh::Vertex_index;
 
-  Long_sculpting(const Mesh& mesh, std::uint64_t seed) : mesh_(mesh), sculptor_(mesh_, parameters::response(Response::slide)), random_(seed) {}
+  Long_sculpting(const Mesh& mesh, std::uint64_t seed)
+      : mesh_(mesh), sculptor_(mesh_, parameters::response(Response::slide)), random_(seed) {}
 
-  /// \param validate_every drags between two validations, \param check_every drags between two checks of a local minimum
+  /// \param validate_every drags between two validations, \param check_every drags between two checks of a local
+  /// minimum
   Long_tally run(std::size_t drags, std::size_t validate_every, std::size_t check_every) {
     while (tally_.drags < drags) {
       if (random_() % 2 == 0)
@@ -122,7 +125,8 @@ private:
     tally_.contradictions += r.position != mesh_.point(v) || r.legs > 32 || test::contradiction(r, from, to) != nullptr;
     ++tally_.legs[std::min<std::size_t>(32, static_cast<std::size_t>(r.legs))];
     if (check && !r.reached) {
-      const auto minimum = test::check_local_minimum(test::Surroundings(mesh_, v), mesh_, r, to, test::clearance_kept(sculptor_, r), random_);
+      const auto minimum = test::check_local_minimum(test::Surroundings(mesh_, v), mesh_, r, to,
+                                                     test::clearance_kept(sculptor_, r), random_);
       if (minimum.asked) {
         ++tally_.minima_asked;
         tally_.minima_missed += minimum.random_gain > 0 || minimum.kkt_residual > 1e-9;
@@ -130,7 +134,8 @@ private:
     }
   }
 
-  /// The same drag once more, without moving the vertex: each of its legs is asked of the oracle of the sweeps, of all pairs.
+  /// The same drag once more, without moving the vertex: each of its legs is asked of the oracle of the sweeps, of all
+  /// pairs.
   void check_legs(Vertex_index v, const Point_3& to) {
     const std::array<double, 3> s = vertex_coordinates(mesh_, v), t = {to.x(), to.y(), to.z()};
     if (s == t)
@@ -148,7 +153,8 @@ private:
     const test::Surroundings around(mesh_, v);
     for (const auto& [from, on] : legs) {
       ++tally_.legs_checked;
-      tally_.legs_crossing += !around.is_free_by_oracle(Point_3(from[0], from[1], from[2]), Point_3(on[0], on[1], on[2]));
+      tally_.legs_crossing +=
+          !around.is_free_by_oracle(Point_3(from[0], from[1], from[2]), Point_3(on[0], on[1], on[2]));
     }
   }
 
@@ -161,7 +167,8 @@ private:
       if (mesh_.is_removed(f))
         return;
       const auto h = mesh_.halfedge(f);
-      const Point_3 p = mesh_.point(mesh_.source(h)), q = mesh_.point(mesh_.target(h)), r = mesh_.point(mesh_.target(mesh_.next(h)));
+      const Point_3 p = mesh_.point(mesh_.source(h)), q = mesh_.point(mesh_.target(h)),
+                    r = mesh_.point(mesh_.target(mesh_.next(h)));
       done = static_cast<bool>(sculptor_.insert_on_face(f, CGAL::centroid(p, q, r)));
       break;
     }
@@ -170,7 +177,8 @@ private:
       if (mesh_.is_removed(e))
         return;
       const auto h = mesh_.halfedge(e);
-      done = static_cast<bool>(sculptor_.insert_on_edge(e, CGAL::midpoint(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)))));
+      done = static_cast<bool>(
+          sculptor_.insert_on_edge(e, CGAL::midpoint(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)))));
       break;
     }
     case 3: done = static_cast<bool>(sculptor_.remove(any_vertex())); break;

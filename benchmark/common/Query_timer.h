@@ -12,8 +12,8 @@
 
 namespace haptic_sculpt::benchmark {
 
-/// Reads a clock fine enough for single queries: the time stamp counter where there is one, fenced so that nothing of the
-/// query is done before or after its turn; else the steady clock.
+/// Reads a clock fine enough for single queries: the time stamp counter where there is one, fenced so that nothing of
+/// the query is done before or after its turn; else the steady clock.
 class Query_timer {
 public:
   Query_timer() {

@@ -18,9 +18,10 @@ class Shard {
 public:
   /// \param unit what is shared out, for `--help`: "population"
   void add_option(CLI::App& app, const std::string& unit) {
-    app.add_option("--shard", text_, "i/n: every n-th " + unit + ", beginning with the i-th from 0; merge_shards.py joins the reports")
-      ->capture_default_str()
-      ->check([this](const std::string& text) { return read(text); });
+    app.add_option("--shard", text_,
+                   "i/n: every n-th " + unit + ", beginning with the i-th from 0; merge_shards.py joins the reports")
+        ->capture_default_str()
+        ->check([this](const std::string& text) { return read(text); });
   }
 
   /// Goes on to the next unit: whether it belongs to this share.
@@ -40,8 +41,8 @@ private:
     std::istringstream words(text);
     std::size_t shard = 0, shards = 0;
     char slash = 0;
-    if (text.find('-') != std::string::npos || !(words >> shard >> slash >> shards) || slash != '/' || shard >= shards ||
-        words.peek() != std::char_traits<char>::eof())
+    if (text.find('-') != std::string::npos || !(words >> shard >> slash >> shards) || slash != '/' ||
+        shard >= shards || words.peek() != std::char_traits<char>::eof())
       return "--shard takes i/n with 0 <= i < n, not '" + text + "'";
     shard_ = shard, shards_ = shards;
     return {};

@@ -30,14 +30,17 @@ bool pin_to(int core) {
 }
 
 void print(const Json& row) {
-  std::cout << row.value("structure", "") << ", " << row.value("triangles", 0) << " triangles, " << row.value("mesh", "")
+  std::cout << row.value("structure", "") << ", " << row.value("triangles", 0) << " triangles, "
+            << row.value("mesh", "")
             << (row.contains("valence") ? ", valence " + std::to_string(row["valence"].get<int>()) : "") << ", "
-            << row.value("workload", "") << ", " << row.value("step_edges", 0.0) << ' ' << row.value("response", "") << ": ";
+            << row.value("workload", "") << ", " << row.value("step_edges", 0.0) << ' ' << row.value("response", "")
+            << ": ";
   for (const char* key : {"median_ns", "mean_ns", "p99_ns", "p999_ns", "max_ns"})
     if (row.contains(key))
       std::cout << key << ' ' << std::lround(row[key].get<double>()) << "  ";
-  for (const char* key : {"blocked", "exact_signs_per_drag", "stop_error_max_clearances", "missed", "wrong_alarms", "tree_seconds", "sculptor_seconds_with_validation",
-                          "tree_bytes_per_triangle", "sculptor_bytes_per_triangle", "per_drag", "ns_a_line_when_each_tells_the_next",
+  for (const char* key : {"blocked", "exact_signs_per_drag", "stop_error_max_clearances", "missed", "wrong_alarms",
+                          "tree_seconds", "sculptor_seconds_with_validation", "tree_bytes_per_triangle",
+                          "sculptor_bytes_per_triangle", "per_drag", "ns_a_line_when_each_tells_the_next",
                           "ns_a_line_when_all_are_known", "reads_in_a_row", "lines_in_all", "floor_ns"})
     if (row.contains(key))
       std::cout << key << ' ' << row[key] << "  ";
@@ -81,7 +84,8 @@ void run(Shard& shard, Json& rows, const Run& part) {
 } // namespace
 
 int main(int argument_count, char** arguments) {
-  CLI::App app("What a drag costs against the size of the mesh and the valence, beside other structures in the same run");
+  CLI::App app(
+      "What a drag costs against the size of the mesh and the valence, beside other structures in the same run");
   std::string path, parts = "tfpmovn";
   std::vector<std::size_t> sizes = {1000, 10000, 100000, 1000000, 5000000};
   std::vector<std::size_t> valences = {3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 1000};
@@ -94,10 +98,13 @@ int main(int argument_count, char** arguments) {
   app.add_option("--sizes", sizes, "numbers of triangles")->delimiter(',');
   app.add_option("--valences", valences, "of the apex of a fan; none below 3")->delimiter(',');
   app.add_option("--drags", effort.drags, "timed operations a workload")->check(CLI::PositiveNumber);
-  app.add_option("--peer-drags", effort.peer_drags, "the same, at most, for other structures")->check(CLI::PositiveNumber);
+  app.add_option("--peer-drags", effort.peer_drags, "the same, at most, for other structures")
+      ->check(CLI::PositiveNumber);
   app.add_option("--largest-peer", largest_peer, "other structures, and the phases, get no larger mesh");
   app.add_option("--core", core, "the core to stay on; -1: any");
-  app.add_option("--parts", parts, "t: the box tree; f: finding and placing; p: its phases; m: memory, the floor of a new vertex; o: other broad phases; v: valence; n: end states by CGAL");
+  app.add_option("--parts", parts,
+                 "t: the box tree; f: finding and placing; p: its phases; m: memory, the floor of a new vertex; o: "
+                 "other broad phases; v: valence; n: end states by CGAL");
   app.add_flag("--quick", quick, "small meshes and few drags: shows that everything runs");
   Shard shard;
   shard.add_option(app, "part and size");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time of each edit, its undo and redo, against the size of the mesh and against the valence; memory of a step that can be undone.
+// Time of each edit, its undo and redo, against the size of the mesh and against the valence; memory of a step that can
+// be undone.
 #include "Query_timer.h"
 #include "Shard.h"
 #include "meshes/generated_meshes.h"
@@ -42,12 +43,14 @@ struct Times {
 
 Json summary(std::vector<double> times) {
   std::sort(times.begin(), times.end());
-  const auto at = [&](double share) { return times.empty() ? 0 : times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))]; };
+  const auto at = [&](double share) {
+    return times.empty() ? 0 : times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
+  };
   return {{"samples", times.size()}, {"p50", at(0.5)}, {"p99", at(0.99)}, {"p999", at(0.999)}, {"max", at(1)}};
 }
 
-/// Makes edits one after another, each somewhere else, then undoes all of them and redoes all of them, so that neither finds its
-/// part of the mesh in the cache because it has just been there. Repeats that until there are enough times.
+/// Makes edits one after another, each somewhere else, then undoes all of them and redoes all of them, so that neither
+/// finds its part of the mesh in the cache because it has just been there. Repeats that until there are enough times.
 class Bench {
 public:
   Bench(const Mesh& mesh, const Query_timer& timer, const Options& options)
@@ -69,8 +72,8 @@ public:
         }
       }
       if (done != 0)
-        times.bytes_per_step =
-          static_cast<double>(sculptor_.history().bytes()) / static_cast<double>(sculptor_.history().number_of_undo_steps());
+        times.bytes_per_step = static_cast<double>(sculptor_.history().bytes()) /
+                               static_cast<double>(sculptor_.history().number_of_undo_steps());
       for (std::size_t i = 0; i < done; ++i)
         times.undo.push_back(time([&] { sculptor_.undo(); }));
       for (std::size_t i = 0; i < done; ++i)
@@ -83,7 +86,8 @@ public:
 
   bool insert_on_face(Mesh::Face_index f) {
     const auto h = mesh_.halfedge(f);
-    const Point_3 p = CGAL::centroid(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)), mesh_.point(mesh_.target(mesh_.next(h))));
+    const Point_3 p = CGAL::centroid(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)),
+                                     mesh_.point(mesh_.target(mesh_.next(h))));
     return timed([&] { return static_cast<bool>(sculptor_.insert_on_face(f, p)); });
   }
   bool insert_on_edge(Mesh::Edge_index e) {
@@ -144,9 +148,9 @@ private:
 
 Json row(const char* name, const Times& times) {
   const Json edit = summary(times.edit), undo = summary(times.undo), redo = summary(times.redo);
-  std::printf("  %-15s %9.0f %9.0f %9.0f | %9.0f %9.0f | %9.0f %9.0f | %5.0f\n", name, edit["p50"].get<double>(), edit["p99"].get<double>(),
-              edit["max"].get<double>(), undo["p50"].get<double>(), undo["p99"].get<double>(), redo["p50"].get<double>(),
-              redo["p99"].get<double>(), times.bytes_per_step);
+  std::printf("  %-15s %9.0f %9.0f %9.0f | %9.0f %9.0f | %9.0f %9.0f | %5.0f\n", name, edit["p50"].get<double>(),
+              edit["p99"].get<double>(), edit["max"].get<double>(), undo["p50"].get<double>(),
+              undo["p99"].get<double>(), redo["p50"].get<double>(), redo["p99"].get<double>(), times.bytes_per_step);
   std::fflush(stdout);
   Json result = {{"edit", name}, {"ns", edit}, {"undo_ns", undo}, {"redo_ns", redo}, {"refused", times.refused}};
   if (times.bytes_per_step != 0)
@@ -169,10 +173,13 @@ Json against_size(Options& options, const Query_timer& timer) {
     const std::size_t in_a_row = std::min<std::size_t>(options.samples, mesh.number_of_vertices() / 8);
     const auto run = [&](const Bench::Make_edit& make) { return bench.measure(options.samples, in_a_row, make); };
     Json rows = Json::array();
-    rows.push_back(row("insert on face", run([&] { return bench.insert_on_face(bench.any<Mesh::Face_index>(m.num_faces())); })));
-    rows.push_back(row("insert on edge", run([&] { return bench.insert_on_edge(bench.any<Mesh::Edge_index>(m.num_edges())); })));
+    rows.push_back(
+        row("insert on face", run([&] { return bench.insert_on_face(bench.any<Mesh::Face_index>(m.num_faces())); })));
+    rows.push_back(
+        row("insert on edge", run([&] { return bench.insert_on_edge(bench.any<Mesh::Edge_index>(m.num_edges())); })));
     rows.push_back(row("remove", run([&] { return bench.remove(bench.any<Vertex_index>(m.num_vertices())); })));
-    rows.push_back(row("collapse", run([&] { return bench.collapse(m.halfedge(bench.any<Mesh::Edge_index>(m.num_edges()))); })));
+    rows.push_back(
+        row("collapse", run([&] { return bench.collapse(m.halfedge(bench.any<Mesh::Edge_index>(m.num_edges()))); })));
     rows.push_back(row("flip", run([&] { return bench.flip(bench.any<Mesh::Edge_index>(m.num_edges())); })));
     rows.push_back(row("drag", run([&] { return bench.drag(bench.any<Vertex_index>(m.num_vertices())); })));
     sizes.push_back({{"unit", unit}, {"triangles", mesh.number_of_faces()}, {"edits", rows}});
@@ -192,12 +199,14 @@ Json against_valence(Options& options, const Query_timer& timer) {
     // Undo may revive the apex under another index: it is the one that stands on top.
     const auto apex = [&] {
       const auto vertices = bench.mesh().vertices();
-      return *std::find_if(vertices.begin(), vertices.end(), [&](Vertex_index v) { return bench.mesh().point(v) == Point_3(0, 0, 1); });
+      return *std::find_if(vertices.begin(), vertices.end(),
+                           [&](Vertex_index v) { return bench.mesh().point(v) == Point_3(0, 0, 1); });
     };
     const auto run = [&](const Bench::Make_edit& make) { return bench.measure(samples, 1, make); };
     Json rows = Json::array();
     rows.push_back(row("insert on face", run([&] { return bench.insert_on_face(Mesh::Face_index(0)); })));
-    rows.push_back(row("insert on edge", run([&] { return bench.insert_on_edge(bench.mesh().edge(bench.mesh().halfedge(apex()))); })));
+    rows.push_back(row("insert on edge",
+                       run([&] { return bench.insert_on_edge(bench.mesh().edge(bench.mesh().halfedge(apex()))); })));
     rows.push_back(row("remove", run([&] { return bench.remove(apex()); })));
     rows.push_back(row("flip", run([&] { return bench.flip(bench.mesh().edge(bench.mesh().halfedge(apex()))); })));
     rows.push_back(row("drag", run([&] { return bench.drag(apex()); })));
@@ -210,23 +219,33 @@ Json against_valence(Options& options, const Query_timer& timer) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Times each edit, its undo and redo at 10^3 to 10^6 triangles, random places of a bumpy sphere, and at the apex of a bipyramid\n"
-               "of growing valence. Edits are made in a row at different places, then all undone, then all redone. Nanoseconds.");
+  CLI::App app("Times each edit, its undo and redo at 10^3 to 10^6 triangles, random places of a bumpy sphere, and at "
+               "the apex of a bipyramid\n"
+               "of growing valence. Edits are made in a row at different places, then all undone, then all redone. "
+               "Nanoseconds.");
   app.add_option("--json", options.json, "Where the report goes");
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
   app.add_option("--samples", options.samples, "Edits of each kind")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--largest", options.largest, "No mesh of more triangles")->capture_default_str();
   app.add_option("--largest-valence", options.largest_valence, "No higher valence")->capture_default_str();
-  app.add_flag("--reserve", options.reserve, "Reserve room in the mesh first, so that its arrays need not be copied when they are full");
+  app.add_flag("--reserve", options.reserve,
+               "Reserve room in the mesh first, so that its arrays need not be copied when they are full");
   options.shard.add_option(app, "size or valence");
   CLI11_PARSE(app, argc, argv);
   try {
     const Query_timer timer;
-    std::printf("  %-15s %9s %9s %9s | %9s %9s | %9s %9s | bytes\n", "edit", "p50 ns", "p99", "max", "undo p50", "p99", "redo p50", "p99");
+    std::printf("  %-15s %9s %9s %9s | %9s %9s | %9s %9s | bytes\n", "edit", "p50 ns", "p99", "max", "undo p50", "p99",
+                "redo p50", "p99");
     const Json sizes = against_size(options, timer), valences = against_valence(options, timer);
     if (!options.json.empty())
-      replace_file(options.json, Json{{"seed", options.seed}, {"shard", options.shard.text()}, {"samples", options.samples}, {"clock_step_ns", timer.resolution()},
-                                      {"sizes", sizes}, {"valences", valences}}.dump(1) + '\n');
+      replace_file(options.json, Json{{"seed", options.seed},
+                                      {"shard", options.shard.text()},
+                                      {"samples", options.samples},
+                                      {"clock_step_ns", timer.resolution()},
+                                      {"sizes", sizes},
+                                      {"valences", valences}}
+                                         .dump(1) +
+                                     '\n');
   } catch (const Error& error) {
     std::cerr << "edit_performance: " << error.what() << '\n';
     return 2;

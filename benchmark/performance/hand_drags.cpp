@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CPU time of single drags when a hand moves a probe, or a grabbed vertex, fast over a fine mesh: with and without a bound on
-// the work of a drag, and how far the bounded drag is then from the unbounded one.
+// CPU time of single drags when a hand moves a probe, or a grabbed vertex, fast over a fine mesh: with and without a
+// bound on the work of a drag, and how far the bounded drag is then from the unbounded one.
 #include "Shard.h"
 #include "meshes/generated_meshes.h"
 
@@ -40,16 +40,22 @@ double cpu_microseconds() {
 Json quantiles(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto at = [&](double q) {
-    return values.empty() ? 0 : values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
+    return values.empty()
+               ? 0
+               : values[std::min(values.size() - 1, static_cast<std::size_t>(q * static_cast<double>(values.size())))];
   };
-  return {{"count", values.size()}, {"p50", at(0.5)}, {"p99", at(0.99)}, {"p999", at(0.999)}, {"p9999", at(0.9999)}, {"max", at(1)}};
+  return {{"count", values.size()}, {"p50", at(0.5)},      {"p99", at(0.99)},
+          {"p999", at(0.999)},      {"p9999", at(0.9999)}, {"max", at(1)}};
 }
 
-/// Where the hand is: it goes round the object along great circles whose axis turns slowly, `height` above its mean radius.
+/// Where the hand is: it goes round the object along great circles whose axis turns slowly, `height` above its mean
+/// radius.
 class Hand_path {
 public:
   Hand_path(const Options& options, double height)
-    : height_(options.radius + height), step_(options.speed / options.rate / options.radius), tick_(options.seed * 1000) {}
+      : height_(options.radius + height)
+      , step_(options.speed / options.rate / options.radius)
+      , tick_(options.seed * 1000) {}
 
   Point_3 next() {
     const double angle = step_ * static_cast<double>(tick_), turn = 0.0137 * angle;
@@ -180,7 +186,8 @@ Json run(const Mesh& mesh, const Options& options, const std::string& what, doub
     }
     m.take_least_times(again);
   }
-  Json row = {{"what", what}, {"height_mm", height}, {"cpu_us", quantiles(m.free_times)}, {"work", quantiles(m.free_work)}};
+  Json row = {
+      {"what", what}, {"height_mm", height}, {"cpu_us", quantiles(m.free_times)}, {"work", quantiles(m.free_work)}};
   if (options.work != 0)
     row.update({{"bound", options.work},
                 {"bounded_cpu_us", quantiles(m.bounded_times)},
@@ -197,23 +204,34 @@ Json run(const Mesh& mesh, const Options& options, const std::string& what, doub
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("CPU time of single drags under a fast hand, with and without a bound on the work of a drag. The object is a sphere with hills.");
-  app.add_option("--level", options.level, "Times the icosahedron is divided: 20 * 4^level triangles")->capture_default_str();
-  app.add_option("--speed", options.speed, "Of the hand, mm/s; the object has a radius of 30 mm")->capture_default_str();
+  CLI::App app("CPU time of single drags under a fast hand, with and without a bound on the work of a drag. The object "
+               "is a sphere with hills.");
+  app.add_option("--level", options.level, "Times the icosahedron is divided: 20 * 4^level triangles")
+      ->capture_default_str();
+  app.add_option("--speed", options.speed, "Of the hand, mm/s; the object has a radius of 30 mm")
+      ->capture_default_str();
   app.add_option("--rate", options.rate, "Drags a second")->capture_default_str();
   app.add_option("--depth", options.depth, "How deep the hand is under the surface, mm")->capture_default_str();
   app.add_option("--drags", options.drags, "Of each kind")->capture_default_str();
-  app.add_option("--ticks-per-grab", options.ticks_per_grab, "Drags until the hand lets go, and the mesh is as it was")->capture_default_str();
+  app.add_option("--ticks-per-grab", options.ticks_per_grab, "Drags until the hand lets go, and the mesh is as it was")
+      ->capture_default_str();
   app.add_option("--work", options.work, "The bound; 0: none")->capture_default_str();
   app.add_option("--seed", options.seed, "Where the hand begins")->capture_default_str();
-  app.add_option("--runs", options.runs, "Of the same drags; each has its least time")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--runs", options.runs, "Of the same drags; each has its least time")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--json", options.json, "Write the report here");
   benchmark::Shard shard;
   shard.add_option(app, "kind of drags");
   CLI11_PARSE(app, argc, argv);
   meshes::Triangle_list list = meshes::bumpy_sphere(options.level, 0.05);
   const Mesh mesh = meshes::to_mesh(list.scale_and_move(options.radius, 0, 0, 0));
-  Json report = {{"triangles", mesh.number_of_faces()}, {"speed_mm_s", options.speed}, {"rate_hz", options.rate}, {"seed", options.seed}, {"runs", options.runs}, {"rows", Json::array()}};
+  Json report = {{"triangles", mesh.number_of_faces()},
+                 {"speed_mm_s", options.speed},
+                 {"rate_hz", options.rate},
+                 {"seed", options.seed},
+                 {"runs", options.runs},
+                 {"rows", Json::array()}};
   report["shard"] = shard.text();
   report["rows"] = Json::array();
   for (const auto& [what, height] : {std::pair("probe", -options.depth), std::pair("vertex inwards", -options.depth),

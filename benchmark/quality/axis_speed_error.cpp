@@ -32,8 +32,8 @@ double uniform(Random& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// The test as one writes it down: signs of determinants at both ends, in one number type. \pre seen along the axis, the
-/// face is not a segment and the edges are not parallel
+/// The test as one writes it down: signs of determinants at both ends, in one number type. \pre seen along the axis,
+/// the face is not a segment and the edges are not parallel
 template <class Number>
 class Axis_determinants {
 public:
@@ -58,7 +58,9 @@ private:
     return sign_of(Number((x_[b] - x_[a]) * (y_[c] - y_[a]) - (x_[c] - x_[a]) * (y_[b] - y_[a])));
   }
   int above(const std::array<Number, 4>& z) const {
-    const auto minor = [&](int b, int c) { return Number((x_[b] - x_[0]) * (y_[c] - y_[0]) - (x_[c] - x_[0]) * (y_[b] - y_[0])); };
+    const auto minor = [&](int b, int c) {
+      return Number((x_[b] - x_[0]) * (y_[c] - y_[0]) - (x_[c] - x_[0]) * (y_[b] - y_[0]));
+    };
     return sign_of(Number((z[1] - z[0]) * minor(2, 3) - (z[2] - z[0]) * minor(1, 3) + (z[3] - z[0]) * minor(1, 2)));
   }
   bool changes() const { return above(start_) * above(end_) <= 0; }
@@ -73,8 +75,9 @@ bool by_determinants(const Axis_query& query) {
 bool by_ours(const Axis_query& query) {
   static const Axis_sweep_traits_3<Kernel> traits;
   const auto p = [&query](int i) { return Kernel::Point_3(query.start[i][0], query.start[i][1], query.start[i][2]); };
-  return query.is_vertex_and_face ? traits.vertex_face_axis_sweep_3_object()(query.axis, p(0), p(1), p(2), p(3), query.end)
-                                  : traits.edge_edge_axis_sweep_3_object()(query.axis, p(0), p(1), p(2), p(3), query.end);
+  return query.is_vertex_and_face
+             ? traits.vertex_face_axis_sweep_3_object()(query.axis, p(0), p(1), p(2), p(3), query.end)
+             : traits.edge_edge_axis_sweep_3_object()(query.axis, p(0), p(1), p(2), p(3), query.end);
 }
 
 /// Whether the plain test covers it.
@@ -160,7 +163,8 @@ struct Judged {
   bool meets;
 };
 
-Json measure(const Query_timer& timer, const std::vector<Judged>& queries, const char* name, bool (*ask)(const Axis_query&)) {
+Json measure(const Query_timer& timer, const std::vector<Judged>& queries, const char* name,
+             bool (*ask)(const Axis_query&)) {
   std::size_t false_positives = 0, false_negatives = 0;
   for (const Judged& q : queries) { // warms up, too
     const bool meets = ask(q.query);
@@ -172,14 +176,16 @@ Json measure(const Query_timer& timer, const std::vector<Judged>& queries, const
     hits = hits + static_cast<std::size_t>(ask(q.query));
   const double mean = timer.nanoseconds(begin, Query_timer::now()) / static_cast<double>(queries.size());
   std::printf("  %-16s %9.0f ns, %zu false alarms, %zu misses\n", name, mean, false_positives, false_negatives);
-  return {{"name", name}, {"mean_ns", mean}, {"false_positives", false_positives}, {"false_negatives", false_negatives}};
+  return {
+      {"name", name}, {"mean_ns", mean}, {"false_positives", false_positives}, {"false_negatives", false_negatives}};
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Time of the axis sweeps against their error, for each arithmetic, judged by linear feasibility in rational "
-               "numbers. Exit code 10: the exact ones were wrong.");
+  CLI::App app(
+      "Time of the axis sweeps against their error, for each arithmetic, judged by linear feasibility in rational "
+      "numbers. Exit code 10: the exact ones were wrong.");
   std::string file;
   std::uint64_t seed = 1;
   std::size_t count = 5000;
@@ -210,15 +216,23 @@ int main(int argc, char** argv) {
     arithmetics.push_back(measure(timer, queries, "haptic_sculpt", by_ours));
     const Json& ours = arithmetics.back();
     asked += count, wrong += ours["false_positives"].get<std::size_t>() + ours["false_negatives"].get<std::size_t>();
-    rows.push_back({{"unit", unit}, {"name", population.name}, {"degenerate", population.is_degenerate}, {"arithmetics", arithmetics}});
+    rows.push_back({{"unit", unit},
+                    {"name", population.name},
+                    {"degenerate", population.is_degenerate},
+                    {"arithmetics", arithmetics}});
   }
   Promises promises;
   promises.add(ours_was_wrong, "every axis sweep agrees with linear feasibility", asked, wrong);
   try {
     if (!file.empty())
-      replace_file(file, Json{{"seed", seed}, {"shard", shard.text()}, {"queries_per_population", count}, {"populations", rows},
-                              {"promises", promises.json()}, {"exit", promises.exit()}}
-                             .dump(1) + '\n');
+      replace_file(file, Json{{"seed", seed},
+                              {"shard", shard.text()},
+                              {"queries_per_population", count},
+                              {"populations", rows},
+                              {"promises", promises.json()},
+                              {"exit", promises.exit()}}
+                                 .dump(1) +
+                             '\n');
   } catch (const Error& error) {
     std::cerr << "axis_speed_error: " << error.what() << '\n';
     return cannot_write;

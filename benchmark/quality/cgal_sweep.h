@@ -46,8 +46,10 @@ private:
     const CGAL::Orientation side = CGAL::orientation(p[0], p[1], p[2], p[3]);
     if (side != CGAL::COPLANAR) { // four orientations: quicker than Tetrahedron_3::bounded_side
       const CGAL::Orientation outside = CGAL::opposite(side);
-      return CGAL::orientation(p[4], p[1], p[2], p[3]) != outside && CGAL::orientation(p[0], p[4], p[2], p[3]) != outside &&
-             CGAL::orientation(p[0], p[1], p[4], p[3]) != outside && CGAL::orientation(p[0], p[1], p[2], p[4]) != outside;
+      return CGAL::orientation(p[4], p[1], p[2], p[3]) != outside &&
+             CGAL::orientation(p[0], p[4], p[2], p[3]) != outside &&
+             CGAL::orientation(p[0], p[1], p[4], p[3]) != outside &&
+             CGAL::orientation(p[0], p[1], p[2], p[4]) != outside;
     }
     bool in_line = true;
     for (int i = 0; i < 4; ++i) {

@@ -21,8 +21,8 @@ inline double as_double(const mpq_class& a) { return a.get_d(); }
 template <class Exact> int sign_of(const CGAL::Lazy_exact_nt<Exact>& a) { return static_cast<int>(CGAL::sign(a)); }
 template <class Exact> double as_double(const CGAL::Lazy_exact_nt<Exact>& a) { return CGAL::to_double(CGAL::exact(a)); }
 
-/// The sweeps as one would write them down from the paper: signs of determinants, u as their ratio, flat cases apart, all
-/// in one number type. With exact numbers every answer is right; with rounded ones this shows what rounding costs.
+/// The sweeps as one would write them down from the paper: signs of determinants, u as their ratio, flat cases apart,
+/// all in one number type. With exact numbers every answer is right; with rounded ones this shows what rounding costs.
 template <class Number> class Determinant_sweep {
 public:
   using Vector = Vector_of_numbers<Number>;
@@ -64,8 +64,10 @@ private:
     const int side = sign_of(orientation(p[0], p[1], p[2], p[3]));
     if (side == 0)
       return first_flat();
-    if (side * sign_of(orientation(p[4], p[1], p[2], p[3])) < 0 || side * sign_of(orientation(p[0], p[4], p[2], p[3])) < 0 ||
-        side * sign_of(orientation(p[0], p[1], p[4], p[3])) < 0 || side * sign_of(orientation(p[0], p[1], p[2], p[4])) < 0)
+    if (side * sign_of(orientation(p[4], p[1], p[2], p[3])) < 0 ||
+        side * sign_of(orientation(p[0], p[4], p[2], p[3])) < 0 ||
+        side * sign_of(orientation(p[0], p[1], p[4], p[3])) < 0 ||
+        side * sign_of(orientation(p[0], p[1], p[2], p[4])) < 0)
       return std::nullopt;
     return time_through(p[2], p[3], p[4]);
   }
@@ -77,8 +79,8 @@ private:
     return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
   }
 
-  /// When J enters the plane of three points; 0 if it is always there: then they are collinear and the meeting is at an end
-  /// that stands still.
+  /// When J enters the plane of three points; 0 if it is always there: then they are collinear and the meeting is at an
+  /// end that stands still.
   Number time_through(const Vector& a, const Vector& b, const Vector& c) const {
     const Number start = orientation(a, b, c, p[0]), end = orientation(a, b, c, p[1]);
     return sign_of(start) == 0 && sign_of(end) == 0 ? Number(0) : Number(start / (start - end));

@@ -67,17 +67,25 @@ std::vector<Motion> motions(int level, std::uint64_t seed) {
       low = std::min(low, p.x()), high = std::max(high, p.x());
     return (low + high) / 2;
   }();
-  return {motion("a right angle", hills, [&](Vertex_index v) { const Point_3 p = hills.point(v); return Point_3(-p.y(), p.x(), p.z()); }),
-          motion("half a twist", hills, [&](Vertex_index v) {
-            const Point_3 p = hills.point(v);
-            const double angle = 1.5707963267948966 * p.z();
-            return Point_3(p.x() * std::cos(angle) - p.y() * std::sin(angle), p.x() * std::sin(angle) + p.y() * std::cos(angle), p.z());
-          }),
-          motion("noise of an edge", hills, [&](Vertex_index v) {
-            const double x = uniform(), y = uniform(), z = uniform();
-            return hills.point(v) + edge * Vector_3(x, y, z);
-          }),
-          motion("inflated by five edges", plate, [&](Vertex_index v) { return plate.point(v) + 5 * edge_of_plate * normal(plate, v); }),
+  return {motion("a right angle", hills,
+                 [&](Vertex_index v) {
+                   const Point_3 p = hills.point(v);
+                   return Point_3(-p.y(), p.x(), p.z());
+                 }),
+          motion("half a twist", hills,
+                 [&](Vertex_index v) {
+                   const Point_3 p = hills.point(v);
+                   const double angle = 1.5707963267948966 * p.z();
+                   return Point_3(p.x() * std::cos(angle) - p.y() * std::sin(angle),
+                                  p.x() * std::sin(angle) + p.y() * std::cos(angle), p.z());
+                 }),
+          motion("noise of an edge", hills,
+                 [&](Vertex_index v) {
+                   const double x = uniform(), y = uniform(), z = uniform();
+                   return hills.point(v) + edge * Vector_3(x, y, z);
+                 }),
+          motion("inflated by five edges", plate,
+                 [&](Vertex_index v) { return plate.point(v) + 5 * edge_of_plate * normal(plate, v); }),
           motion("a ball through a ball", balls, [&](Vertex_index v) {
             const Point_3 p = balls.point(v);
             return p.x() < split ? p + Vector_3(4 * (split - first) + 4, 0, 0) : p;
@@ -138,8 +146,8 @@ Json row(const Motion& m, const char* method, std::clock_t begin, const Mesh& me
                  {"share", share_of_the_way(m, mesh)},
                  {"passed_through", has_passed},
                  {"valid", validate(mesh).is_valid()}};
-  std::printf("%s: %s: %.3f s, %.1f %% of the way%s\n", m.name.c_str(), method, seconds, 100 * result["share"].get<double>(),
-              has_passed ? ", through itself" : "");
+  std::printf("%s: %s: %.3f s, %.1f %% of the way%s\n", m.name.c_str(), method, seconds,
+              100 * result["share"].get<double>(), has_passed ? ", through itself" : "");
   std::fflush(stdout);
   return result;
 }
@@ -176,8 +184,9 @@ void measure(const Motion& m, Json& rows) {
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Many vertices to targets: share of the way against time, by move_vertices, by one drag after the other, and all "
-               "at once with a line search on CGAL's does_self_intersect. Exit code 10: a guarded mesh is not embedded.");
+  CLI::App app(
+      "Many vertices to targets: share of the way against time, by move_vertices, by one drag after the other, and all "
+      "at once with a line search on CGAL's does_self_intersect. Exit code 10: a guarded mesh is not embedded.");
   std::string file;
   std::uint64_t seed = 1;
   int level = 4, rounds = 1;
@@ -206,9 +215,14 @@ int main(int argc, char** argv) {
     Promises promises;
     promises.add(not_embedded, "a mesh moved under the guard is embedded", asked, broken);
     if (!file.empty())
-      replace_file(file, Json{{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"rows", rows}, {"promises", promises.json()},
+      replace_file(file, Json{{"seed", seed},
+                              {"shard", shard.text()},
+                              {"level", level},
+                              {"rows", rows},
+                              {"promises", promises.json()},
                               {"exit", promises.exit()}}
-                             .dump(1) + '\n');
+                                 .dump(1) +
+                             '\n');
     return promises.exit();
   } catch (const Error& error) {
     std::cerr << "many_vertices_speed_error: " << error.what() << '\n';

@@ -13,12 +13,12 @@
 namespace haptic_sculpt::benchmark {
 
 /// The three tests of Yeung and Petriu (1997, 3.2.1) in doubles, as a careful programmer of their day would have coded
-/// them: parameters are solved for and compared with 0 and 1 but for an epsilon, lengths with 0 but for the same number;
-/// a tiny motion is decided by projecting S on the plane.
+/// them: parameters are solved for and compared with 0 and 1 but for an epsilon, lengths with 0 but for the same
+/// number; a tiny motion is decided by projecting S on the plane.
 class Paper_sweep {
 public:
-  /// For parameters (no unit) and for lengths (unit of the scene, taken to be about 1): far above the rounding of doubles,
-  /// far below any feature of a scene. The paper names none.
+  /// For parameters (no unit) and for lengths (unit of the scene, taken to be about 1): far above the rounding of
+  /// doubles, far below any feature of a scene. The paper names none.
   static constexpr double epsilon = 1e-9;
 
   Paper_sweep(test::Sweep_kind kind, const test::Sweep_coordinates& x) : m_kind(kind) {
@@ -27,7 +27,8 @@ public:
   }
 
   Sweep_answer operator()() const {
-    const std::optional<double> time = m_kind == test::Sweep_kind::vertex_face ? vertex_on_triangle(p[0], p[1], p[2], p[3], p[4])
+    const std::optional<double> time = m_kind == test::Sweep_kind::vertex_face
+                                           ? vertex_on_triangle(p[0], p[1], p[2], p[3], p[4])
                                        : m_kind == test::Sweep_kind::edge_edge ? edge_on_edge()
                                                                                : face_on_vertex();
     return time ? Sweep_answer{true, std::clamp(*time, 0., 1.)} : Sweep_answer{};
@@ -74,7 +75,8 @@ private:
     for (int i = 0; i < 3; ++i) {
       const Vector &a = corner[i], &b = corner[(i + 1) % 3];
       const double determinant = dot(normal, cross(t - s, b - a));
-      const double u = dot(normal, cross(a - s, b - a)) / determinant, v = dot(normal, cross(a - s, t - s)) / determinant;
+      const double u = dot(normal, cross(a - s, b - a)) / determinant,
+                   v = dot(normal, cross(a - s, t - s)) / determinant;
       if (is_parameter(u) && is_parameter(v) && (!first || u < *first))
         first = u;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same hand drags with each response: how far from the target it ends, how often at a local minimum, how long it takes.
+// The same hand drags with each response: how far from the target it ends, how often at a local minimum, how long it
+// takes.
 #include "Long_sculpting.h"
 #include "Promises.h"
 #include "Shard.h"
@@ -69,13 +70,15 @@ public:
       for (const Point_3& target : targets) {
         const auto begin = std::chrono::steady_clock::now();
         const auto r = grab.drag_to(target);
-        row.nanoseconds.push_back(std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count());
+        row.nanoseconds.push_back(
+            std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count());
         ++row.drags;
         row.held += !r.reached;
         row.legs += static_cast<std::size_t>(r.legs);
         row.most_legs = std::max(row.most_legs, static_cast<std::size_t>(r.legs));
         row.left += std::sqrt(CGAL::squared_distance(r.position, target)) / subject.size;
-        const auto check = test::check_local_minimum(around, mesh, r, target, test::clearance_kept(grab.sculptor, r), random);
+        const auto check =
+            test::check_local_minimum(around, mesh, r, target, test::clearance_kept(grab.sculptor, r), random);
         ++row.judged;
         row.at_minimum += !check.asked || (check.random_gain <= 0 && check.directed_gain <= 0);
       }
@@ -200,8 +203,8 @@ int run(Options& options) {
     report["chart"] = chart.json();
     for (const auto& row : report["chart"])
       std::cout << row["scene"].get<std::string>() << ", " << row["response"].get<std::string>() << ": left "
-                << row["mean_distance_left"] << ", at a minimum " << row["share_at_minimum"] << ", legs " << row["mean_legs"] << " (most "
-                << row["most_legs"] << "), " << row["mean_ns"] << " ns\n";
+                << row["mean_distance_left"] << ", at a minimum " << row["share_at_minimum"] << ", legs "
+                << row["mean_legs"] << " (most " << row["most_legs"] << "), " << row["mean_ns"] << " ns\n";
     validations += chart.validations(), invalid += chart.invalid();
   }
   if (options.sculpt > 0) {
@@ -211,7 +214,8 @@ int run(Options& options) {
       if (!options.shard.takes_next())
         continue;
       const std::size_t validate_every = std::max<std::size_t>(100, mesh.number_of_faces() / 10);
-      const auto tally = benchmark::Long_sculpting(mesh, options.seed).run(options.sculpt, validate_every, options.check_every);
+      const auto tally =
+          benchmark::Long_sculpting(mesh, options.seed).run(options.sculpt, validate_every, options.check_every);
       Json row = {{"unit", unit}, {"mesh", name}, {"faces", mesh.number_of_faces()}};
       row.update(tally.json());
       rows.push_back(row);
@@ -239,13 +243,19 @@ int run(Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Drags with each response: distance left to the target, share of ends at a local minimum, time.\n"
-               "With --sculpt, slides over the meshes of a folder for long, with creations, removals, undo and redo in between.\n"
-               "Exit: 0 all kept, 2 usage or a file that cannot be read, 10 a mesh is no longer embedded or a leg crosses something, 11 more than 0.1 % of "
+               "With --sculpt, slides over the meshes of a folder for long, with creations, removals, undo and redo in "
+               "between.\n"
+               "Exit: 0 all kept, 2 usage or a file that cannot be read, 10 a mesh is no longer embedded or a leg "
+               "crosses something, 11 more than 0.1 % of "
                "the checked slides are at no minimum, 12 a result contradicts itself.");
-  app.add_option("--meshes", options.folder, "Folder of meshes, beside the generated scenes")->check(CLI::ExistingDirectory);
-  app.add_option("--drags", options.drags, "Drags in each scene and with each response for the chart; 0: no chart")->capture_default_str();
-  app.add_option("--sculpt", options.sculpt, "Sliding drags on each mesh of the folder, with edits in between")->capture_default_str();
-  app.add_option("--check-every", options.check_every, "Drags of --sculpt between two checks of a local minimum")->capture_default_str();
+  app.add_option("--meshes", options.folder, "Folder of meshes, beside the generated scenes")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--drags", options.drags, "Drags in each scene and with each response for the chart; 0: no chart")
+      ->capture_default_str();
+  app.add_option("--sculpt", options.sculpt, "Sliding drags on each mesh of the folder, with edits in between")
+      ->capture_default_str();
+  app.add_option("--check-every", options.check_every, "Drags of --sculpt between two checks of a local minimum")
+      ->capture_default_str();
   app.add_option("--largest", options.largest, "Leaves out meshes with more faces")->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
   options.shard.add_option(app, "scene or mesh");

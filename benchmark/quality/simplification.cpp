@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CGAL's edge_collapse beside collapses under the guard, to the same number of edges: time against pairs of faces that meet.
+// CGAL's edge_collapse beside collapses under the guard, to the same number of edges: time against pairs of faces that
+// meet.
 #include "Promises.h"
 #include "Shard.h"
 #include "meshes/generated_meshes.h"
@@ -37,7 +38,8 @@ void collapse_under_the_guard(Mesh& mesh, std::size_t most_edges) {
   const auto stroke = sculptor.stroke();
   for (bool goes_on = true; goes_on && mesh.number_of_edges() > most_edges;) {
     std::vector<Mesh::Edge_index> edges(mesh.edges().begin(), mesh.edges().end());
-    std::stable_sort(edges.begin(), edges.end(), [&](auto a, auto b) { return squared_length(mesh, a) < squared_length(mesh, b); });
+    std::stable_sort(edges.begin(), edges.end(),
+                     [&](auto a, auto b) { return squared_length(mesh, a) < squared_length(mesh, b); });
     edges.resize((edges.size() + 3) / 4);
     goes_on = false;
     for (const Mesh::Edge_index e : edges) {
@@ -63,16 +65,23 @@ Json row(const std::string& name, const char* method, const Mesh& input, const W
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   mesh.collect_garbage();
   const std::size_t pairs = number_of_pairs(mesh);
-  std::printf("%s: %s: %zu faces, %.3f s, %zu pairs\n", name.c_str(), method, static_cast<std::size_t>(mesh.number_of_faces()), seconds, pairs);
-  return {{"mesh", name},        {"method", method}, {"faces_before", input.number_of_faces()}, {"faces_left", mesh.number_of_faces()},
-          {"seconds", seconds}, {"pairs", pairs},   {"valid", validate(mesh).is_valid()}};
+  std::printf("%s: %s: %zu faces, %.3f s, %zu pairs\n", name.c_str(), method,
+              static_cast<std::size_t>(mesh.number_of_faces()), seconds, pairs);
+  return {{"mesh", name},
+          {"method", method},
+          {"faces_before", input.number_of_faces()},
+          {"faces_left", mesh.number_of_faces()},
+          {"seconds", seconds},
+          {"pairs", pairs},
+          {"valid", validate(mesh).is_valid()}};
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("CGAL's edge_collapse beside collapses under the guard, the shortest edge first, to the same share of the edges: "
-               "time, and pairs of faces that meet. Exit code 10: a guarded mesh is not embedded.");
+  CLI::App app(
+      "CGAL's edge_collapse beside collapses under the guard, the shortest edge first, to the same share of the edges: "
+      "time, and pairs of faces that meet. Exit code 10: a guarded mesh is not embedded.");
   std::string file;
   unsigned seed = 1;
   int level = 3;
@@ -81,7 +90,9 @@ int main(int argc, char** argv) {
   app.add_option("--json", file, "Write all figures to this file");
   app.add_option("--seed", seed, "Of the meshes")->capture_default_str();
   app.add_option("--level", level, "Fineness")->check(CLI::Range(1, 8))->capture_default_str();
-  app.add_option("--share", share, "Of the edges that is to be left")->check(CLI::Range(0.01, 1.0))->capture_default_str();
+  app.add_option("--share", share, "Of the edges that is to be left")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
   shard.add_option(app, "mesh");
   CLI11_PARSE(app, argc, argv);
   try {
@@ -99,16 +110,23 @@ int main(int argc, char** argv) {
       const auto most = static_cast<std::size_t>(share * static_cast<double>(mesh.number_of_edges()));
       rows.push_back(row(name, "under the guard", mesh, [most](Mesh& m) { collapse_under_the_guard(m, most); }));
       ++asked, broken += !rows.back()["valid"].get<bool>();
-      rows.push_back(row(name, "edge_collapse", mesh, [share](Mesh& m) { SMS::edge_collapse(m, SMS::Count_ratio_stop_predicate<Mesh>(share)); }));
+      rows.push_back(row(name, "edge_collapse", mesh,
+                         [share](Mesh& m) { SMS::edge_collapse(m, SMS::Count_ratio_stop_predicate<Mesh>(share)); }));
       for (std::size_t k = before; k < rows.size(); ++k)
         rows[k]["unit"] = unit;
     }
     Promises promises;
     promises.add(not_embedded, "a mesh simplified under the guard is embedded", asked, broken);
     if (!file.empty())
-      replace_file(file, Json{{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"share", share}, {"rows", rows},
-                              {"promises", promises.json()}, {"exit", promises.exit()}}
-                             .dump(1) + '\n');
+      replace_file(file, Json{{"seed", seed},
+                              {"shard", shard.text()},
+                              {"level", level},
+                              {"share", share},
+                              {"rows", rows},
+                              {"promises", promises.json()},
+                              {"exit", promises.exit()}}
+                                 .dump(1) +
+                             '\n');
     return promises.exit();
   } catch (const Error& error) {
     std::cerr << "simplification: " << error.what() << '\n';

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Answers sweep queries from a file, exactly: one line in, one line out, so that any other implementation can be checked.
+// Answers sweep queries from a file, exactly: one line in, one line out, so that any other implementation can be
+// checked.
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/collision.h>
 
@@ -116,15 +117,17 @@ std::string answer(const std::string& text, std::size_t line, const Traits& trai
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Answers exact sweep queries.\n"
-               "Each line of FILE (doubles are decimal or C99 hexadecimal): VF, EE or FV and 15 doubles, the coordinates of\n"
-               "  VF S T A B C   vertex from S to T against face ABC\n"
-               "  EE S T V A B   edge from the moving vertex to V against edge AB\n"
-               "  FV S T G I A   face from the moving vertex to GI against vertex A\n"
-               "or AX VF K or AX EE K and 16 doubles: all move at once along axis K (0, 1 or 2), from four points, V A B C or the\n"
-               "ends of two edges, to where they are along K at the end.\n"
-               "Prints a line each: 0, or 1 and the first time u as num/den in lowest terms; of AX, 1 without a time.\n"
-               "Empty lines and lines that begin with # are skipped. Exit: 0 done, 2 usage or a malformed line.");
+  CLI::App app(
+      "Answers exact sweep queries.\n"
+      "Each line of FILE (doubles are decimal or C99 hexadecimal): VF, EE or FV and 15 doubles, the coordinates of\n"
+      "  VF S T A B C   vertex from S to T against face ABC\n"
+      "  EE S T V A B   edge from the moving vertex to V against edge AB\n"
+      "  FV S T G I A   face from the moving vertex to GI against vertex A\n"
+      "or AX VF K or AX EE K and 16 doubles: all move at once along axis K (0, 1 or 2), from four points, V A B C or "
+      "the\n"
+      "ends of two edges, to where they are along K at the end.\n"
+      "Prints a line each: 0, or 1 and the first time u as num/den in lowest terms; of AX, 1 without a time.\n"
+      "Empty lines and lines that begin with # are skipped. Exit: 0 done, 2 usage or a malformed line.");
   std::string path;
   app.add_option("FILE", path, "The queries; - is standard input")->required();
   try {

@@ -130,16 +130,16 @@ std::vector<Result> measure_all(const Query_timer& timer, const std::vector<Judg
     return Sweep_answer{with_functor(traits, q, [](const auto& f, const auto&... p) { return f.do_collide(p...); })};
   });
   add("haptic_sculpt, verdict and enclosed time", true, [&](const Judged_query& q) {
-    const std::optional<Impact_3<Kernel>> impact =
-      with_functor(traits, q, [](const auto& f, const auto&... p) -> std::optional<Impact_3<Kernel>> { return f(p...); });
+    const std::optional<Impact_3<Kernel>> impact = with_functor(
+        traits, q, [](const auto& f, const auto&... p) -> std::optional<Impact_3<Kernel>> { return f(p...); });
     if (!impact)
       return Sweep_answer{};
     const std::pair<double, double> time = impact->time();
     return Sweep_answer{true, time.first + (time.second - time.first) / 2};
   });
   add("haptic_sculpt, verdict and rational time", true, [&](const Judged_query& q) {
-    const std::optional<Impact_3<Kernel>> impact =
-      with_functor(traits, q, [](const auto& f, const auto&... p) -> std::optional<Impact_3<Kernel>> { return f(p...); });
+    const std::optional<Impact_3<Kernel>> impact = with_functor(
+        traits, q, [](const auto& f, const auto&... p) -> std::optional<Impact_3<Kernel>> { return f(p...); });
     return impact ? Sweep_answer{true, as_double(impact->exact_time())} : Sweep_answer{};
   });
   return results;
@@ -161,7 +161,11 @@ nlohmann::json filter_shares(const std::vector<Judged_query>& queries) {
   const auto share = [&](std::size_t stage) {
     return static_cast<double>(reached[stage]) / static_cast<double>(queries.size());
   };
-  return {{"permanent", share(0)}, {"integer_64", share(1)}, {"integer_128", share(2)}, {"integer_256", share(3)}, {"big_integer", share(4)}};
+  return {{"permanent", share(0)},
+          {"integer_64", share(1)},
+          {"integer_128", share(2)},
+          {"integer_256", share(3)},
+          {"big_integer", share(4)}};
 }
 
 std::vector<Judged_query> judged_queries(const test::Sweep_population& population, std::size_t count,
@@ -171,7 +175,8 @@ std::vector<Judged_query> judged_queries(const test::Sweep_population& populatio
   while (queries.size() < count) {
     const test::Sweep_query query = population(engine);
     const auto point = [&](int i) { return Kernel::Point_3(query.x[3 * i], query.x[3 * i + 1], query.x[3 * i + 2]); };
-    queries.push_back({query, {point(0), point(1), point(2), point(3), point(4)}, test::first_time(query.kind, query.x)});
+    queries.push_back(
+        {query, {point(0), point(1), point(2), point(3), point(4)}, test::first_time(query.kind, query.x)});
   }
   return queries;
 }
@@ -179,7 +184,10 @@ std::vector<Judged_query> judged_queries(const test::Sweep_population& populatio
 /// For other programs: a line for each query, and what the oracle says.
 void write(const std::vector<Judged_query>& queries, std::ostream& asked, std::ostream& truth) {
   for (const Judged_query& q : queries) {
-    asked << (q.query.kind == test::Sweep_kind::vertex_face ? "VF" : q.query.kind == test::Sweep_kind::edge_edge ? "EE" : "FV") << std::hexfloat;
+    asked << (q.query.kind == test::Sweep_kind::vertex_face ? "VF"
+              : q.query.kind == test::Sweep_kind::edge_edge ? "EE"
+                                                            : "FV")
+          << std::hexfloat;
     for (const double x : q.query.x)
       asked << ' ' << x;
     asked << '\n';
@@ -203,7 +211,8 @@ nlohmann::json as_json(const Result& result) {
 int main(int argc, char** argv) {
   using namespace haptic_sculpt::benchmark;
   using haptic_sculpt::test::sweep_populations;
-  CLI::App app{"Time of the sweeps against their error, for each arithmetic and population, judged by a rational oracle"};
+  CLI::App app{
+      "Time of the sweeps against their error, for each arithmetic and population, judged by a rational oracle"};
   std::string file;
   std::uint64_t seed = 1;
   std::size_t count = 5000;
@@ -213,13 +222,16 @@ int main(int argc, char** argv) {
   app.add_option("--seed", seed, "Seed of the populations")->capture_default_str();
   app.add_option("--queries", count, "Queries of each population")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--population", chosen, "Only these populations");
-  app.add_option("--write-queries", folder, "Folder that gets queries.txt, as sweep_queries reads them, and truth.txt, by the oracle; nothing is timed")
-    ->check(CLI::ExistingDirectory);
+  app.add_option(
+         "--write-queries", folder,
+         "Folder that gets queries.txt, as sweep_queries reads them, and truth.txt, by the oracle; nothing is timed")
+      ->check(CLI::ExistingDirectory);
   Shard shard;
   shard.add_option(app, "population");
   CLI11_PARSE(app, argc, argv);
   for (const std::string& name : chosen)
-    if (std::none_of(sweep_populations().begin(), sweep_populations().end(), [&](const auto& p) { return p.name == name; })) {
+    if (std::none_of(sweep_populations().begin(), sweep_populations().end(),
+                     [&](const auto& p) { return p.name == name; })) {
       std::cerr << "sweep_speed_error: no population is called " << name << '\n';
       return 2;
     }
@@ -241,7 +253,10 @@ int main(int argc, char** argv) {
   }
   const Query_timer timer;
   std::printf("single times are read in steps of %.1f ns; the mean is that of the whole batch\n", timer.resolution());
-  nlohmann::json report{{"seed", seed}, {"shard", shard.text()}, {"queries_per_population", count}, {"clock_resolution_ns", timer.resolution()},
+  nlohmann::json report{{"seed", seed},
+                        {"shard", shard.text()},
+                        {"queries_per_population", count},
+                        {"clock_resolution_ns", timer.resolution()},
                         {"populations", nlohmann::json::array()}};
   for (const auto& population : sweep_populations()) {
     if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), population.name) == chosen.end())
@@ -259,16 +274,16 @@ int main(int argc, char** argv) {
     }
     const auto hits = std::count_if(queries.begin(), queries.end(), [](const auto& q) { return q.time.has_value(); });
     std::printf("%s%s: %zu queries, %td hits\n%-34s %9s %9s %10s %7s %7s %10s\n", population.name.c_str(),
-                population.degenerate ? " (degenerate)" : "", count, hits, "", "median ns", "mean ns", "p99 ns", "false +",
-                "false -", "error in u");
-    nlohmann::json entry{{"unit", unit}, {"name", population.name}, {"degenerate", population.degenerate}, {"hits", hits},
-                         {"filter", filter_shares(queries)}, {"arithmetics", nlohmann::json::array()}};
+                population.degenerate ? " (degenerate)" : "", count, hits, "", "median ns", "mean ns", "p99 ns",
+                "false +", "false -", "error in u");
+    nlohmann::json entry{{"unit", unit}, {"name", population.name},          {"degenerate", population.degenerate},
+                         {"hits", hits}, {"filter", filter_shares(queries)}, {"arithmetics", nlohmann::json::array()}};
     for (const Result& result : measure_all(timer, queries)) {
       char error[16] = "-";
       if (result.gives_time)
         std::snprintf(error, sizeof error, "%.1e", result.largest_error);
-      std::printf("%-34s %9.0f %9.0f %10.0f %7llu %7llu %10s\n", result.name.c_str(), result.median, result.mean, result.p99,
-                  static_cast<unsigned long long>(result.false_positives),
+      std::printf("%-34s %9.0f %9.0f %10.0f %7llu %7llu %10s\n", result.name.c_str(), result.median, result.mean,
+                  result.p99, static_cast<unsigned long long>(result.false_positives),
                   static_cast<unsigned long long>(result.false_negatives), error);
       entry["arithmetics"].push_back(as_json(result));
     }

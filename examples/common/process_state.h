@@ -62,10 +62,11 @@ inline bool& outlives_terminal() {
 
 /// A signal that ends the program by a fault of its own says so, in words, before it does. Sanitizers keep theirs.
 inline void announce_crashes(const char* program) {
-  std::snprintf(process::last_words().data(), process::last_words().size(),
-                "\n%s: ended by a fault of its own. What was not written by now is lost, but for what a log has. Please "
-                "report it with its input\n",
-                program);
+  std::snprintf(
+      process::last_words().data(), process::last_words().size(),
+      "\n%s: ended by a fault of its own. What was not written by now is lost, but for what a log has. Please "
+      "report it with its input\n",
+      program);
   alignas(16) static char stack[1 << 16]; // of its own: the fault may be that the other one has no room
   stack_t there{};
   there.ss_sp = stack, there.ss_size = sizeof stack;
@@ -80,8 +81,8 @@ inline void announce_crashes(const char* program) {
   }
 }
 
-/// Everything a main has to do first. A file that may not grow (SIGXFSZ) is told like a full disk; a reader who has gone
-/// (SIGPIPE) and a terminal that was closed (SIGHUP) cost what they would have been told, and no result.
+/// Everything a main has to do first. A file that may not grow (SIGXFSZ) is told like a full disk; a reader who has
+/// gone (SIGPIPE) and a terminal that was closed (SIGHUP) cost what they would have been told, and no result.
 inline void put_process_in_order(const char* program) {
   open_closed_streams();
   for (const int signal : {SIGXFSZ, SIGPIPE})

@@ -13,8 +13,8 @@
 
 namespace haptic_sculpt::examples {
 
-/// Exit codes that all programs share; a program's own begin at 7. `failed`: the memory does not suffice, or the program
-/// is at fault.
+/// Exit codes that all programs share; a program's own begin at 7. `failed`: the memory does not suffice, or the
+/// program is at fault.
 enum Exit { done = 0, failed = 1, usage = 2, mesh_refused = 3, script_error = 4, cannot_write = 5, foreign_log = 6 };
 
 /// Something that was asked for does not fit together, or cannot be used.

@@ -27,10 +27,11 @@ struct View {
 /// the smallest to the largest doubles, or far from the origin, look alike.
 class Camera {
 public:
-  /// Fits the mesh, and those marks that lie within twice the mesh's size: the way to the target of a long drag is cut off
-  /// at the picture's margin rather than shrinking the mesh to a dot. O(points + marks).
-  /// \pre `scene.check()` has passed. \throw Picture_error for a view without direction or with an impossible size.
-  Camera(const Scene& scene, const View& view) : width_(view.width), height_(view.height - scene.legend_height(view.width)) {
+  /// Fits the mesh, and those marks that lie within twice the mesh's size: the way to the target of a long drag is cut
+  /// off at the picture's margin rather than shrinking the mesh to a dot. O(points + marks). \pre `scene.check()` has
+  /// passed. \throw Picture_error for a view without direction or with an impossible size.
+  Camera(const Scene& scene, const View& view)
+      : width_(view.width), height_(view.height - scene.legend_height(view.width)) {
     if (!view.direction.allFinite() || view.direction.isZero(0) || !view.up.allFinite())
       throw Picture_error("The view has no direction. Give a finite vector that is not zero.");
     if (width_ < 1 || height_ < 1)
@@ -82,15 +83,16 @@ public:
   double unscaled(double length) const { return std::ldexp(half_edge_ * length, exponent_); }
 
   /// \name A camera in someone's hand
-  /// The eye stays where the whole mesh is before it; to zoom is to narrow its angle. Depths keep their precision so, and no
-  /// part of the mesh gets behind the eye.
+  /// The eye stays where the whole mesh is before it; to zoom is to narrow its angle. Depths keep their precision so,
+  /// and no part of the mesh gets behind the eye.
   ///@{
 
-  /// From here on the view may be turned: the near plane then leaves room for the mesh from any side, and for its growing.
+  /// From here on the view may be turned: the near plane then leaves room for the mesh from any side, and for its
+  /// growing.
   void make_turnable() { nearest_ = std::min(2.0, 0.6 * distance_); }
 
-  /// Turns the mesh under the eye by angles, in radians, about the picture's upward and rightward axes; `pivot` (scaled) stays
-  /// where it is seen.
+  /// Turns the mesh under the eye by angles, in radians, about the picture's upward and rightward axes; `pivot`
+  /// (scaled) stays where it is seen.
   void turn(double about_up, double about_right, const Eigen::Vector3d& pivot) {
     const Eigen::Vector2d before = (rotation_ * pivot).head<2>();
     rotation_ = Eigen::AngleAxisd(about_right, Eigen::Vector3d::UnitX()) *

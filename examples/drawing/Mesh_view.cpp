@@ -57,7 +57,8 @@ std::vector<Corner> mesh_corners(const Scene& scene, const Camera& camera) {
 
 } // namespace
 
-std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::Vector3d, 3>& points, const Color& color) {
+std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::Vector3d, 3>& points,
+                                 const Color& color) {
   const Eigen::Vector3d a = camera.scaled(points[0]), b = camera.scaled(points[1]), c = camera.scaled(points[2]);
   // Stable: the cross product's square must not underflow for tiny triangles.
   const Eigen::Vector3f normal =
@@ -126,8 +127,9 @@ void Mesh_view::draw_mesh(const Camera& camera, const Color& background, Faces f
   use(program_, camera);
   glUniform1f(glGetUniformLocation(program_, "opacity"), 1);
   glUniform1i(glGetUniformLocation(program_, "with_edges"), 1);
-  // Faces in contact are nearer to each other than depths can be told apart, and what is seen would change from pixel to pixel.
-  // One of the two is seen from inside, wherever the surface is closed and faces outwards: it is put behind the other.
+  // Faces in contact are nearer to each other than depths can be told apart, and what is seen would change from pixel
+  // to pixel. One of the two is seen from inside, wherever the surface is closed and faces outwards: it is put behind
+  // the other.
   glCullFace(GL_FRONT);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2, 32);

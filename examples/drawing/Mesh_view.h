@@ -7,7 +7,8 @@
 namespace haptic_sculpt::drawing {
 
 /// What the card gets of a triangle: its corners and its normal, scaled.
-std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::Vector3d, 3>& points, const Color& color);
+std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::Vector3d, 3>& points,
+                                 const Color& color);
 
 /// Draws a scene into the current framebuffer of the current OpenGL 3.3 core context, whoever made it: a file's
 /// off-screen context or a window's.
@@ -31,8 +32,8 @@ public:
   /// For who changes the mesh triangle by triangle (corners_of()).
   Triangle_buffer& mesh() { return mesh_; }
 
-  /// Which faces are drawn: all of any mesh; or those seen from outside, in about half of the time, where faces are flat.
-  /// Of a closed surface that faces outwards no others are to be seen.
+  /// Which faces are drawn: all of any mesh; or those seen from outside, in about half of the time, where faces are
+  /// flat. Of a closed surface that faces outwards no others are to be seen.
   enum class Faces { all, outside };
 
   /// Clears the framebuffer to `background` and draws.

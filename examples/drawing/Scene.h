@@ -68,7 +68,8 @@ struct Scene {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<int, 3>> triangles; ///< indices into `points`, counterclockwise from outside
   std::vector<Color> point_colors;           ///< one a point, or empty: all of `surface_color`
-  std::vector<Eigen::Vector3d> point_normals; ///< of length 1, one a point, for smooth shading; or empty: faces are flat
+  std::vector<Eigen::Vector3d>
+      point_normals; ///< of length 1, one a point, for smooth shading; or empty: faces are flat
   Color surface_color = colors::surface;
   float edge_opacity = 0.62f; ///< of the lines along the mesh's edges; 0: none
   std::vector<Segment> segments;

@@ -50,7 +50,12 @@ public:
                   s.color);
     }
     if (to < 1) // it goes on outside of the picture
-      add_profile(b, axis, {{-5 * radius, 0, -1, 0}, {-5 * radius, 3 * radius, -1, 0}, {-5 * radius, 3 * radius, 0.5, 0.87}, {0, 0, 0.5, 0.87}}, s.color);
+      add_profile(b, axis,
+                  {{-5 * radius, 0, -1, 0},
+                   {-5 * radius, 3 * radius, -1, 0},
+                   {-5 * radius, 3 * radius, 0.5, 0.87},
+                   {0, 0, 0.5, 0.87}},
+                  s.color);
   }
 
   void add(const Arrow& a) {

@@ -79,7 +79,8 @@ void main() {
 })";
 ///@}
 
-/// \name A mesh of flat faces that are seen from outside: the same picture of it, lit once a corner instead of once a pixel
+/// \name A mesh of flat faces that are seen from outside: the same picture of it, lit once a corner instead of once a
+/// pixel
 ///@{
 inline const std::string flat_vertex_shader = shader_parts::version + shader_parts::corner + shader_parts::lights + R"(
 flat out vec3 face_color;

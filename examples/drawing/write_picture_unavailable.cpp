@@ -6,10 +6,10 @@ namespace haptic_sculpt::drawing {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path) {
-  throw Picture_error(
-      "Cannot write the picture " + path.string() +
-      ": this program was built without pictures. Install "
-      "libepoxy-dev, libegl-dev, libgl1-mesa-dri, libpng-dev, libfreetype-dev and fonts-dejavu-core and build it anew, or ask for no picture.");
+  throw Picture_error("Cannot write the picture " + path.string() +
+                      ": this program was built without pictures. Install "
+                      "libepoxy-dev, libegl-dev, libgl1-mesa-dri, libpng-dev, libfreetype-dev and fonts-dejavu-core "
+                      "and build it anew, or ask for no picture.");
 }
 
 } // namespace

@@ -54,7 +54,8 @@ struct Run_result {
 
 /// Reads the mesh, runs, and writes sculpted mesh, picture and rows. \param writer is told what people should know
 /// \param is_interrupted ends the run in order
-/// \throw before the first tick what reading meshes and opening files throws; Unstable_coupling; Foreign_recording; Usage_error; Foreign_log, Script_error
+/// \throw before the first tick what reading meshes and opening files throws; Unstable_coupling; Foreign_recording;
+/// Usage_error; Foreign_log, Script_error
 Run_result run_loop(const Plan& plan, examples::Result_writer& writer, const std::atomic<bool>& is_interrupted);
 
 } // namespace haptic_sculpt::loop_program

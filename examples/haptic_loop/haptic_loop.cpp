@@ -124,11 +124,12 @@ int run(int argc, char** argv) {
   Arguments arguments;
   Plan plan;
   Settings& settings = plan.settings;
-  CLI::App app("Sculpts in a closed loop: a simulated device in a simulated hand that follows a path.\n"
-               "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 path cannot be read, "
-               "5 cannot write, 6 recording of another mesh, 7 stiffness not passive, or damping, virtual mass or "
-               "controller too large, "
-               "8 a fault ended the run.");
+  CLI::App app(
+      "Sculpts in a closed loop: a simulated device in a simulated hand that follows a path.\n"
+      "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 path cannot be read, "
+      "5 cannot write, 6 recording of another mesh, 7 stiffness not passive, or damping, virtual mass or "
+      "controller too large, "
+      "8 a fault ended the run.");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->capture_default_str();
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes");
   app.add_option("--seconds", arguments.seconds, "How long; by default as long as the path");
@@ -138,8 +139,9 @@ int run(int argc, char** argv) {
   app.add_option("--damping", settings.damping, "Of the coupling, at the handle, N s/m")->capture_default_str();
   app.add_option("--virtual-mass", settings.virtual_mass, "What is grabbed weighs so much more when shaken, kg")
       ->capture_default_str();
-  app.add_option("--controller", settings.controller,
-                 "The most that the passivity controller may damp, N s/m; 0: there is none; by default half of what may be");
+  app.add_option(
+      "--controller", settings.controller,
+      "The most that the passivity controller may damp, N s/m; 0: there is none; by default half of what may be");
   app.add_option("--map", settings.map,
                  "SCALE X Y Z [RX RY RZ]: scene = (X, Y, Z) + SCALE R (device - home); by default the scene is fitted")
       ->expected(4, 7);

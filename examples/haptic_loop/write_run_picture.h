@@ -8,8 +8,8 @@
 
 namespace haptic_sculpt::loop_program {
 
-/// The ways of hand and proxy on the sculpted mesh. \param scene the mesh \return for people: what of an old file could not
-/// be kept \throw drawing::Picture_error
+/// The ways of hand and proxy on the sculpted mesh. \param scene the mesh \return for people: what of an old file could
+/// not be kept \throw drawing::Picture_error
 inline std::string write_run_picture(drawing::Scene scene, const Run_samples& samples, const std::string& path) {
   using namespace drawing;
   const auto& all = samples.samples();

@@ -23,7 +23,8 @@ bool are_finite(const Numbers& numbers) {
 
 std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Sculpts a closed triangle mesh from a script; no surface ever passes through a surface.\n"
-               "Exit: 0 done (blocked drags and refused edits are done), 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 "
+               "Exit: 0 done (blocked drags and refused edits are done), 1 out of memory or a fault of the program, 2 "
+               "usage, 3 mesh refused, 4 "
                "script error, "
                "5 cannot write, 6 script or log of another mesh, or no log.\n"
                "Script, one edit a line; # comments; numbers decimal or hexadecimal; a vertex by its number, or the "
@@ -71,9 +72,10 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
   app.add_option("--picture-view", shown.view, "The direction in which one looks into it, or into that of --compare")
       ->expected(3)
       ->type_name("X Y Z");
-  app.add_option("--picture-at", shown.at,
-                 "What is in its middle: a vertex by its number, a place @X,Y,Z, or 'edit': where the last edit that was "
-                 "blocked ended, or else the last edit")
+  app.add_option(
+         "--picture-at", shown.at,
+         "What is in its middle: a vertex by its number, a place @X,Y,Z, or 'edit': where the last edit that was "
+         "blocked ended, or else the last edit")
       ->check(place)
       ->needs("--picture");
   app.add_option("--picture-zoom", shown.zoom, "How large; 1 is all of the mesh; by default 8 with --picture-at")
@@ -83,9 +85,10 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       })
       ->needs("--picture");
   app.add_flag("--picture-before", shown.before, "Two side by side: before the edits, and after")->needs("--picture");
-  app.add_option("--picture-color", shown.color,
-                 "Colours by displacement (from where a vertex was before the edits) or by altitude (the least one of the "
-                 "triangles at a vertex)")
+  app.add_option(
+         "--picture-color", shown.color,
+         "Colours by displacement (from where a vertex was before the edits) or by altitude (the least one of the "
+         "triangles at a vertex)")
       ->check(CLI::IsMember({"displacement", "altitude"}))
       ->needs("--picture");
   app.add_option("--compare", arguments.comparison,
@@ -98,14 +101,16 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       ->type_name("X Y Z");
   app.add_flag("--triangulate", arguments.triangulate, "Divides faces with more than three corners into triangles");
   app.add_flag("--orient", arguments.orient, "Turns over components that are inside out, and repairs nothing else");
-  app.add_flag("--repair", arguments.repair.is_asked,
-               "Repairs the mesh on reading, and says how; with -o and no script: converts a broken mesh into a valid one");
+  app.add_flag(
+      "--repair", arguments.repair.is_asked,
+      "Repairs the mesh on reading, and says how; with -o and no script: converts a broken mesh into a valid one");
   app.add_option("--repair-report", arguments.repair.report, "Where the steps of the repair go, as JSON")
       ->check(named)
       ->needs("--repair");
-  app.add_option("--repair-gap", arguments.repair.gap,
-                 "Points on open edges become one where they are at most this length apart, >= 0; by default 1e-6 of the "
-                 "extent where edges are much longer")
+  app.add_option(
+         "--repair-gap", arguments.repair.gap,
+         "Points on open edges become one where they are at most this length apart, >= 0; by default 1e-6 of the "
+         "extent where edges are much longer")
       ->needs("--repair");
   app.add_option("--repair-largest-hole", arguments.repair.largest_hole,
                  "Holes with more edges than this are not closed, and the mesh is refused; by default all are closed")

@@ -29,14 +29,15 @@ public:
   /// \throw Write_error if a new one cannot be made, but not if the disk is full
   void begin(const Settings& settings);
 
-  /// Of a log that a killed loop has left, drops what was done in a tick that is not whole. To be called before `begin()`.
+  /// Of a log that a killed loop has left, drops what was done in a tick that is not whole. To be called before
+  /// `begin()`.
   void drop_unfinished_tick();
 
   /// \name Appending
   /// After a failure, at once and for good, nothing is appended: a log ends where the first line is missing.
   ///@{
-  /// What follows comes from the script with this hash, from the lines after this one. Strokes that are open end here. A
-  /// log of the first format gets checksums from here on.
+  /// What follows comes from the script with this hash, from the lines after this one. Strokes that are open end here.
+  /// A log of the first format gets checksums from here on.
   void begin_pass(const std::string& script, std::size_t after);
   void append(const Command& command) { append(writer_.command(command, command.line)); }
   /// What a loop did in a tick, in one write; nothing but the end of the tick where `commands` are none.

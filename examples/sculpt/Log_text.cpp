@@ -14,8 +14,8 @@ namespace {
 using Kind = Command::Kind;
 
 constexpr std::string_view version_word = "# haptic_sculpt log ", current_version = "1", pass_word = "# script ",
-                           tick_word = "# tick ", after_word = " after line ", done_word = " done", line_word = " # line ",
-                           checksum_word = " # ";
+                           tick_word = "# tick ", after_word = " after line ", done_word = " done",
+                           line_word = " # line ", checksum_word = " # ";
 constexpr std::size_t checksum_size = 16; // digits: 64 bits
 
 bool begins_with(std::string_view text, std::string_view start) {
@@ -44,7 +44,8 @@ std::string text_of(const Command& command) {
   for (const std::size_t index : command.indices) // of a shift: the axis, and how many lines follow
     text += ' ' + std::to_string(index);
   std::for_each(command.points.begin(), command.points.end(), add);
-  if ((command.kind == Kind::clearance && command.word.empty()) || command.kind == Kind::delta || command.kind == Kind::remesh)
+  if ((command.kind == Kind::clearance && command.word.empty()) || command.kind == Kind::delta ||
+      command.kind == Kind::remesh)
     text += ' ' + hexadecimal(command.length);
   return command.word.empty() ? text : text + ' ' + command.word;
 }
@@ -172,7 +173,8 @@ private:
       return;
     }
     if (begins_with(payload, tick_word)) {
-      read_tick(payload.substr(tick_word.size()), static_cast<std::size_t>(line.data() - text_.data()) + line.size() + 1);
+      read_tick(payload.substr(tick_word.size()),
+                static_cast<std::size_t>(line.data() - text_.data()) + line.size() + 1);
       return;
     }
     const std::size_t from = payload.rfind(line_word);

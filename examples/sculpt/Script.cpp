@@ -173,7 +173,8 @@ void read_last(Line& line, const Syntax& syntax, Command& command) {
     }
     command.length = line.number(expected, found);
     if (command.length < 0 || (command.length == 0 && command.kind != Kind::delta))
-      line.fail(std::string("the ") + syntax.name + " must be " + (command.kind == Kind::delta ? "at least 0" : "more than 0"));
+      line.fail(std::string("the ") + syntax.name + " must be " +
+                (command.kind == Kind::delta ? "at least 0" : "more than 0"));
   } else if (syntax.last == Syntax::word && command.kind == Kind::response) {
     command.word = line.word("slide, stop or paper");
     if (!response_named(command.word))
@@ -190,11 +191,13 @@ void read_last(Line& line, const Syntax& syntax, Command& command) {
 } // namespace
 
 const char* name_of(Kind kind) {
-  return std::find_if(std::begin(syntaxes), std::end(syntaxes), [kind](const Syntax& s) { return s.kind == kind; })->name;
+  return std::find_if(std::begin(syntaxes), std::end(syntaxes), [kind](const Syntax& s) { return s.kind == kind; })
+      ->name;
 }
 
 std::optional<Edit> edit_of(const Command& command) {
-  const auto syntax = std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return s.kind == command.kind; });
+  const auto syntax =
+      std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return s.kind == command.kind; });
   if (syntax->edit == Edit_kind::none)
     return std::nullopt;
   Edit edit;
@@ -208,7 +211,8 @@ std::optional<Edit> edit_of(const Command& command) {
 }
 
 Command command_of(const Edit& edit) {
-  const auto syntax = std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return s.edit == edit.kind; });
+  const auto syntax =
+      std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return s.edit == edit.kind; });
   Command command;
   command.kind = syntax->kind;
   command.indices.assign(edit.vertices.begin(), edit.vertices.begin() + syntax->indices);
@@ -232,7 +236,8 @@ std::optional<Command> Line_joiner::take(const std::string& text, std::size_t nu
   if (!first)
     return std::nullopt;
   if (is_whole && *first != "end")
-    line.fail("'" + printable(*first) + "' stands where the shift of line " + std::to_string(shift_->line) + " has to end");
+    line.fail("'" + printable(*first) + "' stands where the shift of line " + std::to_string(shift_->line) +
+              " has to end");
   if (!is_whole) {
     const std::size_t vertex = line.index_in(*first);
     shift_->ways.emplace_back(vertex, line.number("a coordinate"));
@@ -243,8 +248,9 @@ std::optional<Command> Line_joiner::take(const std::string& text, std::size_t nu
 
 void Line_joiner::check_end(const std::string& script) const {
   if (shift_)
-    throw Script_error(script, shift_->line, 1, "this shift of " + std::to_string(shift_->indices[1]) + " vertices has " +
-                       std::to_string(shift_->ways.size()) + " lines of a vertex and a coordinate, and no `end`");
+    throw Script_error(script, shift_->line, 1,
+                       "this shift of " + std::to_string(shift_->indices[1]) + " vertices has " +
+                           std::to_string(shift_->ways.size()) + " lines of a vertex and a coordinate, and no `end`");
 }
 
 std::optional<Command> read_line(const std::string& text, std::size_t number, const std::string& script) {

@@ -16,14 +16,32 @@ namespace haptic_sculpt::sculpt_program {
 /// One line of a script: an edit or a directive.
 struct Command {
   enum class Kind {
-    drag, insert_face, insert_edge, remove, collapse, flip, shift, undo, redo, stroke, end, // as Edit_kind has them
-    release, probe, move, brush, remesh,                                                    // what takes more than an Edit
-    response, clearance, delta, mesh                                                    // directives
+    drag,
+    insert_face,
+    insert_edge,
+    remove,
+    collapse,
+    flip,
+    shift,
+    undo,
+    redo,
+    stroke,
+    end, // as Edit_kind has them
+    release,
+    probe,
+    move,
+    brush,
+    remesh, // what takes more than an Edit
+    response,
+    clearance,
+    delta,
+    mesh // directives
   };
 
   std::size_t line = 0;        ///< from 1
   bool is_logged = false;      ///< read from a log, not from a script
-  std::size_t script_line = 0; ///< of what is logged: the line of the script that it came from; 0 where the log does not say
+  std::size_t script_line =
+      0; ///< of what is logged: the line of the script that it came from; 0 where the log does not say
   Kind kind = Kind::release;
   std::vector<std::size_t> indices;        ///< of vertices; of a shift, the axis
   /// Of `indices` those that are yet to be found: the vertex nearest to a point when the line's turn comes.
@@ -55,8 +73,8 @@ public:
   explicit Script_error(const std::string& what) : Error(what) {}
 };
 
-/// Reads a line, without its end. \param script how messages call the whole. \return none of a line that holds a comment only, or
-/// nothing \throw Script_error
+/// Reads a line, without its end. \param script how messages call the whole. \return none of a line that holds a
+/// comment only, or nothing \throw Script_error
 std::optional<Command> read_line(const std::string& text, std::size_t number, const std::string& script);
 
 /// Puts lines together: each is a command, but a shift, which goes on until its `end`.

@@ -121,7 +121,8 @@ private:
       return;
     }
     std::vector<Vertex_index> blocking;
-    many_vertices(command, [&] { return carry_out_move(sculptor_, v, point(command.points[0]) - CGAL::ORIGIN, blocking); });
+    many_vertices(command,
+                  [&] { return carry_out_move(sculptor_, v, point(command.points[0]) - CGAL::ORIGIN, blocking); });
     for (const Vertex_index w : blocking)
       result_.edits.back().elements.push_back(sculptor_.name(w));
   }
@@ -135,7 +136,8 @@ private:
     refuse(command, name_of(reason), elements.empty() && !names_axis ? command.indices : elements);
   }
 
-  void tell_drag(const Command& command, Clock::time_point begin, const Applied<Mesh>& done, const Kernel::Point_3& start) {
+  void tell_drag(const Command& command, Clock::time_point begin, const Applied<Mesh>& done,
+                 const Kernel::Point_3& start) {
     way_.assign(1, start);
     if (done.edit.kind == Edit_kind::move) {
       for (const auto& leg : done.edit.legs)
@@ -160,7 +162,8 @@ private:
     if (command.kind == Kind::insert_face || command.kind == Kind::insert_edge)
       moved_.insert(name);
     const bool names_an_edge = command.kind == Kind::collapse || command.kind == Kind::flip;
-    Edit_record& done_edit = record(command, Status::reached, nullptr, names_an_edge ? command.indices : std::vector{name});
+    Edit_record& done_edit =
+        record(command, Status::reached, nullptr, names_an_edge ? command.indices : std::vector{name});
     if (command.kind != Kind::flip) // which leaves every vertex where it is
       done_edit.motion = {p, p, p};
   }
@@ -177,7 +180,8 @@ private:
     // A remesher leaves out what is not proven: that is its work, not a fault of it.
     const bool is_whole = command.kind == Kind::remesh || done.done == done.asked;
     ++(is_whole ? result_.reached : result_.blocked);
-    Edit_record& edit = record(command, is_whole ? Status::reached : Status::blocked, is_whole ? nullptr : "in-part", {});
+    Edit_record& edit =
+        record(command, is_whole ? Status::reached : Status::blocked, is_whole ? nullptr : "in-part", {});
     edit.many = {done.asked, done.done};
     edit.detail = done.detail;
   }
@@ -216,7 +220,8 @@ private:
   }
 
   void delta(const Command& command) {
-    if (command.length == sculptor_.options().delta_length) // a log begins so; looking at all triangles again finds nothing
+    if (command.length ==
+        sculptor_.options().delta_length) // a log begins so; looking at all triangles again finds nothing
       return;
     try {
       sculptor_.set_delta(command.length);
@@ -235,7 +240,8 @@ private:
 
   template <class Ids = std::vector<std::size_t>>
   Ids ids(const Contact_3<Mesh>& contact) const {
-    return {sculptor_.name(contact.vertices[0]), sculptor_.name(contact.vertices[1]), sculptor_.name(contact.vertices[2])};
+    return {sculptor_.name(contact.vertices[0]), sculptor_.name(contact.vertices[1]),
+            sculptor_.name(contact.vertices[2])};
   }
 
   bool is_within_clearance(const Result& done, const Edit_record::Coordinates& target) const {
@@ -272,8 +278,9 @@ private:
     return record(command, Status::refused, reason, std::move(elements));
   }
 
-  void finish(const Command& command, Clock::time_point begin, const Result& done, const Edit_record::Coordinates& start,
-              const Edit_record::Coordinates& target, std::vector<std::size_t> elements) {
+  void finish(const Command& command, Clock::time_point begin, const Result& done,
+              const Edit_record::Coordinates& start, const Edit_record::Coordinates& target,
+              std::vector<std::size_t> elements) {
     result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
     ++(done.reached ? result_.reached : result_.blocked);
     Edit_record& edit = record(command, done.reached ? Status::reached : Status::blocked,

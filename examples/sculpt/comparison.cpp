@@ -44,7 +44,8 @@ void move(Mesh& mesh, const Command& command) {
   const auto& way = command.points[0];
   if (v < mesh.number_of_vertices())
     for (const Vertex_index w : component_of(mesh, Vertex_index(static_cast<Mesh::size_type>(v))))
-      if (const auto p = mesh.point(w) + Kernel::Vector_3(way[0], way[1], way[2]); internal::is_in_range({p.x(), p.y(), p.z()}))
+      if (const auto p = mesh.point(w) + Kernel::Vector_3(way[0], way[1], way[2]);
+          internal::is_in_range({p.x(), p.y(), p.z()}))
         mesh.point(w) = p;
 }
 
@@ -70,8 +71,8 @@ Pairs self_intersecting_pairs(const Mesh& mesh) {
   return result;
 }
 
-/// Smooth, with crevices darker, but for what is red. Each face has corners of its own, so that it may have a colour of its
-/// own.
+/// Smooth, with crevices darker, but for what is red. Each face has corners of its own, so that it may have a colour of
+/// its own.
 drawing::Scene scene_with_pairs(const Mesh& mesh, const Pairs& pairs) {
   drawing::Scene scene;
   scene.edge_opacity = 0;
@@ -105,8 +106,9 @@ Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
     case Kind::release: case Kind::response: case Kind::clearance: case Kind::delta: case Kind::mesh: case Kind::probe:
     case Kind::stroke: case Kind::end: break;
     default:
-      throw Script_error("line " + std::to_string(command.line) + " ('" + name_of(command.kind) +
-                         "') does more than to move vertices: --compare takes scripts of drags, moves and brushes only");
+      throw Script_error(
+          "line " + std::to_string(command.line) + " ('" + name_of(command.kind) +
+          "') does more than to move vertices: --compare takes scripts of drags, moves and brushes only");
     }
   return mesh;
 }

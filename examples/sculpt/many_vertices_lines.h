@@ -57,7 +57,8 @@ inline std::vector<Vertex_index> component_of(const Mesh& mesh, Vertex_index v) 
   return component;
 }
 
-/// The component of v by a vector. \param blocking what is in the way, where not all of the way is gone: the first place
+/// The component of v by a vector. \param blocking what is in the way, where not all of the way is gone: the first
+/// place
 template <class Sculptor>
 Many_vertices_outcome carry_out_move(Sculptor& sculptor, Vertex_index v, const Kernel::Vector_3& way,
                                      std::vector<Vertex_index>& blocking) {

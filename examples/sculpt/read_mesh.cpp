@@ -65,7 +65,8 @@ Mesh read_mesh(const Arguments& arguments, std::vector<std::string>& left_out, V
   const auto refuse = [&](const std::string& subject, Validity_report report) {
     if (!arguments.report.empty() || !arguments.picture.empty())
       write_refusal(arguments, soup,
-                    report.has_more_intersections ? validate_soup(soup, delta, Validity_report::all_intersections) : report);
+                    report.has_more_intersections ? validate_soup(soup, delta, Validity_report::all_intersections)
+                                                  : report);
     throw Invalid_surface(subject, std::move(report));
   };
   Validity_report report = validate_soup(soup, delta);

@@ -12,8 +12,8 @@ namespace haptic_sculpt::sculpt_program {
 /// Reads a surface. With `--triangulate` its faces may have more than three corners, and these are divided into
 /// triangles: a face's vertices stay, no vertex is added, and a polygon that folds over itself is refused. Where it is
 /// refused, write_refusal() is called first.
-/// \param left_out receives what the file has and a mesh has not \param found receives what validate() says of the result
-/// \throw Read_error, Out_of_range; Invalid_surface for faults, before or after it was divided
+/// \param left_out receives what the file has and a mesh has not \param found receives what validate() says of the
+/// result \throw Read_error, Out_of_range; Invalid_surface for faults, before or after it was divided
 Mesh read_mesh(const Arguments& arguments, std::vector<std::string>& left_out, Validity_report& found);
 
 } // namespace haptic_sculpt::sculpt_program

@@ -106,8 +106,8 @@ void check_lengths(const Arguments& arguments) {
     throw Usage_error("--repair-gap must be a length >= 0 and at most 2^1000, about 1.07e301");
   for (const double x : arguments.nearest.value_or(std::array<double, 3>{}))
     if (!internal::is_in_range(x))
-      throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " + examples::decimal(x) +
-                        " is none");
+      throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " +
+                        examples::decimal(x) + " is none");
 }
 
 /// A mesh whose only fault is that a delta was asked for which it does not have.
@@ -158,7 +158,9 @@ std::vector<Near_vertex> nearest_to(const Arguments& arguments, const Mesh& mesh
   constexpr std::size_t most = 8;
   std::vector<std::size_t> places(result.numbers.size()); // in vertex_order, which is in the order of the numbers
   std::iota(places.begin(), places.end(), std::size_t(0));
-  const auto point_of = [&](std::size_t i) { return mesh.point(Vertex_index(static_cast<Mesh::size_type>(result.vertex_order[i]))); };
+  const auto point_of = [&](std::size_t i) {
+    return mesh.point(Vertex_index(static_cast<Mesh::size_type>(result.vertex_order[i])));
+  };
   const auto& [x, y, z] = *arguments.nearest;
   for (const std::size_t i : nearest_vertices(std::move(places), point_of, {x, y, z}, most)) {
     const Kernel::Point_3 p = point_of(i);

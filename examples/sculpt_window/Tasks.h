@@ -90,7 +90,9 @@ private:
       return true;
     pointed.feature = name_of(hit->feature);
     pointed.at = place(internal::vector_of(hit->point));
-    const auto add = [&](Vertex_index v) { pointed.names[static_cast<std::size_t>(pointed.size++)] = scene.sculptor.name(v); };
+    const auto add = [&](Vertex_index v) {
+      pointed.names[static_cast<std::size_t>(pointed.size++)] = scene.sculptor.name(v);
+    };
     if (hit->feature == Surface_feature::vertex)
       add(hit->vertex);
     else if (hit->feature == Surface_feature::edge)
@@ -169,8 +171,8 @@ private:
     Edit wanted = internal::creation_at(
         scene.sculptor, {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))}, internal::vector_of(hit.point));
     if (hit.feature == Surface_feature::edge)
-      wanted.kind = Edit_kind::insert_on_edge,
-      wanted.vertices = {scene.sculptor.name(mesh.vertex(hit.edge, 0)), scene.sculptor.name(mesh.vertex(hit.edge, 1)), 0};
+      wanted.kind = Edit_kind::insert_on_edge, wanted.vertices = {scene.sculptor.name(mesh.vertex(hit.edge, 0)),
+                                                                  scene.sculptor.name(mesh.vertex(hit.edge, 1)), 0};
     return wanted;
   }
 };

@@ -12,7 +12,9 @@ template <class Mesh>
 class Box_list : public haptic_sculpt::Broad_phase_base<Mesh, Box_list<Mesh>> {
 public:
   using Face_index = typename Mesh::Face_index;
-  explicit Box_list(const Mesh& mesh) : haptic_sculpt::Broad_phase_base<Mesh, Box_list>(mesh) { faces_inserted(mesh.faces()); }
+  explicit Box_list(const Mesh& mesh) : haptic_sculpt::Broad_phase_base<Mesh, Box_list>(mesh) {
+    faces_inserted(mesh.faces());
+  }
 
   void query(const haptic_sculpt::Box_3& box, std::vector<Face_index>& faces) const {
     for (std::size_t f = 0; f < boxes_.size(); ++f)

@@ -43,6 +43,7 @@ int main() {
   sculptor.grab(Mesh::Vertex_index(0)).drag_to(Kernel::Point_3(0, 0, 0.5));
   const bool has_ended = probe.drag_to({0, 0, 3}).end == haptic_sculpt::Drag_end::stale;
   probe = sculptor.probe(probe.position());
-  std::cout << "placed again at " << probe.position() << ": " << (probe ? "outside" : name_of(probe.refusal()->reason)) << '\n';
+  std::cout << "placed again at " << probe.position() << ": " << (probe ? "outside" : name_of(probe.refusal()->reason))
+            << '\n';
   return is_outside && touched == 100 && has_ended ? 0 : 1;
 }

@@ -7,7 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-/// Sculpting of closed triangle meshes that never intersect themselves, with exact sweeps, up to the torques of a device.
+/// Sculpting of closed triangle meshes that never intersect themselves, with exact sweeps, up to the torques of a
+/// device.
 namespace haptic_sculpt {
 
 /// The base of every exception this library throws. What it says names the offending element and what to do.

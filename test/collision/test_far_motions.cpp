@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Motions far from all that is at rest, as drags to far targets make them: against linear feasibility over the integers, and
-// without integers in nearly all sweeps.
+// Motions far from all that is at rest, as drags to far targets make them: against linear feasibility over the
+// integers, and without integers in nearly all sweeps.
 #include "collision/Sweeps_under_test.h"
 #include "oracle/hexadecimal.h"
 
@@ -27,11 +27,12 @@ Vector sum(const Vector& a, double factor, const Vector& b) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 
-/// J goes from S to T, 2^10 to 2^60 from a scene of size 1, by all of that or down to 2^-45 of it; what is at rest is where its
-/// edges or faces pass, to within 2^-3 to 2^-62.
+/// J goes from S to T, 2^10 to 2^60 from a scene of size 1, by all of that or down to 2^-45 of it; what is at rest is
+/// where its edges or faces pass, to within 2^-3 to 2^-62.
 Sweep_query far_motion(Sweep_kind kind, std::mt19937_64& engine) {
   std::uniform_real_distribution<double> part(0, 1);
-  const double far = std::ldexp(1., 10 + static_cast<int>(engine() % 51)), step = std::ldexp(far, -static_cast<int>(engine() % 46));
+  const double far = std::ldexp(1., 10 + static_cast<int>(engine() % 51)),
+               step = std::ldexp(far, -static_cast<int>(engine() % 46));
   const Vector direction = random_vector(engine);
   std::array<Vector, 5> p;
   p[0] = sum({}, far, direction);
@@ -54,7 +55,9 @@ Sweep_query far_motion(Sweep_kind kind, std::mt19937_64& engine) {
 
 std::optional<Kernel::FT> asked(const Counting_traits& traits, const Sweep_query& query) {
   const auto p = [&query](int i) { return point(query, i); };
-  const auto time = [](const auto& impact) { return impact ? std::optional<Kernel::FT>(impact->time().first) : std::nullopt; };
+  const auto time = [](const auto& impact) {
+    return impact ? std::optional<Kernel::FT>(impact->time().first) : std::nullopt;
+  };
   if (query.kind == Sweep_kind::edge_edge)
     return time(traits.edge_edge_sweep_3_object()(p(0), p(1), p(2), p(3), p(4)));
   return time(traits.face_vertex_sweep_3_object()(p(0), p(1), p(2), p(3), p(4)));
@@ -85,8 +88,8 @@ BOOST_AUTO_TEST_CASE(far_motions_agree_with_the_oracle_without_integers) {
           BOOST_TEST_MESSAGE("WRONG " << hexadecimal(kind, query.x));
       }
       const std::uint64_t in_integers = counters.failures() - counters.permanent;
-      BOOST_TEST_MESSAGE(sweep_name(kind) << ": " << hits << " hits, " << counters.permanent << " signs by the permanent, " << in_integers
-                                          << " by integers");
+      BOOST_TEST_MESSAGE(sweep_name(kind) << ": " << hits << " hits, " << counters.permanent
+                                          << " signs by the permanent, " << in_integers << " by integers");
       BOOST_TEST(wrong == 0);
       BOOST_TEST(hits > queries / 40);
       BOOST_TEST(counters.permanent > static_cast<std::uint64_t>(queries / 40));

@@ -37,7 +37,10 @@ Fixed_integer<limbs> random_integer(std::mt19937_64& generator) {
   Fixed_integer<limbs> x;
   for (std::uint64_t& limb : x.limb) {
     const std::uint64_t kind = generator() % 4;
-    limb = kind == 0 ? 0 : kind == 1 ? ~std::uint64_t{0} : kind == 2 ? std::uint64_t{1} << (generator() % 64) : generator();
+    limb = kind == 0   ? 0
+           : kind == 1 ? ~std::uint64_t{0}
+           : kind == 2 ? std::uint64_t{1} << (generator() % 64)
+                       : generator();
   }
   return x;
 }
@@ -82,8 +85,16 @@ BOOST_AUTO_TEST_CASE(fixed_integers_compute_as_gmp_does) {
 BOOST_AUTO_TEST_CASE(a_split_double_is_the_double) {
   std::mt19937_64 generator(20242);
   using limits = std::numeric_limits<double>;
-  std::vector<double> values = {0.0, -0.0, 1.0, -1.0, limits::max(), limits::lowest(), limits::min(), limits::denorm_min(),
-                                -limits::denorm_min(), limits::min() - limits::denorm_min()};
+  std::vector<double> values = {0.0,
+                                -0.0,
+                                1.0,
+                                -1.0,
+                                limits::max(),
+                                limits::lowest(),
+                                limits::min(),
+                                limits::denorm_min(),
+                                -limits::denorm_min(),
+                                limits::min() - limits::denorm_min()};
   while (values.size() < 2000) {
     double x;
     const std::uint64_t bits = generator();
@@ -103,14 +114,18 @@ BOOST_AUTO_TEST_CASE(conversion_fills_its_limbs_to_the_documented_spread) {
   const double least = std::nextafter(1.0, 2.0);
   for (double sign : {1.0, -1.0}) {
     const double one_limb = sign * std::ldexp(std::nextafter(2.0, 0.0), one_limb_spread);
-    BOOST_TEST((fraction(to_gmp(Integer_of_double<Fixed_integer<1>>::convert(one_limb, -52)), 52) == mpq_class(one_limb)));
+    BOOST_TEST(
+        (fraction(to_gmp(Integer_of_double<Fixed_integer<1>>::convert(one_limb, -52)), 52) == mpq_class(one_limb)));
     const double two_limbs = sign * std::ldexp(std::nextafter(2.0, 0.0), two_limb_spread);
-    BOOST_TEST((fraction(to_gmp(Integer_of_double<Fixed_integer<2>>::convert(two_limbs, -52)), 52) == mpq_class(two_limbs)));
-    BOOST_TEST((fraction(to_gmp(Integer_of_double<Fixed_integer<2>>::convert(sign * least, -52)), 52) == mpq_class(sign * least)));
+    BOOST_TEST(
+        (fraction(to_gmp(Integer_of_double<Fixed_integer<2>>::convert(two_limbs, -52)), 52) == mpq_class(two_limbs)));
+    BOOST_TEST((fraction(to_gmp(Integer_of_double<Fixed_integer<2>>::convert(sign * least, -52)), 52) ==
+                mpq_class(sign * least)));
     for (int shift = 0; shift <= four_limb_spread; ++shift)
       for (const double x : {std::nextafter(2.0, 0.0), least, 1.0}) {
         const double four_limbs = sign * std::ldexp(x, shift);
-        BOOST_TEST((fraction(to_gmp(Integer_of_double<Fixed_integer<4>>::convert(four_limbs, -52)), 52) == mpq_class(four_limbs)));
+        BOOST_TEST((fraction(to_gmp(Integer_of_double<Fixed_integer<4>>::convert(four_limbs, -52)), 52) ==
+                    mpq_class(four_limbs)));
       }
   }
 }

@@ -209,8 +209,9 @@ BOOST_AUTO_TEST_CASE(sweeps_agree_in_directed_rounding) {
   }
 }
 
-// J enters the plane of the parallelogram A C B D (D = A + B - C) inside ABC. At that very moment JD crosses the diagonal
-// AB, and the triangle J D I, I = 2A - B, contains A: three impacts of three kinds at one time. Then one ulp away.
+// J enters the plane of the parallelogram A C B D (D = A + B - C) inside ABC. At that very moment JD crosses the
+// diagonal AB, and the triangle J D I, I = 2A - B, contains A: three impacts of three kinds at one time. Then one ulp
+// away.
 BOOST_AUTO_TEST_CASE(equal_times_of_different_kinds) {
   const Traits traits;
   std::mt19937_64 engine(5);
@@ -240,7 +241,8 @@ BOOST_AUTO_TEST_CASE(equal_times_of_different_kinds) {
           impacts.push_back(*impact);
     }
     const mpq_class time = impacts.at(0).time;
-    complete += std::count_if(impacts.begin(), impacts.end(), [&](const Timed_impact& t) { return t.time == time; }) >= 3;
+    complete +=
+        std::count_if(impacts.begin(), impacts.end(), [&](const Timed_impact& t) { return t.time == time; }) >= 3;
     for (const Timed_impact& a : impacts)
       for (const Timed_impact& b : impacts)
         check_order(traits, a, b, tally);

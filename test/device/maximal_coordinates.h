@@ -5,8 +5,9 @@
 #include "populations.h"
 #include <Eigen/Dense>
 
-/// An oracle for the dynamics: seven free rigid bodies and Lagrange multipliers for every joint. Bodies 0-2 primary links, 3-5
-/// secondary links, 6 platform; six accelerations each (centre, angular). Shares only poses and first velocities with the library.
+/// An oracle for the dynamics: seven free rigid bodies and Lagrange multipliers for every joint. Bodies 0-2 primary
+/// links, 3-5 secondary links, 6 platform; six accelerations each (centre, angular). Shares only poses and first
+/// velocities with the library.
 namespace maximal_coordinates {
 
 using namespace haptic_sculpt;
@@ -19,7 +20,8 @@ inline Matrix cross_matrix(const Vector& v) {
   return m;
 }
 
-inline Vector joint_accelerations(const Device_parameters<double>& parameters, const Device_pose<double>& pose, const Vector& rate, const Vector& torque) {
+inline Vector joint_accelerations(const Device_parameters<double>& parameters, const Device_pose<double>& pose,
+                                  const Vector& rate, const Vector& torque) {
   const bool general = parameters.form() == Device_form::general;
   const double l1 = parameters.primary_length(), l2 = parameters.secondary_length();
   const auto motion = device_motion(parameters, pose, rate);
@@ -46,11 +48,18 @@ inline Vector joint_accelerations(const Device_parameters<double>& parameters, c
     const Vector rod = pose.cos_theta[leg] * e + pose.sin_theta[leg] * k, u = pose.links.col(leg);
     spin[leg] = -rate[leg] * t;
     const Vector elbow_velocity = spin[leg].cross(Vector(l1 * rod));
-    const Vector joint_velocity = motion->velocity.linear + (general ? Vector(spin[6].cross(Vector(pose.joints.col(leg) - pose.position))) : Vector(Vector::Zero()));
+    const Vector joint_velocity =
+        motion->velocity.linear +
+        (general ? Vector(spin[6].cross(Vector(pose.joints.col(leg) - pose.position))) : Vector(Vector::Zero()));
     spin[3 + leg] = u.cross(Vector(joint_velocity - elbow_velocity)) / l2;
-    const double m1 = parameters.primary_mass(), m2 = parameters.secondary_mass(), spin_inertia = 1e-6; // the links' own spin is 0 and stays 0
-    body(leg, m1, m1 * l1 * l1 / 12 * (Matrix::Identity() - rod * rod.transpose()) + parameters.rotor_inertia() * t * t.transpose() + spin_inertia * rod * rod.transpose(), -torque[leg] * t);
-    body(3 + leg, m2, m2 * l2 * l2 / 12 * (Matrix::Identity() - u * u.transpose()) + spin_inertia * u * u.transpose(), Vector::Zero());
+    const double m1 = parameters.primary_mass(), m2 = parameters.secondary_mass(),
+                 spin_inertia = 1e-6; // the links' own spin is 0 and stays 0
+    body(leg, m1,
+         m1 * l1 * l1 / 12 * (Matrix::Identity() - rod * rod.transpose()) +
+             parameters.rotor_inertia() * t * t.transpose() + spin_inertia * rod * rod.transpose(),
+         -torque[leg] * t);
+    body(3 + leg, m2, m2 * l2 * l2 / 12 * (Matrix::Identity() - u * u.transpose()) + spin_inertia * u * u.transpose(),
+         Vector::Zero());
     point(leg, -l1 / 2 * rod, 1); // shoulder
     row += 3;
     a.block<1, 3>(row++, 6 * leg + 3) = e.transpose();
@@ -69,7 +78,9 @@ inline Vector joint_accelerations(const Device_parameters<double>& parameters, c
       ++row;
     }
   }
-  const Matrix platform = general ? Matrix(pose.orientation * parameters.platform_inertia().asDiagonal() * pose.orientation.transpose()) : Matrix(1e-6 * Matrix::Identity());
+  const Matrix platform =
+      general ? Matrix(pose.orientation * parameters.platform_inertia().asDiagonal() * pose.orientation.transpose())
+              : Matrix(1e-6 * Matrix::Identity());
   body(6, parameters.platform_mass(), platform, Vector::Zero());
   a.topRightCorner(bodies, constraints) = a.bottomLeftCorner(constraints, bodies).transpose();
   const Eigen::VectorXd solution = a.fullPivLu().solve(b);

@@ -11,7 +11,9 @@ namespace device_populations {
 using namespace haptic_sculpt;
 using Random = std::mt19937_64;
 
-inline double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+inline double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
 
 inline Device_description<double> random_design(Random& random, Device_form form) {
   Device_description<double> d;
@@ -40,14 +42,20 @@ template <class S> Device_description<S> description_as(const Device_description
   e.form = d.form;
   e.base_radius = S(d.base_radius), e.primary_length = S(d.primary_length), e.secondary_length = S(d.secondary_length);
   e.platform_radius = S(d.platform_radius), e.primary_mass = S(d.primary_mass), e.secondary_mass = S(d.secondary_mass);
-  e.platform_mass = S(d.platform_mass), e.rotor_inertia = S(d.rotor_inertia), e.gravity = S(d.gravity), e.torque_limit = S(d.torque_limit);
-  e.viscous_friction = S(d.viscous_friction), e.coulomb_friction = S(d.coulomb_friction), e.encoder_step = S(d.encoder_step);
+  e.platform_mass = S(d.platform_mass), e.rotor_inertia = S(d.rotor_inertia), e.gravity = S(d.gravity),
+  e.torque_limit = S(d.torque_limit);
+  e.viscous_friction = S(d.viscous_friction), e.coulomb_friction = S(d.coulomb_friction),
+  e.encoder_step = S(d.encoder_step);
   for (int k = 0; k < 3; ++k)
-    e.platform_inertia[k] = S(d.platform_inertia[k]), e.least_angle[k] = S(d.least_angle[k]), e.greatest_angle[k] = S(d.greatest_angle[k]);
+    e.platform_inertia[k] = S(d.platform_inertia[k]), e.least_angle[k] = S(d.least_angle[k]),
+    e.greatest_angle[k] = S(d.greatest_angle[k]);
   return e;
 }
 
-template <class S> Device_vector<S> vector_as(const Device_vector<double>& v) { return Device_vector<S>(S(v[0]), S(v[1]), S(v[2])); }
+template <class S>
+Device_vector<S> vector_as(const Device_vector<double>& v) {
+  return Device_vector<S>(S(v[0]), S(v[1]), S(v[2]));
+}
 
 } // namespace device_populations
 

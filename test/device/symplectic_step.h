@@ -6,14 +6,15 @@
 
 namespace haptic_sculpt {
 
-/// One step of the three-stage Gauss collocation on angles and momenta: sixth order, symplectic and time-reversible, so for
-/// torques that come from a potential the energy error stays bounded by a multiple of step^6 for all time.
+/// One step of the three-stage Gauss collocation on angles and momenta: sixth order, symplectic and time-reversible, so
+/// for torques that come from a potential the energy error stays bounded by a multiple of step^6 for all time.
 ///
-/// The stages are found by fixed-point iteration, to rounding. Failures: those of a stage; `diverged` if the step is too long for the
-/// iteration, shortfall the last change (rad).
+/// The stages are found by fixed-point iteration, to rounding. Failures: those of a stage; `diverged` if the step is
+/// too long for the iteration, shortfall the last change (rad).
 template <class S, class Torque>
-Outcome<Device_state<S>> symplectic_step(const Device_parameters<S>& parameters, Dynamics_model model, const Device_state<S>& state, const S& time,
-                                         const S& step, const Torque& torque) {
+Outcome<Device_state<S>> symplectic_step(const Device_parameters<S>& parameters, Dynamics_model model,
+                                         const Device_state<S>& state, const S& time, const S& step,
+                                         const Torque& torque) {
   using V = Device_vector<S>;
   using std::sqrt;
   const S root = sqrt(S(15));
@@ -28,7 +29,8 @@ Outcome<Device_state<S>> symplectic_step(const Device_parameters<S>& parameters,
   const V momentum = now->mass * state.rate;
   V slopes[3], forces[3]; // dtheta/dt and d(momentum)/dt at the stages
   Device_pose<S> poses[3];
-  const V force = now->coriolis.transpose() * state.rate - now->gravity + torque(state.pose, state.rate, time) + joint_friction(parameters, state.rate);
+  const V force = now->coriolis.transpose() * state.rate - now->gravity + torque(state.pose, state.rate, time) +
+                  joint_friction(parameters, state.rate);
   for (int i = 0; i < 3; ++i)
     slopes[i] = state.rate, forces[i] = force, poses[i] = state.pose;
   S previous_change(0);
@@ -40,11 +42,13 @@ Outcome<Device_state<S>> symplectic_step(const Device_parameters<S>& parameters,
       V turned = V::Zero(), pushed = V::Zero();
       for (int j = 0; j < 3; ++j)
         turned += matrix[i][j] * slopes[j], pushed += matrix[i][j] * forces[j];
-      const Outcome<Device_pose<S>> pose = forward_kinematics(parameters, V(state.pose.theta + step * turned), poses[i]);
+      const Outcome<Device_pose<S>> pose =
+          forward_kinematics(parameters, V(state.pose.theta + step * turned), poses[i]);
       if (!pose)
         return Outcome<Device_state<S>>(pose.status(), pose.shortfall());
       poses[i] = *pose;
-      // The mass matrix does not depend on the rate, but the forces do: the rate that belongs to the momentum comes first.
+      // The mass matrix does not depend on the rate, but the forces do: the rate that belongs to the momentum comes
+      // first.
       Outcome<Dynamics_terms<S>> terms = dynamics(parameters, model, poses[i], slopes[i]);
       if (!terms)
         return Outcome<Device_state<S>>(terms.status(), terms.shortfall());
@@ -52,7 +56,9 @@ Outcome<Device_state<S>> symplectic_step(const Device_parameters<S>& parameters,
       terms = dynamics(parameters, model, poses[i], new_slopes[i]);
       if (!terms)
         return Outcome<Device_state<S>>(terms.status(), terms.shortfall());
-      new_forces[i] = terms->coriolis.transpose() * new_slopes[i] - terms->gravity + torque(poses[i], new_slopes[i], S(time + nodes[i] * step)) + joint_friction(parameters, new_slopes[i]);
+      new_forces[i] = terms->coriolis.transpose() * new_slopes[i] - terms->gravity +
+                      torque(poses[i], new_slopes[i], S(time + nodes[i] * step)) +
+                      joint_friction(parameters, new_slopes[i]);
       const S turn = internal::largest_magnitude(V(step * (new_slopes[i] - slopes[i])));
       change = turn > change ? turn : change;
     }

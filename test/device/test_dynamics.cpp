@@ -33,7 +33,8 @@ template <class F> int for_random_states(int tries, unsigned seed_of_population,
   return used;
 }
 
-double energy(const Device_parameters<double>& parameters, Dynamics_model model, const Device_pose<double>& pose, const Vector& rate) {
+double energy(const Device_parameters<double>& parameters, Dynamics_model model, const Device_pose<double>& pose,
+              const Vector& rate) {
   const auto terms = dynamics(parameters, model, pose, rate);
   return terms->kinetic + terms->potential;
 }
@@ -44,15 +45,16 @@ BOOST_AUTO_TEST_SUITE(device_dynamics)
 
 BOOST_AUTO_TEST_CASE(spatial_model_agrees_with_a_constrained_simulation_in_maximal_coordinates) {
   double worst = 0;
-  const int used = for_random_states(400, seed, [&](const auto& parameters, const auto& pose, const Vector& rate, Random& random) {
-    const Vector torque = random_vector(random, 0.05);
-    const Vector expected = maximal_coordinates::joint_accelerations(parameters, pose, rate, torque);
-    const auto found = forward_dynamics(parameters, Dynamics_model::spatial, pose, rate, torque);
-    BOOST_REQUIRE(static_cast<bool>(found));
-    worst = std::max(worst, (found->acceleration - expected).norm() / expected.norm());
-    const auto back = spatial_inverse_dynamics(parameters, pose, rate, found->acceleration);
-    BOOST_TEST((back->torque - torque).norm() < 1e-12);
-  });
+  const int used =
+      for_random_states(400, seed, [&](const auto& parameters, const auto& pose, const Vector& rate, Random& random) {
+        const Vector torque = random_vector(random, 0.05);
+        const Vector expected = maximal_coordinates::joint_accelerations(parameters, pose, rate, torque);
+        const auto found = forward_dynamics(parameters, Dynamics_model::spatial, pose, rate, torque);
+        BOOST_REQUIRE(static_cast<bool>(found));
+        worst = std::max(worst, (found->acceleration - expected).norm() / expected.norm());
+        const auto back = spatial_inverse_dynamics(parameters, pose, rate, found->acceleration);
+        BOOST_TEST((back->torque - torque).norm() < 1e-12);
+      });
   BOOST_TEST_MESSAGE(used << " states, worst relative difference of accelerations " << worst);
   BOOST_TEST(used > 200);
   BOOST_TEST(worst < 1e-10);
@@ -60,36 +62,45 @@ BOOST_AUTO_TEST_CASE(spatial_model_agrees_with_a_constrained_simulation_in_maxim
 
 BOOST_AUTO_TEST_CASE(mass_coriolis_gravity_and_power_are_those_of_a_mechanical_system) {
   double worst_rate = 0, worst_gravity = 0, worst_power = 0;
-  const int used = for_random_states(300, seed + 1, [&](const auto& parameters, const auto& pose, const Vector& rate, Random& random) {
-    for (Dynamics_model model : {Dynamics_model::spatial, Dynamics_model::planar}) {
-      const auto terms = dynamics(parameters, model, pose, rate);
-      BOOST_REQUIRE(static_cast<bool>(terms));
-      BOOST_TEST((terms->mass - terms->mass.transpose()).norm() == 0);
-      BOOST_TEST((Eigen::SelfAdjointEigenSolver<Matrix>(terms->mass).eigenvalues().minCoeff() > 0));
-      const double h = 1e-5;
-      Matrix mass_rate = Matrix::Zero();
-      Vector slope;
-      for (int joint = 0; joint < 3; ++joint) {
-        Vector theta = pose.theta;
-        theta[joint] += h;
-        const auto ahead = forward_kinematics(parameters, theta, pose);
-        theta[joint] -= 2 * h;
-        const auto behind = forward_kinematics(parameters, theta, pose);
-        const auto after = dynamics(parameters, model, *ahead, Vector(Vector::Zero())), before = dynamics(parameters, model, *behind, Vector(Vector::Zero()));
-        mass_rate += (after->mass - before->mass) / (2 * h) * rate[joint];
-        slope[joint] = (after->potential - before->potential) / (2 * h);
-      }
-      worst_rate = std::max(worst_rate, (mass_rate - terms->coriolis - terms->coriolis.transpose()).norm() / terms->coriolis.norm());
-      worst_gravity = std::max(worst_gravity, (slope - terms->gravity).norm() / terms->gravity.norm());
-      const Vector torque = random_vector(random, 0.05), acceleration = terms->acceleration(rate, torque);
-      const double t = 1e-6; // power balance: dE/dt along the motion is what the motors put in
-      const auto later = forward_kinematics(parameters, Vector(pose.theta + t * rate + t * t / 2 * acceleration), pose);
-      const auto earlier = forward_kinematics(parameters, Vector(pose.theta - t * rate + t * t / 2 * acceleration), pose);
-      const double power = (energy(parameters, model, *later, rate + t * acceleration) - energy(parameters, model, *earlier, rate - t * acceleration)) / (2 * t);
-      worst_power = std::max(worst_power, std::abs(power - torque.dot(rate)) / (std::abs(torque.dot(rate)) + rate.norm() * terms->gravity.norm()));
-    }
-  });
-  BOOST_TEST_MESSAGE(used << " states; dM/dt - C - C^T " << worst_rate << ", gravity - grad P " << worst_gravity << ", power " << worst_power << " (relative)");
+  const int used = for_random_states(
+      300, seed + 1, [&](const auto& parameters, const auto& pose, const Vector& rate, Random& random) {
+        for (Dynamics_model model : {Dynamics_model::spatial, Dynamics_model::planar}) {
+          const auto terms = dynamics(parameters, model, pose, rate);
+          BOOST_REQUIRE(static_cast<bool>(terms));
+          BOOST_TEST((terms->mass - terms->mass.transpose()).norm() == 0);
+          BOOST_TEST((Eigen::SelfAdjointEigenSolver<Matrix>(terms->mass).eigenvalues().minCoeff() > 0));
+          const double h = 1e-5;
+          Matrix mass_rate = Matrix::Zero();
+          Vector slope;
+          for (int joint = 0; joint < 3; ++joint) {
+            Vector theta = pose.theta;
+            theta[joint] += h;
+            const auto ahead = forward_kinematics(parameters, theta, pose);
+            theta[joint] -= 2 * h;
+            const auto behind = forward_kinematics(parameters, theta, pose);
+            const auto after = dynamics(parameters, model, *ahead, Vector(Vector::Zero())),
+                       before = dynamics(parameters, model, *behind, Vector(Vector::Zero()));
+            mass_rate += (after->mass - before->mass) / (2 * h) * rate[joint];
+            slope[joint] = (after->potential - before->potential) / (2 * h);
+          }
+          worst_rate = std::max(worst_rate, (mass_rate - terms->coriolis - terms->coriolis.transpose()).norm() /
+                                                terms->coriolis.norm());
+          worst_gravity = std::max(worst_gravity, (slope - terms->gravity).norm() / terms->gravity.norm());
+          const Vector torque = random_vector(random, 0.05), acceleration = terms->acceleration(rate, torque);
+          const double t = 1e-6; // power balance: dE/dt along the motion is what the motors put in
+          const auto later =
+              forward_kinematics(parameters, Vector(pose.theta + t * rate + t * t / 2 * acceleration), pose);
+          const auto earlier =
+              forward_kinematics(parameters, Vector(pose.theta - t * rate + t * t / 2 * acceleration), pose);
+          const double power = (energy(parameters, model, *later, rate + t * acceleration) -
+                                energy(parameters, model, *earlier, rate - t * acceleration)) /
+                               (2 * t);
+          worst_power = std::max(worst_power, std::abs(power - torque.dot(rate)) /
+                                                  (std::abs(torque.dot(rate)) + rate.norm() * terms->gravity.norm()));
+        }
+      });
+  BOOST_TEST_MESSAGE(used << " states; dM/dt - C - C^T " << worst_rate << ", gravity - grad P " << worst_gravity
+                          << ", power " << worst_power << " (relative)");
   BOOST_TEST(worst_rate < 1e-6);
   BOOST_TEST(worst_gravity < 1e-7);
   BOOST_TEST(worst_power < 1e-6);
@@ -98,14 +109,17 @@ BOOST_AUTO_TEST_CASE(mass_coriolis_gravity_and_power_are_those_of_a_mechanical_s
 BOOST_AUTO_TEST_CASE(runge_kutta_is_of_fourth_order_and_the_symplectic_step_of_sixth) {
   const Device_parameters<double> parameters(named_design<double>(Named_design::D1, Device_form::general));
   const Vector rest(1.1, 1.1, 1.1);
-  const auto spring = [&](const Device_pose<double>& pose, const Vector&, double) { return Vector(-0.2 * (pose.theta - rest)); };
+  const auto spring = [&](const Device_pose<double>& pose, const Vector&, double) {
+    return Vector(-0.2 * (pose.theta - rest));
+  };
   const Device_state<double> start{*forward_kinematics(parameters, Vector(1.08, 1.22, 0.98)), Vector(1.5, -1, 0.7)};
   auto end = [&](int steps, bool symplectic) {
     Device_state<double> state = start;
     for (int k = 0; k < steps; ++k) {
       const double step = 0.064 / steps;
-      const auto next = symplectic ? symplectic_step(parameters, Dynamics_model::spatial, state, k * step, step, spring)
-                                   : runge_kutta_step(parameters, Dynamics_model::spatial, state, k * step, step, spring);
+      const auto next = symplectic
+                            ? symplectic_step(parameters, Dynamics_model::spatial, state, k * step, step, spring)
+                            : runge_kutta_step(parameters, Dynamics_model::spatial, state, k * step, step, spring);
       BOOST_REQUIRE(static_cast<bool>(next));
       state = *next;
     }
@@ -114,7 +128,8 @@ BOOST_AUTO_TEST_CASE(runge_kutta_is_of_fourth_order_and_the_symplectic_step_of_s
   const Vector truth = end(256, true);
   const double coarse = (end(16, false) - truth).norm(), fine = (end(32, false) - truth).norm();
   const double coarse_6 = (end(8, true) - truth).norm(), fine_6 = (end(16, true) - truth).norm();
-  BOOST_TEST_MESSAGE("Runge-Kutta: order " << std::log2(coarse / fine) << ", error " << fine << "; symplectic: order " << std::log2(coarse_6 / fine_6) << ", error " << fine_6);
+  BOOST_TEST_MESSAGE("Runge-Kutta: order " << std::log2(coarse / fine) << ", error " << fine << "; symplectic: order "
+                                           << std::log2(coarse_6 / fine_6) << ", error " << fine_6);
   BOOST_TEST(std::log2(coarse / fine) > 3.7);
   BOOST_TEST(std::log2(coarse / fine) < 4.6);
   BOOST_TEST(std::log2(coarse_6 / fine_6) > 5.5);
@@ -125,9 +140,13 @@ BOOST_AUTO_TEST_CASE(energy_and_constraints_over_ten_seconds_on_springs) {
     for (Dynamics_model model : {Dynamics_model::spatial, Dynamics_model::planar}) {
       const Device_parameters<double> parameters(named_design<double>(Named_design::D1, form));
       const Vector rest(1.1, 1.1, 1.1);
-      const auto spring = [&](const Device_pose<double>& pose, const Vector&, double) { return Vector(-0.2 * (pose.theta - rest)); };
+      const auto spring = [&](const Device_pose<double>& pose, const Vector&, double) {
+        return Vector(-0.2 * (pose.theta - rest));
+      };
       Device_state<double> state{*forward_kinematics(parameters, Vector(1.08, 1.22, 0.98)), Vector(1.5, -1, 0.7)};
-      auto total = [&] { return energy(parameters, model, state.pose, state.rate) + 0.1 * (state.pose.theta - rest).squaredNorm(); };
+      auto total = [&] {
+        return energy(parameters, model, state.pose, state.rate) + 0.1 * (state.pose.theta - rest).squaredNorm();
+      };
       const double before = total();
       double drift = 0, constraint = 0;
       for (int k = 0; k < 10000; ++k) {
@@ -136,11 +155,14 @@ BOOST_AUTO_TEST_CASE(energy_and_constraints_over_ten_seconds_on_springs) {
         state = *next;
         if (k % 10 == 0 || k == 9999) {
           drift = std::max(drift, std::abs(total() - before) / std::abs(before));
-          constraint = std::max(constraint, nine_equation_residual(parameters, state.pose.elbows, state.pose.joints).cwiseAbs().maxCoeff());
+          constraint =
+              std::max(constraint,
+                       nine_equation_residual(parameters, state.pose.elbows, state.pose.joints).cwiseAbs().maxCoeff());
         }
       }
-      BOOST_TEST_MESSAGE((form == Device_form::general ? "general" : "di-tetrahedral") << (model == Dynamics_model::spatial ? ", spatial" : ", planar")
-                         << ": relative energy drift " << drift << ", constraint residual " << constraint);
+      BOOST_TEST_MESSAGE((form == Device_form::general ? "general" : "di-tetrahedral")
+                         << (model == Dynamics_model::spatial ? ", spatial" : ", planar") << ": relative energy drift "
+                         << drift << ", constraint residual " << constraint);
       BOOST_TEST(drift <= 1e-10);
       BOOST_TEST(constraint < 1e-14);
     }
@@ -152,18 +174,23 @@ BOOST_AUTO_TEST_CASE(reference_trajectory) {
     return;
   std::ifstream file(*path);
   const nlohmann::json reference = nlohmann::json::parse(file);
-  auto vector = [](const nlohmann::json& j) { return Vector(j[0].get<double>(), j[1].get<double>(), j[2].get<double>()); };
+  auto vector = [](const nlohmann::json& j) {
+    return Vector(j[0].get<double>(), j[1].get<double>(), j[2].get<double>());
+  };
   for (const auto& t : reference["trajectories"]) {
     const auto& p = t["params"];
     Device_description<double> d;
     d.form = p["form"] == "general" ? Device_form::general : Device_form::ditetrahedral;
     d.base_radius = p["R"], d.primary_length = p["l1"], d.secondary_length = p["l2"], d.platform_radius = p["r"];
-    d.primary_mass = p["m1"], d.secondary_mass = p["m2"], d.platform_mass = p["M"], d.rotor_inertia = p["Jm"], d.gravity = p["g"];
+    d.primary_mass = p["m1"], d.secondary_mass = p["m2"], d.platform_mass = p["M"], d.rotor_inertia = p["Jm"],
+    d.gravity = p["g"];
     d.platform_inertia = vector(p["I"]);
     const Device_parameters<double> parameters(d);
     const double stiffness = t["k"];
     const Vector rest = vector(t["theta_ref"]);
-    const auto spring = [&](const Device_pose<double>& pose, const Vector&, double) { return Vector(-stiffness * (pose.theta - rest)); };
+    const auto spring = [&](const Device_pose<double>& pose, const Vector&, double) {
+      return Vector(-stiffness * (pose.theta - rest));
+    };
     const auto model = t["model"] == "paper" ? Dynamics_model::planar : Dynamics_model::spatial;
     Device_state<double> state{*forward_kinematics(parameters, vector(t["theta0"])), vector(t["thetad0"])};
     double now = 0;

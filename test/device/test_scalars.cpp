@@ -16,9 +16,12 @@ BOOST_AUTO_TEST_CASE(every_scalar_solves_the_same_device) {
     const Device_description<double> design = named_design<double>(Named_design::D1, form);
     const Device_vector<double> theta(0.75, 1.0, 1.25);
     const auto pose = forward_kinematics(Device_parameters<double>(design), theta);
-    const auto coarse = forward_kinematics(Device_parameters<float>(description_as<float>(design)), vector_as<float>(theta));
-    const auto fine = forward_kinematics(Device_parameters<long double>(description_as<long double>(design)), vector_as<long double>(theta));
-    const auto exact = forward_kinematics(Device_parameters<Precise>(description_as<Precise>(design)), vector_as<Precise>(theta));
+    const auto coarse =
+        forward_kinematics(Device_parameters<float>(description_as<float>(design)), vector_as<float>(theta));
+    const auto fine = forward_kinematics(Device_parameters<long double>(description_as<long double>(design)),
+                                         vector_as<long double>(theta));
+    const auto exact =
+        forward_kinematics(Device_parameters<Precise>(description_as<Precise>(design)), vector_as<Precise>(theta));
     BOOST_REQUIRE((pose && coarse && fine && exact));
     for (int k = 0; k < 3; ++k) {
       BOOST_TEST(std::abs(coarse->position[k] - pose->position[k]) < 1e-7);
@@ -52,7 +55,8 @@ BOOST_AUTO_TEST_CASE(derivatives_by_automatic_differentiation_are_the_jacobian) 
         continue;
       ++used;
       for (int i = 0; i < 3; ++i)
-        BOOST_TEST((derived->position[i].derivatives().transpose() - map->linear.row(i)).norm() <= 1e-11 * map->linear.norm());
+        BOOST_TEST((derived->position[i].derivatives().transpose() - map->linear.row(i)).norm() <=
+                   1e-11 * map->linear.norm());
     }
     BOOST_TEST(used > 100);
   }

@@ -223,10 +223,10 @@ int main(int argc, char** argv) {
     else if (std::strncmp(argv[i], "--largest=", 10) == 0)
       largest = std::strtod(argv[i] + 10, nullptr);
     else if (argv[i][0] == '-') {
-      std::fprintf(
-          stderr,
-          "usage: fuzz_scripts [--runs=N] [--seed=N] [--largest=X] | FILE...\nWith files: tries these. A fault is kept in %s.\n",
-          fault_file);
+      std::fprintf(stderr,
+                   "usage: fuzz_scripts [--runs=N] [--seed=N] [--largest=X] | FILE...\nWith files: tries these. A "
+                   "fault is kept in %s.\n",
+                   fault_file);
       return 2;
     } else
       files.push_back(argv[i]);

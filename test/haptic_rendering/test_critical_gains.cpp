@@ -81,10 +81,11 @@ BOOST_AUTO_TEST_CASE(a_free_mass_swings_by_itself_beyond_the_critical_gains_and_
     for (const double share : {0.97, 1.03}) {
       Acceleration_estimate acceleration(tick);
       Velocity_estimate velocity(tick);
-      const double mass =
-          growth(tick, delay, 0, [&](double step, double) { return -share * ratio * acceleration.add(Vector3d(step, 0, 0))[0]; });
-      const double damper =
-          growth(tick, delay, 0, [&](double step, double) { return -share * rate * velocity.add(Vector3d(step, 0, 0))[0]; });
+      const double mass = growth(tick, delay, 0, [&](double step, double) {
+        return -share * ratio * acceleration.add(Vector3d(step, 0, 0))[0];
+      });
+      const double damper = growth(
+          tick, delay, 0, [&](double step, double) { return -share * rate * velocity.add(Vector3d(step, 0, 0))[0]; });
       const double raw_damper = growth(tick, delay, 0, [&](double step, double) { return -share * raw * step / tick; });
       for (const double grown : {mass, damper, raw_damper})
         BOOST_TEST((grown < 1) == (share < 1),

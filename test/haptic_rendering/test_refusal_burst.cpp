@@ -68,7 +68,8 @@ BOOST_AUTO_TEST_CASE(a_refused_edit_moves_the_handle_by_less_than_a_tenth_of_a_m
         const Simulated_hand hands[] = {Simulated_hand::finger(), Simulated_hand::arm(), open_hand};
         Simulated_device with(parameters, *pose, hands[round % 3], path, 1 / rate, 0), without = with;
         Handle_motion handle(parameters, *pose, 1 / rate), other = handle;
-        Force_renderer renderer(Force_limits(), Virtual_coupling(), Gravity_compensation::spatial, 1 / rate), quiet = renderer;
+        Force_renderer renderer(Force_limits(), Virtual_coupling(), Gravity_compensation::spatial, 1 / rate),
+            quiet = renderer;
         for (int k = 0; k < 0.5 * rate; ++k)
           handle.follow(pose->theta), renderer.render(handle, Vector3d::Zero()); // the ramp is over
         renderer.refuse(handle, random_direction(random));

@@ -121,7 +121,8 @@ BOOST_AUTO_TEST_CASE(moves_by_value_are_told_as_their_legs) {
   std::uniform_real_distribution<double> number(-1, 1);
   std::size_t slides = 0;
   for (int k = 0; k < 100; ++k) { // through the ball, most of them
-    const Edit wanted = Edit::of(Edit_kind::move, {random() % 160, 0, 0}, {number(random), number(random), number(random)});
+    const Edit wanted =
+        Edit::of(Edit_kind::move, {random() % 160, 0, 0}, {number(random), number(random), number(random)});
     const auto made = bench.tool.edit(wanted);
     slides += !made.edit.legs.empty();
   }

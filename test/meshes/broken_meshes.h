@@ -20,13 +20,15 @@ inline Triangle_list ball_with_a_hole() {
   Triangle_list list = icosphere(3);
   list.faces.erase(std::remove_if(list.faces.begin(), list.faces.end(),
                                   [&](const auto& f) {
-                                    return std::all_of(f.begin(), f.end(), [&](std::size_t v) { return list.points[v].z() > 0.8; });
+                                    return std::all_of(f.begin(), f.end(),
+                                                       [&](std::size_t v) { return list.points[v].z() > 0.8; });
                                   }),
                    list.faces.end());
   return list;
 }
 
-/// Each face has corners of its own, each coordinate off by at most `gap` / 4: corners of one vertex are less than `gap` apart.
+/// Each face has corners of its own, each coordinate off by at most `gap` / 4: corners of one vertex are less than
+/// `gap` apart.
 inline Triangle_list soup_with_gaps(const Triangle_list& whole, double gap, std::uint32_t seed = 7) {
   std::mt19937 random(seed);
   const auto off = [&] { return gap / 4 * (random() / 2147483648.0 - 1); };
@@ -83,8 +85,8 @@ inline Triangle_list stray_vertices() {
   return list;
 }
 
-/// A box of cells, with a face that has a corner twice, and an edge into whose middle a vertex was put on one side only,
-/// with a triangle of no area between.
+/// A box of cells, with a face that has a corner twice, and an edge into whose middle a vertex was put on one side
+/// only, with a triangle of no area between.
 inline Triangle_list degenerate_faces() {
   Triangle_list list = box(3, 3);
   const auto f = list.faces[0];

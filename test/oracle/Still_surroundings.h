@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_TEST_STILL_SURROUNDINGS_H
 
 /// \file
-/// All that stands still while one vertex of a mesh is dragged: whether a straight motion of the vertex is free, and which
-/// facets are near it. Without broad phase, checklists or contacts of the response.
+/// All that stands still while one vertex of a mesh is dragged: whether a straight motion of the vertex is free, and
+/// which facets are near it. Without broad phase, checklists or contacts of the response.
 
 #include "oracle/sweep_oracle.h"
 
@@ -80,17 +80,19 @@ public:
   /// The same by the oracle of the sweeps: linear feasibility over the integers.
   bool is_free_by_oracle(const Point_3& s, const Point_3& t) const {
     return visit_pairs(s, t, [&](Sweep_kind kind, const Point_3& a, const Point_3& b, const Point_3& c) {
-      const Sweep_coordinates x = {s.x(), s.y(), s.z(), t.x(), t.y(), t.z(), a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()};
+      const Sweep_coordinates x = {s.x(), s.y(), s.z(), t.x(), t.y(), t.z(), a.x(), a.y(),
+                                   a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()};
       return !first_meeting(kind, x).has_value();
     });
   }
 
-  /// The facets whose plane is at most `reach` from x and that x, seen along the normal, is at most about `reach` out of.
-  /// Floating point, 64 bits of mantissa: it proposes motions that is_free() then decides.
+  /// The facets whose plane is at most `reach` from x and that x, seen along the normal, is at most about `reach` out
+  /// of. Floating point, 64 bits of mantissa: it proposes motions that is_free() then decides.
   std::vector<Facet_near> facets_near(const Point_3& x, double reach) const {
     std::vector<Facet_near> found;
     const auto add = [&](char kind, const std::array<std::size_t, 3>& corners) {
-      const Vector a = minus(points_[corners[0]], x), b = minus(points_[corners[1]], x), c = minus(points_[corners[2]], x);
+      const Vector a = minus(points_[corners[0]], x), b = minus(points_[corners[1]], x),
+                   c = minus(points_[corners[2]], x);
       // Where x meets the plane: as a + s (b - a) + t (c - a).
       const Vector ab = minus(b, a), ac = minus(c, a);
       Vector n = cross(ab, ac);
@@ -106,8 +108,12 @@ public:
       const long double slack = reach / std::fmin(length(ab), length(ac)) * 4;
       bool inside = false;
       switch (kind) {
-      case 'f': inside = s >= -slack && t >= -slack && s + t <= 1 + slack; break;
-      case 'e': inside = s >= -slack && t >= -slack && s + t >= 1 - slack; break; // V, A, B
+      case 'f':
+        inside = s >= -slack && t >= -slack && s + t <= 1 + slack;
+        break;
+      case 'e':
+        inside = s >= -slack && t >= -slack && s + t >= 1 - slack;
+        break; // V, A, B
       default: // G, I, A: x = A + (s + t - 1) (A - G) - s (A - I)
         inside = -s >= -slack && s + t - 1 >= -slack;
       }
@@ -168,7 +174,8 @@ private:
   std::vector<std::size_t> vertices_;
 
   static Vector minus(const Point_3& a, const Point_3& b) {
-    return {static_cast<long double>(a.x()) - b.x(), static_cast<long double>(a.y()) - b.y(), static_cast<long double>(a.z()) - b.z()};
+    return {static_cast<long double>(a.x()) - b.x(), static_cast<long double>(a.y()) - b.y(),
+            static_cast<long double>(a.z()) - b.z()};
   }
   static Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
   static Vector cross(const Vector& a, const Vector& b) {
@@ -198,8 +205,8 @@ private:
     return true;
   }
 
-  /// Calls `goes_on(kind, three points)` for each pair of features that could meet, until it returns false; tells whether
-  /// it never did. Left out are only pairs with a common vertex that makes their meeting none.
+  /// Calls `goes_on(kind, three points)` for each pair of features that could meet, until it returns false; tells
+  /// whether it never did. Left out are only pairs with a common vertex that makes their meeting none.
   template <class Visitor>
   bool visit_pairs(const Point_3& s, const Point_3& t, const Visitor& goes_on) const {
     const Box path = Box(s).include(t);

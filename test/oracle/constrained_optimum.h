@@ -20,7 +20,9 @@ namespace haptic_sculpt::test {
 
 using Rational_point = std::array<mpq_class, 3>;
 
-inline Rational_point rational(const std::array<double, 3>& p) { return {mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])}; }
+inline Rational_point rational(const std::array<double, 3>& p) {
+  return {mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])};
+}
 
 inline mpq_class product(const Rational_point& a, const Rational_point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -46,15 +48,18 @@ inline double distance(const Rational_point& a, const Rational_point& b) {
   return square_root(product(d, d)).get_d();
 }
 
-/// The side of the plane through three points on which orientation(plane[0], plane[1], plane[2], y) has the sign `side`.
+/// The side of the plane through three points on which orientation(plane[0], plane[1], plane[2], y) has the sign
+/// `side`.
 struct Half_space {
   std::array<std::array<double, 3>, 3> plane;
   int side;
 };
 
-/// { y : n_i . (y - a_i) >= clearance |n_i| for all i }, n_i the exact normal of half-space i, and nearest points in it.
+/// { y : n_i . (y - a_i) >= clearance |n_i| for all i }, n_i the exact normal of half-space i, and nearest points in
+/// it.
 ///
-/// The offsets `clearance` |n_i| are square roots; they are rounded below by a part of 2^-200, everything else is exact.
+/// The offsets `clearance` |n_i| are square roots; they are rounded below by a part of 2^-200, everything else is
+/// exact.
 class Offset_half_spaces {
 public:
   struct Optimum {
@@ -88,9 +93,9 @@ public:
   /// Whether y keeps the clearance from all planes, exactly.
   bool contains(const Rational_point& y) const { return !most_violated(y).has_value(); }
 
-  /// The unique point nearest to the target. Starts with no constraint, and adds the one that its optimum violates most and
-  /// forgets those that do not push, until none is violated: the distance grows every time, so that ends.
-  /// \throw std::logic_error where the intersection is empty
+  /// The unique point nearest to the target. Starts with no constraint, and adds the one that its optimum violates most
+  /// and forgets those that do not push, until none is violated: the distance grows every time, so that ends. \throw
+  /// std::logic_error where the intersection is empty
   Optimum nearest(const std::array<double, 3>& target) const {
     const Rational_point t = rational(target);
     Optimum best{t, {}};
@@ -102,7 +107,8 @@ public:
     return best;
   }
 
-  /// The least singular value of the normals of the given planes: how well they determine a point. \pre 1 to 3, independent
+  /// The least singular value of the normals of the given planes: how well they determine a point. \pre 1 to 3,
+  /// independent
   double least_singular_value(const std::vector<std::size_t>& active) const {
     // Columns of length 1, so the least eigenvalue of their Gram matrix is in [0, 1]: bisected by Sylvester's inertia.
     double low = 0, high = 1;

@@ -97,7 +97,8 @@ Flip_obstacle flip_obstacle(const std::vector<Point<Integer>>& points, const std
     return false;
   };
   for (int p = 0; p < static_cast<int>(points.size()); ++p)
-    if (p != a && p != b && p != c && p != d && !is_apart(std::array<int, 1>{p}) && in_hull_of_four(signs, p, a, b, c, d))
+    if (p != a && p != b && p != c && p != d && !is_apart(std::array<int, 1>{p}) &&
+        in_hull_of_four(signs, p, a, b, c, d))
       return Flip_obstacle::vertex_inside;
   for (const Corner_indices& face : faces)
     if (!has_both(face, a, b) && !is_apart(face) &&

@@ -15,9 +15,9 @@ namespace haptic_sculpt::test {
 using Linear_form = std::vector<mpq_class>;
 using Rational_point = std::array<mpq_class, 3>;
 
-/// Whether some x makes every `equation` zero and every `inequality` non-negative. Equations are solved for one variable
-/// and substituted; inequalities are eliminated variable by variable, each lower bound against each upper (Fourier and
-/// Motzkin). Slow, and as plain as it can be: it checks the oracle.
+/// Whether some x makes every `equation` zero and every `inequality` non-negative. Equations are solved for one
+/// variable and substituted; inequalities are eliminated variable by variable, each lower bound against each upper
+/// (Fourier and Motzkin). Slow, and as plain as it can be: it checks the oracle.
 inline bool is_feasible(std::vector<Linear_form> equations, std::vector<Linear_form> inequalities,
                         std::size_t variables) {
   const auto subtract_multiple = [](Linear_form& form, const Linear_form& other, const mpq_class& factor) {
@@ -88,8 +88,8 @@ inline bool swept_hulls_meet(Sweep_kind kind, const Sweep_coordinates& x) {
   return hulls_meet(p, q);
 }
 
-/// Whether the feature touches the other one when the moving vertex is at S + u (T - S): sweeps by their definition, one
-/// instant at a time. The instants at which it does are an interval, the image of a polytope under b/(a + b).
+/// Whether the feature touches the other one when the moving vertex is at S + u (T - S): sweeps by their definition,
+/// one instant at a time. The instants at which it does are an interval, the image of a polytope under b/(a + b).
 inline bool features_meet_at(Sweep_kind kind, const Sweep_coordinates& x, const mpq_class& u) {
   const Rational_point start = rational_point(x, 0), end = rational_point(x, 1);
   Rational_point moving;

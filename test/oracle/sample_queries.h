@@ -31,7 +31,9 @@ inline std::vector<Sample_query> read_sample_queries(const std::string& file) {
   std::vector<Sample_query> queries;
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
-    const auto malformed = [&] { return std::runtime_error(file + ": line " + std::to_string(line) + " is malformed"); };
+    const auto malformed = [&] {
+      return std::runtime_error(file + ": line " + std::to_string(line) + " is malformed");
+    };
     std::istringstream words(text);
     std::string kind, number, end;
     Sample_query query{line, Sweep_kind::vertex_face, {}, {}, false};

@@ -69,20 +69,21 @@ struct First_meeting {
 /// The first u in [0, 1] at which the moving feature meets the other one, or nothing if it never does.
 /// Shares neither a predicate nor a line with what it checks: it is linear feasibility over the integers.
 ///
-/// A point of the swept hull with weights a of S and b of T, a + b > 0, lies on the moving feature when the vertex is at
-/// (aS + bT)/(a + b), that is, at u = b/(a + b). With a + b = 0 it lies on the part that stands still, where the
+/// A point of the swept hull with weights a of S and b of T, a + b > 0, lies on the moving feature when the vertex is
+/// at (aS + bT)/(a + b), that is, at u = b/(a + b). With a + b = 0 it lies on the part that stands still, where the
 /// feature is at every u, 0 included.
 ///
 /// So u is to be minimised over the bounded polytope of weights, and looking at its vertices is enough:
-/// - If a + b = 0 somewhere, those points are the face on which the linear form a + b attains its minimum, and a face of
+/// - If a + b = 0 somewhere, those points are the face on which the linear form a + b attains its minimum, and a face
+/// of
 ///   a bounded polytope has a vertex; that vertex says u = 0.
-/// - Else a + b > 0 throughout, and u is continuous. For any t, { u <= t } = { b - t (a + b) <= 0 } is a half-space. Let
+/// - Else a + b > 0 throughout, and u is continuous. For any t, { u <= t } = { b - t (a + b) <= 0 } is a half-space.
+/// Let
 ///   t be the minimum: b - t (a + b) is then >= 0 on the polytope and vanishes somewhere, so it vanishes at a vertex.
 /// S = T needs nothing of its own: the two columns are equal, and the basic solutions try each of them alone.
 ///
-/// For a vertex and a face the first common point is unique, and so are its weights of A, B and C: `has_weight` then says
-/// on which face, edge or vertex of the triangle it lies.
-/// \pre the coordinates are finite
+/// For a vertex and a face the first common point is unique, and so are its weights of A, B and C: `has_weight` then
+/// says on which face, edge or vertex of the triangle it lies. \pre the coordinates are finite
 inline std::optional<First_meeting> first_meeting(Sweep_kind kind, const Sweep_coordinates& x,
                                                   Early_out early_out = Early_out::boxes) {
   if (early_out == Early_out::boxes && boxes_are_disjoint(kind, x))

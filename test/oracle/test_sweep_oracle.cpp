@@ -66,8 +66,8 @@ BOOST_AUTO_TEST_CASE(hand_worked_cases) {
 }
 
 // By definition: at the first time the features touch, just before they do not, and a miss touches at no time.
-// "Just before" is no guess. Two times that are not equal, with denominators q and q', differ by at least 1/(q q'); every
-// vertex of the polytope has a time whose denominator is a sum of two 5 x 5 minors, below 2^(3 bits + 8).
+// "Just before" is no guess. Two times that are not equal, with denominators q and q', differ by at least 1/(q q');
+// every vertex of the polytope has a time whose denominator is a sum of two 5 x 5 minors, below 2^(3 bits + 8).
 BOOST_AUTO_TEST_CASE(agrees_with_elimination_at_each_instant) {
   const auto bits_of_one_axis = [](const Sweep_coordinates& x, int axis) {
     int least = INT_MAX, most = INT_MIN;
@@ -87,7 +87,8 @@ BOOST_AUTO_TEST_CASE(agrees_with_elimination_at_each_instant) {
         const Sweep_query query = population(kind, engine);
         const std::optional<mpq_class> u = first_time(kind, query.x, Early_out::none);
         BOOST_TEST((first_time(kind, query.x) == u), hexadecimal(query.kind, query.x));
-        BOOST_TEST(swept_hulls_meet(kind, query.x) == u.has_value(), population.name << ' ' << hexadecimal(query.kind, query.x));
+        BOOST_TEST(swept_hulls_meet(kind, query.x) == u.has_value(),
+                   population.name << ' ' << hexadecimal(query.kind, query.x));
         if (!u) {
           ++misses;
           for (const mpq_class& t : {mpq_class(0), mpq_class(1), mpq_class(1, 3), mpq_class(7, 8)})
@@ -106,7 +107,8 @@ BOOST_AUTO_TEST_CASE(agrees_with_elimination_at_each_instant) {
         mpq_class step = 1;
         mpq_div_2exp(step.get_mpq_t(), step.get_mpq_t(), bits);
         before -= step;
-        BOOST_TEST(!features_meet_at(kind, query.x, before), population.name << ' ' << hexadecimal(query.kind, query.x));
+        BOOST_TEST(!features_meet_at(kind, query.x, before),
+                   population.name << ' ' << hexadecimal(query.kind, query.x));
       }
   BOOST_TEST_MESSAGE(hits << " hits and " << misses << " misses agree");
   BOOST_TEST(hits > 1000);
@@ -122,7 +124,8 @@ BOOST_AUTO_TEST_CASE(early_out_changes_nothing) {
       if (!boxes_are_disjoint(query.kind, query.x))
         continue;
       ++skipped;
-      BOOST_TEST(!first_time(query.kind, query.x, Early_out::none), population.name << ' ' << hexadecimal(query.kind, query.x));
+      BOOST_TEST(!first_time(query.kind, query.x, Early_out::none),
+                 population.name << ' ' << hexadecimal(query.kind, query.x));
     }
   BOOST_TEST_MESSAGE(skipped << " queries end at their boxes, all misses");
   BOOST_TEST(skipped > 1000);
@@ -157,9 +160,9 @@ BOOST_AUTO_TEST_CASE(malformed_files_are_refused) {
     return std::string(e.what()).find("line 2") != std::string::npos;
   };
   BOOST_TEST(read_with(good.substr(0, good.size() - 1)).at(1).x[9] == 0.125);
-  for (const char* line : {"XX set 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 1", "VF set 1 2 3 4 5 6 7 8 9 10 11 12 13 14 1",
-                           "VF set 1 2 3 4 5 6 7 8 9 10 11 12 13 14 1x 1", "VF set 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 1 1",
-                           ""})
+  for (const char* line :
+       {"XX set 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 1", "VF set 1 2 3 4 5 6 7 8 9 10 11 12 13 14 1",
+        "VF set 1 2 3 4 5 6 7 8 9 10 11 12 13 14 1x 1", "VF set 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 1 1", ""})
     BOOST_CHECK_EXCEPTION(read_with(line), std::runtime_error, names_line_2);
   std::filesystem::remove(file);
   BOOST_CHECK_THROW(read_sample_queries(file.string()), std::runtime_error);

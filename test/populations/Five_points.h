@@ -68,8 +68,8 @@ inline Point combination(Portable_random& random, const Five_points& points, con
   return sum;
 }
 
-/// Moves the standing hull so that a point of the hull of `swept` falls on a point of the hull of `standing`: exactly for
-/// points of the lattice, up to rounding for others.
+/// Moves the standing hull so that a point of the hull of `swept` falls on a point of the hull of `standing`: exactly
+/// for points of the lattice, up to rounding for others.
 inline void bring_into_contact(Portable_random& random, Sweep_kind kind, Five_points& points,
                                const std::vector<int>& swept, const std::vector<int>& standing) {
   const Point target = combination(random, points, swept);

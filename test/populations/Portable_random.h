@@ -17,7 +17,9 @@ public:
   double unit() { return static_cast<double>(m_engine() >> 11) * 0x1p-53; }
   double real(double low, double high) { return low + (high - low) * unit(); }
   /// An integer of [low, high]; the bias, below 2^-40 here, does not matter.
-  int integer(int low, int high) { return low + static_cast<int>(m_engine() % static_cast<std::uint64_t>(high - low + 1)); }
+  int integer(int low, int high) {
+    return low + static_cast<int>(m_engine() % static_cast<std::uint64_t>(high - low + 1));
+  }
   /// True once in `n`.
   bool one_in(int n) { return integer(1, n) == 1; }
   double sign() { return one_in(2) ? 1 : -1; }

@@ -82,7 +82,8 @@ Five_points along_moved_edge(Sweep_kind kind, Portable_random& random) {
     return points;
   }
   // the far end, or for a moving face now and then a point between its two far corners
-  const Point far = kind == Sweep_kind::face_vertex && random.one_in(3) ? combination(random, points, {2, 3}) : points[2];
+  const Point far =
+      kind == Sweep_kind::face_vertex && random.one_in(3) ? combination(random, points, {2, 3}) : points[2];
   points[1] = start + (random.integer(-16, 32) / 16.) * (far - start);
   if (random.integer(1, 4) != 1)
     bring_into_contact(random, kind, points);

@@ -12,7 +12,8 @@ namespace haptic_sculpt::test {
 
 namespace {
 
-/// A hit for certain, a hit or a miss by less than `size`, or whatever comes: otherwise most queries would be far misses.
+/// A hit for certain, a hit or a miss by less than `size`, or whatever comes: otherwise most queries would be far
+/// misses.
 void aim_or_miss(Sweep_kind kind, Portable_random& random, Five_points& points, double size) {
   const int choice = random.integer(0, 3);
   if (choice >= 1)
@@ -85,8 +86,9 @@ bool standing_features_are_simplices(Sweep_kind kind, const Sweep_coordinates& x
     return differ(3, 4);
   thread_local std::array<mpz_class, 9> coordinate; // one scale for each axis: it keeps collinear what is
   for (int axis = 0; axis < 3; ++axis)
-    scale_to_integers({x[6 + axis], x[9 + axis], x[12 + axis]},
-                      {coordinate[axis].get_mpz_t(), coordinate[3 + axis].get_mpz_t(), coordinate[6 + axis].get_mpz_t()});
+    scale_to_integers(
+        {x[6 + axis], x[9 + axis], x[12 + axis]},
+        {coordinate[axis].get_mpz_t(), coordinate[3 + axis].get_mpz_t(), coordinate[6 + axis].get_mpz_t()});
   for (int i = 8; i >= 3; --i)
     coordinate[i] -= coordinate[i % 3]; // B - A and C - A
   for (int axis = 0; axis < 3; ++axis) {

@@ -12,8 +12,9 @@
 
 namespace haptic_sculpt::test {
 
-/// What can be seen of a mesh by numbers that last: the bits of the points by number, and the faces as corner triples that begin
-/// with the smallest, in order. Equal if and only if the meshes are, whatever slots Surface_mesh has recycled.
+/// What can be seen of a mesh by numbers that last: the bits of the points by number, and the faces as corner triples
+/// that begin with the smallest, in order. Equal if and only if the meshes are, whatever slots Surface_mesh has
+/// recycled.
 struct Mesh_snapshot {
   using Bits = std::array<std::uint64_t, 3>; ///< not doubles: 0 and -0 are different
   std::vector<std::pair<std::size_t, Bits>> points;

@@ -56,7 +56,8 @@ inline Point_3 random_grid_point(Random& random, int size) {
   return {x, y, z};
 }
 
-/// A valid mesh of 4 to 12 vertices on a small integer grid: coplanar faces, aligned edges and touching-near parts abound.
+/// A valid mesh of 4 to 12 vertices on a small integer grid: coplanar faces, aligned edges and touching-near parts
+/// abound.
 inline meshes::Triangle_list random_small_list(Random& random, int size) {
   for (;;) {
     meshes::Triangle_list list;

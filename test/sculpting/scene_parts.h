@@ -81,8 +81,8 @@ inline meshes::Triangle_list slab() {
   return list;
 }
 
-/// A block below z = 0 with a groove along y, `width` to both sides and `depth` deep. Faces 0 and 1 are the groove's left
-/// side (x < 0), faces 2 and 3 its right one.
+/// A block below z = 0 with a groove along y, `width` to both sides and `depth` deep. Faces 0 and 1 are the groove's
+/// left side (x < 0), faces 2 and 3 its right one.
 inline meshes::Triangle_list groove(double width, double depth) {
   meshes::Triangle_list list;
   constexpr double y = 8;
@@ -101,8 +101,8 @@ inline meshes::Triangle_list groove(double width, double depth) {
   return list;
 }
 
-/// A tetrahedral block below z = 0 with a three-sided pit: the rim in the plane z = 0, the bottom at `bottom`. Faces 0, 1, 2
-/// are the sides of the pit.
+/// A tetrahedral block below z = 0 with a three-sided pit: the rim in the plane z = 0, the bottom at `bottom`. Faces 0,
+/// 1, 2 are the sides of the pit.
 inline meshes::Triangle_list pit(const std::array<Point_3, 3>& rim, const Point_3& bottom) {
   meshes::Triangle_list list;
   list.points = {rim[0], rim[1], rim[2], bottom, {16, 0, 0}, {-8, 14, 0}, {-8, -14, 0}, {0, 0, -14}};
@@ -122,7 +122,8 @@ inline meshes::Triangle_list plate(std::size_t n) {
   const auto at = [&](std::size_t i, std::size_t j) { return i * (n + 1) + j; };
   for (std::size_t i = 0; i <= n; ++i)
     for (std::size_t j = 0; j <= n; ++j)
-      list.add_point(2.0 * static_cast<double>(i) / static_cast<double>(n) - 1, 2.0 * static_cast<double>(j) / static_cast<double>(n) - 1, 0);
+      list.add_point(2.0 * static_cast<double>(i) / static_cast<double>(n) - 1,
+                     2.0 * static_cast<double>(j) / static_cast<double>(n) - 1, 0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
       list.add_quadrangle(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
@@ -144,9 +145,10 @@ inline const char* name_of(Mover mover) {
   return names[static_cast<int>(mover)];
 }
 
-/// Adds to the list a vertex at `start`, alone or as the tip of a small solid whose other vertices lie around `base`, and
-/// tells its index. \param width of the base
-inline std::size_t add_mover(meshes::Triangle_list& list, Mover mover, const Point_3& start, const Point_3& base, double width) {
+/// Adds to the list a vertex at `start`, alone or as the tip of a small solid whose other vertices lie around `base`,
+/// and tells its index. \param width of the base
+inline std::size_t add_mover(meshes::Triangle_list& list, Mover mover, const Point_3& start, const Point_3& base,
+                             double width) {
   if (mover == Mover::probe)
     return list.add_point(start.x(), start.y(), start.z());
   const std::size_t valence = mover == Mover::tetrahedron ? 3 : 6;

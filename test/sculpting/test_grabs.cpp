@@ -18,7 +18,8 @@ Point_3 beside(const Mesh& mesh, Vertex_index v) { return mesh.point(v) + meshes
 } // namespace
 
 static_assert(!std::is_copy_constructible<Grab_type>::value && !std::is_copy_assignable<Grab_type>::value, "");
-static_assert(std::is_nothrow_move_constructible<Grab_type>::value && std::is_nothrow_move_assignable<Grab_type>::value, "");
+static_assert(std::is_nothrow_move_constructible<Grab_type>::value && std::is_nothrow_move_assignable<Grab_type>::value,
+              "");
 
 BOOST_AUTO_TEST_CASE(a_grab_is_stale_once_another_has_the_hand) {
   Mesh mesh = ball();

@@ -154,7 +154,8 @@ BOOST_AUTO_TEST_CASE(a_vertex_without_faces_is_refused) {
     BOOST_ERROR("a vertex without faces is no surface");
   } catch (const Invalid_surface& error) {
     BOOST_REQUIRE(error.report().number_of_faults() == 1u);
-    BOOST_TEST((error.report().isolated_vertices.at(0) == Validity_report::Vertex_index(static_cast<std::size_t>(alone))));
+    BOOST_TEST(
+        (error.report().isolated_vertices.at(0) == Validity_report::Vertex_index(static_cast<std::size_t>(alone))));
     BOOST_TEST(std::string(error.what()).find("1 vertex(es) without faces: 42") != std::string::npos);
   }
   mesh.remove_vertex(alone);

@@ -93,7 +93,9 @@ BOOST_AUTO_TEST_CASE(random_doubles_come_back) {
     const Face_soup soup = read_face_soup(folder / name);
     BOOST_TEST(soup.number_of_faces() == mesh.number_of_faces());
     BOOST_REQUIRE(soup.points.size() == mesh.number_of_vertices());
-    const auto bits = [](const auto& q) { return reading_and_writing::bits(std::vector{Face_soup::Point_3(q.x(), q.y(), q.z())}); };
+    const auto bits = [](const auto& q) {
+      return reading_and_writing::bits(std::vector{Face_soup::Point_3(q.x(), q.y(), q.z())});
+    };
     std::size_t changed = 0;
     for (const auto v : mesh.vertices())
       changed += bits(soup.points[v]) != bits(mesh.point(v));

@@ -58,8 +58,8 @@ std::size_t count_of(const Repair_report& report, Repair_kind kind, const std::s
   return sum;
 }
 
-/// The counts that hold for every report, and distances against what can be said without it: no point that has moved can
-/// have gone less far than to the nearest vertex there is.
+/// The counts that hold for every report, and distances against what can be said without it: no point that has moved
+/// can have gone less far than to the nearest vertex there is.
 void check_distances(const Face_soup& before, const Face_soup& after, const Repair_report& report) {
   std::vector<bool> used(before.points.size(), false);
   for (const auto corner : before.corners)
@@ -205,7 +205,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_repaired_is_left_as_it_is) {
   BOOST_CHECK_THROW(repair(soup), haptic_sculpt::Error);
   soup = soup_of(list);
   BOOST_CHECK_THROW(repair(soup, Repair_parameters().gap(-1)), haptic_sculpt::Out_of_range);
-  BOOST_CHECK_THROW(repair(soup, Repair_parameters().gap(std::numeric_limits<double>::quiet_NaN())), haptic_sculpt::Out_of_range);
+  BOOST_CHECK_THROW(repair(soup, Repair_parameters().gap(std::numeric_limits<double>::quiet_NaN())),
+                    haptic_sculpt::Out_of_range);
   // A sheet, with its other side upon it, holds nothing.
   Triangle_list sheet;
   sheet.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -302,7 +303,8 @@ BOOST_AUTO_TEST_CASE(components_are_oriented_and_nothing_else) {
   BOOST_TEST(validate(mesh).inside_out_components.empty());
   BOOST_TEST(reading_and_writing::bits(after.points) == reading_and_writing::bits(before.points));
   for (std::size_t f = 0; f < before.number_of_faces(); ++f) {
-    auto a = std::set<std::uint32_t>(before.begin(f), before.end(f)), b = std::set<std::uint32_t>(after.begin(f), after.end(f));
+    auto a = std::set<std::uint32_t>(before.begin(f), before.end(f)),
+         b = std::set<std::uint32_t>(after.begin(f), after.end(f));
     BOOST_TEST(a == b);
     if (f < 320)
       BOOST_TEST(std::equal(before.begin(f), before.end(f), after.begin(f)));

@@ -15,12 +15,16 @@
 
 namespace haptic_sculpt::benchmark {
 
-/// What one would do with CGAL alone: move the vertex, then see whether the surface meets itself. Looks at the end of a motion only,
-/// so what happened on the way is missed; how often, is counted against first_impact().
+/// What one would do with CGAL alone: move the vertex, then see whether the surface meets itself. Looks at the end of a
+/// motion only, so what happened on the way is missed; how often, is counted against first_impact().
 class End_state_peers {
 public:
   End_state_peers(const Workload_mesh& scene, std::uint64_t seed)
-    : name_(scene.name), mesh_(scene.mesh), edge_(scene.edge), seed_(seed), stale_(mesh_.faces_begin(), mesh_.faces_end(), mesh_) {
+      : name_(scene.name)
+      , mesh_(scene.mesh)
+      , edge_(scene.edge)
+      , seed_(seed)
+      , stale_(mesh_.faces_begin(), mesh_.faces_end(), mesh_) {
     stale_.build();
   }
 
@@ -62,7 +66,8 @@ private:
       const Vertex_index v = random.vertex(mesh_);
       const Point_3 before = mesh_.point(v);
       const Vector way = internal::advanced(random.direction(), -1.5, normal_at(mesh_, v));
-      const Point_3 target = to_point(internal::advanced(vertex_coordinates(mesh_, v), reach * edge_, internal::normalized(way)));
+      const Point_3 target =
+          to_point(internal::advanced(vertex_coordinates(mesh_, v), reach * edge_, internal::normalized(way)));
       const bool truth = first_impact(mesh_, v, target).has_value();
       star_.collect(mesh_, v);
       mesh_.point(v) = target;

@@ -57,8 +57,9 @@ public:
     double sum = 0;
     for (const double t : times_)
       sum += t;
-    return {{"count", times_.size()},      {"median_ns", quantile(0.5)}, {"mean_ns", sum / static_cast<double>(times_.size())},
-            {"p99_ns", quantile(0.99)}, {"p999_ns", quantile(0.999)}, {"max_ns", quantile(1)}};
+    return {
+        {"count", times_.size()},   {"median_ns", quantile(0.5)}, {"mean_ns", sum / static_cast<double>(times_.size())},
+        {"p99_ns", quantile(0.99)}, {"p999_ns", quantile(0.999)}, {"max_ns", quantile(1)}};
   }
 
 private:

@@ -21,7 +21,9 @@ class Random_motions {
 public:
   explicit Random_motions(std::uint64_t seed) : random_(seed) {}
 
-  Vertex_index vertex(const Mesh& mesh) { return Vertex_index(static_cast<Mesh::size_type>(random_() % mesh.num_vertices())); }
+  Vertex_index vertex(const Mesh& mesh) {
+    return Vertex_index(static_cast<Mesh::size_type>(random_() % mesh.num_vertices()));
+  }
 
   double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
 
@@ -39,7 +41,8 @@ private:
   std::mt19937_64 random_;
 };
 
-/// Out of the solid at v, of length 1: the sum of the doubled areas around it. Worth no more than its use for a direction.
+/// Out of the solid at v, of length 1: the sum of the doubled areas around it. Worth no more than its use for a
+/// direction.
 inline Vector normal_at(const Mesh& mesh, Vertex_index v) {
   internal::Star<Mesh> star;
   star.collect(mesh, v);

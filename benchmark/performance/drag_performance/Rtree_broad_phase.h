@@ -9,8 +9,8 @@
 
 namespace haptic_sculpt::benchmark {
 
-/// Boost.Geometry's R*-tree of the boxes of all faces, packed when built; a face that moves is taken out and put in again. A model of
-/// BroadPhase, to compare with. It holds doubles: nothing is to be rounded outward.
+/// Boost.Geometry's R*-tree of the boxes of all faces, packed when built; a face that moves is taken out and put in
+/// again. A model of BroadPhase, to compare with. It holds doubles: nothing is to be rounded outward.
 template <class Mesh>
 class Rtree_broad_phase : public Broad_phase_base<Mesh, Rtree_broad_phase<Mesh>> {
 public:
@@ -60,7 +60,8 @@ private:
   struct Equal {
     bool operator()(const Entry& a, const Entry& b) const { return a.second == b.second; }
   };
-  using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<16>, boost::geometry::index::indexable<Entry>, Equal>;
+  using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<16>,
+                                             boost::geometry::index::indexable<Entry>, Equal>;
 
   std::vector<Boost_box> boxes_;
   Tree tree_;

@@ -12,8 +12,8 @@
 
 namespace haptic_sculpt::benchmark {
 
-/// Whole drags of a Sculptor, with all they do: deciding, stopping with its proof, sliding, updating, watching, noting for undo.
-/// Each workload leaves the mesh as it was, untimed.
+/// Whole drags of a Sculptor, with all they do: deciding, stopping with its proof, sliding, updating, watching, noting
+/// for undo. Each workload leaves the mesh as it was, untimed.
 template <class Broad_phase>
 class Sculptor_workloads {
 public:
@@ -70,7 +70,8 @@ public:
     add_row(rows, "in a drag", step, steps, errors);
   }
 
-  /// From the first vertices of the mesh inwards in steps until something is met, then `slides` steps on, mostly along it.
+  /// From the first vertices of the mesh inwards in steps until something is met, then `slides` steps on, mostly along
+  /// it.
   void contact(Json& rows, std::size_t count, double step, std::size_t slides) {
     Random_motions random(seed_ + 2);
     Latencies approaches, meetings, after;
@@ -131,7 +132,10 @@ public:
     for (std::size_t k = 0; steps.size() < count && k < count; ++k) {
       const Vertex_index v = random.vertex(mesh_);
       const Vector normal = normal_at(mesh_, v);
-      const int axis = std::abs(normal[0]) > 0.999 ? 0 : std::abs(normal[1]) > 0.999 ? 1 : std::abs(normal[2]) > 0.999 ? 2 : -1;
+      const int axis = std::abs(normal[0]) > 0.999   ? 0
+                       : std::abs(normal[1]) > 0.999 ? 1
+                       : std::abs(normal[2]) > 0.999 ? 2
+                                                     : -1;
       if (axis < 0)
         continue; // on an edge of the cube
       auto grab = sculptor_.grab(v);

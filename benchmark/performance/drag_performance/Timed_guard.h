@@ -27,7 +27,8 @@ public:
   /// A decision whose contacts are timed when they are asked for.
   class Decision {
   public:
-    Decision(const typename Guard::Decision& decision, const Timed_guard& guard) : decision_(decision), guard_(&guard) {}
+    Decision(const typename Guard::Decision& decision, const Timed_guard& guard)
+        : decision_(decision), guard_(&guard) {}
     bool is_free() const { return decision_.is_free(); }
     template <class Found>
     double for_each_first_contact(const Found& found) const {
@@ -57,7 +58,8 @@ public:
     return free;
   }
   template <class Result>
-  Coordinates leg(const Coordinates& source, const Coordinates& target, const internal::Drag_rules& rules, Result& result) {
+  Coordinates leg(const Coordinates& source, const Coordinates& target, const internal::Drag_rules& rules,
+                  Result& result) {
     return guard_->leg(source, target, rules, result);
   }
 

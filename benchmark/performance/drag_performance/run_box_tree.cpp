@@ -47,14 +47,16 @@ void run_box_tree(Json& rows, std::size_t triangles, const Effort& effort) {
     slide.contact(rows, effort.drags / 50, 0.1, 20);
     slide.long_push(rows, effort.drags / 20, 100);
   }
-  Workloads("box tree", flat_of(triangles), effort.seed, Response::stop).in_a_flat_region(rows, effort.drags / 4, 0.1, 20);
+  Workloads("box tree", flat_of(triangles), effort.seed, Response::stop)
+      .in_a_flat_region(rows, effort.drags / 4, 0.1, 20);
 }
 
 void run_valences(Json& rows, const std::vector<std::size_t>& valences, const Effort& effort) {
   for (const std::size_t valence : valences)
     for (const Workload_mesh& scene : {fan_of(valence), fan_in_a_crowd(valence, effort.seed)})
       Workloads("box tree", scene, effort.seed, Response::stop)
-          .apex(rows, Vertex_index(static_cast<Mesh::size_type>(valence)), valence, std::max<std::size_t>(20, effort.drags / 40), 0.02);
+          .apex(rows, Vertex_index(static_cast<Mesh::size_type>(valence)), valence,
+                std::max<std::size_t>(20, effort.drags / 40), 0.02);
 }
 
 } // namespace haptic_sculpt::benchmark

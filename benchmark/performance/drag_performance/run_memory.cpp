@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t line_bytes = 64;
 
-/// Of the mesh and all that guards it, about: twelve of halfedges, four of points, nine of boxes, six of corners and copies,
-/// in units of four bytes.
+/// Of the mesh and all that guards it, about: twelve of halfedges, four of points, nine of boxes, six of corners and
+/// copies, in units of four bytes.
 constexpr std::size_t bytes_a_triangle = 130;
 
 struct Line {
@@ -129,8 +129,9 @@ void run_memory(Json& rows, std::size_t triangles, const Effort& effort) {
   }
   const double n = static_cast<double>(count);
   const auto [dependent, independent] = nanoseconds_a_line(bytes_a_triangle * triangles, effort.seed);
-  // Boxes of a node are three lines, read at once; the points are read twice, from the mesh and from the watch's copy. The way
-  // round the star and the way down the tree are gone at the same time, both from the vertex; corners and points follow.
+  // Boxes of a node are three lines, read at once; the points are read twice, from the mesh and from the watch's copy.
+  // The way round the star and the way down the tree are gone at the same time, both from the vertex; corners and
+  // points follow.
   const double levels = 3, in_a_row = 1 + std::max(chain / n, levels) + 1 + 1,
                others = star / n + 3 * nodes / n + corners / n + 2 * points / n;
   rows.push_back({{"structure", "memory"},

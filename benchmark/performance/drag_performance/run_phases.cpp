@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the time of a drag goes. Nothing in the library is timed from within: the same motions are made by a whole Sculptor, by its
-// Guarded_star with the stop, and by its Guarded_star deciding only; the differences are the phases. Lists of candidates are filled once more
-// by themselves, one star after the other, so that they find the memory as cold. Of a slide, the calls of its guard are timed.
+// Where the time of a drag goes. Nothing in the library is timed from within: the same motions are made by a whole
+// Sculptor, by its Guarded_star with the stop, and by its Guarded_star deciding only; the differences are the phases.
+// Lists of candidates are filled once more by themselves, one star after the other, so that they find the memory as
+// cold. Of a slide, the calls of its guard are timed.
 #include "drag_performance/Timed_guard.h"
 #include "drag_performance/Random_motions.h"
 #include "drag_performance/Timed_broad_phase.h"
@@ -23,7 +24,8 @@ struct Drag_of_steps {
 
 using Drags = std::vector<Drag_of_steps>;
 
-Drags drags_of(const Workload_mesh& scene, std::uint64_t seed, std::size_t count, std::size_t steps, double step, bool inwards) {
+Drags drags_of(const Workload_mesh& scene, std::uint64_t seed, std::size_t count, std::size_t steps, double step,
+               bool inwards) {
   Random_motions random(seed);
   Drags drags;
   for (std::size_t k = 0; k < count; ++k) {
@@ -33,7 +35,8 @@ Drags drags_of(const Workload_mesh& scene, std::uint64_t seed, std::size_t count
     Vector at = vertex_coordinates(scene.mesh, v);
     drags.push_back({v, {}});
     for (std::size_t i = 0; i < steps; ++i)
-      drags.back().targets.push_back(at = internal::advanced(at, step * scene.edge, inwards ? internal::scaled(normal, -1) : way.next()));
+      drags.back().targets.push_back(
+          at = internal::advanced(at, step * scene.edge, inwards ? internal::scaled(normal, -1) : way.next()));
   }
   return drags;
 }
@@ -107,7 +110,8 @@ void fill_lists(const Mesh& mesh, const std::vector<Wanted_list>& wanted, Latenc
 /// The same by a Guarded_star alone. \param with_stop false: only decides
 /// \param lists gets, for each step that counts, the time to fill its list of candidates; 0 where it was there
 template <class Is_counted>
-Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_counted& is_counted, bool with_stop, Latencies* lists = nullptr) {
+Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_counted& is_counted, bool with_stop,
+                  Latencies* lists = nullptr) {
   Mesh mesh = scene.mesh;
   Timed broad_phase(mesh);
   const internal::Face_corners<Mesh> corners(mesh);
@@ -145,11 +149,13 @@ Latencies by_star(const Workload_mesh& scene, const Drags& drags, const Is_count
 }
 
 template <class Is_counted>
-void add_phases(Json& phases, const Workload_mesh& scene, const char* workload, const Drags& drags, const Is_counted& is_counted) {
+void add_phases(Json& phases, const Workload_mesh& scene, const char* workload, const Drags& drags,
+                const Is_counted& is_counted) {
   Pass whole = by_sculptor(scene, drags, is_counted);
   Latencies lists;
   Latencies leg = by_star(scene, drags, is_counted, true), decision = by_star(scene, drags, is_counted, false, &lists);
-  const double grab = whole.grab.mean_of_most(), drag = whole.motion.mean_of_most(), broad = whole.asking.mean_of_most();
+  const double grab = whole.grab.mean_of_most(), drag = whole.motion.mean_of_most(),
+               broad = whole.asking.mean_of_most();
   phases.push_back({{"mesh", scene.name},
                     {"triangles", static_cast<std::size_t>(scene.mesh.number_of_faces())},
                     {"workload", workload},
@@ -166,7 +172,8 @@ void add_phases(Json& phases, const Workload_mesh& scene, const char* workload, 
 }
 
 /// Slides: every vertex is pushed in until it is held, then dragged on along what holds it; only that is timed.
-void add_slide_phases(Json& phases, const Workload_mesh& scene, std::uint64_t seed, std::size_t count, std::size_t slides, double step) {
+void add_slide_phases(Json& phases, const Workload_mesh& scene, std::uint64_t seed, std::size_t count,
+                      std::size_t slides, double step) {
   Mesh mesh = scene.mesh;
   Timed broad_phase(mesh);
   const internal::Face_corners<Mesh> corners(mesh);
@@ -187,7 +194,8 @@ void add_slide_phases(Json& phases, const Workload_mesh& scene, std::uint64_t se
     for (std::size_t i = 0; i < 100 + slides; ++i) {
       const Vector across = way.next();
       const Vector along = internal::normalized(internal::advanced(across, -internal::dot(across, inwards), inwards));
-      const Vector target = is_met ? internal::advanced(internal::advanced(at, 0.5 * step * scene.edge, inwards), step * scene.edge, along)
+      const Vector target = is_met ? internal::advanced(internal::advanced(at, 0.5 * step * scene.edge, inwards),
+                                                        step * scene.edge, along)
                                    : internal::advanced(at, step * scene.edge, inwards);
       Drag_result<Mesh> result;
       Latencies one;
@@ -230,7 +238,8 @@ void run_phases(Json& phases, std::size_t triangles, const Effort& effort) {
   const auto further = [](std::size_t i, bool) { return i > 0; };
   const auto blocked = [](std::size_t, bool is_blocked) { return is_blocked; };
   add_phases(phases, torus, "new vertex, 0.1 edge", drags_of(torus, seed, effort.drags / 4, 1, 0.1, false), first);
-  add_phases(phases, torus, "in a drag, 0.01 edge", drags_of(torus, seed, effort.drags / 80, 100, 0.01, false), further);
+  add_phases(phases, torus, "in a drag, 0.01 edge", drags_of(torus, seed, effort.drags / 80, 100, 0.01, false),
+             further);
   add_phases(phases, torus, "in a drag, 0.1 edge", drags_of(torus, seed, effort.drags / 40, 40, 0.1, false), further);
   add_phases(phases, shell, "the step that meets", drags_of(shell, seed, effort.drags / 40, 40, 0.1, true), blocked);
   add_slide_phases(phases, shell, seed, effort.drags / 50, 20, 0.1);

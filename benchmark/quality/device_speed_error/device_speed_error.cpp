@@ -69,7 +69,8 @@ int main(int argument_count, char** arguments) {
   }
   if (!path.empty()) {
     std::ofstream file(path);
-    file << json{{"seed", seed}, {"shard", shard.text()}, {"count", count}, {"design", "D1"}, {"rows", rows}}.dump(1) << '\n';
+    file << json{{"seed", seed}, {"shard", shard.text()}, {"count", count}, {"design", "D1"}, {"rows", rows}}.dump(1)
+         << '\n';
     if (!file) {
       std::cerr << "cannot write " << path << '\n';
       return 1;

@@ -62,7 +62,11 @@ int main(int argc, char** argv) {
       return cannot_write;
     }
   }
-  Json report{{"seed", seed}, {"shard", shard.text()}, {"drags_per_script", drags}, {"response", response}, {"scripts", Json::array()}};
+  Json report{{"seed", seed},
+              {"shard", shard.text()},
+              {"drags_per_script", drags},
+              {"response", response},
+              {"scripts", Json::array()}};
   std::size_t exact_drags = 0, exact_wrong = 0;
   std::printf("seed %llu, %zu drags a script, response %s\n", static_cast<unsigned long long>(seed), drags,
               response.c_str());

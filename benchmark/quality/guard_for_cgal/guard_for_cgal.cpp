@@ -150,12 +150,14 @@ int main(int argc, char** argv) try {
     ++asked, broken += report["large"]["self_intersects"].get<bool>();
   }
   Promises promises;
-  promises.add(1, "a guarded run ends with a valid mesh, is undone and redone to the bit, and a right angle arrives", asked, broken);
+  promises.add(1, "a guarded run ends with a valid mesh, is undone and redone to the bit, and a right angle arrives",
+               asked, broken);
   report["promises"] = promises.json();
   report["exit"] = promises.exit();
   write(report, options.json);
   if (promises.exit() != 0)
-    std::cerr << "a guarded run ended with a mesh that is not valid, was not undone or redone to the bit, or a right angle did not "
+    std::cerr << "a guarded run ended with a mesh that is not valid, was not undone or redone to the bit, or a right "
+                 "angle did not "
                  "arrive\n";
   return promises.exit();
 } catch (const std::runtime_error& error) {

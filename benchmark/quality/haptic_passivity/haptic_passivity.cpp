@@ -23,7 +23,8 @@ std::vector<std::string> broken_bounds(const Json& report) {
   if (report.contains("passive") && report["passive"]["active_runs"] != 0)
     broken.push_back("a run within the passive limit was given energy; its seed is in the report");
   if (report.contains("knocks") && !report["knocks"]["failures"].empty())
-    broken.push_back("a knock gave energy, was not calm after half a second, or ended as a fault; its seed is in the report");
+    broken.push_back(
+        "a knock gave energy, was not calm after half a second, or ended as a fault; its seed is in the report");
   for (const Json& row : report.value("activity", Json::array()))
     if (row["delay"] == 0.0 && (row["least_over_formula"] < 0.9 || row["largest"] > 1.1))
       broken.push_back("activity does not begin within 10 % of the formula");
@@ -35,8 +36,9 @@ std::vector<std::string> broken_bounds(const Json& report) {
     if (!row["mass_is_calm_below"] || !row["mass_swings_above"])
       broken.push_back("a free handle does not begin to swing within 20 % of the critical mass");
     if (!row["damping_is_calm_below"] || !row["damping_swings_above"])
-      broken.push_back("a damped handle does not begin to swing between 0.6 (or twice what may be asked for) and twice the "
-                       "critical damping");
+      broken.push_back(
+          "a damped handle does not begin to swing between 0.6 (or twice what may be asked for) and twice the "
+          "critical damping");
   }
   for (const Json& row : report.value("gravity", Json::array()))
     if (row["source"] == "encoders and holding" && row["largest_N"] > 0.06)
@@ -108,7 +110,8 @@ int main(int argc, char** argv) {
   const std::vector<std::string> broken = broken_bounds(report);
   report["broken_bounds"] = broken;
   haptic_sculpt::benchmark::Promises promises;
-  promises.add(bound_not_kept, "every bound of energy, stability and weight is kept", shard.is_first() ? 1 : 0, broken.size());
+  promises.add(bound_not_kept, "every bound of energy, stability and weight is kept", shard.is_first() ? 1 : 0,
+               broken.size());
   report["promises"] = promises.json();
   report["exit"] = promises.exit();
   for (const std::string& sentence : broken)

@@ -101,14 +101,14 @@ inline Json dynamics_report(const Options& options) {
                     {"mass_swings_above", found.mass_swings_above},
                     {"damping_is_calm_below", found.damping_is_calm_below},
                     {"damping_swings_above", found.damping_swings_above}});
-    std::printf("%s, T %.2f ms, d %.1f: apparent mass %.1f g; virtual mass up to %.1f g, damping up to %.2f N s/m, "
-                "controller up to %.1f: %s; critical mass %.1f g: calm at 0.8 of it %d, swings at 1.2 of it %d; "
-                "critical damping %.1f N s/m: calm at 0.6 of it (or at twice the largest) %d, swings at 1.3 or 2 of it %d\n",
-                form == 0 ? "di-tetrahedral" : "general", 1e3 * tick, delay, 1e3 * found.limits.apparent_mass,
-                1e3 * found.limits.largest_mass, found.limits.largest_damping, found.limits.largest_controller,
-                found.holds ? "calm" : "NOT CALM", 1e3 * found.critical_mass, found.mass_is_calm_below,
-                found.mass_swings_above, found.critical_damping, found.damping_is_calm_below,
-                found.damping_swings_above);
+    std::printf(
+        "%s, T %.2f ms, d %.1f: apparent mass %.1f g; virtual mass up to %.1f g, damping up to %.2f N s/m, "
+        "controller up to %.1f: %s; critical mass %.1f g: calm at 0.8 of it %d, swings at 1.2 of it %d; "
+        "critical damping %.1f N s/m: calm at 0.6 of it (or at twice the largest) %d, swings at 1.3 or 2 of it %d\n",
+        form == 0 ? "di-tetrahedral" : "general", 1e3 * tick, delay, 1e3 * found.limits.apparent_mass,
+        1e3 * found.limits.largest_mass, found.limits.largest_damping, found.limits.largest_controller,
+        found.holds ? "calm" : "NOT CALM", 1e3 * found.critical_mass, found.mass_is_calm_below, found.mass_swings_above,
+        found.critical_damping, found.damping_is_calm_below, found.damping_swings_above);
     std::fflush(stdout);
   }
   return rows;

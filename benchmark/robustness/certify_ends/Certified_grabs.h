@@ -83,7 +83,8 @@ private:
     if (random_() % 4 == 0) {
       double least = 0; // that serves the scene
       for (const auto v : scene_.mesh.vertices())
-        least = std::max(least, internal::unit_in_the_last_place(internal::largest_magnitude(vertex_coordinates(scene_.mesh, v))));
+        least = std::max(
+            least, internal::unit_in_the_last_place(internal::largest_magnitude(vertex_coordinates(scene_.mesh, v))));
       options.clearance(std::max(least, (scene_.is_near_degenerate ? 1e-14 : 1e-9) * scene_.size));
     }
     const double delta = 1e-3 * scene_.size;
@@ -147,7 +148,8 @@ private:
     const auto nanoseconds = [](Clock::time_point since) {
       return std::chrono::duration<double, std::nano>(Clock::now() - since).count();
     };
-    const double way_asked = internal::path_length({from.x(), from.y(), from.z()}, {target.x(), target.y(), target.z()});
+    const double way_asked =
+        internal::path_length({from.x(), from.y(), from.z()}, {target.x(), target.y(), target.z()});
     const auto begin = Clock::now();
     const auto r = held.drag_to(target);
     tally_.nanoseconds += nanoseconds(begin);
@@ -159,7 +161,8 @@ private:
       return r.position;
     tally_.at_leg_limit += r.end == Drag_end::leg_limit;
     const auto looked = Clock::now();
-    const auto found = certifier_.certify(v, r.position, target, way_asked, c, sculptor_.options().delta_length, random_, ways_);
+    const auto found =
+        certifier_.certify(v, r.position, target, way_asked, c, sculptor_.options().delta_length, random_, ways_);
     tally_.certificate_nanoseconds += nanoseconds(looked);
     tally_.ways += found.ways;
     tally_.asked += found.asked;

@@ -29,8 +29,8 @@ struct Grab_record {
     return text;
   }
 
-  /// NAME.off and NAME.script, a script for `sculpt`, to which each line of a probe is a probe of its own. \pre no vertex
-  /// is removed
+  /// NAME.off and NAME.script, a script for `sculpt`, to which each line of a probe is a probe of its own. \pre no
+  /// vertex is removed
   void write(const std::filesystem::path& folder, const std::string& name, const std::string& what) const {
     std::ostringstream off, script;
     off.precision(17);

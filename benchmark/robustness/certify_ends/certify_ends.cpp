@@ -79,11 +79,13 @@ int run(Options& options) {
     }
   Json totals = Json::array();
   Promises promises;
-  promises.add(not_embedded, "the mesh is embedded", parts.drags + near_degenerate.drags, parts.invalid + near_degenerate.invalid);
+  promises.add(not_embedded, "the mesh is embedded", parts.drags + near_degenerate.drags,
+               parts.invalid + near_degenerate.invalid);
   for (const auto& [name, tally, share] :
        {std::tuple("all parts", parts, options.share_of_parts),
         std::tuple("all near-degenerate", near_degenerate, options.share_of_near_degenerate)}) {
-    promises.add(ends_too_early, std::string("no free way leads nearer from where a drag ends, ") + name, tally.drags, tally.misses(), share);
+    promises.add(ends_too_early, std::string("no free way leads nearer from where a drag ends, ") + name, tally.drags,
+                 tally.misses(), share);
     if (tally.drags == 0)
       continue;
     totals.push_back(row(name, tally));

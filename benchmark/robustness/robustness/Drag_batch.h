@@ -20,7 +20,12 @@ class Drag_batch {
 public:
   /// \param mesh has to outlive it
   Drag_batch(const Mesh& mesh, Response response, std::uint64_t seed, std::size_t validate_every)
-    : input_(mesh), response_(response), mesh_(mesh), sculptor_(mesh_, parameters::response(response)), places_(mesh_, seed), validate_every_(validate_every) {}
+      : input_(mesh)
+      , response_(response)
+      , mesh_(mesh)
+      , sculptor_(mesh_, parameters::response(response))
+      , places_(mesh_, seed)
+      , validate_every_(validate_every) {}
 
   Drag_tally run(std::size_t drags) {
     // Short steps first: once the mesh is crumpled by long pushes, most vertices are in contact and held with reason.
@@ -58,7 +63,8 @@ public:
     std::ostringstream script;
     script << std::hexfloat << "response " << name_of(response_) << '\n';
     for (const auto& [v, target] : made_)
-      script << "drag " << static_cast<std::size_t>(v) << ' ' << target.x() << ' ' << target.y() << ' ' << target.z() << "\nrelease\n";
+      script << "drag " << static_cast<std::size_t>(v) << ' ' << target.x() << ' ' << target.y() << ' ' << target.z()
+             << "\nrelease\n";
     std::filesystem::create_directories(folder);
     write_surface(folder / (name + ".off"), input_);
     replace_file(folder / (name + ".script"), script.str());

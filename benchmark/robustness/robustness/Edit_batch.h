@@ -18,8 +18,11 @@ class Edit_batch {
 public:
   /// \param validate_every 0: only in the end, undone, and redone
   Edit_batch(const Mesh& mesh, Response response, std::uint64_t seed, std::size_t validate_every)
-    : mesh_(mesh), sculptor_(mesh_, parameters::response(response)), places_(mesh_, seed), validate_every_(validate_every),
-      vertices_at_first_(mesh.number_of_vertices()) {}
+      : mesh_(mesh)
+      , sculptor_(mesh_, parameters::response(response))
+      , places_(mesh_, seed)
+      , validate_every_(validate_every)
+      , vertices_at_first_(mesh.number_of_vertices()) {}
 
   Edit_tally run(std::size_t edits) {
     const test::Mesh_snapshot input = test::snapshot(sculptor_);
@@ -146,7 +149,8 @@ private:
     create(kind, {h, mesh_.opposite(h)}, p, [&] { return sculptor_.insert_on_edge(mesh_.edge(h), p); });
   }
 
-  /// Every refusal is judged by the independent decision, and one in `judged_share` before it is known what comes of it.
+  /// Every refusal is judged by the independent decision, and one in `judged_share` before it is known what comes of
+  /// it.
   template <class Make>
   void create(const char* kind, const std::vector<Halfedge_index>& old_halfedges, const Point_3& p, const Make& make) {
     const bool is_judged = tally_.edits % judged_share == 0;

@@ -17,7 +17,8 @@ struct Edit_tally {
   };
   std::map<std::string, Row> rows; ///< by kind of edit, e.g. "insert_face near a corner"
   std::size_t edits = 0, strokes = 0, validations = 0, invalid = 0, undo_differs = 0, redo_differs = 0, changed = 0;
-  std::size_t creations_done = 0, creations_judged = 0, creations_wrongly_accepted = 0, creations_wrongly_refused = 0; ///< what is feasible is one or the other
+  std::size_t creations_done = 0, creations_judged = 0, creations_wrongly_accepted = 0,
+              creations_wrongly_refused = 0; ///< what is feasible is one or the other
   std::size_t longest_history = 0;
 
   void count(const std::string& kind, const char* refusal) {

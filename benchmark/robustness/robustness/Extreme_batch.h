@@ -119,7 +119,8 @@ private:
       const auto result = sculptor.grab(v).drag_to(target);
       ++tally_.drags;
       tally_.reached += result.reached;
-      tally_.contradictions += result.position != mesh_.point(v) || test::contradiction(result, start, target) != nullptr;
+      tally_.contradictions +=
+          result.position != mesh_.point(v) || test::contradiction(result, start, target) != nullptr;
     } catch (const Error&) {
       ++tally_.refused;
       tally_.moved_though_refused += points() != before;

@@ -52,7 +52,8 @@ public:
   double edge_length(Vertex_index v) const {
     double shortest = std::numeric_limits<double>::infinity();
     for (const auto h : mesh_.halfedges_around_target(mesh_.halfedge(v)))
-      shortest = std::min(shortest, internal::path_length(vertex_coordinates(mesh_, v), vertex_coordinates(mesh_, mesh_.source(h))));
+      shortest = std::min(
+          shortest, internal::path_length(vertex_coordinates(mesh_, v), vertex_coordinates(mesh_, mesh_.source(h))));
     return shortest;
   }
 
@@ -115,7 +116,9 @@ public:
   Point_3 near_end(Halfedge_index h) { return between(h, near()); }
   Point_3 end(Halfedge_index h) { return below(2) == 0 ? source(h) : target(h); }
   /// Above or below the face: a creation may pull the surface out at once.
-  Point_3 off_face(Halfedge_index h) { return inside_face(h) + 0.3 * number() * edge_length(mesh_.target(h)) * direction(); }
+  Point_3 off_face(Halfedge_index h) {
+    return inside_face(h) + 0.3 * number() * edge_length(mesh_.target(h)) * direction();
+  }
   ///@}
 
 private:

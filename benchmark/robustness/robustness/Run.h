@@ -37,19 +37,22 @@ enum Exit {
 
 struct Options {
   std::string folder, json, dump, response = "slide";
-  std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000, edit_batch = 5000;
+  std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000,
+              edit_batch = 5000;
   std::uint64_t seed = 1;
   std::vector<std::string> refuse;
   bool has_hard_meshes = false;
   benchmark::Shard shard;
 };
 
-constexpr std::size_t large = 200000; ///< faces: from here on drags_on_large and edits_on_large, and one validation a batch
+constexpr std::size_t large =
+    200000; ///< faces: from here on drags_on_large and edits_on_large, and one validation a batch
 
 /// All batches on all meshes, or a shard of them; sums them up.
 class Run {
 public:
-  explicit Run(const Options& options) : options_(options), shard_(options.shard), response_(*response_named(options.response)) {}
+  explicit Run(const Options& options)
+      : options_(options), shard_(options.shard), response_(*response_named(options.response)) {}
 
   /// \param is_hard short drags may be held with reason: they are not counted among those that have to arrive
   void mesh(const std::string& name, const Mesh& mesh, bool is_hard = false) {
@@ -84,7 +87,8 @@ public:
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
       const std::string name = file.filename().string();
-      const bool has_to_be_refused = std::find(options_.refuse.begin(), options_.refuse.end(), name) != options_.refuse.end();
+      const bool has_to_be_refused =
+          std::find(options_.refuse.begin(), options_.refuse.end(), name) != options_.refuse.end();
       try {
         const Mesh read = read_surface<Mesh>(file);
         ++files_read_, wrongly_accepted_ += has_to_be_refused;
@@ -110,14 +114,21 @@ public:
       std::cout << '\n';
     }
     if (!options_.json.empty())
-      replace_file(options_.json, Json{{"seed", options_.seed}, {"shard", shard_.text()}, {"response", options_.response},
-                                       {"meshes", rows_}, {"total", drags_.json()}, {"total_of_edits", edits_.json()}, {"total_of_extreme_drags", extremes_.json()},
-                                       {"wrongly_accepted", shard_.is_first() ? wrongly_accepted_ : 0}, // once, for all shares
-                                       {"wrongly_refused", shard_.is_first() ? wrongly_refused_ : 0},
-                                       {"refused", refused_},
-                                       {"promises", promises.json()},
-                                       {"exit", exit}}
-                                          .dump(1) + '\n');
+      replace_file(options_.json,
+                   Json{{"seed", options_.seed},
+                        {"shard", shard_.text()},
+                        {"response", options_.response},
+                        {"meshes", rows_},
+                        {"total", drags_.json()},
+                        {"total_of_edits", edits_.json()},
+                        {"total_of_extreme_drags", extremes_.json()},
+                        {"wrongly_accepted", shard_.is_first() ? wrongly_accepted_ : 0}, // once, for all shares
+                        {"wrongly_refused", shard_.is_first() ? wrongly_refused_ : 0},
+                        {"refused", refused_},
+                        {"promises", promises.json()},
+                        {"exit", exit}}
+                           .dump(1) +
+                       '\n');
     return exit;
   }
 
@@ -154,11 +165,12 @@ private:
     if (is_hard_)
       tally.short_asked = tally.short_arrived = 0;
     drags_ += tally;
-    std::cout << name << ": " << tally.drags << " drags, " << tally.blocked << " blocked, short "
-              << tally.short_arrived << '/' << tally.short_asked << ", through stayed " << tally.through_stayed << '/'
-              << tally.through_asked << " (lazy " << tally.through_lazy << "), stop error up to " << tally.largest_stop_error
-              << " c, " << tally.invalid << " invalid of " << tally.validations << ", "
-              << tally.nanoseconds / static_cast<double>(tally.drags) << " ns\n" << std::flush;
+    std::cout << name << ": " << tally.drags << " drags, " << tally.blocked << " blocked, short " << tally.short_arrived
+              << '/' << tally.short_asked << ", through stayed " << tally.through_stayed << '/' << tally.through_asked
+              << " (lazy " << tally.through_lazy << "), stop error up to " << tally.largest_stop_error << " c, "
+              << tally.invalid << " invalid of " << tally.validations << ", "
+              << tally.nanoseconds / static_cast<double>(tally.drags) << " ns\n"
+              << std::flush;
     return true;
   }
 
@@ -168,15 +180,18 @@ private:
     Edit_tally tally;
     for (std::size_t done = 0; done < edits; done += options_.edit_batch)
       if (is_ours())
-        tally += Edit_batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100).run(std::min(options_.edit_batch, edits - done));
+        tally += Edit_batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100)
+                     .run(std::min(options_.edit_batch, edits - done));
     if (tally.edits == 0)
       return false;
     edits_ += tally;
     row["mixed_edits"] = tally.json();
-    std::cout << name << ": " << tally.edits << " mixed edits, " << tally.done() << " done, " << tally.creations_wrongly_refused
-              << " of " << tally.feasible_creations() << " feasible creations refused, " << tally.creations_wrongly_accepted << " infeasible accepted of " << tally.creations_judged
-              << " judged, " << tally.undo_differs << " differ undone, "
-              << tally.redo_differs << " redone, " << tally.invalid << " invalid of " << tally.validations << '\n' << std::flush;
+    std::cout << name << ": " << tally.edits << " mixed edits, " << tally.done() << " done, "
+              << tally.creations_wrongly_refused << " of " << tally.feasible_creations()
+              << " feasible creations refused, " << tally.creations_wrongly_accepted << " infeasible accepted of "
+              << tally.creations_judged << " judged, " << tally.undo_differs << " differ undone, " << tally.redo_differs
+              << " redone, " << tally.invalid << " invalid of " << tally.validations << '\n'
+              << std::flush;
     return true;
   }
 
@@ -187,19 +202,25 @@ private:
     promises.add(not_embedded, "the mesh is embedded", drags_.validations + edits_.validations + extremes_.drags,
                  drags_.invalid + edits_.invalid + extremes_.invalid);
     promises.add(not_finite, "all coordinates are finite", extremes_.drags, extremes_.not_finite);
-    promises.add(moved_though_refused, "what is refused moves nothing", extremes_.refused, extremes_.moved_though_refused);
+    promises.add(moved_though_refused, "what is refused moves nothing", extremes_.refused,
+                 extremes_.moved_though_refused);
     promises.add(went_away, "no drag ends farther from its target", extremes_.drags, extremes_.farther);
-    promises.add(contradiction, "no result contradicts itself", drags + extremes, drags_.contradictions + extremes_.contradictions);
-    promises.add(jumped_over, "no creation crosses the surface", edits_.creations_judged, edits_.creations_wrongly_accepted);
+    promises.add(contradiction, "no result contradicts itself", drags + extremes,
+                 drags_.contradictions + extremes_.contradictions);
+    promises.add(jumped_over, "no creation crosses the surface", edits_.creations_judged,
+                 edits_.creations_wrongly_accepted);
     promises.add(mesh_changed, "nothing moves but what is in hand", drags_.validations + edits_.validations,
                  drags_.changed + edits_.changed);
     promises.add(undo_differs, "undone, all is as it was, bit for bit", edits_.edits, edits_.undo_differs);
     promises.add(redo_differs, "redone, all is as it was, bit for bit", edits_.edits, edits_.redo_differs);
     promises.add(wrongly_accepted, "what is not embedded is refused", files, shard_.is_first() ? wrongly_accepted_ : 0);
     promises.add(wrongly_refused, "what is embedded is accepted", files, shard_.is_first() ? wrongly_refused_ : 0);
-    promises.add(lazy_long, "a push through the object comes near the contact", drags_.through_asked, drags_.through_lazy);
-    promises.add(lazy_short, "short drags of ordinary meshes arrive", drags_.short_asked, drags_.short_asked - drags_.short_arrived, 0.05);
-    promises.add(lazy_creation, "feasible creations are made", edits_.feasible_creations(), edits_.creations_wrongly_refused, 0.01);
+    promises.add(lazy_long, "a push through the object comes near the contact", drags_.through_asked,
+                 drags_.through_lazy);
+    promises.add(lazy_short, "short drags of ordinary meshes arrive", drags_.short_asked,
+                 drags_.short_asked - drags_.short_arrived, 0.05);
+    promises.add(lazy_creation, "feasible creations are made", edits_.feasible_creations(),
+                 edits_.creations_wrongly_refused, 0.01);
     return promises;
   }
 };

@@ -11,11 +11,12 @@
 
 namespace haptic_sculpt::robustness {
 
-/// Whether a vertex can be created at p in place of the faces of `old_halfedges` (one, or both of an edge): the mesh is embedded
-/// afterwards, and no vertex lies in a closed tetrahedron between an old face and p, so that nothing has been jumped over.
+/// Whether a vertex can be created at p in place of the faces of `old_halfedges` (one, or both of an edge): the mesh is
+/// embedded afterwards, and no vertex lies in a closed tetrahedron between an old face and p, so that nothing has been
+/// jumped over.
 ///
-/// Decided over integers from the definition, with nothing of the library's predicates and broad phases. Cost: linear in the
-/// mesh, and slow near p; meant for what was refused.
+/// Decided over integers from the definition, with nothing of the library's predicates and broad phases. Cost: linear
+/// in the mesh, and slow near p; meant for what was refused.
 inline bool is_feasible_creation(const Mesh& mesh, const std::vector<Halfedge_index>& old_halfedges, const Point_3& p) {
   oracle::Mesh_list list;
   list.points.push_back({p.x(), p.y(), p.z()});
@@ -63,10 +64,12 @@ inline bool is_feasible_creation(const Mesh& mesh, const std::vector<Halfedge_in
       const int q = static_cast<int>(v);
       if (q == old[0] || q == old[1] || q == old[2])
         continue;
-      // In a tetrahedron of volume no face of which has it on the far side. A flat one is made of old and new faces, tested above.
+      // In a tetrahedron of volume no face of which has it on the far side. A flat one is made of old and new faces,
+      // tested above.
       const int side = signs.orient_3(old[0], old[1], old[2], 0);
-      if (side != 0 && signs.orient_3(q, old[1], old[2], 0) * side >= 0 && signs.orient_3(old[0], q, old[2], 0) * side >= 0 &&
-          signs.orient_3(old[0], old[1], q, 0) * side >= 0 && signs.orient_3(old[0], old[1], old[2], q) * side >= 0)
+      if (side != 0 && signs.orient_3(q, old[1], old[2], 0) * side >= 0 &&
+          signs.orient_3(old[0], q, old[2], 0) * side >= 0 && signs.orient_3(old[0], old[1], q, 0) * side >= 0 &&
+          signs.orient_3(old[0], old[1], old[2], q) * side >= 0)
         return false;
     }
   return true;

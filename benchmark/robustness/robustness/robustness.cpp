@@ -8,29 +8,48 @@
 int main(int argc, char** argv) {
   using namespace haptic_sculpt;
   robustness::Options options;
-  CLI::App app("Drags vertices, and mixes drags with creations, removals, undo and redo, at random and on purpose; checks every promise.\n"
-               "Exit: 0 all kept, 2 usage or a file that cannot be read, 10 a mesh is no longer embedded, 11 fewer than 95 % of the short "
-               "drags arrived, 12 a push through the object did not move without reason, 13 a mesh that has to be refused "
-               "was accepted, 14 one was refused without being named by --refuse, 15 an element not in hand has changed, 16 undoing "
-               "everything does not give back the input, 17 redoing everything does not give back the end, 18 more than 1 % of the "
-               "feasible creations were refused, 19 a creation was accepted that crosses or jumps over a part of the surface, 20 an extreme drag "
-               "left a coordinate that is not finite, 21 one ended farther from its target than it began, 22 one was refused but moved something, 23 "
-               "the result of a drag contradicts itself.");
-  app.add_option("--meshes", options.folder, "Folder of meshes to work on, beside the generated ones")->check(CLI::ExistingDirectory);
+  CLI::App app(
+      "Drags vertices, and mixes drags with creations, removals, undo and redo, at random and on purpose; checks every "
+      "promise.\n"
+      "Exit: 0 all kept, 2 usage or a file that cannot be read, 10 a mesh is no longer embedded, 11 fewer than 95 % of "
+      "the short "
+      "drags arrived, 12 a push through the object did not move without reason, 13 a mesh that has to be refused "
+      "was accepted, 14 one was refused without being named by --refuse, 15 an element not in hand has changed, 16 "
+      "undoing "
+      "everything does not give back the input, 17 redoing everything does not give back the end, 18 more than 1 % of "
+      "the "
+      "feasible creations were refused, 19 a creation was accepted that crosses or jumps over a part of the surface, "
+      "20 an extreme drag "
+      "left a coordinate that is not finite, 21 one ended farther from its target than it began, 22 one was refused "
+      "but moved something, 23 "
+      "the result of a drag contradicts itself.");
+  app.add_option("--meshes", options.folder, "Folder of meshes to work on, beside the generated ones")
+      ->check(CLI::ExistingDirectory);
   app.add_option("--refuse", options.refuse, "File names in the folder that have to be refused");
   app.add_option("--drags", options.drags, "Drags on each mesh")->capture_default_str();
-  app.add_option("--drags-on-large", options.drags_on_large, "Drags on meshes of 200,000 faces or more")->capture_default_str();
-  app.add_option("--edits", options.edits, "Mixed edits on each mesh, in batches that are undone and redone whole")->capture_default_str();
-  app.add_option("--edits-on-large", options.edits_on_large, "Mixed edits on meshes of 200,000 faces or more")->capture_default_str();
-  app.add_option("--batch", options.batch, "Drags of a batch; each has a fresh copy of the mesh")->capture_default_str()->check(CLI::PositiveNumber);
-  app.add_option("--edit-batch", options.edit_batch, "Mixed edits of a batch")->capture_default_str()->check(CLI::PositiveNumber);
-  app.add_option("--extreme", options.extreme, "Drags in all, on some small meshes, with targets, clearances and deltas anywhere among the doubles")->capture_default_str();
+  app.add_option("--drags-on-large", options.drags_on_large, "Drags on meshes of 200,000 faces or more")
+      ->capture_default_str();
+  app.add_option("--edits", options.edits, "Mixed edits on each mesh, in batches that are undone and redone whole")
+      ->capture_default_str();
+  app.add_option("--edits-on-large", options.edits_on_large, "Mixed edits on meshes of 200,000 faces or more")
+      ->capture_default_str();
+  app.add_option("--batch", options.batch, "Drags of a batch; each has a fresh copy of the mesh")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--edit-batch", options.edit_batch, "Mixed edits of a batch")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--extreme", options.extreme,
+                 "Drags in all, on some small meshes, with targets, clearances and deltas anywhere among the doubles")
+      ->capture_default_str();
   app.add_option("--response", options.response, "What a blocked vertex does")
       ->check(CLI::IsMember({"slide", "stop", "paper"}))
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
-  app.add_flag("--hard", options.has_hard_meshes, "On meshes, too, that are an ulp thick, almost flat, nested, crumpled and so on");
-  app.add_option("--dump", options.dump, "Folder for batches of drags that break a promise: a mesh and a script, for `sculpt` and `minimise`");
+  app.add_flag("--hard", options.has_hard_meshes,
+               "On meshes, too, that are an ulp thick, almost flat, nested, crumpled and so on");
+  app.add_option("--dump", options.dump,
+                 "Folder for batches of drags that break a promise: a mesh and a script, for `sculpt` and `minimise`");
   options.shard.add_option(app, "batch");
   app.add_option("--json", options.json, "Where the report goes");
   try {

@@ -26,14 +26,16 @@ inline const char* name_of(Impact_feature feature) {
 
 /// The first meeting of a moving feature with a static one.
 ///
-/// Made by the sweeps. Holds their five points, so it stays valid whatever becomes of the mesh. Allocates only in `exact_time()`
-/// and `tight_time()`, and in `time()` and comparisons where the filter leaves them open and coordinates need GMP integers.
+/// Made by the sweeps. Holds their five points, so it stays valid whatever becomes of the mesh. Allocates only in
+/// `exact_time()` and `tight_time()`, and in `time()` and comparisons where the filter leaves them open and coordinates
+/// need GMP integers.
 ///
 /// \tparam K a CGAL kernel with `FT` = double.
 template <class K>
 class Impact_3 {
-  static_assert(std::is_same<typename K::FT, double>::value,
-                "Impact_3: the kernel must have double coordinates, e.g. Exact_predicates_inexact_constructions_kernel");
+  static_assert(
+      std::is_same<typename K::FT, double>::value,
+      "Impact_3: the kernel must have double coordinates, e.g. Exact_predicates_inexact_constructions_kernel");
 
 public:
   using Point_3 = typename K::Point_3; ///< of the kernel; its coordinates are doubles
@@ -65,8 +67,8 @@ public:
     return internal::enclosed_time(points_, verdict_);
   }
 
-  /// An interval that contains the time, as the filter gives it: at constant cost and without allocation, but wider than [0, 1]
-  /// where the filter knows nothing.
+  /// An interval that contains the time, as the filter gives it: at constant cost and without allocation, but wider
+  /// than [0, 1] where the filter knows nothing.
   std::pair<double, double> time_bounds() const {
     const internal::Rounding_to_nearest rounding;
     return internal::filtered_time(points_, verdict_);

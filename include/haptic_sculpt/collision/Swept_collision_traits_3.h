@@ -26,9 +26,10 @@ struct Swept_collision_traits_3 {
                 "Exact_predicates_inexact_constructions_kernel");
 
   using Kernel = K;                                                            ///< as given; no part of the concept
-  using Point_3 = typename K::Point_3;                                         ///< of the kernel; its coordinates are doubles
-  using Impact_3 = haptic_sculpt::Impact_3<K>;                                 ///< what the three sweeps give; holds its points
-  using Vertex_face_sweep_3 = haptic_sculpt::Vertex_face_sweep_3<K, Counters>; ///< of the moving vertex and a still face
+  using Point_3 = typename K::Point_3;         ///< of the kernel; its coordinates are doubles
+  using Impact_3 = haptic_sculpt::Impact_3<K>; ///< what the three sweeps give; holds its points
+  using Vertex_face_sweep_3 =
+      haptic_sculpt::Vertex_face_sweep_3<K, Counters>; ///< of the moving vertex and a still face
   using Edge_edge_sweep_3 = haptic_sculpt::Edge_edge_sweep_3<K, Counters>;     ///< of a moving and a still edge
   using Face_vertex_sweep_3 = haptic_sculpt::Face_vertex_sweep_3<K, Counters>; ///< of a moving face and a still vertex
   using Compare_time_3 = haptic_sculpt::Compare_time_3<K, Counters>;           ///< which of two impacts comes first
@@ -36,10 +37,16 @@ struct Swept_collision_traits_3 {
   /// \param counters where to count filter stages; must outlive this and the objects made by it.
   explicit Swept_collision_traits_3(Counters* counters = nullptr) : counters_(counters) {}
 
-  Vertex_face_sweep_3 vertex_face_sweep_3_object() const { return Vertex_face_sweep_3(counters_); } ///< Counts where this does.
-  Edge_edge_sweep_3 edge_edge_sweep_3_object() const { return Edge_edge_sweep_3(counters_); }       ///< Counts where this does.
-  Face_vertex_sweep_3 face_vertex_sweep_3_object() const { return Face_vertex_sweep_3(counters_); } ///< Counts where this does.
-  Compare_time_3 compare_time_3_object() const { return Compare_time_3(counters_); }                ///< Counts where this does.
+  Vertex_face_sweep_3 vertex_face_sweep_3_object() const {
+    return Vertex_face_sweep_3(counters_);
+  } ///< Counts where this does.
+  Edge_edge_sweep_3 edge_edge_sweep_3_object() const {
+    return Edge_edge_sweep_3(counters_);
+  } ///< Counts where this does.
+  Face_vertex_sweep_3 face_vertex_sweep_3_object() const {
+    return Face_vertex_sweep_3(counters_);
+  }                                                                                  ///< Counts where this does.
+  Compare_time_3 compare_time_3_object() const { return Compare_time_3(counters_); } ///< Counts where this does.
 
 private:
   Counters* counters_;

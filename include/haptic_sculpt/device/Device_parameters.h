@@ -25,11 +25,13 @@ template <class S = double> struct Device_description {
   S base_radius = S(30) / S(1000);       ///< R, shoulders' distance from the axis, m
   S primary_length = S(70) / S(1000);    ///< l1, shoulder to elbow, m
   S secondary_length = S(100) / S(1000); ///< l2, elbow to platform joint, m
-  S platform_radius = S(20) / S(1000);   ///< r, platform joints' distance from its centre, m; unused by the di-tetrahedral form
+  S platform_radius =
+      S(20) / S(1000); ///< r, platform joints' distance from its centre, m; unused by the di-tetrahedral form
   S primary_mass = S(4) / S(1000);       ///< m1, each primary link (slender rod), kg
   S secondary_mass = S(4) / S(1000);     ///< m2, each secondary link (slender rod), kg
   S platform_mass = S(20) / S(1000);     ///< M, platform or, di-tetrahedral, whatever sits at the apex, kg
-  Device_vector<S> platform_inertia = disc_inertia(S(20) / S(1000), S(20) / S(1000)); ///< about the platform's axes, kg m^2
+  Device_vector<S> platform_inertia =
+      disc_inertia(S(20) / S(1000), S(20) / S(1000)); ///< about the platform's axes, kg m^2
   S rotor_inertia = S(0);                ///< of one motor, reflected to its joint, kg m^2
   S gravity = S(981) / S(100);           ///< along -z, m/s^2
   S torque_limit = S(1) / S(5);          ///< of one joint, N m
@@ -53,7 +55,9 @@ public:
   /// \param violations one sentence each; `what()` joins them
   explicit Invalid_device_parameters(std::vector<std::string> violations)
       : Error(joined(violations)), violations_(std::move(violations)) {}
-  const std::vector<std::string>& violations() const { return violations_; } ///< One sentence for each thing that is wrong.
+  const std::vector<std::string>& violations() const {
+    return violations_;
+  } ///< One sentence for each thing that is wrong.
 
 private:
   static std::string joined(const std::vector<std::string>& violations) {
@@ -68,8 +72,9 @@ private:
 
 /// Everything that is wrong with a description, one sentence each; empty if it can be used.
 ///
-/// The kinematics forms products of four lengths squared, so eighth powers have to fit in the scalar's range, with room: no length,
-/// mass, moment or friction above 1.7e38 for double, 3.2e4 for float, and no length in use below 7e-39, 3.7e-5 for float.
+/// The kinematics forms products of four lengths squared, so eighth powers have to fit in the scalar's range, with
+/// room: no length, mass, moment or friction above 1.7e38 for double, 3.2e4 for float, and no length in use below
+/// 7e-39, 3.7e-5 for float.
 template <class S> std::vector<std::string> violations(const Device_description<S>& d) {
   using internal::is_finite;
   using std::abs;
@@ -127,7 +132,8 @@ template <class S> std::vector<std::string> violations(const Device_description<
         found.push_back("platform_inertia (I): one moment exceeds the sum of the two others, which no body has");
     }
   for (int leg = 0; leg < 3; ++leg)
-    if (!is_finite(d.least_angle[leg]) || !is_finite(d.greatest_angle[leg]) || !(d.least_angle[leg] < d.greatest_angle[leg]))
+    if (!is_finite(d.least_angle[leg]) || !is_finite(d.greatest_angle[leg]) ||
+        !(d.least_angle[leg] < d.greatest_angle[leg]))
       found.push_back("the joint limits of leg " + std::to_string(leg) + " are not a finite, non-empty interval");
   return found;
 }
@@ -142,7 +148,8 @@ public:
     std::vector<std::string> found = violations(description);
     if (!found.empty())
       throw Invalid_device_parameters(std::move(found));
-    mirror_ = d_.form == Device_form::general && d_.base_radius == d_.platform_radius && d_.primary_length == d_.secondary_length;
+    mirror_ = d_.form == Device_form::general && d_.base_radius == d_.platform_radius &&
+              d_.primary_length == d_.secondary_length;
     const S ratio = d_.platform_radius / d_.secondary_length;
     closure_linear_ = S(3) * ratio;
     closure_constant_ = S(3) * ratio * ratio + S(2);
@@ -155,17 +162,19 @@ public:
   const S& base_radius() const { return d_.base_radius; }                          ///< R, m; positive.
   const S& primary_length() const { return d_.primary_length; }                    ///< l1, m; positive.
   const S& secondary_length() const { return d_.secondary_length; }                ///< l2, m; positive.
-  const S& platform_radius() const { return d_.platform_radius; }                  ///< r, m; the di-tetrahedral form does not use it.
-  const S& primary_mass() const { return d_.primary_mass; }                        ///< m1, of each primary link, kg; not negative.
-  const S& secondary_mass() const { return d_.secondary_mass; }                    ///< m2, of each secondary link, kg; not negative.
+  const S& platform_radius() const { return d_.platform_radius; } ///< r, m; the di-tetrahedral form does not use it.
+  const S& primary_mass() const { return d_.primary_mass; }       ///< m1, of each primary link, kg; not negative.
+  const S& secondary_mass() const { return d_.secondary_mass; }   ///< m2, of each secondary link, kg; not negative.
   const S& platform_mass() const { return d_.platform_mass; }                      ///< M, kg; not negative.
-  const Device_vector<S>& platform_inertia() const { return d_.platform_inertia; } ///< About the platform's axes, kg m^2.
-  const S& rotor_inertia() const { return d_.rotor_inertia; }                      ///< Of one motor, reflected to its joint, kg m^2.
+  const Device_vector<S>& platform_inertia() const {
+    return d_.platform_inertia;
+  }                                                           ///< About the platform's axes, kg m^2.
+  const S& rotor_inertia() const { return d_.rotor_inertia; } ///< Of one motor, reflected to its joint, kg m^2.
   const S& gravity() const { return d_.gravity; }                                  ///< Along -z, m/s^2; of either sign.
   const S& torque_limit() const { return d_.torque_limit; }                        ///< Of one joint, N m; positive.
-  const S& viscous_friction() const { return d_.viscous_friction; }                ///< Of one joint, N m s/rad; not negative.
+  const S& viscous_friction() const { return d_.viscous_friction; } ///< Of one joint, N m s/rad; not negative.
   const S& coulomb_friction() const { return d_.coulomb_friction; }                ///< Of one joint, N m; not negative.
-  const S& encoder_step() const { return d_.encoder_step; }                        ///< Rad; 0 where encoders tell every angle.
+  const S& encoder_step() const { return d_.encoder_step; } ///< Rad; 0 where encoders tell every angle.
   const Device_vector<S>& least_angle() const { return d_.least_angle; }           ///< The lower joint limits, rad.
   const Device_vector<S>& greatest_angle() const { return d_.greatest_angle; }     ///< The upper joint limits, rad.
 
@@ -173,7 +182,7 @@ public:
   bool is_mirror() const { return mirror_; }
   /// The coefficient a = 3 r/l2 of the three closure equations, see platform_closure.h.
   const S& closure_linear() const { return closure_linear_; }
-  const S& closure_constant() const { return closure_constant_; }                                 ///< Their b = 3 r^2/l2^2 + 2.
+  const S& closure_constant() const { return closure_constant_; } ///< Their b = 3 r^2/l2^2 + 2.
   const S& inverse_secondary_length() const { return inverse_secondary_length_; }                 ///< 1/l2, 1/m.
   const S& inverse_secondary_length_squared() const { return inverse_secondary_length_squared_; } ///< 1/l2^2, 1/m^2.
 

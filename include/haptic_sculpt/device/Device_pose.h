@@ -14,7 +14,7 @@ template <class S> struct Device_pose {
   using Scalar = S; ///< what `Outcome` measures a shortfall in
 
   Device_form form = Device_form::ditetrahedral; ///< of the parameters it was made with
-  int mode = 0;                   ///< di-tetrahedral: +1 apex above the elbow plane (seen along its normal), -1 below; general: 0
+  int mode = 0; ///< di-tetrahedral: +1 apex above the elbow plane (seen along its normal), -1 below; general: 0
   Device_vector<S> theta;         ///< joint angles: 0 radially outward, pi/2 up
   Device_vector<S> cos_theta;     ///< of each joint angle, as computed on the way
   Device_vector<S> sin_theta;     ///< the same
@@ -23,7 +23,8 @@ template <class S> struct Device_pose {
   Device_matrix<S> links;         ///< u_i, unit vectors from elbow to platform joint
   Device_vector<S> position;      ///< p, apex or platform centre
   Device_matrix<S> orientation;   ///< Q, columns are the platform's axes; the identity in the di-tetrahedral form
-  Device_vector<S> cos_phi;       ///< general form: link angles seen from the platform, B_i = P_i + l2 (cos phi_i Q e_i + sin phi_i Q k)
+  Device_vector<S>
+      cos_phi; ///< general form: link angles seen from the platform, B_i = P_i + l2 (cos phi_i Q e_i + sin phi_i Q k)
   Device_vector<S> sin_phi;       ///< general form, as cos_phi; the di-tetrahedral form sets neither
 
   /// dB_i/dtheta_i.
@@ -61,7 +62,8 @@ template <class S> struct Device_pose {
 namespace internal {
 
 /// Fills in angles and elbows. False if an angle is not finite.
-template <class S> inline bool place_elbows(const Device_parameters<S>& parameters, const Device_vector<S>& theta, Device_pose<S>& pose) {
+template <class S>
+inline bool place_elbows(const Device_parameters<S>& parameters, const Device_vector<S>& theta, Device_pose<S>& pose) {
   using std::cos;
   using std::sin;
   pose.form = parameters.form();
@@ -76,9 +78,10 @@ template <class S> inline bool place_elbows(const Device_parameters<S>& paramete
   return all_finite(pose.sin_theta); // the sine of what is not finite is not a number
 }
 
-/// Whether a triangle with the sides a, b (squares given) and normal n = a x b (square given) has a usable normal. Its corners, at a distance of
-/// about `size` from the origin, are uncertain by the rounding of that distance, which turns the normal by rounding times longest side over |n|:
-/// at 16 roundings there is no knowing where it points. Collinear and coincident corners both fail.
+/// Whether a triangle with the sides a, b (squares given) and normal n = a x b (square given) has a usable normal. Its
+/// corners, at a distance of about `size` from the origin, are uncertain by the rounding of that distance, which turns
+/// the normal by rounding times longest side over |n|: at 16 roundings there is no knowing where it points. Collinear
+/// and coincident corners both fail.
 template <class S> bool spans_a_plane(const S& normal_squared, const S& aa, const S& bb, const S& size) {
   const S limit = S(16) * std::numeric_limits<S>::epsilon() * size;
   return normal_squared > limit * limit * (aa > bb ? aa : bb);
@@ -86,7 +89,8 @@ template <class S> bool spans_a_plane(const S& normal_squared, const S& aa, cons
 
 } // namespace internal
 
-/// Moving state of the mechanism: angles, their rates, and the pose they belong to (which carries the assembly mode on).
+/// Moving state of the mechanism: angles, their rates, and the pose they belong to (which carries the assembly mode
+/// on).
 template <class S = double> struct Device_state {
   using Scalar = S;                                 ///< what `Outcome` measures a shortfall in
   Device_pose<S> pose;                              ///< with the joint angles, `pose.theta`

@@ -31,22 +31,24 @@ inline const char* name_of(Device_status status) {
 
 /// A value of type T, or why there is none and how far the question is from having one.
 ///
-/// `T::Scalar` is the scalar. On failure the value is unfinished, never an old or a guessed pose that could be taken for an answer: reading
-/// it is an error of the caller, who is expected to have looked at `status()` first. `shortfall()` is 0 on success; each function says what
-/// it measures (dimensionless unless said otherwise) and it is finite and non-negative always.
+/// `T::Scalar` is the scalar. On failure the value is unfinished, never an old or a guessed pose that could be taken
+/// for an answer: reading it is an error of the caller, who is expected to have looked at `status()` first.
+/// `shortfall()` is 0 on success; each function says what it measures (dimensionless unless said otherwise) and it is
+/// finite and non-negative always.
 template <class T> class Outcome {
 public:
   using Scalar = typename T::Scalar; ///< what a shortfall is measured in
 
   Outcome() = default; ///< An unfinished answer; `value_to_fill()` and `succeed()` complete it in place.
-  Outcome(const T& value) : status_(Device_status::success), shortfall_(0), value_(value) {} ///< A success; copies the value.
+  Outcome(const T& value)
+      : status_(Device_status::success), shortfall_(0), value_(value) {} ///< A success; copies the value.
   /// A failure; a shortfall that is negative or not finite counts as 0. \pre status is not `success`
   Outcome(Device_status status, const Scalar& shortfall)
       : status_(status), shortfall_(usable(shortfall) ? shortfall : Scalar(0)) {}
 
   explicit operator bool() const { return status_ == Device_status::success; } ///< Whether there is a value.
   Device_status status() const { return status_; }                             ///< `diverged` for an unfinished answer.
-  const Scalar& shortfall() const { return shortfall_; }                       ///< 0 on success; else as the function says.
+  const Scalar& shortfall() const { return shortfall_; } ///< 0 on success; else as the function says.
 
   /// \pre the outcome is a success
   const T& operator*() const { return value_; }

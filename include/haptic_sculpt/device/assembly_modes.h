@@ -10,12 +10,12 @@
 /// \file
 /// All real assembly modes of the general form for given joint angles.
 ///
-/// With phi_0 held, each of two closure equations is linear in (cos, sin) of one other angle, so it has two solutions with a
-/// square root each; the third equation multiplied over the four sign choices, and divided by the fourth power of the common
-/// denominator, is a polynomial of degree 8 in cos phi_0 (16 in the tangent of the half angle, and even). Its values at
-/// nine Chebyshev points give its Chebyshev coefficients, these a colleague matrix, and its eigenvalues the candidates; Newton's
-/// method on the closure decides. That is done with each of the three angles in turn, because solutions that share one
-/// cosine (double roots, always so in symmetric poses) seldom share the others.
+/// With phi_0 held, each of two closure equations is linear in (cos, sin) of one other angle, so it has two solutions
+/// with a square root each; the third equation multiplied over the four sign choices, and divided by the fourth power
+/// of the common denominator, is a polynomial of degree 8 in cos phi_0 (16 in the tangent of the half angle, and even).
+/// Its values at nine Chebyshev points give its Chebyshev coefficients, these a colleague matrix, and its eigenvalues
+/// the candidates; Newton's method on the closure decides. That is done with each of the three angles in turn, because
+/// solutions that share one cosine (double roots, always so in symmetric poses) seldom share the others.
 
 namespace haptic_sculpt {
 
@@ -47,9 +47,10 @@ template <class S> struct Held_angle {
 template <class S> S mode_polynomial(const Platform_closure<S>& closure, int held, const S& c) {
   const Held_angle<S> h(closure, held, c);
   const S x2 = h.n - h.c1 * h.c1, y2 = h.n - h.c2 * h.c2;
-  const S a0 = h.n * h.n * (closure.constant - closure.separation_squared[held]) + h.n * closure.linear * h.a * (h.c1 + h.c2) +
-               (h.a * h.a - S(2) * h.b_squared) * h.c1 * h.c2;
-  const S b1 = h.n * closure.linear + S(3) * h.a * h.c2, b2 = h.n * closure.linear + S(3) * h.a * h.c1; // less their factor B
+  const S a0 = h.n * h.n * (closure.constant - closure.separation_squared[held]) +
+               h.n * closure.linear * h.a * (h.c1 + h.c2) + (h.a * h.a - S(2) * h.b_squared) * h.c1 * h.c2;
+  const S b1 = h.n * closure.linear + S(3) * h.a * h.c2,
+          b2 = h.n * closure.linear + S(3) * h.a * h.c1; // less their factor B
   const S b12 = h.b_squared - S(2) * h.a * h.a;
   const S u = a0 * a0 + h.b_squared * b1 * b1 * x2 - y2 * (h.b_squared * b2 * b2 + b12 * b12 * x2);
   const S v = S(2) * (a0 * b1 - y2 * b2 * b12);
@@ -115,7 +116,8 @@ template <class S> int candidate_cosines(const Platform_closure<S>& closure, int
   Hessenberg_eigenvalues<S, degree> eigenvalues;
   if (!eigenvalues.compute(colleague))
     return -1;
-  // A double root splits into a pair of complex ones by the square root of the rounding, a quadruple one by its fourth root.
+  // A double root splits into a pair of complex ones by the square root of the rounding, a quadruple one by its fourth
+  // root.
   const S slack(0.05);
   int count = 0;
   for (int k = 0; k < degree; ++k) {
@@ -126,8 +128,8 @@ template <class S> int candidate_cosines(const Platform_closure<S>& closure, int
   return count;
 }
 
-/// Modes closer than this are one. Two modes about a fold are farther apart than the rounding of either while their distance
-/// exceeds the square root of the machine precision.
+/// Modes closer than this are one. Two modes about a fold are farther apart than the rounding of either while their
+/// distance exceeds the square root of the machine precision.
 template <class S> S mode_separation() {
   using std::sqrt;
   return S(4) * sqrt(std::numeric_limits<S>::epsilon());
@@ -143,7 +145,8 @@ template <class S> bool insert_mode(Assembly_modes<S>& found, const Link_angles<
   return true;
 }
 
-/// The mode on the other side of the fold next to x, by the second-order expansion of the closure along its null direction.
+/// The mode on the other side of the fold next to x, by the second-order expansion of the closure along its null
+/// direction.
 template <class S> Link_angles<S> across_the_fold(const Platform_closure<S>& closure, const Link_angles<S>& x) {
   Device_matrix<S> adjugate;
   S determinant;
@@ -162,7 +165,9 @@ template <class S> Link_angles<S> across_the_fold(const Platform_closure<S>& clo
   return twin;
 }
 
-template <class S> void insert_with_mirror_image(const Platform_closure<S>& closure, Assembly_modes<S>& found, const Link_angles<S>& mode) {
+template <class S>
+void insert_with_mirror_image(const Platform_closure<S>& closure, Assembly_modes<S>& found,
+                              const Link_angles<S>& mode) {
   if (!insert_mode(found, mode))
     return;
   Link_angles<S> image = mode;
@@ -225,7 +230,8 @@ template <class S> Outcome<Assembly_modes<S>> assembly_modes(const Platform_clos
     int k = i;
     for (; k > 0; --k) {
       const Device_vector<S> other = found.modes[k - 1].angles();
-      if (!(key[0] < other[0] || (key[0] == other[0] && (key[1] < other[1] || (key[1] == other[1] && key[2] < other[2])))))
+      if (!(key[0] < other[0] ||
+            (key[0] == other[0] && (key[1] < other[1] || (key[1] == other[1] && key[2] < other[2])))))
         break;
       found.modes[k] = found.modes[k - 1];
     }
@@ -237,17 +243,20 @@ template <class S> Outcome<Assembly_modes<S>> assembly_modes(const Platform_clos
 
 } // namespace internal
 
-/// All real assembly modes of the general form: 0, 4, 8, 12 or 16 in general position, in pairs mirrored by the elbow plane.
+/// All real assembly modes of the general form: 0, 4, 8, 12 or 16 in general position, in pairs mirrored by the elbow
+/// plane.
 ///
-/// No mode at all is a success with count 0. Failures: `not_finite`; `singular`: elbows on a line or coincident, where modes
-/// are not isolated. About 0.1 ms in double: not for every tick.
-/// \pre `parameters.form() == Device_form::general`
-template <class S> inline Outcome<Assembly_modes<S>> assembly_modes(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
+/// No mode at all is a success with count 0. Failures: `not_finite`; `singular`: elbows on a line or coincident, where
+/// modes are not isolated. About 0.1 ms in double: not for every tick. \pre `parameters.form() == Device_form::general`
+template <class S>
+inline Outcome<Assembly_modes<S>> assembly_modes(const Device_parameters<S>& parameters,
+                                                 const Device_vector<S>& theta) {
   Device_pose<S> pose;
   if (!internal::place_elbows(parameters, theta, pose))
     return Outcome<Assembly_modes<S>>(Device_status::not_finite, S(0));
   const Device_vector<S> a = pose.elbows.col(1) - pose.elbows.col(0), b = pose.elbows.col(2) - pose.elbows.col(0);
-  if (!internal::spans_a_plane<S>(a.cross(b).squaredNorm(), a.squaredNorm(), b.squaredNorm(), parameters.base_radius() + parameters.primary_length()))
+  if (!internal::spans_a_plane<S>(a.cross(b).squaredNorm(), a.squaredNorm(), b.squaredNorm(),
+                                  parameters.base_radius() + parameters.primary_length()))
     return Outcome<Assembly_modes<S>>(Device_status::singular, S(0));
   return internal::assembly_modes(internal::Platform_closure<S>(parameters, pose.elbows));
 }

@@ -10,15 +10,18 @@ namespace haptic_sculpt {
 /// How near a pose is to a singular one.
 template <class S> struct Conditioning {
   using Scalar = S;         ///< what `Outcome` measures a shortfall in
-  S constraint_condition;   ///< condition number of the velocity equations (rows u_i, and Q t_i; moments in units of l2)
+  S constraint_condition; ///< condition number of the velocity equations (rows u_i, and Q t_i; moments in units of l2)
   S distance_to_singular;   ///< their least singular value: 0 where the platform can move with its legs held
-  S least_transmission;     ///< least |u_i.b_i'| / l1 = |cos gamma sin(beta - theta)|: 0 where a joint can turn without moving the platform
+  S least_transmission;     ///< least |u_i.b_i'| / l1 = |cos gamma sin(beta - theta)|: 0 where a joint can turn without
+                            ///< moving the platform
 };
 
 namespace internal {
 
-/// The matrix of the velocity equations; 3 by 3 in the di-tetrahedral form, where the lower rows and right columns are unused.
-template <class S> Eigen::Matrix<S, 6, 6> constraint_matrix(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
+/// The matrix of the velocity equations; 3 by 3 in the di-tetrahedral form, where the lower rows and right columns are
+/// unused.
+template <class S>
+Eigen::Matrix<S, 6, 6> constraint_matrix(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
   Eigen::Matrix<S, 6, 6> a;
   for (int i = 0; i < 3; ++i) {
     const Device_vector<S> arm = (pose.elbows.col(i) - pose.position) * parameters.inverse_secondary_length();
@@ -31,8 +34,10 @@ template <class S> Eigen::Matrix<S, 6, 6> constraint_matrix(const Device_paramet
 
 } // namespace internal
 
-/// Condition number and distances of a pose. A few microseconds. Failure: `singular` where the condition number is infinite.
-template <class S> Outcome<Conditioning<S>> conditioning(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
+/// Condition number and distances of a pose. A few microseconds. Failure: `singular` where the condition number is
+/// infinite.
+template <class S>
+Outcome<Conditioning<S>> conditioning(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
   using std::abs;
   Outcome<Conditioning<S>> outcome;
   Conditioning<S>& c = outcome.value_to_fill();
@@ -42,7 +47,8 @@ template <class S> Outcome<Conditioning<S>> conditioning(const Device_parameters
     const Device_vector<S> values = internal::singular_values<S, 3>(a);
     greatest = values[0], c.distance_to_singular = values[2];
   } else {
-    const Eigen::Matrix<S, 6, 1> values = internal::singular_values<S, 6>(internal::constraint_matrix(parameters, pose));
+    const Eigen::Matrix<S, 6, 1> values =
+        internal::singular_values<S, 6>(internal::constraint_matrix(parameters, pose));
     greatest = values[0], c.distance_to_singular = values[5];
   }
   for (int leg = 0; leg < 3; ++leg) {
@@ -57,16 +63,19 @@ template <class S> Outcome<Conditioning<S>> conditioning(const Device_parameters
   return outcome;
 }
 
-/// How fast the platform's centre moves when the joints turn: the extreme singular values of the 3 by 3 position Jacobian.
+/// How fast the platform's centre moves when the joints turn: the extreme singular values of the 3 by 3 position
+/// Jacobian.
 ///
-/// In the general form too this is the centre's translation alone, `Device_jacobian::linear`: its tilts are another unit, and a force on the
-/// hand acts along translations. It is another number than `Conditioning::constraint_condition`, which says how well the pose determines the
-/// Jacobian and is small at poses where a knee is straight, while this one is infinite there.
+/// In the general form too this is the centre's translation alone, `Device_jacobian::linear`: its tilts are another
+/// unit, and a force on the hand acts along translations. It is another number than
+/// `Conditioning::constraint_condition`, which says how well the pose determines the Jacobian and is small at poses
+/// where a knee is straight, while this one is infinite there.
 template <class S> struct Translation_conditioning {
   using Scalar = S; ///< as of the Jacobian
   S greatest;  ///< m/rad: the centre's greatest speed at joint rates of norm 1
   S least;     ///< m/rad: its least; 0 where there is a direction in which the centre cannot move
-  S condition; ///< greatest / least, at least 1; infinite where `least` is 0. Encoder steps turn a force by about their size times this.
+  S condition; ///< greatest / least, at least 1; infinite where `least` is 0. Encoder steps turn a force by about their
+               ///< size times this.
 };
 
 /// Extreme singular values and condition number of the position Jacobian. About a microsecond in double; no allocation.

@@ -5,7 +5,8 @@
 #include <haptic_sculpt/device/Device_pose.h>
 
 /// \file
-/// Closed-form kinematics of the di-tetrahedral form (paper section 2, Fig. 2): the apex is at distance l2 from three elbows.
+/// Closed-form kinematics of the di-tetrahedral form (paper section 2, Fig. 2): the apex is at distance l2 from three
+/// elbows.
 
 namespace haptic_sculpt {
 namespace internal {
@@ -18,12 +19,15 @@ template <> struct Wider<double> { using type = long double; };
 /// Below this part of l2^2 the squared height of the apex over the elbow plane has lost two digits to cancellation.
 template <class S> S cancelled_height() { return S(1) / S(100); }
 
-/// The two points at a length l from three elbows. With n = a x b the normal of the elbow triangle (sides a, b, c), the circumcentre is at
-/// ((|a|^2 b - |b|^2 a) x n) / (2 |n|^2) and the apex sqrt(l^2 |n|^2 - |a|^2 |b|^2 |c|^2 / 4) / |n|^2 n from it: one root, one division.
+/// The two points at a length l from three elbows. With n = a x b the normal of the elbow triangle (sides a, b, c), the
+/// circumcentre is at
+/// ((|a|^2 b - |b|^2 a) x n) / (2 |n|^2) and the apex sqrt(l^2 |n|^2 - |a|^2 |b|^2 |c|^2 / 4) / |n|^2 n from it: one
+/// root, one division.
 template <class S> struct Apex_pair {
   Device_vector<S> to_centre, normal; ///< to_centre times |n|^2; n
   S normal_squared;                   ///< |n|^2
-  S height_squared, full_height;      ///< (l^2 - circumradius^2) |n|^2, negative where no apex exists, and l^2 |n|^2 to compare it with
+  S height_squared,
+      full_height; ///< (l^2 - circumradius^2) |n|^2, negative where no apex exists, and l^2 |n|^2 to compare it with
   bool collinear;
 
   /// From the first elbow to the apex. \pre height_squared >= 0
@@ -33,7 +37,8 @@ template <class S> struct Apex_pair {
   }
 };
 
-template <class S> inline void apex_pair(const Device_matrix<S>& elbows, const S& length, const S& size, Apex_pair<S>& pair) {
+template <class S>
+inline void apex_pair(const Device_matrix<S>& elbows, const S& length, const S& size, Apex_pair<S>& pair) {
   const Device_vector<S> a = elbows.col(1) - elbows.col(0), b = elbows.col(2) - elbows.col(0);
   pair.normal = a.cross(b);
   const S aa = a.squaredNorm(), bb = b.squaredNorm(), cc = (b - a).squaredNorm();
@@ -46,13 +51,15 @@ template <class S> inline void apex_pair(const Device_matrix<S>& elbows, const S
 
 /// The same from the angles, in wider arithmetic; returns the first elbow.
 template <class W, class S>
-inline Device_vector<W> apex_pair_widened(const Device_parameters<S>& parameters, const Device_vector<S>& theta, Apex_pair<W>& pair) {
+inline Device_vector<W> apex_pair_widened(const Device_parameters<S>& parameters, const Device_vector<S>& theta,
+                                          Apex_pair<W>& pair) {
   using std::cos;
   using std::sin;
   Device_matrix<W> elbows;
   for (int leg = 0; leg < 3; ++leg)
-    elbows.col(leg) = Leg_frame<W>::in_leg_plane(leg, W(parameters.base_radius()) + W(parameters.primary_length()) * cos(W(theta[leg])),
-                                                 W(parameters.primary_length()) * sin(W(theta[leg])));
+    elbows.col(leg) = Leg_frame<W>::in_leg_plane(
+        leg, W(parameters.base_radius()) + W(parameters.primary_length()) * cos(W(theta[leg])),
+        W(parameters.primary_length()) * sin(W(theta[leg])));
   apex_pair(elbows, W(parameters.secondary_length()), W(W(parameters.base_radius()) + W(parameters.primary_length())),
             pair);
   return elbows.col(0);
@@ -62,13 +69,14 @@ inline Device_vector<W> apex_pair_widened(const Device_parameters<S>& parameters
 
 /// The apex for given joint angles, in closed form.
 ///
-/// `mode` +1 takes the apex on the side of the elbow plane its normal (B_1 - B_0) x (B_2 - B_0) points to, which is up in
-/// ordinary poses, -1 the mirror image. Error of the apex: a few roundings times l2 / h, h the height over the elbow plane;
-/// where h is small, wider arithmetic (float to double, double to long double) takes the cancellation.
-/// Failures: `unreachable`, shortfall circumradius / l2 - 1; `singular`: elbows on a line or coincident; `not_finite`.
-/// \pre `parameters.form() == Device_form::ditetrahedral`, mode is 1 or -1
+/// `mode` +1 takes the apex on the side of the elbow plane its normal (B_1 - B_0) x (B_2 - B_0) points to, which is up
+/// in ordinary poses, -1 the mirror image. Error of the apex: a few roundings times l2 / h, h the height over the elbow
+/// plane; where h is small, wider arithmetic (float to double, double to long double) takes the cancellation. Failures:
+/// `unreachable`, shortfall circumradius / l2 - 1; `singular`: elbows on a line or coincident; `not_finite`. \pre
+/// `parameters.form() == Device_form::ditetrahedral`, mode is 1 or -1
 template <class S>
-inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta, int mode) {
+inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>& parameters,
+                                                     const Device_vector<S>& theta, int mode) {
   Outcome<Device_pose<S>> outcome;
   Device_pose<S>& pose = outcome.value_to_fill();
   if (!internal::place_elbows(parameters, theta, pose)) {
@@ -77,7 +85,8 @@ inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>&
   }
   pose.mode = mode;
   internal::Apex_pair<S> pair;
-  internal::apex_pair(pose.elbows, parameters.secondary_length(), S(parameters.base_radius() + parameters.primary_length()), pair);
+  internal::apex_pair(pose.elbows, parameters.secondary_length(),
+                      S(parameters.base_radius() + parameters.primary_length()), pair);
   if (!pair.collinear && pair.height_squared > internal::cancelled_height<S>() * pair.full_height) {
     pose.position = pose.elbows.col(0) + pair.apex(mode);
   } else {
@@ -113,20 +122,23 @@ inline Outcome<Device_pose<S>> ditetrahedral_forward(const Device_parameters<S>&
 /// The two joint angles of each leg that bring the apex to a point.
 template <class S> struct Ditetrahedral_inverse {
   using Scalar = S;                  ///< what `Outcome` measures a shortfall in
-  Device_vector<S> minus;            ///< angle towards the point less the half-opening, rad; knee bent one way (working mode 0)
-  Device_vector<S> plus;             ///< plus the half-opening (working mode 1); not reduced to one turn, so minus <= plus
-  Device_vector<S> one_minus_cosine; ///< 1 - |cos half-opening|: negative by how far the leg misses the point, 0 at a straight or folded knee
+  Device_vector<S> minus; ///< angle towards the point less the half-opening, rad; knee bent one way (working mode 0)
+  Device_vector<S> plus;  ///< plus the half-opening (working mode 1); not reduced to one turn, so minus <= plus
+  Device_vector<S> one_minus_cosine; ///< 1 - |cos half-opening|: negative by how far the leg misses the point, 0 at a
+                                     ///< straight or folded knee
   bool leg_reaches[3];               ///< legs that do not reach have no angles: their `minus` and `plus` are 0
 };
 
 namespace internal {
 
-/// The triangle shoulder, elbow, point in the leg plane: (1 - c) and (1 + c) of the half-opening's cosine c, each without cancellation.
+/// The triangle shoulder, elbow, point in the leg plane: (1 - c) and (1 + c) of the half-opening's cosine c, each
+/// without cancellation.
 template <class S> struct Leg_triangle {
   S x, z, distance, one_minus, one_plus;
 };
 
-template <class S> inline Leg_triangle<S> leg_triangle(const Device_parameters<S>& parameters, const Device_vector<S>& point, int leg) {
+template <class S>
+inline Leg_triangle<S> leg_triangle(const Device_parameters<S>& parameters, const Device_vector<S>& point, int leg) {
   using std::sqrt;
   Leg_triangle<S> t;
   t.x = Leg_frame<S>::along_radial(leg, point) - parameters.base_radius();
@@ -135,7 +147,8 @@ template <class S> inline Leg_triangle<S> leg_triangle(const Device_parameters<S
   const S& l1 = parameters.primary_length();
   const S& l2 = parameters.secondary_length();
   t.distance = sqrt(t.x * t.x + t.z * t.z);
-  const S in_plane_squared = (l2 - across) * (l2 + across); // square of the secondary link's projection on the leg plane
+  const S in_plane_squared =
+      (l2 - across) * (l2 + across); // square of the secondary link's projection on the leg plane
   const S scale = S(1) / (S(2) * l1 * t.distance);
   t.one_minus = (in_plane_squared - (t.distance - l1) * (t.distance - l1)) * scale;
   t.one_plus = ((t.distance + l1) * (t.distance + l1) - in_plane_squared) * scale;
@@ -153,9 +166,11 @@ template <class S> inline Leg_triangle<S> leg_triangle(const Device_parameters<S
 /// All solutions of the inverse kinematics: two angles a leg, eight in combination.
 ///
 /// Failures: `not_finite`; `singular`: the point lies on a leg's shoulder (any angle would do or none);
-/// `unreachable`: shortfall is the largest |cosine| - 1 of a leg. On `unreachable` the value is nevertheless filled in leg by
-/// leg, so that a caller can see which legs miss.
-template <class S> inline Outcome<Ditetrahedral_inverse<S>> ditetrahedral_inverse(const Device_parameters<S>& parameters, const Device_vector<S>& point) {
+/// `unreachable`: shortfall is the largest |cosine| - 1 of a leg. On `unreachable` the value is nevertheless filled in
+/// leg by leg, so that a caller can see which legs miss.
+template <class S>
+inline Outcome<Ditetrahedral_inverse<S>> ditetrahedral_inverse(const Device_parameters<S>& parameters,
+                                                               const Device_vector<S>& point) {
   using std::atan2;
   using std::sqrt;
   Outcome<Ditetrahedral_inverse<S>> outcome;
@@ -195,12 +210,14 @@ template <class S> struct Joint_angles {
   Device_vector<S> theta; ///< rad, in (-pi, pi]
 };
 
-/// One solution of the inverse kinematics, that of the given working mode (0: minus, 1: plus, for each leg): one arc tangent a leg.
+/// One solution of the inverse kinematics, that of the given working mode (0: minus, 1: plus, for each leg): one arc
+/// tangent a leg.
 ///
 /// Failures as for all solutions.
 template <class S>
-inline Outcome<Joint_angles<S>> ditetrahedral_inverse(const Device_parameters<S>& parameters, const Device_vector<S>& point,
-                                               const Eigen::Vector3i& working_mode) {
+inline Outcome<Joint_angles<S>> ditetrahedral_inverse(const Device_parameters<S>& parameters,
+                                                      const Device_vector<S>& point,
+                                                      const Eigen::Vector3i& working_mode) {
   using std::atan2;
   using std::sqrt;
   Outcome<Joint_angles<S>> outcome;
@@ -231,7 +248,8 @@ inline Outcome<Joint_angles<S>> ditetrahedral_inverse(const Device_parameters<S>
 }
 
 /// The working mode (0 or 1 for each leg) a pose is in: on which side of the shoulder-joint line each knee is.
-template <class S> inline Eigen::Vector3i working_mode(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
+template <class S>
+inline Eigen::Vector3i working_mode(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
   Eigen::Vector3i mode;
   for (int leg = 0; leg < 3; ++leg)
     mode[leg] = pose.links.col(leg).dot(pose.elbow_rate(parameters, leg)) >= S(0) ? 0 : 1;
@@ -240,7 +258,8 @@ template <class S> inline Eigen::Vector3i working_mode(const Device_parameters<S
 
 /// The side of the elbow plane a point is on, as the `mode` of `ditetrahedral_forward`.
 template <class S>
-inline int ditetrahedral_mode(const Device_parameters<S>& parameters, const Device_vector<S>& theta, const Device_vector<S>& point) {
+inline int ditetrahedral_mode(const Device_parameters<S>& parameters, const Device_vector<S>& theta,
+                              const Device_vector<S>& point) {
   Device_pose<S> pose;
   internal::place_elbows(parameters, theta, pose);
   const Device_vector<S> a = pose.elbows.col(1) - pose.elbows.col(0), b = pose.elbows.col(2) - pose.elbows.col(0);

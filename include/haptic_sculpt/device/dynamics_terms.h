@@ -46,7 +46,8 @@ template <class S> struct Joint_accelerations {
 };
 
 /// The mass the hand feels: J^-T M J^-1 with J the position Jacobian, kg. \pre the position Jacobian is regular
-template <class S> Device_matrix<S> apparent_mass(const Device_matrix<S>& mass, const Device_matrix<S>& linear_jacobian) {
+template <class S>
+Device_matrix<S> apparent_mass(const Device_matrix<S>& mass, const Device_matrix<S>& linear_jacobian) {
   const Device_matrix<S> inverse = linear_jacobian.inverse();
   return inverse.transpose() * mass * inverse;
 }
@@ -56,7 +57,8 @@ namespace internal {
 /// Adds a slender rod between two moving points, whose Jacobians are `a` and `b` with time derivatives `da`, `db`:
 /// a uniform rod's kinetic energy is m/6 (|a'|^2 + a'.b' + |b'|^2).
 template <class S>
-void add_rod(const S& mass, const Device_matrix<S>& a, const Device_matrix<S>& b, const Device_matrix<S>& da, const Device_matrix<S>& db, Dynamics_terms<S>& terms) {
+void add_rod(const S& mass, const Device_matrix<S>& a, const Device_matrix<S>& b, const Device_matrix<S>& da,
+             const Device_matrix<S>& db, Dynamics_terms<S>& terms) {
   const S third = mass / S(3);
   const Device_matrix<S> heavy_a = third * (a + b / S(2)), heavy_b = third * (b + a / S(2));
   terms.mass.noalias() += a.transpose() * heavy_a + b.transpose() * heavy_b;
@@ -65,10 +67,12 @@ void add_rod(const S& mass, const Device_matrix<S>& a, const Device_matrix<S>& b
 }
 
 /// Primary links, rotors and the platform: the part the two models share.
-template <class S> void shared_terms(const Device_parameters<S>& parameters, const Device_motion<S>& motion, Dynamics_terms<S>& terms) {
+template <class S>
+void shared_terms(const Device_parameters<S>& parameters, const Device_motion<S>& motion, Dynamics_terms<S>& terms) {
   const S& g = parameters.gravity();
   const S& platform = parameters.platform_mass();
-  const S primary = parameters.primary_mass() * parameters.primary_length() * parameters.primary_length() / S(3) + parameters.rotor_inertia();
+  const S primary = parameters.primary_mass() * parameters.primary_length() * parameters.primary_length() / S(3) +
+                    parameters.rotor_inertia();
   const S primary_moment = parameters.primary_mass() * g * parameters.primary_length() / S(2);
   const Device_jacobian<S>& j = motion.jacobian;
   const Device_jacobian<S>& dj = motion.jacobian_rate;

@@ -6,18 +6,20 @@
 #include <vector>
 
 /// \file
-/// Inverse kinematics of the general form from the platform's position: joint angles and platform rotation together are six unknowns
-/// for the three link lengths and the three right angles between links and platform axes.
+/// Inverse kinematics of the general form from the platform's position: joint angles and platform rotation together are
+/// six unknowns for the three link lengths and the three right angles between links and platform axes.
 
 namespace haptic_sculpt {
 namespace internal {
 
-/// Newton's method at a fixed platform position from the angles and rotation in `pose`; steps are cut to 0.3 rad. On success the pose
-/// is complete. False if it does not settle within `most_iterations`.
+/// Newton's method at a fixed platform position from the angles and rotation in `pose`; steps are cut to 0.3 rad. On
+/// success the pose is complete. False if it does not settle within `most_iterations`.
 template <class S>
-bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<S>& position, Device_pose<S>& pose, int most_iterations) {
+bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<S>& position, Device_pose<S>& pose,
+                    int most_iterations) {
   using std::abs;
-  const S epsilon = std::numeric_limits<S>::epsilon(), scale = parameters.inverse_secondary_length(), r = parameters.platform_radius();
+  const S epsilon = std::numeric_limits<S>::epsilon(), scale = parameters.inverse_secondary_length(),
+          r = parameters.platform_radius();
   S previous(0);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (!place_elbows(parameters, Device_vector<S>(pose.theta), pose))
@@ -25,8 +27,10 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
     Eigen::Matrix<S, 6, 6> a = Eigen::Matrix<S, 6, 6>::Zero();
     Eigen::Matrix<S, 6, 1> f;
     for (int i = 0; i < 3; ++i) {
-      const Device_vector<S> radial = pose.orientation * Leg_frame<S>::radial(i), axis = pose.orientation * Leg_frame<S>::tangential(i);
-      const Device_vector<S> rate = pose.elbow_rate(parameters, i) * scale, arm = (pose.elbows.col(i) - position) * scale;
+      const Device_vector<S> radial = pose.orientation * Leg_frame<S>::radial(i),
+                             axis = pose.orientation * Leg_frame<S>::tangential(i);
+      const Device_vector<S> rate = pose.elbow_rate(parameters, i) * scale,
+                             arm = (pose.elbows.col(i) - position) * scale;
       const Device_vector<S> lever = (r * scale) * radial, link = lever - arm;
       f[i] = (link.squaredNorm() - S(1)) / S(2);
       f[3 + i] = arm.dot(axis);
@@ -52,7 +56,9 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
     }
     if (length <= S(8) * epsilon || (length * length <= epsilon && iteration > 0 && !(length < previous / S(2)))) {
       pose.orientation.col(0).normalize();
-      pose.orientation.col(1) = (pose.orientation.col(1) - pose.orientation.col(0).dot(pose.orientation.col(1)) * pose.orientation.col(0)).normalized();
+      pose.orientation.col(1) =
+          (pose.orientation.col(1) - pose.orientation.col(0).dot(pose.orientation.col(1)) * pose.orientation.col(0))
+              .normalized();
       pose.orientation.col(2) = pose.orientation.col(0).cross(pose.orientation.col(1));
       place_elbows(parameters, Device_vector<S>(pose.theta), pose);
       pose.mode = 0;
@@ -97,17 +103,21 @@ template <class S> bool platform_above_elbows(const Device_pose<S>& pose) {
 
 /// Within the joint limits, which count angles as given (not modulo a turn).
 template <class S> bool within_joint_limits(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
-  return (theta.array() >= parameters.least_angle().array()).all() && (theta.array() <= parameters.greatest_angle().array()).all();
+  return (theta.array() >= parameters.least_angle().array()).all() &&
+         (theta.array() <= parameters.greatest_angle().array()).all();
 }
 
-template <class S> std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& parameters, const Device_vector<S>& position);
+template <class S>
+std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& parameters,
+                                                const Device_vector<S>& position);
 
 /// The pose with the platform's centre at `position`, reached from `previous` by moving the centre straight there.
 ///
 /// Failures: `not_finite`; `unreachable`: the way ends at the edge of the workspace, shortfall the distance left, m.
 /// Cost: some microseconds; more at the workspace's edge. No allocation.
 template <class S>
-Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, const Device_vector<S>& position, const Device_pose<S>& previous) {
+Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, const Device_vector<S>& position,
+                                        const Device_pose<S>& previous) {
   using namespace internal;
   Outcome<Device_pose<S>> outcome;
   if (!all_finite(position)) {
@@ -122,7 +132,8 @@ Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, 
     Device_pose<S> next = reached;
     const Device_vector<S> target = last ? position : Device_vector<S>(start + (done + step) * way);
     // A step that turns a part by more than a third of a radian may have changed the branch: halve it.
-    if (inverse_newton(parameters, target, next, 12) && largest_magnitude(Device_vector<S>(next.theta - reached.theta)) < S(0.35) &&
+    if (inverse_newton(parameters, target, next, 12) &&
+        largest_magnitude(Device_vector<S>(next.theta - reached.theta)) < S(0.35) &&
         (next.orientation - reached.orientation).cwiseAbs().maxCoeff() < S(0.35)) {
       reached = next;
       done = last ? S(1) : done + step;
@@ -145,16 +156,20 @@ Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, 
 
 /// All poses with the platform's centre at `position`, within the joint limits and with the platform above its elbows.
 ///
-/// By Newton's method from a grid of platform rotations and all eight knee choices; a search, not a proof of completeness, compared with random
-/// multi-starts in the tests. Tens of milliseconds, allocates: not for a tick. Empty if there is none.
-template <class S> std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& parameters, const Device_vector<S>& position) {
+/// By Newton's method from a grid of platform rotations and all eight knee choices; a search, not a proof of
+/// completeness, compared with random multi-starts in the tests. Tens of milliseconds, allocates: not for a tick. Empty
+/// if there is none.
+template <class S>
+std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& parameters,
+                                                const Device_vector<S>& position) {
   using namespace internal;
   using std::cos;
   using std::sin;
   std::vector<Device_pose<S>> found;
   if (!all_finite(position))
     return found;
-  // Tilts to 2.1 rad in twelve directions, turns to 2 rad about the axis: half as dense a grid lost one solution in twenty.
+  // Tilts to 2.1 rad in twelve directions, turns to 2 rad about the axis: half as dense a grid lost one solution in
+  // twenty.
   for (int ring = 0; ring < 7; ++ring)
     for (int sector = 0; sector < (ring == 0 ? 1 : 12); ++sector)
       for (int twist = -4; twist <= 4; ++twist)
@@ -168,7 +183,8 @@ template <class S> std::vector<Device_pose<S>> general_inverse_all(const Device_
           for (int leg = 0; leg < 3; ++leg) {
             using std::atan2;
             using std::sqrt;
-            const Device_vector<S> joint = position + parameters.platform_radius() * (pose.orientation * Leg_frame<S>::radial(leg));
+            const Device_vector<S> joint =
+                position + parameters.platform_radius() * (pose.orientation * Leg_frame<S>::radial(leg));
             const auto t = leg_triangle(parameters, joint, leg);
             usable = usable && is_finite(t.one_minus) && is_finite(t.one_plus);
             const S low = t.one_minus > S(0) ? t.one_minus : S(0), high = t.one_plus > S(0) ? t.one_plus : S(0);
@@ -190,13 +206,15 @@ template <class S> std::vector<Device_pose<S>> general_inverse_all(const Device_
   return found;
 }
 
-/// The mirror case's inverse in closed form: every elbow lies in the plane that halves the way from the base's centre to p,
-/// `p.B_i = |p|^2 / 2`, an equation in theta_i alone with two solutions. Same fields as the di-tetrahedral inverse.
+/// The mirror case's inverse in closed form: every elbow lies in the plane that halves the way from the base's centre
+/// to p, `p.B_i = |p|^2 / 2`, an equation in theta_i alone with two solutions. Same fields as the di-tetrahedral
+/// inverse.
 ///
-/// Failures: `not_finite`; `singular`: p at the base's centre, or over it so that an angle is free; `unreachable`, shortfall the
-/// largest |cosine| - 1 of a leg.
-/// \pre `parameters.is_mirror()`
-template <class S> Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device_parameters<S>& parameters, const Device_vector<S>& position) {
+/// Failures: `not_finite`; `singular`: p at the base's centre, or over it so that an angle is free; `unreachable`,
+/// shortfall the largest |cosine| - 1 of a leg. \pre `parameters.is_mirror()`
+template <class S>
+Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device_parameters<S>& parameters,
+                                                 const Device_vector<S>& position) {
   using std::atan2;
   using std::sqrt;
   Outcome<Ditetrahedral_inverse<S>> outcome;
@@ -204,7 +222,8 @@ template <class S> Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device
   S shortfall(-1);
   for (int leg = 0; leg < 3; ++leg) {
     const S x = Leg_frame<S>::along_radial(leg, position), z = position[2], length = sqrt(x * x + z * z);
-    const S cosine = (position.squaredNorm() / S(2) - parameters.base_radius() * x) / (parameters.primary_length() * length);
+    const S cosine =
+        (position.squaredNorm() / S(2) - parameters.base_radius() * x) / (parameters.primary_length() * length);
     if (!internal::is_finite(cosine)) {
       outcome.fail(internal::all_finite(position) ? Device_status::singular : Device_status::not_finite, S(0));
       return outcome;

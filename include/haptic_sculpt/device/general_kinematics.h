@@ -10,9 +10,10 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Completes a pose whose elbows and link angles are known: the one rotation and translation that lay the elbow triangle, as
-/// seen from the platform, on the elbow triangle in the world. False where the elbows are on a line.
-template <class S> inline bool place_platform(const Device_parameters<S>& parameters, const Link_angles<S>& x, Device_pose<S>& pose) {
+/// Completes a pose whose elbows and link angles are known: the one rotation and translation that lay the elbow
+/// triangle, as seen from the platform, on the elbow triangle in the world. False where the elbows are on a line.
+template <class S>
+inline bool place_platform(const Device_parameters<S>& parameters, const Link_angles<S>& x, Device_pose<S>& pose) {
   using std::sqrt;
   const S& l2 = parameters.secondary_length();
   const S& r = parameters.platform_radius();
@@ -22,17 +23,21 @@ template <class S> inline bool place_platform(const Device_parameters<S>& parame
   Device_matrix<S> seen;
   for (int leg = 0; leg < 3; ++leg)
     seen.col(leg) = Leg_frame<S>::in_leg_plane(leg, r + l2 * x.cosine[leg], l2 * x.sine[leg]);
-  const Device_vector<S> world_a = pose.elbows.col(1) - pose.elbows.col(0), world_b = pose.elbows.col(2) - pose.elbows.col(0);
+  const Device_vector<S> world_a = pose.elbows.col(1) - pose.elbows.col(0),
+                         world_b = pose.elbows.col(2) - pose.elbows.col(0);
   const Device_vector<S> seen_a = seen.col(1) - seen.col(0), seen_b = seen.col(2) - seen.col(0);
   const Device_vector<S> world_n = world_a.cross(world_b), seen_n = seen_a.cross(seen_b);
-  const S world_aa = world_a.squaredNorm(), world_nn = world_n.squaredNorm(), seen_aa = seen_a.squaredNorm(), seen_nn = seen_n.squaredNorm();
-  if (!spans_a_plane<S>(world_nn, world_aa, world_b.squaredNorm(), parameters.base_radius() + parameters.primary_length()) ||
+  const S world_aa = world_a.squaredNorm(), world_nn = world_n.squaredNorm(), seen_aa = seen_a.squaredNorm(),
+          seen_nn = seen_n.squaredNorm();
+  if (!spans_a_plane<S>(world_nn, world_aa, world_b.squaredNorm(),
+                        parameters.base_radius() + parameters.primary_length()) ||
       !spans_a_plane<S>(seen_nn, seen_aa, seen_b.squaredNorm(), r + l2))
     return false;
   // Orthonormal frames (a, n x a, n) of both triangles; the scales of the first and last are folded into the products.
   const Device_vector<S> world_m = world_n.cross(world_a), seen_m = seen_n.cross(seen_a);
   const S along = S(1) / sqrt(world_aa * seen_aa), normal = S(1) / sqrt(world_nn * seen_nn), across = along * normal;
-  pose.orientation.noalias() = (world_a * along) * seen_a.transpose() + (world_n * normal) * seen_n.transpose() + (world_m * across) * seen_m.transpose();
+  pose.orientation.noalias() = (world_a * along) * seen_a.transpose() + (world_n * normal) * seen_n.transpose() +
+                               (world_m * across) * seen_m.transpose();
   const Device_vector<S> world_centre = pose.elbows.col(0) + pose.elbows.col(1) + pose.elbows.col(2);
   const Device_vector<S> seen_centre = seen.col(0) + seen.col(1) + seen.col(2);
   const Device_vector<S> turned_centre = pose.orientation * seen_centre;
@@ -45,10 +50,12 @@ template <class S> inline bool place_platform(const Device_parameters<S>& parame
   return all_finite(pose.position) && all_finite(pose.orientation);
 }
 
-/// Follows the mode x from `from` to `to` along the straight way between the two triples of joint angles, in certified steps.
-/// Returns the part of the way done: 1 on success. The steps shrink towards a fold; no more than `most_steps` are taken.
+/// Follows the mode x from `from` to `to` along the straight way between the two triples of joint angles, in certified
+/// steps. Returns the part of the way done: 1 on success. The steps shrink towards a fold; no more than `most_steps`
+/// are taken.
 template <class S>
-inline S follow_mode(const Device_parameters<S>& parameters, const Device_vector<S>& from, const Device_vector<S>& to, Link_angles<S>& x, int most_steps) {
+inline S follow_mode(const Device_parameters<S>& parameters, const Device_vector<S>& from, const Device_vector<S>& to,
+                     Link_angles<S>& x, int most_steps) {
   S done(0), step(0.5);
   Device_pose<S> pose;
   for (int k = 0; k < most_steps; ++k) {
@@ -72,11 +79,13 @@ inline S follow_mode(const Device_parameters<S>& parameters, const Device_vector
   return done;
 }
 
-/// The symmetric pose at the mean angle: its link angles, platform above the elbows. False if the links cannot close there.
+/// The symmetric pose at the mean angle: its link angles, platform above the elbows. False if the links cannot close
+/// there.
 template <class S> bool symmetric_home(const Device_parameters<S>& parameters, const S& theta, Link_angles<S>& x) {
   using std::cos;
   using std::sqrt;
-  const S c = (parameters.base_radius() + parameters.primary_length() * cos(theta) - parameters.platform_radius()) * parameters.inverse_secondary_length();
+  const S c = (parameters.base_radius() + parameters.primary_length() * cos(theta) - parameters.platform_radius()) *
+              parameters.inverse_secondary_length();
   if (!(c > S(-1) && c < S(1)))
     return false;
   x.cosine.setConstant(c);
@@ -100,8 +109,8 @@ void finish_general(const Device_parameters<S>& parameters, const Link_angles<S>
     outcome.fail(Device_status::singular, S(0));
 }
 
-/// How far the closure is from having a solution: the least residual (largest of the three, in units of l2^2) that damped
-/// Gauss-Newton steps find from x. Local, so an upper bound of the true distance.
+/// How far the closure is from having a solution: the least residual (largest of the three, in units of l2^2) that
+/// damped Gauss-Newton steps find from x. Local, so an upper bound of the true distance.
 template <class S> S least_residual(const Platform_closure<S>& closure, Link_angles<S> x) {
   Device_vector<S> f = closure.residual(x);
   S damping(0.01);
@@ -124,9 +133,11 @@ template <class S> S least_residual(const Platform_closure<S>& closure, Link_ang
   return largest_magnitude(f);
 }
 
-/// The mode nearest to a seed. Two modes about a fold that are closer to each other than to the seed cannot be told apart by
-/// it: then the one on the home sheet is meant.
-template <class S> bool nearest_mode(const Platform_closure<S>& closure, const Assembly_modes<S>& modes, const Link_angles<S>& seed, Link_angles<S>& x) {
+/// The mode nearest to a seed. Two modes about a fold that are closer to each other than to the seed cannot be told
+/// apart by it: then the one on the home sheet is meant.
+template <class S>
+bool nearest_mode(const Platform_closure<S>& closure, const Assembly_modes<S>& modes, const Link_angles<S>& seed,
+                  Link_angles<S>& x) {
   if (modes.count == 0)
     return false;
   int best = 0;
@@ -138,7 +149,8 @@ template <class S> bool nearest_mode(const Platform_closure<S>& closure, const A
   }
   if (!on_home_sheet(closure, modes.modes[best]))
     for (int k = 0; k < modes.count; ++k)
-      if (k != best && on_home_sheet(closure, modes.modes[k]) && angular_distance(modes.modes[k], modes.modes[best]) < best_distance) {
+      if (k != best && on_home_sheet(closure, modes.modes[k]) &&
+          angular_distance(modes.modes[k], modes.modes[best]) < best_distance) {
         best = k;
         break;
       }
@@ -150,11 +162,13 @@ template <class S> bool nearest_mode(const Platform_closure<S>& closure, const A
 
 /// The pose at `theta` reached from `previous` by moving the joints straight there, its assembly mode kept.
 ///
-/// One certified Newton iteration if the move is small, else in certified steps. Failures: `not_finite`; `mode_lost`: the way
-/// meets a singular pose, shortfall is how far before `theta` (largest joint angle left, rad); `singular`: elbows on a line.
-/// No allocation; about 0.3 microseconds in double for the moves of a 1 kHz loop, at worst (a fold on the way) tens of them.
+/// One certified Newton iteration if the move is small, else in certified steps. Failures: `not_finite`; `mode_lost`:
+/// the way meets a singular pose, shortfall is how far before `theta` (largest joint angle left, rad); `singular`:
+/// elbows on a line. No allocation; about 0.3 microseconds in double for the moves of a 1 kHz loop, at worst (a fold on
+/// the way) tens of them.
 template <class S>
-inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta, const Device_pose<S>& previous) {
+inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta,
+                                               const Device_pose<S>& previous) {
   using namespace internal;
   Outcome<Device_pose<S>> outcome;
   Device_pose<S>& pose = outcome.value_to_fill();
@@ -169,7 +183,8 @@ inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& param
     x.normalize();
     const S done = follow_mode(parameters, previous.theta, theta, x, 400);
     if (done < S(1)) {
-      outcome.fail(Device_status::mode_lost, (S(1) - done) * largest_magnitude(Device_vector<S>(theta - previous.theta)));
+      outcome.fail(Device_status::mode_lost,
+                   (S(1) - done) * largest_magnitude(Device_vector<S>(theta - previous.theta)));
       return outcome;
     }
   }
@@ -177,26 +192,30 @@ inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& param
   return outcome;
 }
 
-/// The mode nearest to the link angles `phi` (rad). Of two modes about a fold that are closer to each other than to the seed,
-/// the one on the home sheet.
+/// The mode nearest to the link angles `phi` (rad). Of two modes about a fold that are closer to each other than to the
+/// seed, the one on the home sheet.
 ///
-/// Failures: `not_finite`; `no_real_mode`, shortfall the least residual of the closure found from the seed, as a part of l2^2; `singular`.
+/// Failures: `not_finite`; `no_real_mode`, shortfall the least residual of the closure found from the seed, as a part
+/// of l2^2; `singular`.
 template <class S>
-inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters<S>& parameters, const Device_vector<S>& theta, const Device_vector<S>& phi);
+inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters<S>& parameters,
+                                                         const Device_vector<S>& theta, const Device_vector<S>& phi);
 
-/// The home mode: platform above the elbows, reached from the symmetric pose at the mean joint angle by moving the joints
-/// straight to `theta`.
+/// The home mode: platform above the elbows, reached from the symmetric pose at the mean joint angle by moving the
+/// joints straight to `theta`.
 ///
-/// If a singular pose stands in that way, the mode of the home sheet (that sign of the closure's determinant) nearest to the
-/// symmetric pose. Mirror designs: the mirror pose, in closed form. Failures as with a seed.
-template <class S> inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta);
+/// If a singular pose stands in that way, the mode of the home sheet (that sign of the closure's determinant) nearest
+/// to the symmetric pose. Mirror designs: the mirror pose, in closed form. Failures as with a seed.
+template <class S>
+inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta);
 
 /// The mirror case R = r, l1 = l2 in closed form: the platform is the base's image in the elbow plane.
 ///
 /// n the unit normal of the elbow plane, d its distance: p = 2 d n, Q = (I - 2 n n^T) diag(1, 1, -1).
 /// Failures: `not_finite`; `singular`: elbows on a line.
 /// \pre `parameters.is_mirror()`
-template <class S> inline Outcome<Device_pose<S>> mirror_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
+template <class S>
+inline Outcome<Device_pose<S>> mirror_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
   using namespace internal;
   using std::sqrt;
   Outcome<Device_pose<S>> outcome;
@@ -219,7 +238,8 @@ template <class S> inline Outcome<Device_pose<S>> mirror_forward(const Device_pa
   pose.orientation.noalias() = S(-2) * n * n.transpose();
   pose.orientation.diagonal().array() += S(1);
   pose.orientation.col(2) = -pose.orientation.col(2);
-  // The secondary link is the image of the primary one: seen from the platform it makes the angle -theta with its radius.
+  // The secondary link is the image of the primary one: seen from the platform it makes the angle -theta with its
+  // radius.
   pose.cos_phi = pose.cos_theta;
   pose.sin_phi = -pose.sin_theta;
   for (int leg = 0; leg < 3; ++leg) {
@@ -235,7 +255,8 @@ template <class S> inline Outcome<Device_pose<S>> mirror_forward(const Device_pa
 }
 
 template <class S>
-inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters<S>& parameters, const Device_vector<S>& theta, const Device_vector<S>& phi) {
+inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters<S>& parameters,
+                                                         const Device_vector<S>& theta, const Device_vector<S>& phi) {
   using namespace internal;
   Outcome<Device_pose<S>> outcome;
   Device_pose<S>& pose = outcome.value_to_fill();
@@ -262,7 +283,8 @@ inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters
   return outcome;
 }
 
-template <class S> inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
+template <class S>
+inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
   using namespace internal;
   if (parameters.is_mirror())
     return mirror_forward(parameters, theta);

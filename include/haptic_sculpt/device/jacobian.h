@@ -21,7 +21,8 @@ template <class S> struct Device_jacobian {
 namespace internal {
 
 template <class S>
-void jacobian_columns(const Device_parameters<S>& parameters, const Device_pose<S>& pose, const Velocity_map<S>& map, Device_jacobian<S>& jacobian) {
+void jacobian_columns(const Device_parameters<S>& parameters, const Device_pose<S>& pose, const Velocity_map<S>& map,
+                      Device_jacobian<S>& jacobian) {
   for (int leg = 0; leg < 3; ++leg) {
     const Device_vector<S> rate = pose.elbow_rate(parameters, leg);
     Device_vector<S> link = Device_vector<S>::Zero(), axis = Device_vector<S>::Zero();
@@ -37,7 +38,8 @@ void jacobian_columns(const Device_parameters<S>& parameters, const Device_pose<
 } // namespace internal
 
 /// The Jacobian of a pose. Failure: `singular`.
-template <class S> Outcome<Device_jacobian<S>> jacobian(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
+template <class S>
+Outcome<Device_jacobian<S>> jacobian(const Device_parameters<S>& parameters, const Device_pose<S>& pose) {
   Outcome<Device_jacobian<S>> outcome;
   const Velocity_map<S> map(parameters, pose);
   if (!map.is_regular()) {
@@ -76,7 +78,8 @@ template <class S> struct Device_motion {
     if (pose.form == Device_form::ditetrahedral)
       return jacobian_rate.linear;
     const Device_vector<S> arm = lever(leg);
-    return jacobian_rate.linear + carried(jacobian_rate.angular, arm) + carried(jacobian.angular, velocity.angular.cross(arm));
+    return jacobian_rate.linear + carried(jacobian_rate.angular, arm) +
+           carried(jacobian.angular, velocity.angular.cross(arm));
   }
   /// The platform's acceleration for given joint accelerations.
   Twist<S> acceleration(const Device_vector<S>& joint_acceleration) const {
@@ -93,9 +96,11 @@ private:
   }
 };
 
-/// Jacobian and its time derivative along `rate`, from the differentiated velocity equations. Failure: `singular`, `not_finite`.
+/// Jacobian and its time derivative along `rate`, from the differentiated velocity equations. Failure: `singular`,
+/// `not_finite`.
 template <class S>
-Outcome<Device_motion<S>> device_motion(const Device_parameters<S>& parameters, const Device_pose<S>& pose, const Device_vector<S>& rate) {
+Outcome<Device_motion<S>> device_motion(const Device_parameters<S>& parameters, const Device_pose<S>& pose,
+                                        const Device_vector<S>& rate) {
   Outcome<Device_motion<S>> outcome;
   Device_motion<S>& m = outcome.value_to_fill();
   m.pose = pose;
@@ -119,12 +124,15 @@ Outcome<Device_motion<S>> device_motion(const Device_parameters<S>& parameters, 
   const S& l1 = parameters.primary_length();
   for (int i = 0; i < 3; ++i) {
     m.elbow_rates.col(i) = pose.elbow_rate(parameters, i);
-    m.elbow_rates_derived.col(i) = Leg_frame<S>::in_leg_plane(i, -l1 * pose.cos_theta[i] * rate[i], -l1 * pose.sin_theta[i] * rate[i]);
+    m.elbow_rates_derived.col(i) =
+        Leg_frame<S>::in_leg_plane(i, -l1 * pose.cos_theta[i] * rate[i], -l1 * pose.sin_theta[i] * rate[i]);
     const Device_vector<S> elbow_velocity = m.elbow_rates.col(i) * rate[i];
     const Device_vector<S> arm = pose.elbows.col(i) - pose.position, arm_rate = elbow_velocity - v;
     const Device_vector<S> joint_velocity = general ? Device_vector<S>(v + w.cross(m.lever(i))) : v;
-    const Device_vector<S> u = pose.links.col(i), u_rate = (joint_velocity - elbow_velocity) * parameters.inverse_secondary_length();
-    const Device_vector<S> q = general ? Device_vector<S>(pose.orientation * Leg_frame<S>::tangential(i)) : Device_vector<S>::Zero();
+    const Device_vector<S> u = pose.links.col(i),
+                           u_rate = (joint_velocity - elbow_velocity) * parameters.inverse_secondary_length();
+    const Device_vector<S> q =
+        general ? Device_vector<S>(pose.orientation * Leg_frame<S>::tangential(i)) : Device_vector<S>::Zero();
     const Device_vector<S> q_rate = w.cross(q);
     for (int j = 0; j < 3; ++j) {
       Device_vector<S> relative = -m.jacobian.linear.col(j), drift = Device_vector<S>::Zero();

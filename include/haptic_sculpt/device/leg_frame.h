@@ -25,8 +25,8 @@ template <class S> S half_sqrt_three() {
     return sqrt(S(3)) / S(2);
 }
 
-/// The frame of leg i (0, 1, 2 at 0, 120 and 240 degrees): `radial` e_i points outward, `tangential` t_i counterclockwise,
-/// and the third axis is k, up. Constant, and written out so that the compiler folds it.
+/// The frame of leg i (0, 1, 2 at 0, 120 and 240 degrees): `radial` e_i points outward, `tangential` t_i
+/// counterclockwise, and the third axis is k, up. Constant, and written out so that the compiler folds it.
 template <class S> struct Leg_frame {
   /// e_i, of length 1, world axes. \pre leg is 0, 1 or 2, here and below
   static Device_vector<S> radial(int leg) {
@@ -63,7 +63,8 @@ template <class S> struct Leg_frame {
 
 namespace internal {
 
-/// True where every entry is a number: neither infinite nor not-a-number. Overflow of the sum of squares counts as infinite.
+/// True where every entry is a number: neither infinite nor not-a-number. Overflow of the sum of squares counts as
+/// infinite.
 template <class V> bool all_finite(const Eigen::MatrixBase<V>& values) {
   using S = typename V::Scalar;
   S sum(0);

@@ -11,7 +11,8 @@ namespace haptic_sculpt {
 /// EQ(1) |P_i - B_i|^2 - l2^2; EQ(2) |P_i - P_j|^2 - 3 r^2; EQ(3) (P_i - B_i).(P_j - P_k), i, j, k distinct.
 /// In the di-tetrahedral form r counts as 0.
 template <class S>
-Eigen::Matrix<S, 9, 1> nine_equation_residual(const Device_parameters<S>& parameters, const Device_matrix<S>& elbows, const Device_matrix<S>& joints) {
+Eigen::Matrix<S, 9, 1> nine_equation_residual(const Device_parameters<S>& parameters, const Device_matrix<S>& elbows,
+                                              const Device_matrix<S>& joints) {
   const S l2 = parameters.secondary_length();
   const S r = parameters.form() == Device_form::general ? parameters.platform_radius() : S(0);
   Eigen::Matrix<S, 9, 1> residual;

@@ -5,11 +5,13 @@
 #include <haptic_sculpt/device/dynamics_terms.h>
 
 /// \file
-/// The paper's Lagrangian (its equations 4 to 8): each secondary link counted as if it moved in its leg's vertical plane.
+/// The paper's Lagrangian (its equations 4 to 8): each secondary link counted as if it moved in its leg's vertical
+/// plane.
 ///
-/// That link has its full length l2 at the angle beta_i, the projection's angle. It is false for a ball elbow (the true link leaves the
-/// plane by gamma_i, so part of its inertia is lost) and is here to be compared with. What the paper leaves out is not left out:
-/// beta_i depends on all three joint angles, so d beta / d theta is a full matrix; l1 and l2, m1 and m2 may differ.
+/// That link has its full length l2 at the angle beta_i, the projection's angle. It is false for a ball elbow (the true
+/// link leaves the plane by gamma_i, so part of its inertia is lost) and is here to be compared with. What the paper
+/// leaves out is not left out: beta_i depends on all three joint angles, so d beta / d theta is a full matrix; l1 and
+/// l2, m1 and m2 may differ.
 
 namespace haptic_sculpt {
 
@@ -24,7 +26,8 @@ template <class S> struct Projected_links {
 };
 
 /// Failure: `singular` where a link stands normal to its leg plane, which leaves no projection to measure an angle of.
-template <class S> Outcome<Projected_links<S>> projected_links(const Device_parameters<S>& parameters, const Device_motion<S>& motion) {
+template <class S>
+Outcome<Projected_links<S>> projected_links(const Device_parameters<S>& parameters, const Device_motion<S>& motion) {
   using std::sqrt;
   Outcome<Projected_links<S>> outcome;
   Projected_links<S>& links = outcome.value_to_fill();
@@ -32,7 +35,8 @@ template <class S> Outcome<Projected_links<S>> projected_links(const Device_para
     Device_matrix<S> turn = motion.joint_jacobian(i), turn_rate = motion.joint_jacobian_rate(i);
     turn.col(i) -= motion.elbow_rates.col(i);
     turn_rate.col(i) -= motion.elbow_rates_derived.col(i);
-    const S x = Leg_frame<S>::along_radial(i, motion.pose.links.col(i)), z = motion.pose.links(2, i), square = x * x + z * z;
+    const S x = Leg_frame<S>::along_radial(i, motion.pose.links.col(i)), z = motion.pose.links(2, i),
+            square = x * x + z * z;
     if (!(square > std::numeric_limits<S>::epsilon())) {
       outcome.fail(Device_status::singular, S(0));
       return outcome;
@@ -58,7 +62,8 @@ template <class S> Outcome<Projected_links<S>> projected_links(const Device_para
 }
 
 /// M, C, gravity and the energies of the paper's planar model. Failure: `singular`, see projected_links().
-template <class S> Outcome<Dynamics_terms<S>> planar_dynamics(const Device_parameters<S>& parameters, const Device_motion<S>& motion) {
+template <class S>
+Outcome<Dynamics_terms<S>> planar_dynamics(const Device_parameters<S>& parameters, const Device_motion<S>& motion) {
   using namespace internal;
   const Outcome<Projected_links<S>> links = projected_links(parameters, motion);
   if (!links)
@@ -71,9 +76,11 @@ template <class S> Outcome<Dynamics_terms<S>> planar_dynamics(const Device_param
   for (int i = 0; i < 3; ++i) {
     const Device_vector<S> across = Leg_frame<S>::in_leg_plane(i, -l2 * links->sine[i], l2 * links->cosine[i]);
     const Device_vector<S> inward = Leg_frame<S>::in_leg_plane(i, -l2 * links->cosine[i], -l2 * links->sine[i]);
-    const Device_matrix<S> elbow = single_column<S>(motion.elbow_rates.col(i), i), elbow_rate = single_column<S>(motion.elbow_rates_derived.col(i), i);
+    const Device_matrix<S> elbow = single_column<S>(motion.elbow_rates.col(i), i),
+                           elbow_rate = single_column<S>(motion.elbow_rates_derived.col(i), i);
     const Device_matrix<S> end = elbow + across * links->jacobian.row(i);
-    const Device_matrix<S> end_rate = elbow_rate + across * links->jacobian_rate.row(i) + (inward * links->rate[i]) * links->jacobian.row(i);
+    const Device_matrix<S> end_rate =
+        elbow_rate + across * links->jacobian_rate.row(i) + (inward * links->rate[i]) * links->jacobian.row(i);
     add_rod(parameters.secondary_mass(), elbow, end, elbow_rate, end_rate, terms);
     terms.gravity += weight * (elbow.row(2) + end.row(2)).transpose();
     terms.potential += weight * (S(2) * motion.pose.elbows(2, i) + l2 * links->sine[i]);

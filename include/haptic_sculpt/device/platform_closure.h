@@ -7,9 +7,9 @@
 /// \file
 /// The general form in three unknowns: the link angles phi_i seen from the platform (paper section 2, restated).
 ///
-/// Seen from the platform, elbow i is at (r + l2 cos phi_i) e_i + l2 sin phi_i k, so each pair of elbows has a distance in the
-/// phi alone, and it must be the one the joint angles give. In units of l2, with a = 3 r / l2 and b = 3 r^2 / l2^2 + 2:
-/// `f_ij = b + a (c_i + c_j) + c_i c_j - 2 s_i s_j - |B_i - B_j|^2 / l2^2 = 0`.
+/// Seen from the platform, elbow i is at (r + l2 cos phi_i) e_i + l2 sin phi_i k, so each pair of elbows has a distance
+/// in the phi alone, and it must be the one the joint angles give. In units of l2, with a = 3 r / l2 and b = 3 r^2 /
+/// l2^2 + 2: `f_ij = b + a (c_i + c_j) + c_i c_j - 2 s_i s_j - |B_i - B_j|^2 / l2^2 = 0`.
 
 namespace haptic_sculpt {
 
@@ -86,14 +86,17 @@ template <class S> struct Platform_closure {
 
   template <class T>
   explicit Platform_closure(const Platform_closure<T>& other)
-      : linear(other.linear), constant(other.constant),
-        separation_squared(S(other.separation_squared[0]), S(other.separation_squared[1]), S(other.separation_squared[2])) {}
+      : linear(other.linear)
+      , constant(other.constant)
+      , separation_squared(S(other.separation_squared[0]), S(other.separation_squared[1]),
+                           S(other.separation_squared[2])) {}
 
   Device_vector<S> residual(const Link_angles<S>& x) const {
     Device_vector<S> f;
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
-      f[k] = constant + linear * (x.cosine[i] + x.cosine[j]) + x.cosine[i] * x.cosine[j] - S(2) * x.sine[i] * x.sine[j] - separation_squared[k];
+      f[k] = constant + linear * (x.cosine[i] + x.cosine[j]) + x.cosine[i] * x.cosine[j] -
+             S(2) * x.sine[i] * x.sine[j] - separation_squared[k];
     }
     return f;
   }
@@ -105,7 +108,8 @@ template <class S> struct Platform_closure {
 
   /// Adjugate and determinant of the 3 by 3 derivative (row k: equation k, zero in column k).
   void derivative_adjugate(const Link_angles<S>& x, Device_matrix<S>& adjugate, S& determinant) const {
-    const S a01 = slope(x, 0, 1), a10 = slope(x, 1, 0), a12 = slope(x, 1, 2), a21 = slope(x, 2, 1), a20 = slope(x, 2, 0), a02 = slope(x, 0, 2);
+    const S a01 = slope(x, 0, 1), a10 = slope(x, 1, 0), a12 = slope(x, 1, 2), a21 = slope(x, 2, 1),
+            a20 = slope(x, 2, 0), a02 = slope(x, 0, 2);
     adjugate << -a20 * a10, a21 * a10, a12 * a20, //
         a20 * a01, -a21 * a01, a21 * a02,         //
         a02 * a10, a12 * a01, -a12 * a02;
@@ -114,7 +118,8 @@ template <class S> struct Platform_closure {
 
   Device_matrix<S> derivative(const Link_angles<S>& x) const {
     Device_matrix<S> g;
-    g << S(0), slope(x, 1, 2), slope(x, 2, 1), slope(x, 0, 2), S(0), slope(x, 2, 0), slope(x, 0, 1), slope(x, 1, 0), S(0);
+    g << S(0), slope(x, 1, 2), slope(x, 2, 1), slope(x, 0, 2), S(0), slope(x, 2, 0), slope(x, 0, 1), slope(x, 1, 0),
+        S(0);
     return g;
   }
 
@@ -124,8 +129,8 @@ template <class S> struct Platform_closure {
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
       const S ci = x.cosine[i], cj = x.cosine[j], si = x.sine[i], sj = x.sine[j];
-      f[k] = (-ci * (linear + cj) + S(2) * si * sj) * v[i] * v[i] + (-cj * (linear + ci) + S(2) * si * sj) * v[j] * v[j] +
-             S(2) * (si * sj - S(2) * ci * cj) * v[i] * v[j];
+      f[k] = (-ci * (linear + cj) + S(2) * si * sj) * v[i] * v[i] +
+             (-cj * (linear + ci) + S(2) * si * sj) * v[j] * v[j] + S(2) * (si * sj - S(2) * ci * cj) * v[i] * v[j];
     }
     return f;
   }
@@ -137,9 +142,9 @@ template <class S> struct Platform_closure {
 /// How a Newton iteration ended.
 enum class Newton_end { converged, not_certified, stalled };
 
-/// Newton's method on the closure, started only if Kantorovich's theorem promises convergence to the one solution nearby:
-/// |G^-1| L |first step| <= 1/2 with L the curvature bound. So the solution found is the continuation of the start, never
-/// that of another assembly mode.
+/// Newton's method on the closure, started only if Kantorovich's theorem promises convergence to the one solution
+/// nearby: |G^-1| L |first step| <= 1/2 with L the curvature bound. So the solution found is the continuation of the
+/// start, never that of another assembly mode.
 template <class S> inline Newton_end certified_newton(const Platform_closure<S>& closure, Link_angles<S>& x) {
   using std::abs;
   const S bound = closure.curvature_bound();
@@ -189,7 +194,8 @@ template <class S> inline bool free_newton(const Platform_closure<S>& closure, L
       length = S(0.5);
     }
     x.turn(step);
-    if (length <= S(4) * epsilon || (length * length * length <= epsilon && iteration > 0 && !(length < previous / S(2)))) {
+    if (length <= S(4) * epsilon ||
+        (length * length * length <= epsilon && iteration > 0 && !(length < previous / S(2)))) {
       x.normalize();
       return largest_magnitude(closure.residual(x)) <= S(64) * epsilon * (closure.constant + closure.linear + S(3));
     }

@@ -8,10 +8,11 @@
 /// \file
 /// The linear equations that tie the platform's velocity to what the legs do, factored once a pose.
 ///
-/// Rows `u_i.[v + w x (B_i - p)] = link_i` and `Q t_i.[v + w x (B_i - p)] = axis_i` (the latter in the general form only).
-/// In the platform's axes and units of l2 the axis rows read `t_i.v + x_i w_z - z_i e_i.w = axis_i` with x_i = r/l2 + cos phi_i,
-/// z_i = sin phi_i. Because sum t_i t_i^T = 3/2 I and sum t_i = 0, two combinations of them give v's horizontal part without a division
-/// and the third is free of v: four equations in (v_z, w) are left, and only those are eliminated with pivots.
+/// Rows `u_i.[v + w x (B_i - p)] = link_i` and `Q t_i.[v + w x (B_i - p)] = axis_i` (the latter in the general form
+/// only). In the platform's axes and units of l2 the axis rows read `t_i.v + x_i w_z - z_i e_i.w = axis_i` with x_i =
+/// r/l2 + cos phi_i, z_i = sin phi_i. Because sum t_i t_i^T = 3/2 I and sum t_i = 0, two combinations of them give v's
+/// horizontal part without a division and the third is free of v: four equations in (v_z, w) are left, and only those
+/// are eliminated with pivots.
 
 namespace haptic_sculpt {
 
@@ -59,7 +60,8 @@ public:
       free[i] = axis[i] - x_[i] * found[3] + z_[i] * radial;
     }
     const S h = half_sqrt_three<S>(), scale = S(2) / S(3);
-    const Device_vector<S> linear(scale * h * (free[2] - free[1]), scale * (free[0] - (free[1] + free[2]) / S(2)), found[0]);
+    const Device_vector<S> linear(scale * h * (free[2] - free[1]), scale * (free[0] - (free[1] + free[2]) / S(2)),
+                                  found[0]);
     twist.linear.noalias() = orientation_ * linear;
     twist.angular.noalias() = orientation_ * (found.template tail<3>() * inverse_length_);
     return twist;
@@ -72,7 +74,8 @@ private:
     S determinant;
     internal::adjugate(rows, inverse_, determinant);
     using std::abs;
-    regular_ = abs(determinant) > S(16) * std::numeric_limits<S>::epsilon(); // rows are unit vectors, so this is their volume
+    regular_ =
+        abs(determinant) > S(16) * std::numeric_limits<S>::epsilon(); // rows are unit vectors, so this is their volume
     if (regular_)
       inverse_ *= S(1) / determinant;
   }
@@ -90,7 +93,8 @@ private:
     S last_x(0), last_y(0);
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
-      const Device_vector<S> radial_j = Leg_frame<S>::radial(j), radial_k = Leg_frame<S>::radial(k), tangential = Leg_frame<S>::tangential(i);
+      const Device_vector<S> radial_j = Leg_frame<S>::radial(j), radial_k = Leg_frame<S>::radial(k),
+                             tangential = Leg_frame<S>::tangential(i);
       const S weight = -cosine_[i] * third_root, lever = ratio * z_[i];
       a(i, 0) = -z_[i];
       a(i, 1) = weight * (z_[k] * radial_k[0] - z_[j] * radial_j[0]) + lever * tangential[0];

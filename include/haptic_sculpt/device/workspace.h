@@ -11,7 +11,8 @@ namespace haptic_sculpt {
 
 /// What a pose must keep to belong to the usable workspace. Dimensionless or radians.
 template <class S> struct Workspace_limits {
-  S least_transmission = S(0.1);    ///< |sin| of the knee angle times cos gamma: below it a motor's torque explodes into link force
+  S least_transmission =
+      S(0.1); ///< |sin| of the knee angle times cos gamma: below it a motor's torque explodes into link force
   S greatest_tilt = S(1);           ///< of the platform's axis from the vertical, rad; general form
   S greatest_condition = S(50);     ///< of the velocity equations
 };
@@ -27,7 +28,8 @@ struct Workspace_verdict {
 
 /// Tests a pose against joint limits and workspace limits. A singular pose breaks `condition`.
 template <class S>
-Workspace_verdict workspace_verdict(const Device_parameters<S>& parameters, const Device_pose<S>& pose, const Workspace_limits<S>& limits = Workspace_limits<S>()) {
+Workspace_verdict workspace_verdict(const Device_parameters<S>& parameters, const Device_pose<S>& pose,
+                                    const Workspace_limits<S>& limits = Workspace_limits<S>()) {
   using std::cos;
   Workspace_verdict verdict;
   verdict.joint_limits = !within_joint_limits(parameters, pose.theta);
@@ -38,8 +40,9 @@ Workspace_verdict workspace_verdict(const Device_parameters<S>& parameters, cons
   return verdict;
 }
 
-/// The greatest force, N, the joint torque limits allow at this pose in *every* direction: min over joints of limit / |column of J|.
-/// Moments are taken as zero. A joint that moves nothing sets no limit; if none does the answer is infinite.
+/// The greatest force, N, the joint torque limits allow at this pose in *every* direction: min over joints of limit /
+/// |column of J|. Moments are taken as zero. A joint that moves nothing sets no limit; if none does the answer is
+/// infinite.
 template <class S> S isotropic_force(const Device_parameters<S>& parameters, const Device_jacobian<S>& jacobian) {
   S least = std::numeric_limits<S>::infinity();
   for (int joint = 0; joint < 3; ++joint) {
@@ -57,10 +60,11 @@ template <class S> struct Workspace_sample {
       force;                 ///< isotropic force, N
 };
 
-/// Samples the workspace: every triple of `per_joint` (>= 2) equally spaced angles between the joint limits, home mode, that has a regular pose.
-/// Allocates; cost per_joint^3 times some microseconds.
+/// Samples the workspace: every triple of `per_joint` (>= 2) equally spaced angles between the joint limits, home mode,
+/// that has a regular pose. Allocates; cost per_joint^3 times some microseconds.
 template <class S>
-std::vector<Workspace_sample<S>> sample_workspace(const Device_parameters<S>& parameters, int per_joint, const Workspace_limits<S>& limits = Workspace_limits<S>()) {
+std::vector<Workspace_sample<S>> sample_workspace(const Device_parameters<S>& parameters, int per_joint,
+                                                  const Workspace_limits<S>& limits = Workspace_limits<S>()) {
   std::vector<Workspace_sample<S>> samples;
   const Device_vector<S> low = parameters.least_angle(), span = parameters.greatest_angle() - low;
   for (int i = 0; i < per_joint; ++i)
@@ -74,7 +78,8 @@ std::vector<Workspace_sample<S>> sample_workspace(const Device_parameters<S>& pa
         const Outcome<Device_jacobian<S>> map = jacobian(parameters, *pose);
         const Outcome<Conditioning<S>> c = conditioning(parameters, *pose);
         if (map && c)
-          samples.push_back({*pose, workspace_verdict(parameters, *pose, limits), c->constraint_condition, isotropic_force(parameters, *map)});
+          samples.push_back({*pose, workspace_verdict(parameters, *pose, limits), c->constraint_condition,
+                             isotropic_force(parameters, *map)});
       }
   return samples;
 }

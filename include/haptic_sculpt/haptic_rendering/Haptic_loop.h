@@ -14,9 +14,9 @@ public:
   using Base = Interaction_loop<Sculptor_, Joint_side>; ///< what all loops do
   using Vertex_index = typename Base::Vertex_index;     ///< of the mesh that is sculpted
 
-  /// \param start a pose near the first reading \param limits made for this device, tick, delay and damping (passivity_limits) \throw Unstable_coupling if
-  /// they do not permit the coupling, the virtual mass or the passivity controller; Error for parameters that cannot be
-  /// used, and for limits that were made for others
+  /// \param start a pose near the first reading \param limits made for this device, tick, delay and damping
+  /// (passivity_limits) \throw Unstable_coupling if they do not permit the coupling, the virtual mass or the passivity
+  /// controller; Error for parameters that cannot be used, and for limits that were made for others
   Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device,
               const Device_pose<double>& start, const Workspace_map& map, const Haptic_parameters& parameters,
               const Passivity_limits& limits)
@@ -42,8 +42,8 @@ private:
       lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
     }
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (upper - lower).norm());
-    return passivity_limits(device, parameters.limits, map, lower - margin, upper + margin,
-                            parameters.coupling.damping, parameters.tick, parameters.delay, parameters.virtual_mass.cutoff);
+    return passivity_limits(device, parameters.limits, map, lower - margin, upper + margin, parameters.coupling.damping,
+                            parameters.tick, parameters.delay, parameters.virtual_mass.cutoff);
   }
 };
 

@@ -69,7 +69,8 @@ public:
   using Base = Interaction_loop<Sculptor_, Pose_side>; ///< what all loops do
   using Vertex_index = typename Base::Vertex_index;    ///< of the mesh that is sculpted
 
-  /// \throw Unstable_coupling if the coupling is not passive on this device, or the controller too strong; Error for parameters that cannot be used
+  /// \throw Unstable_coupling if the coupling is not passive on this device, or the controller too strong; Error for
+  /// parameters that cannot be used
   Pose_loop(Sculptor_& sculptor, const Workspace_map& map, const Pose_loop_parameters& parameters)
       : Base(sculptor, Pose_side(parameters.device, parameters.checked()), map, parameters.checked(),
              0.5 * parameters.largest_controller()) {

@@ -180,7 +180,8 @@ private:
     return probe_.has_value();
   }
 
-  /// One that a change of the mesh has ended goes on where it is, or a little off, if that is outside; else it comes to the hand.
+  /// One that a change of the mesh has ended goes on where it is, or a little off, if that is outside; else it comes to
+  /// the hand.
   void bring_probe(const Eigen::Vector3d& hand) {
     if (probe_ && !*probe_) {
       const Eigen::Vector3d place = internal::vector_of(probe_->position());

@@ -10,8 +10,8 @@
 
 namespace haptic_sculpt {
 
-/// How heavy what is grabbed feels. Off by default: it follows an acceleration that is told by second differences, and is
-/// outside of what the passive limit promises.
+/// How heavy what is grabbed feels. Off by default: it follows an acceleration that is told by second differences, and
+/// is outside of what the passive limit promises.
 struct Virtual_mass_parameters {
   double mass = 0;                                       ///< kg, of what is grabbed
   double cutoff = Acceleration_estimate::default_cutoff; ///< of the acceleration, Hz; lower where encoders are coarse
@@ -23,8 +23,8 @@ struct Virtual_mass_parameters {
   }
 };
 
-/// The force of a virtual mass, -m a, while something is grabbed. It comes and goes within `fade_time`, so that grabbing in
-/// motion makes no jump.
+/// The force of a virtual mass, -m a, while something is grabbed. It comes and goes within `fade_time`, so that
+/// grabbing in motion makes no jump.
 class Virtual_mass {
 public:
   static constexpr double fade_time = 0.05; ///< s

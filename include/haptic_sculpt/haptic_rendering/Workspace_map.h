@@ -39,7 +39,8 @@ public:
       throw Error("a ball of the device with the radius " + internal::number(radius) + " m holds no scene");
     const Eigen::Vector3d extent = upper - lower;
     const double unit = internal::unit_of(extent.lpNorm<Eigen::Infinity>()); // squares stay in the range of doubles
-    return Workspace_map(0.5 * ((unit * extent).norm() / unit) / radius, Eigen::Vector3d::Zero(), 0.5 * (lower + upper), home);
+    return Workspace_map(0.5 * ((unit * extent).norm() / unit) / radius, Eigen::Vector3d::Zero(), 0.5 * (lower + upper),
+                         home);
   }
 
   double scale() const { return scale_; }                       ///< units of the scene a metre of the device

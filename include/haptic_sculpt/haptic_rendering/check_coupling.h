@@ -47,7 +47,8 @@ inline void check_limits(const Passivity_limits& limits, const Device_parameters
                       parameters.virtual_mass.cutoff))
     throw Error("the limits of passivity were made for another device, tick, delay, damping or cutoff; make them anew "
                 "with passivity_limits()");
-  check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0), limits);
+  check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0),
+                 limits);
   check_coupling(parameters.coupling, limits);
 }
 

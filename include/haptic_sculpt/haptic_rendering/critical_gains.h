@@ -76,8 +76,8 @@ inline double critical_damping_rate(double tick, double delay, double cutoff = V
 constexpr double stable_share = 1.0 / 3;
 
 /// The damping that may be asked for, N s/m for each kg that it stops: that share of critical, and at most one over the
-/// time by which the velocity lags. A stronger one stops the mass sooner, pushes on, and throws it off a wall faster than
-/// it came.
+/// time by which the velocity lags. A stronger one stops the mass sooner, pushes on, and throws it off a wall faster
+/// than it came.
 inline double largest_damping_rate(double tick, double delay, double cutoff = Velocity_estimate::default_cutoff) {
   return std::fmin(stable_share * critical_damping_rate(tick, delay, cutoff), 2 * 3.14159265358979323846 * cutoff);
 }

@@ -38,7 +38,9 @@ Eigen::Vector3d vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
   for (const auto h : around)
     size = std::fmax(size, (vector_of(mesh.point(mesh.source(h))) - p).template lpNorm<Eigen::Infinity>());
   const double unit = unit_of(size);
-  const auto edge_to = [&](typename Mesh::Vertex_index w) -> Eigen::Vector3d { return unit * (vector_of(mesh.point(w)) - p); };
+  const auto edge_to = [&](typename Mesh::Vertex_index w) -> Eigen::Vector3d {
+    return unit * (vector_of(mesh.point(w)) - p);
+  };
   for (const auto h : around)
     sum += edge_to(mesh.target(mesh.next(h))).cross(edge_to(mesh.source(h)));
   return sum.stableNormalized();
@@ -59,7 +61,9 @@ Edit creation_at(const Sculptor& sculptor, const std::array<typename Sculptor::V
   // Products of four lengths: in a unit of the face's own.
   const double unit = unit_of(std::fmax((corners[1] - corners[0]).template lpNorm<Eigen::Infinity>(),
                                         (corners[2] - corners[0]).template lpNorm<Eigen::Infinity>()));
-  const auto way = [unit](const Eigen::Vector3d& from, const Eigen::Vector3d& to) -> Eigen::Vector3d { return unit * (to - from); };
+  const auto way = [unit](const Eigen::Vector3d& from, const Eigen::Vector3d& to) -> Eigen::Vector3d {
+    return unit * (to - from);
+  };
   const Eigen::Vector3d normal = way(corners[0], corners[1]).cross(way(corners[0], corners[2]));
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];

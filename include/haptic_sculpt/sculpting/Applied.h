@@ -13,8 +13,8 @@ namespace haptic_sculpt {
 /// What came of an edit that was given by value.
 template <class Mesh>
 struct Applied : Edit_result<Mesh> {
-  /// As it can be done again: a slide as its legs, a removal as the collapse that it was. Of kind `none` where it was refused, or
-  /// nothing has moved.
+  /// As it can be done again: a slide as its legs, a removal as the collapse that it was. Of kind `none` where it was
+  /// refused, or nothing has moved.
   Edit edit;
   std::optional<Drag_result<Mesh>> drag; ///< of a move: the last leg's
 

@@ -25,8 +25,9 @@ struct Contact_3 {
 
   Contact_kind kind = Contact_kind::vertex_face; ///< says what `vertices` and `plane` are
 
-  /// The vertices that stand still: A, B, C (J meets face ABC); V, A, B (edge JV meets edge AB); G, I, A (face JGI meets
-  /// vertex A); for `delta` G, I and the corner whose altitude would fall below delta (J itself or G or I), whose triangle is JGI.
+  /// The vertices that stand still: A, B, C (J meets face ABC); V, A, B (edge JV meets edge AB); G, I, A (face JGI
+  /// meets vertex A); for `delta` G, I and the corner whose altitude would fall below delta (J itself or G or I), whose
+  /// triangle is JGI.
   std::array<Vertex_index, 3> vertices;
 
   /// Of length 1, towards the side J came from: the direction in which the contact pushes. Floating point.
@@ -70,7 +71,8 @@ double largest_coordinate_of(const Contact_3<Mesh>& contact) {
   return largest;
 }
 
-/// The distance of q from the plane of a contact that is not flat, signed: positive on the side of positive orientation.
+/// The distance of q from the plane of a contact that is not flat, signed: positive on the side of positive
+/// orientation.
 template <class Mesh>
 double height_over_plane(const Contact_3<Mesh>& contact, const Coordinates& q) {
   const auto& [a, b, c] = contact.plane;

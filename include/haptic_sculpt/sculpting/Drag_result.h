@@ -18,21 +18,22 @@ enum class Drag_end : std::uint8_t {
   refused,     ///< a probe that could not begin where it is
   stuck,       ///< the slide gave up on the way: nothing is said about what is nearer
   work_limit,  ///< as much work was done as one drag may do; the next drag to the same or a near target goes on
-  stale        ///< the vertex has been removed, or another Grab has the hand; a probe's mesh has changed: nothing was moved
+  stale ///< the vertex has been removed, or another Grab has the hand; a probe's mesh has changed: nothing was moved
 };
 
 /// The name used in reports: "reached", "held", "no-progress", "leg-limit", "refused", "stuck", "work-limit"
 /// or "stale".
 inline const char* name_of(Drag_end end) {
-  constexpr const char* names[] = {"reached", "held", "no-progress", "leg-limit", "refused", "stuck", "work-limit", "stale"};
+  constexpr const char* names[] = {"reached", "held",  "no-progress", "leg-limit",
+                                   "refused", "stuck", "work-limit",  "stale"};
   return names[static_cast<int>(end)];
 }
 
 /// The outcome of `Grab::drag_to`. A blocked drag is a result like any other.
 template <class Mesh>
 struct Drag_result {
-  /// So many contacts are held without an allocation: all that a slide carries. A stop reports all that come exactly first; they are
-  /// more only where as many features meet in one point.
+  /// So many contacts are held without an allocation: all that a slide carries. A stop reports all that come exactly
+  /// first; they are more only where as many features meet in one point.
   static constexpr std::size_t usual_contacts = 16;
   /// Like a std::vector.
   using Contacts = boost::container::small_vector<Contact_3<Mesh>, usual_contacts>;
@@ -49,13 +50,13 @@ struct Drag_result {
   bool reached = false;                      ///< whether that is the target, as numbers: +0 is -0; `end` says the same
   Drag_end end = Drag_end::reached;          ///< why the drag ended
   Contacts contacts;                         ///< what holds it, in an order that depends on the elements only
-  int legs = 0;                              ///< straight motions, each proven, from where it was to `position`; 0 where that is the same
-  /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact is
-  /// flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.
+  int legs = 0; ///< straight motions, each proven, from where it was to `position`; 0 where that is the same
+  /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact
+  /// is flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.
   double stop_error = 0;
   double stop_error_along_path = 0;          ///< the distance from the exact point of impact, along the path
-  std::size_t work = 0;                      ///< pairs decided and candidates looked up: what a bound on the work counts; no more than it
-  double kkt_residual = 0;                   ///< |d - nearest point of the cone of pushes| / |d|, d = target - position; 0 if reached
+  std::size_t work = 0;    ///< pairs decided and candidates looked up: what a bound on the work counts; no more than it
+  double kkt_residual = 0; ///< |d - nearest point of the cone of pushes| / |d|, d = target - position; 0 if reached
 };
 
 } // namespace haptic_sculpt

@@ -37,7 +37,8 @@ struct Edit {
   std::vector<std::pair<std::size_t, double>> ways; ///< of a shift: a vertex, and its coordinate along the axis then
 
   /// An edit of elements.
-  static Edit of(Edit_kind kind, const std::array<std::size_t, 3>& vertices = {}, const std::array<double, 3>& point = {}) {
+  static Edit of(Edit_kind kind, const std::array<std::size_t, 3>& vertices = {},
+                 const std::array<double, 3>& point = {}) {
     Edit edit;
     edit.kind = kind, edit.vertices = vertices, edit.point = point;
     return edit;

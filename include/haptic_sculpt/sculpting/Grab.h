@@ -12,9 +12,9 @@ namespace haptic_sculpt {
 
 /// A vertex in the hand: made by `Sculptor::grab()`, dragged as often as wanted, let go by `release()` or destruction.
 ///
-/// A Sculptor has one hand: once another Grab has been made, and once the Sculptor has died, this one is stale for good. It
-/// stays usable across edits; while its vertex is removed it is stale too, until undo or redo revives the vertex. Drags of
-/// a stale Grab end as Drag_end::stale and move nothing.
+/// A Sculptor has one hand: once another Grab has been made, and once the Sculptor has died, this one is stale for
+/// good. It stays usable across edits; while its vertex is removed it is stale too, until undo or redo revives the
+/// vertex. Drags of a stale Grab end as Drag_end::stale and move nothing.
 template <class Sculptor>
 class Grab {
 public:
@@ -41,14 +41,16 @@ public:
   /// \post The mesh is embedded as before, exactly, and nothing was crossed on the way.
   /// \throw Out_of_range, Invalid_parameter, Mesh_changed; the mesh is then as it was.
   /// Cost: the candidates near the star times its valence; a look at the broad phase when the star leaves its region.
-  /// Allocates nothing once it is warm: no list longer than any before, no more contacts than Drag_result::usual_contacts, at most
-  /// Edit_history::room moves since the grab, and no delta rule so nearly broken that it takes rational numbers to decide.
+  /// Allocates nothing once it is warm: no list longer than any before, no more contacts than
+  /// Drag_result::usual_contacts, at most Edit_history::room moves since the grab, and no delta rule so nearly broken
+  /// that it takes rational numbers to decide.
   Drag_result<Mesh> drag_to(const Point& target) {
     return drag(target, nullptr);
   }
 
-  /// The same, and says on which way: where the vertex was, and where it was after each of the `legs` of the result, each a straight
-  /// motion that was proven free; `position` is the last point. Of a stale Grab none. \param path is written anew
+  /// The same, and says on which way: where the vertex was, and where it was after each of the `legs` of the result,
+  /// each a straight motion that was proven free; `position` is the last point. Of a stale Grab none. \param path is
+  /// written anew
   Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path) {
     path.clear();
     return drag(target, &path);

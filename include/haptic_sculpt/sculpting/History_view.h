@@ -11,7 +11,7 @@ class History_view {
 public:
   std::size_t number_of_undo_steps() const { return history_->number_of_undo_steps(); } ///< a stroke under way counts
   std::size_t number_of_redo_steps() const { return history_->number_of_redo_steps(); } ///< of those taken back
-  std::size_t bytes() const { return history_->bytes(); }                               ///< of all that is kept for both
+  std::size_t bytes() const { return history_->bytes(); } ///< of all that is kept for both
   bool is_in_stroke() const { return history_->is_in_stroke(); }                        ///< one is under way
 
 private:

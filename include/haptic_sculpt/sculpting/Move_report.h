@@ -41,30 +41,31 @@ struct Move_progress {
 struct Move_parameters {
   std::size_t drag_limit = std::numeric_limits<std::size_t>::max(); ///< most_drags(); at first without limit
 
-  /// A slide counts as one drag for each so many pairs that it decides, or part of them: as many as a drag that is stopped at its
-  /// first impact decides, or a little more (doc/many_vertices.md).
+  /// A slide counts as one drag for each so many pairs that it decides, or part of them: as many as a drag that is
+  /// stopped at its first impact decides, or a little more (doc/many_vertices.md).
   static constexpr std::size_t pairs_a_drag = 64;
   std::function<bool(const Move_progress&)> progress_function;      ///< progress(); at first none
   bool takes_steps = true, ///< steps()
       slides = true;       ///< slide()
 
-  /// So many drags are made at most, a slide counting by its work (pairs_a_drag); then the call ends as it would if it had been
-  /// cancelled: where many stand in each other's way, with all of them on their ways. The report tells what was left. No clock is
-  /// asked: the same call does the same again, with any broad phase.
+  /// So many drags are made at most, a slide counting by its work (pairs_a_drag); then the call ends as it would if it
+  /// had been cancelled: where many stand in each other's way, with all of them on their ways. The report tells what
+  /// was left. No clock is asked: the same call does the same again, with any broad phase.
   Move_parameters& most_drags(std::size_t n) {
     drag_limit = n;
     return *this;
   }
-  /// Called before each axis move and every `drags_between_calls` drags, counted in the same way; false ends the call, with all vertices as near to their targets as they
-  /// have come. What it throws goes on to the caller; what was done by then is one step of the history.
+  /// Called before each axis move and every `drags_between_calls` drags, counted in the same way; false ends the call,
+  /// with all vertices as near to their targets as they have come. What it throws goes on to the caller; what was done
+  /// by then is one step of the history.
   Move_parameters& progress(std::function<bool(const Move_progress&)> function) {
     progress_function = std::move(function);
     return *this;
   }
   static constexpr std::size_t drags_between_calls = 256; ///< counted; the first call is before any drag
 
-  /// Whether all go at once, along one axis after the other, in smaller steps where they stand in each other's way. On by
-  /// default; without, each is dragged by itself.
+  /// Whether all go at once, along one axis after the other, in smaller steps where they stand in each other's way. On
+  /// by default; without, each is dragged by itself.
   Move_parameters& steps(bool on) {
     takes_steps = on;
     return *this;

@@ -35,11 +35,12 @@ public:
   /// Where it is, or was when the mesh changed.
   const Point& position() const { return position_; }
 
-  /// Drags it as Grab::drag_to drags a vertex; contacts are carried on. Of a probe that was refused `end` is Drag_end::refused, and a
-  /// contact names the face that is too near; of one that has ended it is Drag_end::stale.
+  /// Drags it as Grab::drag_to drags a vertex; contacts are carried on. Of a probe that was refused `end` is
+  /// Drag_end::refused, and a contact names the face that is too near; of one that has ended it is Drag_end::stale.
   /// \throw Out_of_range, Invalid_parameter, Mesh_changed
   Drag_result<Mesh> drag_to(const Point& target) { return drag(target, nullptr); }
-  /// The same, and says on which way, as Grab::drag_to does. Of one that cannot be dragged none. \param path is written anew
+  /// The same, and says on which way, as Grab::drag_to does. Of one that cannot be dragged none. \param path is written
+  /// anew
   Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path) {
     path.clear();
     return drag(target, &path);

@@ -28,7 +28,8 @@ struct Blocking_pair {
 template <class Mesh>
 struct Rigid_move_report {
   std::size_t asked = 0; ///< vertices, each once
-  /// The share of the way, or of the arc, that all have gone: a multiple of 1/1024. 1: all are at their places, to the bit.
+  /// The share of the way, or of the arc, that all have gone: a multiple of 1/1024. 1: all are at their places, to the
+  /// bit.
   double share = 0;
   /// What blocks the next 1024th of the way; none where all of it was gone.
   std::vector<Blocking_pair<Mesh>> contacts;

@@ -20,18 +20,18 @@ namespace haptic_sculpt {
 /// \tparam Mesh_ `CGAL::Surface_mesh<K::Point_3>` with K::FT = double
 /// \tparam Broad_phase_ a model of BroadPhase (doc/broad_phase.md); no result depends on the choice
 /// \tparam Visitor_ a model of EditVisitor (Default_edit_visitor), told of moved, created and dead elements
-/// \tparam Traits_ a model of SweptCollisionTraits_3: decides what a dragged vertex meets, and what of it first. With the
-/// default no decision is ever wrong; with another nothing is promised of drags but what that one keeps. Edits, finding, the
-/// delta rule, and which pairs are not looked at, are exact whatever the traits (doc/exact_sweeps.md).
+/// \tparam Traits_ a model of SweptCollisionTraits_3: decides what a dragged vertex meets, and what of it first. With
+/// the default no decision is ever wrong; with another nothing is promised of drags but what that one keeps. Edits,
+/// finding, the delta rule, and which pairs are not looked at, are exact whatever the traits (doc/exact_sweeps.md).
 ///
-/// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay. Changes
-/// made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()` looks at all.
-/// Several objects are several components of the one mesh. Orientation does not matter: an inside-out component is guarded
-/// like any other.
+/// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay.
+/// Changes made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()`
+/// looks at all. Several objects are several components of the one mesh. Orientation does not matter: an inside-out
+/// component is guarded like any other.
 ///
-/// An exception leaves everything as it was, std::bad_alloc included, or the change complete where it came from the visitor. Where it
-/// could not, every later call throws Unfinished_change but those that only tell: mesh(), options(), visitor(), filter_counters(),
-/// history(), memory() (doc/edits.md, "Memory that runs out").
+/// An exception leaves everything as it was, std::bad_alloc included, or the change complete where it came from the
+/// visitor. Where it could not, every later call throws Unfinished_change but those that only tell: mesh(), options(),
+/// visitor(), filter_counters(), history(), memory() (doc/edits.md, "Memory that runs out").
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
@@ -54,20 +54,26 @@ public:
   using Stroke_type = Stroke<Sculptor>;                      ///< what stroke() gives
   using Edited = Edit_result<Mesh_type>;                     ///< what an edit gives
 
-  static_assert(std::is_same<Mesh_type, CGAL::Surface_mesh<Point>>::value, "Sculptor: the mesh must be a CGAL::Surface_mesh");
+  static_assert(std::is_same<Mesh_type, CGAL::Surface_mesh<Point>>::value,
+                "Sculptor: the mesh must be a CGAL::Surface_mesh");
   static_assert(std::is_same<typename CGAL::Kernel_traits<Point>::Kernel::FT, double>::value,
                 "Sculptor: the mesh's points must have double coordinates, e.g. those of "
                 "CGAL::Exact_predicates_inexact_constructions_kernel");
 
-  /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does not
-  /// obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log n in practice.
-  explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(), Visitor visitor = Visitor())
-    : guarded_(mesh, options, std::move(visitor), [](Filter_counters& counters) { return traits_that_count(counters); },
-               internal::Rounding_to_nearest()) {}
+  /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does
+  /// not obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log
+  /// n in practice.
+  explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(),
+                    Visitor visitor = Visitor())
+      : guarded_(
+            mesh, options, std::move(visitor), [](Filter_counters& counters) { return traits_that_count(counters); },
+            internal::Rounding_to_nearest()) {}
 
   /// The same with traits of its own, which are copied. \throw as above
   Sculptor(Mesh_type& mesh, const Sculptor_parameters& options, Visitor visitor, const Traits& traits)
-    : guarded_(mesh, options, std::move(visitor), [&traits](Filter_counters&) { return traits; }, internal::Rounding_to_nearest()) {}
+      : guarded_(
+            mesh, options, std::move(visitor), [&traits](Filter_counters&) { return traits; },
+            internal::Rounding_to_nearest()) {}
   ~Sculptor() { set_hand(nullptr); }
 
   Sculptor(const Sculptor&) = delete;
@@ -90,18 +96,21 @@ public:
     return Grab_type(*this, name(v));
   }
 
-  /// Whether vertices are dragged once each: then a drag looks up what is near for itself alone, and only the points of the star are
-  /// compared with where they were left. Off at first. No result depends on it.
+  /// Whether vertices are dragged once each: then a drag looks up what is near for itself alone, and only the points of
+  /// the star are compared with where they were left. Off at first. No result depends on it.
   void expect_single_drags(bool on) { guarded_.expect_single_drags(on); }
-  bool expects_single_drags() const { return guarded_.expects_single_drags(); } ///< what expect_single_drags() was told last
+  bool expects_single_drags() const {
+    return guarded_.expects_single_drags();
+  } ///< what expect_single_drags() was told last
 
-  /// Moves v straight to `target` if nothing is touched on the way and the delta rule is kept; else it stays where it is. A step of
-  /// the history. Returns whether it is at the target. \throw Unknown_vertex, Out_of_range, Mesh_changed. Cost: that of a drag.
+  /// Moves v straight to `target` if nothing is touched on the way and the delta rule is kept; else it stays where it
+  /// is. A step of the history. Returns whether it is at the target. \throw Unknown_vertex, Out_of_range, Mesh_changed.
+  /// Cost: that of a drag.
   bool move_if_free(Vertex_index v, const Point& target) { return guarded_.move_if_free(v, target); }
 
-  /// What v would touch first on its straight way to `target`, as the free function first_impact() tells, at the cost of a drag.
-  /// Moves nothing; takes v in hand, and contacts that were carried along are forgotten if that is another vertex.
-  /// \throw Unknown_vertex, Out_of_range, Mesh_changed
+  /// What v would touch first on its straight way to `target`, as the free function first_impact() tells, at the cost
+  /// of a drag. Moves nothing; takes v in hand, and contacts that were carried along are forgotten if that is another
+  /// vertex. \throw Unknown_vertex, Out_of_range, Mesh_changed
   std::optional<Star_impact<Mesh_type, typename Traits::Impact_3>> first_impact(Vertex_index v, const Point& target) {
     return guarded_.first_impact(v, target);
   }
@@ -114,22 +123,24 @@ public:
   /// the grab at hand. Cost: log n with the default broad phase.
   ///@{
 
-  /// The vertex of the surface nearest to p, of those at most `within` from it; the null index where there is none. Of several at
-  /// the same distance that of the smallest index. \param within >= 0; may be infinite
-  /// \throw Out_of_range, Invalid_parameter, Mesh_changed
+  /// The vertex of the surface nearest to p, of those at most `within` from it; the null index where there is none. Of
+  /// several at the same distance that of the smallest index. \param within >= 0; may be infinite \throw Out_of_range,
+  /// Invalid_parameter, Mesh_changed
   Vertex_index nearest_vertex(const Point& p, double within) { return guarded_.nearest_vertex(p, within); }
 
-  /// What of the surface the closed segment from `source` to `target` meets first: a vertex, or the inside of an edge or of a face.
-  /// A segment in the plane of a face meets it where it enters it or begins, and one that is a point meets what it lies on.
-  /// \throw Out_of_range, Mesh_changed
-  std::optional<Surface_hit<Mesh_type>> first_hit(const Point& source, const Point& target) { return guarded_.first_hit(source, target); }
+  /// What of the surface the closed segment from `source` to `target` meets first: a vertex, or the inside of an edge
+  /// or of a face. A segment in the plane of a face meets it where it enters it or begins, and one that is a point
+  /// meets what it lies on. \throw Out_of_range, Mesh_changed
+  std::optional<Surface_hit<Mesh_type>> first_hit(const Point& source, const Point& target) {
+    return guarded_.first_hit(source, target);
+  }
   ///@}
 
   /// \name Edits
-  /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand; a Grab stays usable. What
-  /// dies is said at each; Surface_mesh may use its descriptors again, within the edit too, all others stay, and `name()` gives
-  /// a vertex a number that lasts. The visitor is told. Cost: the valence times the candidates near the star, and the broad phase;
-  /// undo and redo: the valence and the broad phase. \throw Mesh_changed
+  /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand; a Grab stays
+  /// usable. What dies is said at each; Surface_mesh may use its descriptors again, within the edit too, all others
+  /// stay, and `name()` gives a vertex a number that lasts. The visitor is told. Cost: the valence times the candidates
+  /// near the star, and the broad phase; undo and redo: the valence and the broad phase. \throw Mesh_changed
   ///@{
 
   /// Creates a vertex at `p` and joins it to the corners of f, whose place the three new faces take.
@@ -137,11 +148,12 @@ public:
   Edited insert_on_face(Face_index f, const Point& p) {
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
-    return edited(f, mesh().num_faces(), [&](auto& editor) { return editor.insert_on_face(f, internal::coordinates(p), delta()); });
+    return edited(f, mesh().num_faces(),
+                  [&](auto& editor) { return editor.insert_on_face(f, internal::coordinates(p), delta()); });
   }
 
-  /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of two.
-  /// \post e and its two faces have died, no vertex has. \throw Out_of_range
+  /// Creates a vertex at `p` and joins it to the ends of e and the two opposite corners; four faces take the place of
+  /// two. \post e and its two faces have died, no vertex has. \throw Out_of_range
   Edited insert_on_edge(Edge_index e, const Point& p) {
     const internal::Rounding_to_nearest rounding;
     internal::check_point("the new vertex", p);
@@ -150,9 +162,9 @@ public:
     });
   }
 
-  /// Draws v into one of its neighbours and lets the edge between them collapse. The neighbours are tried in the order of the
-  /// triangles they leave, best first (doc/edits.md).
-  /// \post v has died, and so have the edges and faces of its star; its neighbours have not.
+  /// Draws v into one of its neighbours and lets the edge between them collapse. The neighbours are tried in the order
+  /// of the triangles they leave, best first (doc/edits.md). \post v has died, and so have the edges and faces of its
+  /// star; its neighbours have not.
   Edited remove(Vertex_index v) {
     return edited(v, mesh().num_vertices(), [&](auto& editor) { return editor.remove(v, delta()); });
   }
@@ -163,28 +175,30 @@ public:
     return edited(h, mesh().num_halfedges(), [&](auto& editor) { return editor.collapse(h, delta()); });
   }
 
-  /// Joins the two corners opposite to e by an edge in its place. Exactly those flips are refused after which the mesh is not
-  /// embedded, or breaks the delta rule, or for which anything is in the closed tetrahedron of the four corners.
+  /// Joins the two corners opposite to e by an edge in its place. Exactly those flips are refused after which the mesh
+  /// is not embedded, or breaks the delta rule, or for which anything is in the closed tetrahedron of the four corners.
   /// \post e and its two faces have died, and the new ones have their descriptors; no vertex has.
   Edited flip(Edge_index e) {
     return edited(e, mesh().num_edges(), [&](auto& editor) { return editor.flip(mesh().halfedge(e), delta()); });
   }
 
-  /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one given again. Done
-  /// where the surface stays embedded, and the delta rule kept, at every time; decided exactly, whatever the traits
-  /// (doc/axis_moves.md). Else refused, with the vertices of a place that is in the way. One change of the history. \param axis 0 to 2
-  /// \post Nothing has died. \throw Unknown_vertex, Out_of_range. Cost: n log n in what moves and is near
+  /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one
+  /// given again. Done where the surface stays embedded, and the delta rule kept, at every time; decided exactly,
+  /// whatever the traits (doc/axis_moves.md). Else refused, with the vertices of a place that is in the way. One change
+  /// of the history. \param axis 0 to 2 \post Nothing has died. \throw Unknown_vertex, Out_of_range. Cost: n log n in
+  /// what moves and is near
   Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
     return internal::shift_all(guarded_, axis, ways);
   }
 
-  /// Does an edit given by value, and gives it back as it can be done again. Strokes begun by one are ended by another; moves of one
-  /// vertex that follow each other are one grab. \throw as the functions that the kinds are named after
+  /// Does an edit given by value, and gives it back as it can be done again. Strokes begun by one are ended by another;
+  /// moves of one vertex that follow each other are one grab. \throw as the functions that the kinds are named after
   Applied<Mesh_type> apply(const Edit& edit) { return applier_.apply(*this, edit); }
 
-  /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as the history
-  /// keeps. Ends the stroke under way first. A new change clears what could be redone. Restores what was, whatever delta is now.
-  /// \post What the step had created has died; what died by it lives again, maybe with other descriptors. Of a drag: none dies.
+  /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as
+  /// the history keeps. Ends the stroke under way first. A new change clears what could be redone. Restores what was,
+  /// whatever delta is now. \post What the step had created has died; what died by it lives again, maybe with other
+  /// descriptors. Of a drag: none dies.
   Edited undo() { return guarded_.restored([&] { return guarded_.editor().undo(); }); }
   /// Makes the step that was taken back last again. \post The same have died as when it was first made.
   Edited redo() { return guarded_.restored([&] { return guarded_.editor().redo(); }); }
@@ -192,17 +206,18 @@ public:
   /// What undo and redo can make: number_of_undo_steps(), number_of_redo_steps(), bytes().
   History_view history() const { return History_view(guarded_.editor().history()); }
 
-  /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the moves of a vertex
-  /// between two other edits are kept as one.
+  /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the
+  /// moves of a vertex between two other edits are kept as one.
   Stroke_type stroke() { return Stroke_type(*this, guarded_.whole_editor().history().begin_stroke(number_of_names())); }
 
-  /// Bounds the history, in steps or bytes (`history().bytes()`), or turns it off; without limit at first. The oldest steps are
-  /// forgotten; a stroke that alone is larger is not kept, nor is anything before it.
+  /// Bounds the history, in steps or bytes (`history().bytes()`), or turns it off; without limit at first. The oldest
+  /// steps are forgotten; a stroke that alone is larger is not kept, nor is anything before it.
   void set_history_limit(const History_limit& limit) { guarded_.whole_editor().history().set_limit(limit); }
 
-  /// Makes room, in the mesh too: after it so many edits (flips, collapses, creations, removals) and so many moves allocate nothing,
-  /// nor do undo and redo, as long as no vertex has more than 28 neighbours, no star more than 512 faces about it, and no decision
-  /// takes rational numbers; with the Box_tree_broad_phase. A slide's lists are warm after a few drags. Cost: linear in the mesh.
+  /// Makes room, in the mesh too: after it so many edits (flips, collapses, creations, removals) and so many moves
+  /// allocate nothing, nor do undo and redo, as long as no vertex has more than 28 neighbours, no star more than 512
+  /// faces about it, and no decision takes rational numbers; with the Box_tree_broad_phase. A slide's lists are warm
+  /// after a few drags. Cost: linear in the mesh.
   void reserve(std::size_t edits, std::size_t moves) { guarded_.reserve(edits, moves); }
   ///@}
 
@@ -212,23 +227,28 @@ public:
   /// \param map a model of `ReadWritePropertyMap`, copied; its keys are vertices, halfedges, edges or faces of the mesh
   /// \param carry `value carry(const Property_origin<value>&)`: Copy_property, Interpolate_property, or your own
   /// What the functions of the map and `carry` throw goes on to the caller of the edit, which stands; where a value
-  /// cannot be copied before the edit, the edit is not made. Cost: while a map is kept, an edit looks up its names, n log
-  /// n in the valence; the history keeps the values of what dies, which `history().bytes()` does not count.
+  /// cannot be copied before the edit, the edit is not made. Cost: while a map is kept, an edit looks up its names, n
+  /// log n in the valence; the history keeps the values of what dies, which `history().bytes()` does not count.
   template <class Map, class Carry = Copy_property>
   void keep(Map map, Carry carry = Carry()) {
     guarded_.whole_editor().kept().add(map, std::move(carry));
   }
 
   /// \name Numbers of vertices that last
-  /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo revives it.
+  /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo
+  /// revives it.
   ///@{
-  std::size_t name(Vertex_index v) const { return guarded_.whole_editor().names().name(v); } ///< the number of v. \pre v is in the mesh
+  std::size_t name(Vertex_index v) const {
+    return guarded_.whole_editor().names().name(v);
+  } ///< the number of v. \pre v is in the mesh
   /// The null index where the vertex is dead, or the number was never given.
   Vertex_index vertex(std::size_t name) const { return guarded_.whole_editor().names().vertex(name); }
   /// One more than the largest number given.
   std::size_t number_of_names() const { return guarded_.whole_editor().names().size(); }
   /// The face of three corners, by number and in any order; the null index where there is none.
-  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const { return guarded_.whole_editor().face_of(a, b, c); }
+  Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const {
+    return guarded_.whole_editor().face_of(a, b, c);
+  }
   /// From a to b, by number; the null index where there is none.
   Halfedge_index halfedge_of(std::size_t a, std::size_t b) const { return guarded_.whole_editor().halfedge_of(a, b); }
   /// The edge between two vertices, by number; the null index where there is none.
@@ -238,21 +258,24 @@ public:
   }
   ///@}
 
-  /// A point that touches the surface, to be dragged about the scene; changes nothing (doc/probes.md). Refused where p is on a face,
-  /// nearer to one than the clearance, or inside of a solid, of which a cavity is no part. Any change of the mesh ends it. Does not
-  /// end the grab at hand. \throw Out_of_range, Invalid_parameter, Mesh_changed. Cost: log n and the faces whose boxes a ray meets.
+  /// A point that touches the surface, to be dragged about the scene; changes nothing (doc/probes.md). Refused where p
+  /// is on a face, nearer to one than the clearance, or inside of a solid, of which a cavity is no part. Any change of
+  /// the mesh ends it. Does not end the grab at hand. \throw Out_of_range, Invalid_parameter, Mesh_changed. Cost: log n
+  /// and the faces whose boxes a ray meets.
   Probe_type probe(const Point& p, Probe_start start = Probe_start::outside) {
     return Probe_type(*this, p, guarded_.refuse_probe(p, start));
   }
 
-  /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length set, or
-  /// the default.
+  /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length
+  /// set, or the default.
   double clearance(const Point& p) const {
     const internal::Rounding_to_nearest rounding;
-    return internal::Clearance_rule(options().clearance_length).at(internal::largest_magnitude(internal::coordinates(p)));
+    return internal::Clearance_rule(options().clearance_length)
+        .at(internal::largest_magnitude(internal::coordinates(p)));
   }
 
-  /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene (Sculptor_parameters). Cost: reads every point.
+  /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene (Sculptor_parameters). Cost:
+  /// reads every point.
   void set_clearance(double length) {
     const internal::Rounding_to_nearest rounding;
     guarded_.check_is_whole();
@@ -265,8 +288,9 @@ public:
   /// From here on the default of each contact.
   void set_default_clearance() { guarded_.settings().clearance_length.reset(); }
 
-  /// Of drags and edits from here on; undo and redo restore what was, and altitudes that are lower then may only grow (doc/stop.md).
-  /// \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already. Cost: that of validate().
+  /// Of drags and edits from here on; undo and redo restore what was, and altitudes that are lower then may only grow
+  /// (doc/stop.md). \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude
+  /// already. Cost: that of validate().
   void set_delta(double length) {
     const internal::Rounding_to_nearest rounding;
     release();
@@ -342,7 +366,9 @@ private:
     guarded_.let_go();
     set_hand(nullptr);
   }
-  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path = nullptr) { return guarded_.drag(v, target, path); }
+  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path = nullptr) {
+    return guarded_.drag(v, target, path);
+  }
 };
 
 } // namespace haptic_sculpt

@@ -16,8 +16,8 @@ struct Sculptor_parameters {
   std::optional<std::size_t> work_bound;  ///< unset: a drag takes what it takes
   bool is_known_valid = false;            ///< whether the mesh has been validated by the caller
 
-  /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates. Of use is what is at least an
-  /// ulp of the scene's largest coordinate, and at most 1/128 of its extent.
+  /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates. Of use is what is at
+  /// least an ulp of the scene's largest coordinate, and at most 1/128 of its extent.
   Sculptor_parameters& clearance(double length) {
     clearance_length = length;
     return *this;
@@ -32,14 +32,14 @@ struct Sculptor_parameters {
     response_rule = rule;
     return *this;
   }
-  /// Bounds the work of a drag, for a loop that has to be in time: so many pairs decided and candidates looked up, and it ends as
-  /// Drag_end::work_limit where it is (doc/work.md).
+  /// Bounds the work of a drag, for a loop that has to be in time: so many pairs decided and candidates looked up, and
+  /// it ends as Drag_end::work_limit where it is (doc/work.md).
   Sculptor_parameters& work_limit(std::size_t pairs) {
     work_bound = pairs;
     return *this;
   }
-  /// Takes the caller's word that the mesh is valid, e.g. because read_surface() has just read it: it is not validated again. With a
-  /// mesh that is not, nothing is promised. Of no effect where delta is not 0.
+  /// Takes the caller's word that the mesh is valid, e.g. because read_surface() has just read it: it is not validated
+  /// again. With a mesh that is not, nothing is promised. Of no effect where delta is not 0.
   Sculptor_parameters& known_valid(bool known) {
     is_known_valid = known;
     return *this;

@@ -11,9 +11,11 @@
 
 namespace haptic_sculpt {
 
-/// The traits by which motions of a mesh's vertices are decided where no others are given: exact. Counts what the filter leaves.
+/// The traits by which motions of a mesh's vertices are decided where no others are given: exact. Counts what the
+/// filter leaves.
 template <class Mesh>
-using Exact_sweep_traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel, Filter_counters>;
+using Exact_sweep_traits =
+    Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel, Filter_counters>;
 
 /// An impact of a moving star, with the mesh elements that meet.
 /// \tparam Impact that of the traits which decided: SweptCollisionTraits_3::Impact_3
@@ -23,7 +25,8 @@ public:
   using Vertex_index = typename Mesh::Vertex_index; ///< of the mesh of the star
 
   /// Made by those who decide sweeps: copies of what vertices() and impact() give.
-  Star_impact(const std::array<Vertex_index, 3>& vertices, const Impact& impact) : vertices_(vertices), impact_(impact) {}
+  Star_impact(const std::array<Vertex_index, 3>& vertices, const Impact& impact)
+      : vertices_(vertices), impact_(impact) {}
 
   Impact_feature feature() const { return impact_.feature(); } ///< which pair meets: says what vertices() are
 

@@ -18,8 +18,9 @@ void check_same_connectivity(const Mesh& copy, const Mesh& mesh) {
   for (const auto h : mesh.halfedges())
     is_same = is_same && !copy.is_removed(h) && copy.target(h) == mesh.target(h) && copy.next(h) == mesh.next(h);
   if (!is_same)
-    throw Invalid_parameter("the function given to apply_guarded() has changed connectivity; only points may change: use "
-                            "isotropic_remeshing(), or the edits of the Sculptor, for that");
+    throw Invalid_parameter(
+        "the function given to apply_guarded() has changed connectivity; only points may change: use "
+        "isotropic_remeshing(), or the edits of the Sculptor, for that");
 }
 
 } // namespace internal
@@ -27,17 +28,19 @@ void check_same_connectivity(const Mesh& copy, const Mesh& mesh) {
 /// Runs a function that moves points, on a copy of the mesh, and brings the vertices as near to what came of it as axis
 /// moves and drags do: `apply_guarded(sculptor, [&](auto& mesh, auto map) { ... })`.
 ///
-/// \param function `function(mesh, map)`: the copy, whose elements have the descriptors of those of the guarded mesh, and
-/// its vertex point map. It may do with them what it likes but change connectivity. Where it returns a `bool` that is
-/// false, as CGAL::Polygon_mesh_processing::fair() does when it fails, nothing moves.
-/// \param left_behind an output iterator, told the vertices that are not where the function wants them
-/// \return as move_vertices(), of the vertices that the function has moved
+/// \param function `function(mesh, map)`: the copy, whose elements have the descriptors of those of the guarded mesh,
+/// and its vertex point map. It may do with them what it likes but change connectivity. Where it returns a `bool` that
+/// is false, as CGAL::Polygon_mesh_processing::fair() does when it fails, nothing moves. \param left_behind an output
+/// iterator, told the vertices that are not where the function wants them \return as move_vertices(), of the vertices
+/// that the function has moved
 ///
 /// The whole is one step of the history.
-/// \throw Invalid_parameter where connectivity has changed; Out_of_range where a point is not finite or too large: nothing
-/// has moved; Mesh_changed; and what the function throws. Cost: the function, a copy of the mesh, and move_vertices().
+/// \throw Invalid_parameter where connectivity has changed; Out_of_range where a point is not finite or too large:
+/// nothing has moved; Mesh_changed; and what the function throws. Cost: the function, a copy of the mesh, and
+/// move_vertices().
 template <class Sculptor, class Function, class Output_iterator = CGAL::Emptyset_iterator>
-Move_report apply_guarded(Sculptor& sculptor, Function&& function, const Move_parameters& parameters = Move_parameters(),
+Move_report apply_guarded(Sculptor& sculptor, Function&& function,
+                          const Move_parameters& parameters = Move_parameters(),
                           Output_iterator left_behind = Output_iterator()) {
   using Mesh = typename Sculptor::Mesh_type;
   sculptor.check_unchanged();

@@ -17,8 +17,8 @@ public:
   /// Names the coordinates of p.
   template <class Point_3>
   explicit Non_finite_point(const Point_3& p)
-    : Out_of_range("the point (" + internal::number(p.x()) + ", " + internal::number(p.y()) + ", " + internal::number(p.z()) +
-            ") is not finite: give three finite coordinates") {}
+      : Out_of_range("the point (" + internal::number(p.x()) + ", " + internal::number(p.y()) + ", " +
+                     internal::number(p.z()) + ") is not finite: give three finite coordinates") {}
 };
 
 /// A vertex descriptor that is not a vertex of the mesh was given.
@@ -26,7 +26,8 @@ class Unknown_vertex : public Error {
 public:
   /// Names the index of the vertex.
   explicit Unknown_vertex(std::size_t index)
-    : Error("vertex " + std::to_string(index) + " is not in the mesh, or was removed: give a vertex of mesh.vertices()") {}
+      : Error("vertex " + std::to_string(index) +
+              " is not in the mesh, or was removed: give a vertex of mesh.vertices()") {}
 };
 
 namespace internal {
@@ -53,16 +54,18 @@ void check_point(const char* what, const Point_3& p) {
 /// What vertex `v` would touch first on its straight way to `target` while all else stands still: the impacts that come
 /// exactly first, or none when the way is free. Changes nothing.
 ///
-/// A mesh that is closed and embedded stays so up to `target`, and passes over no probe, if and only if the result is empty;
-/// otherwise it stays so up to, and not at, the time of the impacts (doc/exact_sweeps.md, "Completeness"). On other meshes
-/// the answer is about the three sweeps only. A vertex without faces, a probe, stands in the way of a star like a vertex of
-/// the surface, and touches faces itself; probes do not touch each other.
-/// \throw Unknown_vertex, Out_of_range
-/// Cost: reads every face once; the sweeps cost valence times the candidates whose boxes meet the swept star's.
-/// \param traits decide the sweeps, a model of SweptCollisionTraits_3: with another than the default the answer is as right as its
-template <class Mesh, class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
+/// A mesh that is closed and embedded stays so up to `target`, and passes over no probe, if and only if the result is
+/// empty; otherwise it stays so up to, and not at, the time of the impacts (doc/exact_sweeps.md, "Completeness"). On
+/// other meshes the answer is about the three sweeps only. A vertex without faces, a probe, stands in the way of a star
+/// like a vertex of the surface, and touches faces itself; probes do not touch each other. \throw Unknown_vertex,
+/// Out_of_range Cost: reads every face once; the sweeps cost valence times the candidates whose boxes meet the swept
+/// star's. \param traits decide the sweeps, a model of SweptCollisionTraits_3: with another than the default the answer
+/// is as right as its
+template <class Mesh,
+          class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
 Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v,
-                                                            const typename Mesh::Point& target, const Traits& traits = Traits()) {
+                                                            const typename Mesh::Point& target,
+                                                            const Traits& traits = Traits()) {
   const internal::Rounding_to_nearest rounding;
   internal::check_vertex(mesh, v);
   internal::check_point("the target", target);
@@ -80,11 +83,13 @@ Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, ty
   return firsts;
 }
 
-/// The first of `first_impacts()`, if any: would this motion hit, what, and when. Changes nothing. Same cost and errors.
-template <class Mesh, class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
-std::optional<Star_impact<Mesh, typename Traits::Impact_3>> first_impact(const Mesh& mesh, typename Mesh::Vertex_index v,
-                                                                         const typename Mesh::Point& target,
-                                                                         const Traits& traits = Traits()) {
+/// The first of `first_impacts()`, if any: would this motion hit, what, and when. Changes nothing. Same cost and
+/// errors.
+template <class Mesh,
+          class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
+std::optional<Star_impact<Mesh, typename Traits::Impact_3>>
+first_impact(const Mesh& mesh, typename Mesh::Vertex_index v, const typename Mesh::Point& target,
+             const Traits& traits = Traits()) {
   const auto firsts = first_impacts(mesh, v, target, traits);
   if (firsts.empty())
     return std::nullopt;

@@ -9,22 +9,23 @@
 
 namespace haptic_sculpt {
 
-/// Moves vertices, an object of the scene as a rule, by a translation or by a rotation of less than half a turn, as far as
-/// that is free, and no farther: it does not slide.
+/// Moves vertices, an object of the scene as a rule, by a translation or by a rotation of less than half a turn, as far
+/// as that is free, and no farther: it does not slide.
 ///
 /// \param vertices a range of vertices; one that is given again counts once
 /// \param transformation of the kernel of the mesh's points. Where all of the way is gone, each vertex is at what
 /// `transformation.transform()` makes of its point, to the bit
 ///
-/// The way is a straight one or an arc. It is gone in steps of at least a 1024th, made by all vertices or by none; each is an
-/// axis move along x, one along y and one along z to places on the way, so that between steps what moves may be sheared
-/// (doc/many_vertices.md). Nothing meets anything at any time, proven. The whole is one stroke, one step of the history.
-/// \throw Invalid_parameter where the transformation is something else, Unknown_vertex, Out_of_range: nothing has moved;
-/// Mesh_changed. Cost: some microseconds a vertex where the way is free; where it is blocked, some twenty times that.
+/// The way is a straight one or an arc. It is gone in steps of at least a 1024th, made by all vertices or by none; each
+/// is an axis move along x, one along y and one along z to places on the way, so that between steps what moves may be
+/// sheared (doc/many_vertices.md). Nothing meets anything at any time, proven. The whole is one stroke, one step of the
+/// history. \throw Invalid_parameter where the transformation is something else, Unknown_vertex, Out_of_range: nothing
+/// has moved; Mesh_changed. Cost: some microseconds a vertex where the way is free; where it is blocked, some twenty
+/// times that.
 template <class Sculptor, class Vertex_range>
-Rigid_move_report<typename Sculptor::Mesh_type>
-move_rigidly(Sculptor& sculptor, const Vertex_range& vertices,
-             const CGAL::Aff_transformation_3<typename CGAL::Kernel_traits<typename Sculptor::Point>::Kernel>& transformation) {
+Rigid_move_report<typename Sculptor::Mesh_type> move_rigidly(
+    Sculptor& sculptor, const Vertex_range& vertices,
+    const CGAL::Aff_transformation_3<typename CGAL::Kernel_traits<typename Sculptor::Point>::Kernel>& transformation) {
   const internal::Rounding_to_nearest rounding;
   std::array<internal::Vector, 3> linear;
   internal::Vector shift;

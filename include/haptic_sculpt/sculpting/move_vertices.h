@@ -14,7 +14,8 @@ namespace internal {
 
 /// \throw Invalid_parameter where the clearance does not serve where the targets are
 template <class Mesh>
-void check_clearance_at_targets(const std::vector<Moving_vertex<Mesh>>& moving, const std::optional<double>& clearance) {
+void check_clearance_at_targets(const std::vector<Moving_vertex<Mesh>>& moving,
+                                const std::optional<double>& clearance) {
   double largest = 0;
   for (const auto& v : moving)
     largest = std::fmax(largest, largest_magnitude(v.target));

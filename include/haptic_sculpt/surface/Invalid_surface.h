@@ -21,7 +21,9 @@ public:
                                       : "")),
         report_(std::move(report)) {}
 
-  const Validity_report& report() const { return report_; } ///< Every offending element; lives as long as the exception.
+  const Validity_report& report() const {
+    return report_;
+  } ///< Every offending element; lives as long as the exception.
 
 private:
   Validity_report report_;

@@ -18,7 +18,8 @@ namespace haptic_sculpt {
 /// An edge is named by its two vertices, because the faces of a file that cannot become a `Surface_mesh` have edges
 /// too. Lists are sorted and name an element once.
 struct Validity_report {
-  using Any_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>; ///< only its indices are used, which every `Surface_mesh` shares
+  using Any_mesh =
+      CGAL::Surface_mesh<Decision_kernel::Point_3>; ///< only its indices are used, which every `Surface_mesh` shares
   using Vertex_index = Any_mesh::Vertex_index;                   ///< of a vertex, or of a file's point
   using Halfedge_index = Any_mesh::Halfedge_index;               ///< of a half-edge of a `Surface_mesh`
   using Face_index = Any_mesh::Face_index;                       ///< of a face, or of its place in a file
@@ -89,8 +90,8 @@ struct Validity_report {
     return inconsistent_halfedges.empty() && non_finite_vertices.empty() && number_of_faults() > low_faces.size();
   }
 
-  /// What does not make a surface invalid and may be meant or not, in plain words, one kind a line, the first `named` of
-  /// each: components inside out. Empty where there are none.
+  /// What does not make a surface invalid and may be meant or not, in plain words, one kind a line, the first `named`
+  /// of each: components inside out. Empty where there are none.
   std::string remarks(std::size_t named = 8) const {
     std::string text;
     const auto list = [&](const auto& elements, const std::string& kind) {
@@ -99,7 +100,9 @@ struct Validity_report {
       text += std::to_string(elements.size()) + ' ' + kind + ':';
       for (std::size_t i = 0; i < elements.size() && i < named; ++i)
         text += (i == 0 ? " " : ", ") + name(elements[i]);
-      text += elements.size() > named ? ", ... (" + std::to_string(named) + " of " + std::to_string(elements.size()) + ")\n" : "\n";
+      text += elements.size() > named
+                  ? ", ... (" + std::to_string(named) + " of " + std::to_string(elements.size()) + ")\n"
+                  : "\n";
     };
     list(inside_out_components, "component(s) inside out, with the faces");
     return text;
@@ -116,7 +119,8 @@ struct Validity_report {
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out.precision(17);
-    const auto list = [&](const auto& elements, const char* kind, const char* cure, const char* by_cgal, bool has_more = false) {
+    const auto list = [&](const auto& elements, const char* kind, const char* cure, const char* by_cgal,
+                          bool has_more = false) {
       if (elements.empty())
         return;
       out << (has_more ? "at least " : "") << elements.size() << ' ' << kind << ':';
@@ -143,7 +147,8 @@ struct Validity_report {
          "Remove the surplus faces, such as walls in the inside.",
          "Remove the surplus faces, or use PMP::orient_polygon_soup, which splits such edges.");
     list(inconsistently_oriented_edges, "edge(s) between faces of opposite orientation, between vertices",
-         "Turn faces over until all have their corners counterclockwise from outside.", "Use PMP::orient_polygon_soup.");
+         "Turn faces over until all have their corners counterclockwise from outside.",
+         "Use PMP::orient_polygon_soup.");
     list(non_manifold_vertices, "non-manifold vertex(es), where several fans of faces meet",
          "Give each fan a vertex of its own, and move these apart.",
          "Use PMP::duplicate_non_manifold_vertices, then move the copies apart.");

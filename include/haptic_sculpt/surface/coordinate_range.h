@@ -10,8 +10,8 @@
 
 namespace haptic_sculpt {
 
-/// The largest magnitude of a coordinate, clearance or delta for which everything is proven: 2^1000, about 1.07e301. There
-/// is no least one: zero and subnormal numbers are ordinary.
+/// The largest magnitude of a coordinate, clearance or delta for which everything is proven: 2^1000, about 1.07e301.
+/// There is no least one: zero and subnormal numbers are ordinary.
 ///
 /// Differences of coordinates, sums of some of them and their small multiples then stay below 2^1023, so none overflows
 /// on the way to what leaves pairs out (doc/exact_sweeps.md, "The range of coordinates").
@@ -40,7 +40,8 @@ inline bool is_in_range(const std::array<double, 3>& p) {
 /// \throw Out_of_range unless a length may be used.
 inline void check_range(const char* what, double length) {
   if (!is_in_range(length))
-    throw Out_of_range(std::string(what) + " " + number(length) + " is out of range: give a length of at most 2^1000, about 1.07e301");
+    throw Out_of_range(std::string(what) + " " + number(length) +
+                       " is out of range: give a length of at most 2^1000, about 1.07e301");
 }
 
 } // namespace internal

@@ -90,7 +90,8 @@ Mesh mesh_of(const Face_soup& soup) {
 template <class Mesh>
 struct Is_mesh_of_doubles : std::false_type {};
 template <class Point>
-struct Is_mesh_of_doubles<CGAL::Surface_mesh<Point>> : std::is_same<typename CGAL::Kernel_traits<Point>::Kernel::FT, double> {};
+struct Is_mesh_of_doubles<CGAL::Surface_mesh<Point>>
+    : std::is_same<typename CGAL::Kernel_traits<Point>::Kernel::FT, double> {};
 
 } // namespace internal
 

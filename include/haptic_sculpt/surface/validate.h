@@ -115,7 +115,8 @@ inline Validity_report validate_soup(const Face_soup& soup, double delta = 0,
     else if (delta > 0 && !satisfies_delta_rule(soup.points[corner[0]], soup.points[corner[1]], soup.points[corner[2]]))
       report.low_faces.emplace_back(face_name[f]);
   }
-  const auto intersections = internal::improper_intersections(soup, triangles, flat, std::max<std::size_t>(most_intersections, 1));
+  const auto intersections =
+      internal::improper_intersections(soup, triangles, flat, std::max<std::size_t>(most_intersections, 1));
   report.has_more_intersections = intersections.has_more;
   for (const auto& [f, g] : intersections.pairs)
     report.intersecting_faces.emplace_back(Validity_report::Face_index(face_name[f]),
@@ -168,11 +169,10 @@ Face_soup face_soup(const Mesh& mesh, std::vector<Face_soup::Index>* face_name =
 ///
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param delta the delta rule's length (paper, section 3.1), >= 0; 0: only exact degeneracy counts
-/// \param most_intersections pairs of intersecting faces to name, at least one; `Validity_report::all_intersections`: all
-/// \throw Error if delta is negative or not finite
-/// Complexity: O(n log^3 n + pairs of faces with meeting boxes) up to the last pair named, components included
-/// (doc/validity.md); 1.6 s for a million triangles. Memory: about 80 bytes a triangle beside the mesh. Thread-safe as
-/// far as reading the mesh is; whatever rounding mode the caller has set.
+/// \param most_intersections pairs of intersecting faces to name, at least one; `Validity_report::all_intersections`:
+/// all \throw Error if delta is negative or not finite Complexity: O(n log^3 n + pairs of faces with meeting boxes) up
+/// to the last pair named, components included (doc/validity.md); 1.6 s for a million triangles. Memory: about 80 bytes
+/// a triangle beside the mesh. Thread-safe as far as reading the mesh is; whatever rounding mode the caller has set.
 template <class Mesh>
 Validity_report validate(const Mesh& mesh, double delta = 0,
                          std::size_t most_intersections = Validity_report::default_most_intersections) {

@@ -15,8 +15,8 @@ struct Axis_scene {
   std::vector<double> ends; ///< of all vertices, along the axis
 };
 
-/// Whether no face is degenerate at time t and all pairs meet properly: integers and all pairs. Shares nothing with what
-/// decides whole motions, not even that anything is affine in time.
+/// Whether no face is degenerate at time t and all pairs meet properly: integers and all pairs. Shares nothing with
+/// what decides whole motions, not even that anything is affine in time.
 inline bool is_embedded_at(const Axis_scene& scene, const mpq_class& t) {
   const std::size_t n = scene.mesh.points.size();
   std::vector<oracle::Point<mpz_class>> points(n);

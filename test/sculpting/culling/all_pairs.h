@@ -9,8 +9,9 @@
 
 namespace haptic_sculpt::test {
 
-/// What stands still around a star: some triangles of a mesh and the vertices of the link. Asks the exact sweeps about all pairs
-/// of a moving and a still feature, none left out for any reason but a common vertex, in loops straight from the statement.
+/// What stands still around a star: some triangles of a mesh and the vertices of the link. Asks the exact sweeps about
+/// all pairs of a moving and a still feature, none left out for any reason but a common vertex, in loops straight from
+/// the statement.
 struct All_pairs {
   using Coordinates = internal::Coordinates;
   using Points = internal::Sweep_points;
@@ -21,8 +22,9 @@ struct All_pairs {
   std::set<std::array<Vertex_index, 2>> edges;
   std::map<Vertex_index, Coordinates> vertices;
 
-  All_pairs(const Mesh& mesh, const internal::Star<Mesh>& star, const std::vector<std::array<Vertex_index, 3>>& triangles)
-    : star(star) {
+  All_pairs(const Mesh& mesh, const internal::Star<Mesh>& star,
+            const std::vector<std::array<Vertex_index, 3>>& triangles)
+      : star(star) {
     for (const Vertex_index v : star.link)
       vertices[v] = vertex_coordinates(mesh, v);
     for (const auto& f : triangles) {
@@ -87,10 +89,12 @@ struct All_pairs {
     Star_impacts<Mesh> firsts;
     No_filter_counters uncounted;
     for_each_hit(source, target,
-                 [&](Impact_feature feature, const std::array<Vertex_index, 3>& v, const Points& points, const Verdict& verdict) {
-                   const int order = firsts.empty() ? -1
-                                                    : internal::compare_times(points, verdict, firsts[0].impact().coordinates(),
-                                                                    firsts[0].impact().verdict(), uncounted);
+                 [&](Impact_feature feature, const std::array<Vertex_index, 3>& v, const Points& points,
+                     const Verdict& verdict) {
+                   const int order = firsts.empty()
+                                         ? -1
+                                         : internal::compare_times(points, verdict, firsts[0].impact().coordinates(),
+                                                                   firsts[0].impact().verdict(), uncounted);
                    if (order < 0)
                      firsts.clear();
                    if (order <= 0)
@@ -100,7 +104,8 @@ struct All_pairs {
     return firsts;
   }
 
-  /// What stands in the way of a collapse into the link's vertex `pivot`: of the first edge, else face, that meets anything.
+  /// What stands in the way of a collapse into the link's vertex `pivot`: of the first edge, else face, that meets
+  /// anything.
   std::vector<Vertex_index> in_the_way(const Coordinates& centre, std::size_t pivot) const {
     const std::size_t n = star.valence();
     const Coordinates& target = star.link_points[pivot];
@@ -149,7 +154,8 @@ private:
 
 inline bool same(const Star_impacts<Mesh>& a, const Star_impacts<Mesh>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.feature() == y.feature() && x.vertices() == y.vertices() && compare_time(x.impact(), y.impact()) == CGAL::EQUAL;
+    return x.feature() == y.feature() && x.vertices() == y.vertices() &&
+           compare_time(x.impact(), y.impact()) == CGAL::EQUAL;
   });
 }
 

@@ -10,9 +10,9 @@
 
 namespace haptic_sculpt::test {
 
-/// A star's link and a motion of its centre, drawn at random from shapes that are hard to part from their surroundings: smooth
-/// fans, spikes, flat stars, needles, small integer grids, clouds; long and short ways and none; spokes and points of the link
-/// that coincide. And points in, on, and a few units in the last place beside what it sweeps over.
+/// A star's link and a motion of its centre, drawn at random from shapes that are hard to part from their surroundings:
+/// smooth fans, spikes, flat stars, needles, small integer grids, clouds; long and short ways and none; spokes and
+/// points of the link that coincide. And points in, on, and a few units in the last place beside what it sweeps over.
 struct Drawn_star {
   using Random = std::mt19937_64;
   using Coordinates = internal::Vector;
@@ -56,8 +56,8 @@ struct Drawn_star {
       return random() % 4 == 0 ? number(random) : parts[random() % 10];
     };
     if (is_tight_) {
-      // On a line between two corners of what one face sweeps over, or beside it: nothing reaches farther than the star, so
-      // that bounds of roundings, which grow with that, are as small as they can be.
+      // On a line between two corners of what one face sweeps over, or beside it: nothing reaches farther than the
+      // star, so that bounds of roundings, which grow with that, are as small as they can be.
       const Coordinates* const corners[] = {&source, &target, &link[i], &link[j]};
       const Coordinates &a = *corners[random() % 4], &b = *corners[random() % 4];
       const double t = random() % 2 == 0 ? 0.5 : std::abs(number(random));

@@ -62,7 +62,8 @@ struct Faces_and_points {
   /// \param most of so many faces \param may_be_whole whether those may be the whole star
   Faces_and_points(Random& random, std::size_t valence, int exponent, std::size_t most, bool may_be_whole)
     : drawn(random, valence, exponent, draw_offset(random)), first(0), last(valence) {
-    if (!may_be_whole || valence > most || random() % 2 == 0) { // often up to the end, where the last spoke is the first of the link
+    if (!may_be_whole || valence > most ||
+        random() % 2 == 0) { // often up to the end, where the last spoke is the first of the link
       const std::size_t faces = 1 + random() % std::min(valence - 1, most);
       first = random() % 3 == 0 ? valence - faces : random() % (valence - faces + 1);
       last = first + faces;
@@ -149,10 +150,12 @@ struct Count {
   }
 };
 
-/// Asks the exact sweeps about points, edges and faces on which planes decide. \tparam Planes has `beyond_vertex(sides)`,
-/// and `beyond_edge(i, sides)` and `beyond_face(i, sides)` for the edge and the face i of the star
+/// Asks the exact sweeps about points, edges and faces on which planes decide. \tparam Planes has
+/// `beyond_vertex(sides)`, and `beyond_edge(i, sides)` and `beyond_face(i, sides)` for the edge and the face i of the
+/// star
 template <class Planes>
-void check(Random& random, const Faces_and_points& scene, const Planes& planes, Count& vertex, Count& edge, Count& face) {
+void check(Random& random, const Faces_and_points& scene, const Planes& planes, Count& vertex, Count& edge,
+           Count& face) {
   const auto on = [](const auto& p, auto& c) { return internal::vertex_face_verdict(p, c); };
   const auto of_edges = [](const auto& p, auto& c) { return internal::edge_edge_verdict(p, c); };
   const auto of_faces = [](const auto& p, auto& c) { return internal::face_vertex_verdict(p, c); };
@@ -170,7 +173,8 @@ void check(Random& random, const Faces_and_points& scene, const Planes& planes, 
         return scene.meets_within_margin(random, of_edges, {source, target, scene.link(i), points[a], points[b]}, 2);
       });
       face.note(planes.beyond_face(i, sides(a)), [&] {
-        return scene.meets_within_margin(random, of_faces, {source, target, scene.link(i), scene.link(i + 1), points[a]}, 1);
+        return scene.meets_within_margin(random, of_faces,
+                                         {source, target, scene.link(i), scene.link(i + 1), points[a]}, 1);
       });
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which faces are looked at for a swept star does not depend on the broad phase: those that pass its filter, one by one.
+// Which faces are looked at for a swept star does not depend on the broad phase: those that pass its filter, one by
+// one.
 #include "meshes/generated_meshes.h"
 #include "sculpting/Random_scene.h"
 
@@ -24,9 +25,15 @@ struct Counted_star {
   Swept_star_3 star;
 
   Counted_star(Random& random, double unit) {
-    const auto any = [&](double size) { return Coordinates{size * from_minus_1_to_1(random), size * from_minus_1_to_1(random), size * from_minus_1_to_1(random)}; };
+    const auto any = [&](double size) {
+      return Coordinates{size * from_minus_1_to_1(random), size * from_minus_1_to_1(random),
+                         size * from_minus_1_to_1(random)};
+    };
     const Coordinates middle = any(unit), along = any(1), way = any(1);
-    const double size = unit * std::exp2(-6 * std::abs(from_minus_1_to_1(random))), thin = random() % 3 == 0 ? 0x1p-8 : random() % 2 == 0 ? 0 : 1,
+    const double size = unit * std::exp2(-6 * std::abs(from_minus_1_to_1(random))),
+                 thin = random() % 3 == 0   ? 0x1p-8
+                        : random() % 2 == 0 ? 0
+                                            : 1,
                  far = size * std::exp2(8 * from_minus_1_to_1(random));
     for (std::size_t k = random() % 4 == 0 ? 0 : 3 + random() % 20; k > 0; --k) {
       const double t = from_minus_1_to_1(random);
@@ -59,7 +66,8 @@ BOOST_AUTO_TEST_CASE(every_broad_phase_answers_with_the_faces_that_pass) {
   Random random(seed_from_environment(66));
   const std::size_t stars = count_from_environment("HAPTIC_SCULPT_COUNTED_STARS", 4000);
   std::size_t none = 0, many = 0, fewer_than_boxes = 0;
-  // Scales at which floats are ordinary, denormal, and at an end; and a place far from the origin, where boxes are lumps.
+  // Scales at which floats are ordinary, denormal, and at an end; and a place far from the origin, where boxes are
+  // lumps.
   for (const double unit : {1.0, 0x1p-130, 0x1p127, 0x1p-1060, 0x1p600})
     for (const double shift : {0.0, 0x1p22}) {
       Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(4, 0.3, 0.05));
@@ -102,8 +110,8 @@ BOOST_AUTO_TEST_CASE(every_broad_phase_answers_with_the_faces_that_pass) {
         none += expected.empty(), many += expected.size() > 64, fewer_than_boxes += expected.size() < in_box.size();
       }
     }
-  BOOST_TEST_MESSAGE(stars << " stars, none near " << none << ", more than 64 near " << many << ", fewer than in the box "
-                           << fewer_than_boxes);
+  BOOST_TEST_MESSAGE(stars << " stars, none near " << none << ", more than 64 near " << many
+                           << ", fewer than in the box " << fewer_than_boxes);
   BOOST_TEST(many > stars / 20);
   BOOST_TEST(fewer_than_boxes > stars / 20);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pairs that are left near a place give the impacts that all pairs give: with needles a million times longer than the star,
-// features next to it, and any scale.
+// The pairs that are left near a place give the impacts that all pairs give: with needles a million times longer than
+// the star, features next to it, and any scale.
 #include "sculpting/Random_scene.h"
 
 #include <haptic_sculpt/sculpting/motion/Narrow_phase.h>
@@ -20,7 +20,8 @@ struct Crowded_star {
   internal::Candidate_list<Mesh> list;
   Coordinates centre{};
 
-  /// A star of three faces around a vertex near the origin, and triangles around it whose corners are 2^0 to 2^longest away.
+  /// A star of three faces around a vertex near the origin, and triangles around it whose corners are 2^0 to 2^longest
+  /// away.
   Crowded_star(Random& random, int longest, int triangles, double scale, double offset) {
     std::uniform_real_distribution<double> number(-1, 1);
     const auto point = [&](double size) {
@@ -40,7 +41,8 @@ struct Crowded_star {
     for (int k = 0; k < triangles; ++k) {
       std::array<Vertex_index, 3> corner;
       for (Vertex_index& v : corner)
-        v = random() % 8 == 0 ? star.link[random() % 3] : add(point(std::ldexp(1.0, static_cast<int>(random() % (longest + 1)))));
+        v = random() % 8 == 0 ? star.link[random() % 3]
+                              : add(point(std::ldexp(1.0, static_cast<int>(random() % (longest + 1)))));
       const auto f = mesh.add_face(corner[0], corner[1], corner[2]);
       if (f.is_valid())
         faces.push_back(f);
@@ -57,7 +59,8 @@ namespace {
 
 bool same(const Star_impacts<Mesh>& a, const Star_impacts<Mesh>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.feature() == y.feature() && x.vertices() == y.vertices() && compare_time(x.impact(), y.impact()) == CGAL::EQUAL;
+    return x.feature() == y.feature() && x.vertices() == y.vertices() &&
+           compare_time(x.impact(), y.impact()) == CGAL::EQUAL;
   });
 }
 

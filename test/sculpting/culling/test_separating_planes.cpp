@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What planes about a star say is apart, the exact sweeps find apart: at any scale, by units in the last place, in every
-// rounding mode. And where such planes leave pairs out, impacts, near pairs and collapses are those of all pairs in plain loops.
+// What planes about a star say is apart, the exact sweeps find apart: at any scale, by units in the last place, in
+// every rounding mode. And where such planes leave pairs out, impacts, near pairs and collapses are those of all pairs
+// in plain loops.
 #include "sculpting/culling/all_pairs.h"
 #include "sculpting/culling/planes_and_points.h"
 
@@ -81,7 +82,8 @@ struct Soup {
         const internal::Vector along = internal::scaled(minus(to, from), far);
         a = add(internal::plus(from, along)), b = add(minus(from, along));
       }
-      if (are_apart(a, b) && are_apart(b, c) && are_apart(c, a) && (number_of_triangles > 100 || is_wanted(random, {a, b, c})))
+      if (are_apart(a, b) && are_apart(b, c) && are_apart(c, a) &&
+          (number_of_triangles > 100 || is_wanted(random, {a, b, c})))
         triangles.push_back({a, b, c});
       else
         --number_of_triangles;
@@ -106,17 +108,20 @@ struct Soup {
 private:
   bool are_apart(Vertex_index a, Vertex_index b) const { return a != b && mesh.point(a) != mesh.point(b); }
 
-  /// Few of those that are in the way from the start, not all that come later: impacts are to be at all times, and none often.
+  /// Few of those that are in the way from the start, not all that come later: impacts are to be at all times, and none
+  /// often.
   bool is_wanted(Random& random, const std::array<Vertex_index, 3>& triangle) const {
     const std::size_t chance = random() % 16;
     if (chance == 0)
       return true;
     bool meets = false, meets_at_start = false;
     All_pairs(mesh, star, {triangle})
-        .for_each_hit(source, target, [&](Impact_feature, const std::array<Vertex_index, 3>&, const Sweep_points& points, const Sweep_verdict& verdict) {
-          meets = true;
-          meets_at_start = meets_at_start || internal::filtered_time(points, verdict).first <= 0;
-        });
+        .for_each_hit(source, target,
+                      [&](Impact_feature, const std::array<Vertex_index, 3>&, const Sweep_points& points,
+                          const Sweep_verdict& verdict) {
+                        meets = true;
+                        meets_at_start = meets_at_start || internal::filtered_time(points, verdict).first <= 0;
+                      });
     return !meets_at_start && (!meets || chance > 8);
   }
 };
@@ -133,8 +138,8 @@ struct Session {
   internal::Narrow_phase<Mesh> narrow{Exact_sweep_traits<Mesh>(&counters)};
   internal::Edit_proof<Mesh, Filter_counters> proof{counters};
   Star_impacts<Mesh> found;
-  std::size_t motions = 0, blocked = 0, several = 0, late = 0, collapses = 0, refused = 0, balls = 0, covered = 0, met = 0, meeting = 0,
-              left_out = 0, wrong = 0;
+  std::size_t motions = 0, blocked = 0, several = 0, late = 0, collapses = 0, refused = 0, balls = 0, covered = 0,
+              met = 0, meeting = 0, left_out = 0, wrong = 0;
 
   void check_motion(const All_pairs& all, const Coordinates& source, const Coordinates& target,
                     std::size_t rounding) {
@@ -151,7 +156,8 @@ struct Session {
   }
 
   /// Of all pairs that meet on the way, not only the first, none has been left out of the runs of the star's faces.
-  void check_left_out(const All_pairs& all, const Coordinates& source, const Coordinates& target, std::size_t rounding) {
+  void check_left_out(const All_pairs& all, const Coordinates& source, const Coordinates& target,
+                      std::size_t rounding) {
     if (all.star.valence() == 0)
       return;
     using Pair = std::pair<Impact_feature, std::array<Vertex_index, 3>>;
@@ -172,12 +178,14 @@ struct Session {
         return true;
       });
     }
-    all.for_each_hit(source, target, [&](Impact_feature feature, const std::array<Vertex_index, 3>& vertices, const auto&, const auto&) {
-      if (feature == Impact_feature::vertex_face)
-        return; // no matter of runs in a large star
-      ++meeting;
-      left_out += asked.count({feature, vertices}) == 0;
-    });
+    all.for_each_hit(
+        source, target,
+        [&](Impact_feature feature, const std::array<Vertex_index, 3>& vertices, const auto&, const auto&) {
+          if (feature == Impact_feature::vertex_face)
+            return; // no matter of runs in a large star
+          ++meeting;
+          left_out += asked.count({feature, vertices}) == 0;
+        });
   }
 
   /// A part of the way is looked at first: what comes first in it is told.
@@ -187,7 +195,8 @@ struct Session {
     part.until = until;
     const Star_impacts<Mesh> expected = all.first_impacts(source, target);
     narrow.first_impacts_near(all.star, list, source, target, part.path(), found);
-    if (!expected.empty() && internal::exact_time(expected[0].impact().coordinates(), expected[0].impact().verdict()) <= mpq_class(until))
+    if (!expected.empty() &&
+        internal::exact_time(expected[0].impact().coordinates(), expected[0].impact().verdict()) <= mpq_class(until))
       wrong += !same(found, expected);
   }
 
@@ -222,10 +231,10 @@ struct Session {
   }
 
   friend std::ostream& operator<<(std::ostream& out, const Session& s) {
-    return out << s.motions << " motions, " << s.blocked << " blocked, " << s.several << " of them by several, " << s.late
-               << " later than the start; " << s.balls
-               << " balls, " << s.covered << " motions in them, " << s.met << " blocked; " << s.collapses << " collapses, "
-               << s.refused << " refused; " << s.meeting << " pairs that meet, " << s.left_out << " of them left out; " << s.wrong << " wrong";
+    return out << s.motions << " motions, " << s.blocked << " blocked, " << s.several << " of them by several, "
+               << s.late << " later than the start; " << s.balls << " balls, " << s.covered << " motions in them, "
+               << s.met << " blocked; " << s.collapses << " collapses, " << s.refused << " refused; " << s.meeting
+               << " pairs that meet, " << s.left_out << " of them left out; " << s.wrong << " wrong";
   }
 };
 
@@ -236,7 +245,8 @@ BOOST_AUTO_TEST_CASE(what_planes_about_spokes_say_is_apart_is_apart) {
   const std::size_t stars = count_from_environment("HAPTIC_SCULPT_STARS", 7000);
   Count vertex, edge, face;
   for (std::size_t k = 0; k < stars; ++k) {
-    Faces_and_points scene(random, 3 + random() % 14, draw_exponent(random), internal::Separating_planes::most_faces, true);
+    Faces_and_points scene(random, 3 + random() % 14, draw_exponent(random), internal::Separating_planes::most_faces,
+                           true);
     check(random, scene, Planes_about_faces(scene), vertex, edge, face);
   }
   BOOST_TEST_MESSAGE("vertex: " << vertex << "; edges: " << edge << "; faces: " << face);

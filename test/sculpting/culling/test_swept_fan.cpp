@@ -150,7 +150,8 @@ struct Planes_at_ends {
   explicit Planes_at_ends(Faces_and_points& scene) {
     const Rounding in_this_mode(scene.rounding);
     scene.outcodes.clear();
-    internal::Swept_fan(scene.way, scene.spokes, scene.first, scene.last, scene.reach, scene.margin).compare(scene.outcodes);
+    internal::Swept_fan(scene.way, scene.spokes, scene.first, scene.last, scene.reach, scene.margin)
+        .compare(scene.outcodes);
   }
   bool beyond_vertex(Outcode sides) const { return internal::Swept_fan::apart_from_fans(sides) != 0; }
   bool beyond_edge(std::size_t, Outcode sides) const { return beyond_vertex(sides); }
@@ -177,15 +178,17 @@ void check_large_stars(std::uint64_t seed, std::size_t stars) {
 
 // With margins, and in all rounding modes.
 BOOST_AUTO_TEST_CASE(what_a_fan_of_a_star_says_is_apart_is_apart) {
-  check_large_stars<Planes_at_ends>(seed_from_environment(74), count_from_environment("HAPTIC_SCULPT_LARGE_STARS", 5000));
+  check_large_stars<Planes_at_ends>(seed_from_environment(74),
+                                    count_from_environment("HAPTIC_SCULPT_LARGE_STARS", 5000));
 }
 
 BOOST_AUTO_TEST_CASE(what_planes_at_spokes_say_is_apart_is_apart) {
-  check_large_stars<Planes_at_spokes>(seed_from_environment(72), count_from_environment("HAPTIC_SCULPT_LARGE_STARS", 5000));
+  check_large_stars<Planes_at_spokes>(seed_from_environment(72),
+                                      count_from_environment("HAPTIC_SCULPT_LARGE_STARS", 5000));
 }
 
-// The other half of a bipyramid meets every spoke's end from below, and wherever the apex goes a little, no pair is left: that is what
-// these planes are for.
+// The other half of a bipyramid meets every spoke's end from below, and wherever the apex goes a little, no pair is
+// left: that is what these planes are for.
 BOOST_AUTO_TEST_CASE(planes_at_spokes_part_a_fan_from_what_lies_under_it) {
   Random random(seed_from_environment(73));
   std::uniform_real_distribution<double> number(-1, 1);
@@ -211,7 +214,8 @@ BOOST_AUTO_TEST_CASE(planes_at_spokes_part_a_fan_from_what_lies_under_it) {
       for (std::size_t j = 0; j < valence; ++j) {
         const std::size_t next = j + 1 < valence ? j + 1 : 0;
         const auto apart = [&](auto sides) { return (planes.apart_from_spokes(sides) >> i & 1) != 0; };
-        left += j != i && !apart(outcodes.outcode(j) & outcodes.outcode(valence)) && (j < 2 * faces || 2 * valence - 2 * faces < 2 * j);
+        left += j != i && !apart(outcodes.outcode(j) & outcodes.outcode(valence)) &&
+                (j < 2 * faces || 2 * valence - 2 * faces < 2 * j);
         left += j != i && next != i && !apart(outcodes.outcode(j) & outcodes.outcode(next)) && j < 2 * faces;
       }
     BOOST_TEST(left == 0u);

@@ -9,8 +9,8 @@
 
 namespace haptic_sculpt::test {
 
-/// A copy of a mesh kept by what a visitor is told, and nothing else. Counts what cannot be right: an element that dies without
-/// having lived or is not what it was when it was created, or one that is created where one lives.
+/// A copy of a mesh kept by what a visitor is told, and nothing else. Counts what cannot be right: an element that dies
+/// without having lived or is not what it was when it was created, or one that is created where one lives.
 struct Mirror_visitor : Default_edit_visitor {
   using Face_index = Mesh::Face_index;
   using Edge_index = Mesh::Edge_index;
@@ -85,7 +85,8 @@ private:
   }
   std::array<std::size_t, 3> corners(Face_index f) const {
     const auto h = mesh->halfedge(f);
-    std::array<std::size_t, 3> c = {number(mesh->source(h)), number(mesh->target(h)), number(mesh->target(mesh->next(h)))};
+    std::array<std::size_t, 3> c = {number(mesh->source(h)), number(mesh->target(h)),
+                                    number(mesh->target(mesh->next(h)))};
     std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
     return c;
   }

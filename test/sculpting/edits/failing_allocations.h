@@ -3,7 +3,8 @@
 #define HAPTIC_SCULPT_TEST_FAILING_ALLOCATIONS_H
 
 /// \file
-/// Memory that runs out when it is told to: replaces the global operator new. To be included by one source file of a program.
+/// Memory that runs out when it is told to: replaces the global operator new. To be included by one source file of a
+/// program.
 
 #include <cstdlib>
 #include <new>

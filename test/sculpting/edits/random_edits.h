@@ -18,7 +18,8 @@ auto pick(const Range& range, std::size_t size, Random& random) {
 
 inline Point_3 in_face(const Mesh& mesh, Mesh::Face_index f, double a, double b) {
   const auto h = mesh.halfedge(f);
-  const Point_3 p = mesh.point(mesh.source(h)), q = mesh.point(mesh.target(h)), r = mesh.point(mesh.target(mesh.next(h)));
+  const Point_3 p = mesh.point(mesh.source(h)), q = mesh.point(mesh.target(h)),
+                r = mesh.point(mesh.target(mesh.next(h)));
   return p + a * (q - p) + b * (r - p);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Edits by value: what apply() gives back makes the same again, to the bit, of another copy of the mesh that nobody slides in.
+// Edits by value: what apply() gives back makes the same again, to the bit, of another copy of the mesh that nobody
+// slides in.
 #include "sculpting/Mesh_snapshot.h"
 #include "sculpting/edits/random_edits.h"
 
@@ -19,12 +20,14 @@ Edit random_value(const Sculptor<Mesh>& sculptor, Random& random) {
   const auto h = pick(mesh.halfedges(), mesh.number_of_halfedges(), random);
   const auto name = [&](Vertex_index v) { return random() % 20 == 0 ? random() % 300 : sculptor.name(v); };
   const Vertex_index a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h));
-  const Point_3 p = mesh.point(a), inside = in_face(mesh, mesh.face(h), 0.3, 0.4), middle = CGAL::midpoint(p, mesh.point(b));
+  const Point_3 p = mesh.point(a), inside = in_face(mesh, mesh.face(h), 0.3, 0.4),
+                middle = CGAL::midpoint(p, mesh.point(b));
   const auto array_of = [](const Point_3& q) { return std::array<double, 3>{q.x(), q.y(), q.z()}; };
   switch (random() % 12) {
   case 0: case 1: case 2: {
     const double x = number(random), y = number(random), z = number(random);
-    return Edit::of(Edit_kind::move, {name(a), 0, 0}, array_of(p + (random() % 3 == 0 ? 3 : 0.2) * meshes::Kernel::Vector_3(x, y, z)));
+    return Edit::of(Edit_kind::move, {name(a), 0, 0},
+                    array_of(p + (random() % 3 == 0 ? 3 : 0.2) * meshes::Kernel::Vector_3(x, y, z)));
   }
   case 3: return Edit::of(Edit_kind::insert_on_face, {name(b), name(a), name(c)}, array_of(inside));
   case 4: return Edit::of(Edit_kind::insert_on_edge, {name(b), name(a), 0}, array_of(middle));
@@ -89,7 +92,8 @@ BOOST_AUTO_TEST_CASE(what_was_applied_can_be_done_again) {
   BOOST_TEST(other_steps == 0u);
 }
 
-// A removal is the collapse that it was, a vertex that nothing moves gives nothing, and moves that follow each other are one grab.
+// A removal is the collapse that it was, a vertex that nothing moves gives nothing, and moves that follow each other
+// are one grab.
 BOOST_AUTO_TEST_CASE(what_apply_says) {
   Mesh mesh = meshes::to_mesh(meshes::icosphere(1)), copy = mesh;
   Sculptor<Mesh> sculptor(mesh), by_functions(copy);

@@ -135,7 +135,8 @@ void check_edges(const meshes::Triangle_list& list, double delta, bool by_compos
   constexpr int unit = 8;
   std::vector<oracle::Point<__int128>> points;
   for (const Point_3& p : list.points)
-    points.push_back({static_cast<__int128>(unit * p.x()), static_cast<__int128>(unit * p.y()), static_cast<__int128>(unit * p.z())});
+    points.push_back({static_cast<__int128>(unit * p.x()), static_cast<__int128>(unit * p.y()),
+                      static_cast<__int128>(unit * p.z())});
   const Exact_mesh<__int128> exact(mesh, points);
   const Mesh_snapshot before = snapshot(sculptor);
   for (const auto& [v, w] : edges_of(mesh)) {

@@ -71,11 +71,13 @@ std::vector<std::array<std::size_t, 3>> renamed(const Mesh_snapshot& snapshot, s
 
 oracle::Mesh_list oracle_list(const Mesh& mesh) {
   oracle::Mesh_list list;
-  for (std::size_t i = 0; i < mesh.num_vertices(); ++i) // dead ones are isolated points there, which are no part of the surface
+  for (std::size_t i = 0; i < mesh.num_vertices();
+       ++i) // dead ones are isolated points there, which are no part of the surface
     list.points.push_back(vertex_coordinates(mesh, Vertex_index(static_cast<Mesh::size_type>(i))));
   for (const auto f : mesh.faces()) {
     const auto h = mesh.halfedge(f);
-    list.faces.push_back({static_cast<int>(mesh.source(h)), static_cast<int>(mesh.target(h)), static_cast<int>(mesh.target(mesh.next(h)))});
+    list.faces.push_back({static_cast<int>(mesh.source(h)), static_cast<int>(mesh.target(h)),
+                          static_cast<int>(mesh.target(mesh.next(h)))});
   }
   return list;
 }
@@ -86,8 +88,12 @@ meshes::Triangle_list small_scene(std::size_t kind, Random& random) {
   case 0: return random_small_list(random, 3);
   case 1: return meshes::torus(3 + random() % 3, 3 + random() % 2);
   case 2: return meshes::bumpy_sphere(0, 0.5, 0.3, static_cast<std::uint32_t>(random()));
-  case 3: list = meshes::torus(4, 3); return list += meshes::cube().scale_and_move(0.25, -0.125, -0.125, -0.125); // a block in the hole
-  case 4: list = meshes::cube(); return list += meshes::tetrahedron().scale_and_move(0.5, 0.125, 0.125, 0.125).turn_inside_out(); // a cavity
+  case 3:
+    list = meshes::torus(4, 3);
+    return list += meshes::cube().scale_and_move(0.25, -0.125, -0.125, -0.125); // a block in the hole
+  case 4:
+    list = meshes::cube();
+    return list += meshes::tetrahedron().scale_and_move(0.5, 0.125, 0.125, 0.125).turn_inside_out(); // a cavity
   default: list = meshes::tetrahedron(); return list += random_small_list(random, 2).scale_and_move(1, 6, 0, 0);
   }
 }
@@ -145,8 +151,9 @@ BOOST_AUTO_TEST_CASE(removing_until_nothing_more_can_go) {
       BOOST_REQUIRE(sculptor.undo());
     BOOST_TEST((snapshot(sculptor) == begin));
   }
-  BOOST_TEST_MESSAGE(removed << " removed; " << at_tetrahedra << " scenes ended at tetrahedra, " << held << " at refusals (genus 0, 1, more: "
-                             << scenes_of_genus[0] << ' ' << scenes_of_genus[1] << ' ' << scenes_of_genus[2] << "), " << confirmed << " confirmed");
+  BOOST_TEST_MESSAGE(removed << " removed; " << at_tetrahedra << " scenes ended at tetrahedra, " << held
+                             << " at refusals (genus 0, 1, more: " << scenes_of_genus[0] << ' ' << scenes_of_genus[1]
+                             << ' ' << scenes_of_genus[2] << "), " << confirmed << " confirmed");
   BOOST_TEST(wrong == 0u);
   BOOST_TEST(at_tetrahedra > scenes / 4);
   BOOST_TEST(scenes_of_genus[1] > scenes / 5);
@@ -155,7 +162,8 @@ BOOST_AUTO_TEST_CASE(removing_until_nothing_more_can_go) {
 BOOST_AUTO_TEST_CASE(inverse_pairs_and_counts) {
   Random random(seed_from_environment(36));
   std::size_t refilled_faces = 0, refilled_edges = 0;
-  for (const auto& list : {meshes::bumpy_sphere(1, 0.2, 0.02), meshes::torus(8, 6), meshes::box(2), meshes::row_of_spheres(2, 0), meshes::bipyramid(9)}) {
+  for (const auto& list : {meshes::bumpy_sphere(1, 0.2, 0.02), meshes::torus(8, 6), meshes::box(2),
+                           meshes::row_of_spheres(2, 0), meshes::bipyramid(9)}) {
     Mesh mesh = meshes::to_mesh(list);
     Sculptor<Mesh> sculptor(mesh);
     const Mesh_snapshot begin = snapshot(sculptor);
@@ -188,7 +196,8 @@ BOOST_AUTO_TEST_CASE(inverse_pairs_and_counts) {
     for (int i = 0; i < 30; ++i) { // on an edge; away by undo, by redo and undo
       const auto e = pick(mesh.edges(), mesh.number_of_edges(), random);
       const auto h = mesh.halfedge(e);
-      const std::array<Vertex_index, 4> around = {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)), mesh.target(mesh.next(mesh.opposite(h)))};
+      const std::array<Vertex_index, 4> around = {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)),
+                                                  mesh.target(mesh.next(mesh.opposite(h)))};
       std::array<std::size_t, 4> degrees;
       for (int k = 0; k < 4; ++k)
         degrees[k] = mesh.degree(around[k]);
@@ -224,7 +233,8 @@ BOOST_AUTO_TEST_CASE(inverse_pairs_and_counts) {
       BOOST_REQUIRE(sculptor.undo());
     }
 
-    // What a removal leaves of a vertex of valence 3 or 4 is a face or two: a creation at the old place has to give the same triangles.
+    // What a removal leaves of a vertex of valence 3 or 4 is a face or two: a creation at the old place has to give the
+    // same triangles.
     for (int i = 0; i < 40; ++i) {
       const auto f = pick(mesh.faces(), mesh.number_of_faces(), random);
       if (i % 2 == 0)
@@ -243,7 +253,8 @@ BOOST_AUTO_TEST_CASE(inverse_pairs_and_counts) {
         if (!gone)
           continue;
         const std::size_t apex = sculptor.name(*gone.vertex);
-        const std::size_t across = link.size() == 4 ? link[(std::find(link.begin(), link.end(), apex) - link.begin() + 2) % 4] : 0;
+        const std::size_t across =
+            link.size() == 4 ? link[(std::find(link.begin(), link.end(), apex) - link.begin() + 2) % 4] : 0;
         const auto made = link.size() == 3 ? sculptor.insert_on_face(sculptor.face_of(link[0], link[1], link[2]), p)
                                            : sculptor.insert_on_edge(sculptor.edge_of(apex, across), p);
         BOOST_REQUIRE(made);
@@ -258,7 +269,8 @@ BOOST_AUTO_TEST_CASE(inverse_pairs_and_counts) {
       ;
     BOOST_TEST(is_begin());
   }
-  BOOST_TEST_MESSAGE(refilled_faces << " vertices of valence 3 and " << refilled_edges << " of valence 4 removed and created anew");
+  BOOST_TEST_MESSAGE(refilled_faces << " vertices of valence 3 and " << refilled_edges
+                                    << " of valence 4 removed and created anew");
   BOOST_TEST(refilled_faces > 50u);
   BOOST_TEST(refilled_edges > 50u);
 }

@@ -277,7 +277,8 @@ BOOST_AUTO_TEST_CASE(a_stroke_begun_while_the_history_is_off) {
         drag(3);
       sculptor.set_history_limit({});
       drag(50);
-      BOOST_REQUIRE(static_cast<bool>(sculptor.insert_on_face(Mesh::Face_index(7), in_face(mesh, Mesh::Face_index(7), 0.3, 0.3))));
+      BOOST_REQUIRE(static_cast<bool>(
+          sculptor.insert_on_face(Mesh::Face_index(7), in_face(mesh, Mesh::Face_index(7), 0.3, 0.3))));
     }
     const Mesh_snapshot end = snapshot(sculptor);
     BOOST_TEST(sculptor.history().number_of_undo_steps() == (changes_before ? 0u : 1u));

@@ -39,15 +39,21 @@ private:
 
 } // namespace
 
-// In each call of each kind of edit, undone and redone as well. The edit is not made, or stands, and the Sculptor goes on.
+// In each call of each kind of edit, undone and redone as well. The edit is not made, or stands, and the Sculptor goes
+// on.
 BOOST_AUTO_TEST_CASE(an_exception_of_the_visitor) {
   using Throwing_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Throwing_visitor>;
   Random random(seed_from_environment(36));
   const meshes::Triangle_list list = meshes::bumpy_sphere(1, 0.3, 0.05);
   const std::vector<std::function<void(Throwing_sculptor&)>> edits = {
-      [](auto& s) { s.grab(Vertex_index(4)).drag_to(s.mesh().point(Vertex_index(4)) + meshes::Kernel::Vector_3(0.01, 0.02, 0)); },
+      [](auto& s) {
+        s.grab(Vertex_index(4)).drag_to(s.mesh().point(Vertex_index(4)) + meshes::Kernel::Vector_3(0.01, 0.02, 0));
+      },
       [](auto& s) { s.insert_on_face(Mesh::Face_index(5), in_face(s.mesh(), Mesh::Face_index(5), 0.3, 0.3)); },
-      [](auto& s) { s.insert_on_edge(Mesh::Edge_index(5), CGAL::midpoint(s.mesh().point(s.mesh().vertex(Mesh::Edge_index(5), 0)), s.mesh().point(s.mesh().vertex(Mesh::Edge_index(5), 1)))); },
+      [](auto& s) {
+        s.insert_on_edge(Mesh::Edge_index(5), CGAL::midpoint(s.mesh().point(s.mesh().vertex(Mesh::Edge_index(5), 0)),
+                                                             s.mesh().point(s.mesh().vertex(Mesh::Edge_index(5), 1))));
+      },
       [](auto& s) { s.remove(Vertex_index(13)); },
       [](auto& s) { s.collapse(s.mesh().halfedge(Vertex_index(3))); },
       [](auto& s) { s.flip(s.mesh().edge(s.mesh().halfedge(Vertex_index(9)))); }};
@@ -114,14 +120,18 @@ BOOST_AUTO_TEST_CASE(an_exception_of_the_visitor_within_a_stroke) {
         Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05));
         Throwing_sculptor sculptor(mesh);
         const Mesh_snapshot begin = snapshot(sculptor);
-        const auto drag = [&](std::size_t v) { sculptor.grab(Vertex_index(v)).drag_to(mesh.point(Vertex_index(v)) + meshes::Kernel::Vector_3(0.001, 0.002, 0)); };
+        const auto drag = [&](std::size_t v) {
+          sculptor.grab(Vertex_index(v))
+              .drag_to(mesh.point(Vertex_index(v)) + meshes::Kernel::Vector_3(0.001, 0.002, 0));
+        };
         {
           const auto stroke = sculptor.stroke();
           drag(4);
           drag(5);
           BOOST_REQUIRE(static_cast<bool>(sculptor.flip(mesh.edge(mesh.halfedge(Vertex_index(9))))));
           drag(4);
-          BOOST_REQUIRE(static_cast<bool>(sculptor.insert_on_face(Mesh::Face_index(5), in_face(mesh, Mesh::Face_index(5), 0.3, 0.3))));
+          BOOST_REQUIRE(static_cast<bool>(
+              sculptor.insert_on_face(Mesh::Face_index(5), in_face(mesh, Mesh::Face_index(5), 0.3, 0.3))));
           BOOST_REQUIRE(static_cast<bool>(sculptor.remove(Vertex_index(13))));
         }
         const Mesh_snapshot made = snapshot(sculptor);
@@ -164,7 +174,8 @@ BOOST_AUTO_TEST_CASE(a_mirror_kept_by_the_visitor_equals_the_mesh) {
   std::map<int, std::size_t> done;
   std::size_t refused = 0, different = 0, wrongly_told = 0, not_told = 0;
   for (std::size_t batch = 0; batch * 2500 < edits; ++batch) {
-    meshes::Triangle_list list = batch % 2 == 0 ? meshes::bumpy_sphere(1, 0.3, 0.05, static_cast<std::uint32_t>(batch)) : meshes::torus(7, 5);
+    meshes::Triangle_list list =
+        batch % 2 == 0 ? meshes::bumpy_sphere(1, 0.3, 0.05, static_cast<std::uint32_t>(batch)) : meshes::torus(7, 5);
     list += meshes::icosphere(0).scale_and_move(0.4, 2, 0, 0);
     Mesh mesh = meshes::to_mesh(list);
     Visited_sculptor sculptor(mesh, {}, Mirror_visitor(mesh));
@@ -195,7 +206,9 @@ BOOST_AUTO_TEST_CASE(a_mirror_kept_by_the_visitor_equals_the_mesh) {
   BOOST_TEST(different == 0u);
   BOOST_TEST(not_told == 0u);
   BOOST_TEST(wrongly_told == 0u);
-  for (const int kind : {Random_edit::drag, Random_edit::insert_on_face, Random_edit::insert_on_edge, Random_edit::remove, Random_edit::collapse, Random_edit::flip, Random_edit::undo, Random_edit::redo})
+  for (const int kind :
+       {Random_edit::drag, Random_edit::insert_on_face, Random_edit::insert_on_edge, Random_edit::remove,
+        Random_edit::collapse, Random_edit::flip, Random_edit::undo, Random_edit::redo})
     BOOST_TEST(is_enough(done[kind], 50));
 }
 
@@ -224,7 +237,8 @@ BOOST_AUTO_TEST_CASE(counts_of_what_dies_and_is_created) {
   sculptor.remove(v);
   BOOST_TEST((told() == Numbers{0, 1, 3, 3, 0, 0, 1}));
   const auto e = *mesh.edges().begin();
-  BOOST_TEST(static_cast<bool>(sculptor.insert_on_edge(e, CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))))));
+  BOOST_TEST(static_cast<bool>(
+      sculptor.insert_on_edge(e, CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))))));
   BOOST_TEST((told() == Numbers{0, 0, 1, 2, 1, 4, 4}));
   sculptor.undo();
   BOOST_TEST((told() == Numbers{0, 1, 4, 4, 0, 1, 2}));
@@ -232,7 +246,8 @@ BOOST_AUTO_TEST_CASE(counts_of_what_dies_and_is_created) {
   BOOST_TEST((told() == Numbers{0, 1, 5, 5, 0, 2, 3}));
   sculptor.undo();
   BOOST_TEST((told() == Numbers{0, 0, 2, 3, 1, 5, 5}));
-  BOOST_TEST(static_cast<bool>(sculptor.collapse(mesh.halfedge(Vertex_index(3))))); // what it points away from has valence 5
+  BOOST_TEST(
+      static_cast<bool>(sculptor.collapse(mesh.halfedge(Vertex_index(3))))); // what it points away from has valence 5
   BOOST_TEST((told() == Numbers{0, 1, 5, 5, 0, 2, 3}));
   sculptor.undo();
   BOOST_TEST((told() == Numbers{0, 0, 2, 3, 1, 5, 5}));

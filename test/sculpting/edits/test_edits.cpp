@@ -113,7 +113,8 @@ BOOST_AUTO_TEST_CASE(refusals_name_the_rule) {
     BOOST_TEST((sculptor.undo().refusal->reason == Refusal_reason::nothing_to_undo));
     BOOST_TEST((sculptor.redo().refusal->reason == Refusal_reason::nothing_to_redo));
     BOOST_TEST((sculptor.remove(Vertex_index(99)).refusal->reason == Refusal_reason::unknown_element));
-    BOOST_TEST((sculptor.insert_on_face(Mesh::Face_index(), middle).refusal->reason == Refusal_reason::unknown_element));
+    BOOST_TEST(
+        (sculptor.insert_on_face(Mesh::Face_index(), middle).refusal->reason == Refusal_reason::unknown_element));
     // A new vertex takes the next number; a removed one's stays dead.
     const auto made = sculptor.insert_on_face(f, in_face(mesh, f, 0.3, 0.3));
     BOOST_REQUIRE(made);
@@ -148,7 +149,8 @@ BOOST_AUTO_TEST_CASE(edits_mixed_at_random_keep_every_promise_and_undo_to_the_bi
   std::map<int, std::size_t> done, refused;
   std::size_t invalid = 0;
   for (std::size_t batch = 0; batch * 2000 < edits; ++batch) {
-    meshes::Triangle_list list = batch % 2 == 0 ? meshes::bumpy_sphere(1, 0.3, 0.05, static_cast<std::uint32_t>(batch)) : meshes::torus(7, 5);
+    meshes::Triangle_list list =
+        batch % 2 == 0 ? meshes::bumpy_sphere(1, 0.3, 0.05, static_cast<std::uint32_t>(batch)) : meshes::torus(7, 5);
     list += meshes::icosphere(0).scale_and_move(0.4, 2, 0, 0);
     Mesh mesh = meshes::to_mesh(list);
     const int characteristic = euler_characteristic(mesh);
@@ -180,7 +182,8 @@ BOOST_AUTO_TEST_CASE(edits_mixed_at_random_keep_every_promise_and_undo_to_the_bi
   for (const auto& [kind, count] : done)
     BOOST_TEST_MESSAGE("kind " << kind << ": " << count << " done, " << refused[kind] << " refused or blocked");
   BOOST_TEST(invalid == 0u);
-  for (const int kind : {Random_edit::drag, Random_edit::insert_on_face, Random_edit::insert_on_edge, Random_edit::remove, Random_edit::collapse, Random_edit::flip})
+  for (const int kind : {Random_edit::drag, Random_edit::insert_on_face, Random_edit::insert_on_edge,
+                         Random_edit::remove, Random_edit::collapse, Random_edit::flip})
     BOOST_TEST(is_enough(done[kind], 100));
 }
 
@@ -214,7 +217,8 @@ BOOST_AUTO_TEST_CASE(flips_by_others_are_found) {
     Mesh copy = mesh;
     Sculptor<Mesh> fresh(copy);
     auto expecting = fresh.grab(a);
-    const Point_3 home = mesh.point(a), near = home + meshes::Kernel::Vector_3(0.01, 0, 0), far = home + meshes::Kernel::Vector_3(-3, 0.2, 0.1);
+    const Point_3 home = mesh.point(a), near = home + meshes::Kernel::Vector_3(0.01, 0, 0),
+                  far = home + meshes::Kernel::Vector_3(-3, 0.2, 0.1);
     CGAL::Euler::flip_edge(mesh.halfedge(e), mesh);
     auto grab = sculptor.grab(a);
     BOOST_CHECK_THROW(grab.drag_to(near), Mesh_changed);

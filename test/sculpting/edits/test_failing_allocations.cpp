@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each allocation of each call fails in turn: everything is as it was then, or the Sculptor refuses all later calls for good.
+// Each allocation of each call fails in turn: everything is as it was then, or the Sculptor refuses all later calls for
+// good.
 #include "sculpting/edits/failing_allocations.h"
 
 #include "sculpting/Mesh_snapshot.h"
@@ -57,7 +58,9 @@ struct World {
 
   World(const Mesh& original, const Sculptor_parameters& parameters) : mesh(original), sculptor(mesh, parameters) {}
 
-  Point_3 beside(std::size_t v, double by) const { return mesh.point(Vertex_index(v)) + by * Vector_3(0.3, -0.2, 0.25); }
+  Point_3 beside(std::size_t v, double by) const {
+    return mesh.point(Vertex_index(v)) + by * Vector_3(0.3, -0.2, 0.25);
+  }
   void drag(std::size_t v, double by) { sculptor.grab(Vertex_index(v)).drag_to(beside(v, by)); }
   Mesh::Halfedge_index halfedge(std::size_t v) const { return mesh.halfedge(Vertex_index(v)); }
 };
@@ -86,7 +89,10 @@ void change_much(World& w) {
     switch (kind) {
     case 0: w.drag(v, 0.1); break;
     case 1: w.sculptor.insert_on_face(f, in_face(w.mesh, f, 0.3, 0.35)); break;
-    case 2: w.sculptor.insert_on_edge(e, CGAL::midpoint(w.mesh.point(w.mesh.vertex(e, 0)), w.mesh.point(w.mesh.vertex(e, 1)))); break;
+    case 2:
+      w.sculptor.insert_on_edge(e,
+                                CGAL::midpoint(w.mesh.point(w.mesh.vertex(e, 0)), w.mesh.point(w.mesh.vertex(e, 1))));
+      break;
     case 3: w.sculptor.remove(v); break;
     case 4: w.sculptor.collapse(w.mesh.halfedge(v)); break;
     default: w.sculptor.flip(e);
@@ -96,7 +102,9 @@ void change_much(World& w) {
 
 template <class World>
 std::vector<Case<World>> all_cases() {
-  const auto insert_on_face = [](World& w) { w.sculptor.insert_on_face(Mesh::Face_index(5), in_face(w.mesh, Mesh::Face_index(5), 0.3, 0.3)); };
+  const auto insert_on_face = [](World& w) {
+    w.sculptor.insert_on_face(Mesh::Face_index(5), in_face(w.mesh, Mesh::Face_index(5), 0.3, 0.3));
+  };
   const auto insert_on_edge = [](World& w) {
     const auto e = w.mesh.edge(w.halfedge(7));
     w.sculptor.insert_on_edge(e, CGAL::midpoint(w.mesh.point(w.mesh.vertex(e, 0)), w.mesh.point(w.mesh.vertex(e, 1))));
@@ -118,12 +126,19 @@ std::vector<Case<World>> all_cases() {
   using F = std::function<void(World&)>;
   const auto both = [](const F& a, const F& b) { return F([a, b](World& w) { a(w), b(w); }); };
   std::vector<Case<World>> cases = {
-      {"grab", nothing<World>, take}, {"begin of a stroke", nothing<World>, begin_stroke},
+      {"grab", nothing<World>, take},
+      {"begin of a stroke", nothing<World>, begin_stroke},
       {"drag in hand", take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }},
       {"long drag in hand", take, [](World& w) { w.grab->drag_to(w.beside(8, -40)); }},
-      {"drag on", both(take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }), [](World& w) { w.grab->drag_to(w.beside(8, 0.3)); }},
-      {"drag with its path", take, [](World& w) { std::vector<Point_3> path; w.grab->drag_to(w.beside(8, -40), path); }},
-      {"end of a grab", both(take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }), [](World& w) { w.grab.reset(); }},
+      {"drag on", both(take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }),
+       [](World& w) { w.grab->drag_to(w.beside(8, 0.3)); }},
+      {"drag with its path", take,
+       [](World& w) {
+         std::vector<Point_3> path;
+         w.grab->drag_to(w.beside(8, -40), path);
+       }},
+      {"end of a grab", both(take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }),
+       [](World& w) { w.grab.reset(); }},
       {"release", both(take, [](World& w) { w.grab->drag_to(w.beside(8, 0.1)); }), [](World& w) { w.grab->release(); }},
       {"first impact", nothing<World>, [](World& w) { w.sculptor.first_impact(Vertex_index(8), w.beside(8, -40)); }},
       {"nearest vertex", drag, [](World& w) { w.sculptor.nearest_vertex(Point_3(2, 0, 0), 1e9); }},
@@ -135,10 +150,15 @@ std::vector<Case<World>> all_cases() {
       {"reserve", drag, [](World& w) { w.sculptor.reserve(50, 50); }},
       {"whole drag", nothing<World>, drag, true},
       {"whole push", nothing<World>, push, true},
-      {"undo of many", stroke_of_much, undo}, {"redo of many", both(stroke_of_much, undo), redo},
+      {"undo of many", stroke_of_much, undo},
+      {"redo of many", both(stroke_of_much, undo), redo},
   };
-  const std::pair<const char*, F> edits[] = {{"insert on face", insert_on_face}, {"insert on edge", insert_on_edge}, {"remove", remove},
-                                             {"collapse", collapse}, {"flip", flip}, {"move if free", move}};
+  const std::pair<const char*, F> edits[] = {{"insert on face", insert_on_face},
+                                             {"insert on edge", insert_on_edge},
+                                             {"remove", remove},
+                                             {"collapse", collapse},
+                                             {"flip", flip},
+                                             {"move if free", move}};
   for (const auto& [name, edit] : edits) {
     cases.push_back({name, nothing<World>, edit});
     cases.push_back({name, begin_stroke, edit});
@@ -158,22 +178,35 @@ struct Outcome {
 /// Whether every later call is refused by name.
 template <class World>
 bool is_refused_for_good(World& w) {
-  const std::function<void()> calls[] = {
-      [&] { w.sculptor.check_unchanged(); }, [&] { w.sculptor.undo(); }, [&] { w.sculptor.redo(); },
-      [&] { w.sculptor.grab(Vertex_index(3)); }, [&] { w.sculptor.flip(Mesh::Edge_index(1)); },
-      [&] { w.sculptor.insert_on_face(Mesh::Face_index(1), Point_3(0, 0, 0)); },
-      [&] { w.sculptor.insert_on_edge(Mesh::Edge_index(1), Point_3(0, 0, 0)); },
-      [&] { w.sculptor.remove(Vertex_index(1)); }, [&] { w.sculptor.collapse(Mesh::Halfedge_index(1)); },
-      [&] { w.sculptor.move_if_free(Vertex_index(1), Point_3(0, 0, 0)); },
-      [&] { w.sculptor.first_impact(Vertex_index(1), Point_3(0, 0, 0)); },
-      [&] { w.sculptor.probe(Point_3(9, 0, 0)); }, [&] { w.sculptor.nearest_vertex(Point_3(9, 0, 0), 1); },
-      [&] { w.sculptor.first_hit(Point_3(9, 0, 0), Point_3(8, 0, 0)); }, [&] { w.sculptor.release(); },
-      [&] { w.sculptor.reserve(1, 1); }, [&] { w.stroke.emplace(w.sculptor.stroke()); }, [&] { w.sculptor.set_delta(0); },
-      [&] { w.sculptor.set_clearance(1e-3); }, [&] { w.sculptor.set_default_clearance(); },
-      [&] { w.sculptor.set_response(Response::stop); }, [&] { w.sculptor.set_work_limit(5); },
-      [&] { w.sculptor.set_history_limit({}); }, [&] { w.sculptor.expect_single_drags(true); },
-      [&] { w.sculptor.name(Vertex_index(1)); }, [&] { w.sculptor.vertex(1); }, [&] { w.sculptor.number_of_names(); },
-      [&] { w.sculptor.face_of(0, 1, 2); }, [&] { w.sculptor.edge_of(0, 1); }};
+  const std::function<void()> calls[] = {[&] { w.sculptor.check_unchanged(); },
+                                         [&] { w.sculptor.undo(); },
+                                         [&] { w.sculptor.redo(); },
+                                         [&] { w.sculptor.grab(Vertex_index(3)); },
+                                         [&] { w.sculptor.flip(Mesh::Edge_index(1)); },
+                                         [&] { w.sculptor.insert_on_face(Mesh::Face_index(1), Point_3(0, 0, 0)); },
+                                         [&] { w.sculptor.insert_on_edge(Mesh::Edge_index(1), Point_3(0, 0, 0)); },
+                                         [&] { w.sculptor.remove(Vertex_index(1)); },
+                                         [&] { w.sculptor.collapse(Mesh::Halfedge_index(1)); },
+                                         [&] { w.sculptor.move_if_free(Vertex_index(1), Point_3(0, 0, 0)); },
+                                         [&] { w.sculptor.first_impact(Vertex_index(1), Point_3(0, 0, 0)); },
+                                         [&] { w.sculptor.probe(Point_3(9, 0, 0)); },
+                                         [&] { w.sculptor.nearest_vertex(Point_3(9, 0, 0), 1); },
+                                         [&] { w.sculptor.first_hit(Point_3(9, 0, 0), Point_3(8, 0, 0)); },
+                                         [&] { w.sculptor.release(); },
+                                         [&] { w.sculptor.reserve(1, 1); },
+                                         [&] { w.stroke.emplace(w.sculptor.stroke()); },
+                                         [&] { w.sculptor.set_delta(0); },
+                                         [&] { w.sculptor.set_clearance(1e-3); },
+                                         [&] { w.sculptor.set_default_clearance(); },
+                                         [&] { w.sculptor.set_response(Response::stop); },
+                                         [&] { w.sculptor.set_work_limit(5); },
+                                         [&] { w.sculptor.set_history_limit({}); },
+                                         [&] { w.sculptor.expect_single_drags(true); },
+                                         [&] { w.sculptor.name(Vertex_index(1)); },
+                                         [&] { w.sculptor.vertex(1); },
+                                         [&] { w.sculptor.number_of_names(); },
+                                         [&] { w.sculptor.face_of(0, 1, 2); },
+                                         [&] { w.sculptor.edge_of(0, 1); }};
   for (const auto& call : calls)
     try {
       call();
@@ -193,7 +226,9 @@ Outcome try_case(const Case<World>& c, const Mesh& original, const Sculptor_para
       const Mesh_snapshot begin = snapshot(w.sculptor);
       c.prepare(w);
       const Mesh_snapshot before = snapshot(w.sculptor);
-      const auto steps = [&w] { return std::pair(w.sculptor.history().number_of_undo_steps(), w.sculptor.history().number_of_redo_steps()); };
+      const auto steps = [&w] {
+        return std::pair(w.sculptor.history().number_of_undo_steps(), w.sculptor.history().number_of_redo_steps());
+      };
       const auto steps_before = steps();
       has_failed = false;
       try {
@@ -242,12 +277,14 @@ void try_all(const char* broad_phase, bool is_ready, const Sculptor_parameters& 
     BOOST_TEST_INFO_SCOPE(broad_phase << ", " << c.name);
     const Outcome outcome = try_case(c, original, parameters);
     Outcome& sum = outcomes[c.name];
-    sum.tries += outcome.tries, sum.as_it_was += outcome.as_it_was, sum.made += outcome.made, sum.refused += outcome.refused;
+    sum.tries += outcome.tries, sum.as_it_was += outcome.as_it_was, sum.made += outcome.made,
+        sum.refused += outcome.refused;
   }
   std::size_t tries = 0, refused = 0;
   for (const auto& [name, o] : outcomes) {
-    BOOST_TEST_MESSAGE(broad_phase << ", " << name << ": " << o.tries << " failed allocations, " << o.as_it_was << " as it was, " << o.made
-                                   << " made in part of several calls, " << o.refused << " refused for good");
+    BOOST_TEST_MESSAGE(broad_phase << ", " << name << ": " << o.tries << " failed allocations, " << o.as_it_was
+                                   << " as it was, " << o.made << " made in part of several calls, " << o.refused
+                                   << " refused for good");
     tries += o.tries, refused += o.refused;
   }
   BOOST_TEST_MESSAGE(broad_phase << ": " << tries << " failed allocations, " << refused << " refused for good");

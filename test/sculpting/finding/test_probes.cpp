@@ -202,7 +202,9 @@ BOOST_AUTO_TEST_CASE(any_change_of_the_mesh_ends_a_probe) {
   const Vertex_index v(17);
   const auto out = [&](double share) { return CGAL::ORIGIN + share * (mesh.point(v) - CGAL::ORIGIN); };
   const auto face = [&] { return *std::next(mesh.faces().begin(), 40); };
-  const auto middle = [&](Mesh::Edge_index e) { return CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))); };
+  const auto middle = [&](Mesh::Edge_index e) {
+    return CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)));
+  };
   const Mesh::Edge_index e = *std::next(mesh.edges().begin(), 30);
   const std::pair<const char*, std::function<bool()>> changes[] = {
       {"drag", [&] { return sculptor.grab(v).drag_to(out(1.1)).reached; }},
@@ -212,7 +214,11 @@ BOOST_AUTO_TEST_CASE(any_change_of_the_mesh_ends_a_probe) {
       {"remove", [&] { return bool(sculptor.remove(Vertex_index(25))); }},
       {"collapse", [&] { return bool(sculptor.collapse(mesh.halfedge(Vertex_index(60)))); }},
       {"flip", [&] { return bool(sculptor.flip(*std::next(mesh.edges().begin(), 200))); }},
-      {"shift", [&] { return bool(sculptor.shift(2, {{v, mesh.point(v).z() + 0.01}, {Vertex_index(3), mesh.point(Vertex_index(3)).z()}})); }},
+      {"shift",
+       [&] {
+         return bool(
+             sculptor.shift(2, {{v, mesh.point(v).z() + 0.01}, {Vertex_index(3), mesh.point(Vertex_index(3)).z()}}));
+       }},
       {"undo", [&] { return bool(sculptor.undo()); }},
       {"redo", [&] { return bool(sculptor.redo()); }},
       {"undo of a stroke", [&] { return bool(sculptor.undo()); }}};
@@ -227,7 +233,8 @@ BOOST_AUTO_TEST_CASE(any_change_of_the_mesh_ends_a_probe) {
     std::vector<Point_3> path(3);
     const auto result = probe.drag_to(target, path);
     BOOST_TEST((result.end == Drag_end::stale));
-    BOOST_TEST((result.position == low && probe.position() == low && !result.reached && result.contacts.empty() && path.empty()));
+    BOOST_TEST((result.position == low && probe.position() == low && !result.reached && result.contacts.empty() &&
+                path.empty()));
     BOOST_TEST((copy.drag_to(target).end == Drag_end::stale));
     BOOST_TEST((probe.drag_to(low).end == Drag_end::stale));
     BOOST_CHECK_THROW(probe.drag_to(Point_3(0, std::nan(""), 0)), Non_finite_point);

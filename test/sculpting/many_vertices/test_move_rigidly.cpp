@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Objects that move as one: where they end, by formulas of the tests' own; embedded on the way, by integers at many times.
+// Objects that move as one: where they end, by formulas of the tests' own; embedded on the way, by integers at many
+// times.
 #include "sculpting/axis_moves/embedded_at.h"
 #include "sculpting/many_vertices/many_vertices_scene.h"
 #include "sculpting/motion/embedding_oracle_input.h"
@@ -219,14 +220,15 @@ BOOST_AUTO_TEST_CASE(what_is_no_rigid_motion_is_refused) {
   const auto all = mesh.vertices();
   const double half = std::sqrt(0.5);
   for (const Transformation& t :
-       {Transformation(CGAL::SCALING, 2), Transformation(1 + 1e-9, 0, 0, 0, 1, 0, 0, 0, 1), Transformation(-1, 0, 0, 0, 1, 0, 0, 0, 1),
-        Transformation(-1, 0, 0, 0, -1, 0, 0, 0, 1),                    // half a turn
-        Transformation(half, -half, 0, 0, half, half, 0, 0, 0, 0, 1, 1), // a screw
+       {Transformation(CGAL::SCALING, 2), Transformation(1 + 1e-9, 0, 0, 0, 1, 0, 0, 0, 1),
+        Transformation(-1, 0, 0, 0, 1, 0, 0, 0, 1), Transformation(-1, 0, 0, 0, -1, 0, 0, 0, 1), // half a turn
+        Transformation(half, -half, 0, 0, half, half, 0, 0, 0, 0, 1, 1),                         // a screw
         Transformation(std::nan(""), 0, 0, 0, 1, 0, 0, 0, 1)})
     BOOST_CHECK_THROW(move_rigidly(sculptor, all, t), Invalid_parameter);
   BOOST_CHECK_THROW(move_rigidly(sculptor, all, translation(Vector_3(0x1p1001, 0, 0))), Out_of_range);
   BOOST_CHECK_THROW(move_rigidly(sculptor, all, translation(Vector_3(std::nan(""), 0, 0))), Out_of_range);
-  BOOST_CHECK_THROW(move_rigidly(sculptor, std::vector<Vertex_index>{Vertex_index(99)}, translation(Vector_3(1, 0, 0))), Unknown_vertex);
+  BOOST_CHECK_THROW(move_rigidly(sculptor, std::vector<Vertex_index>{Vertex_index(99)}, translation(Vector_3(1, 0, 0))),
+                    Unknown_vertex);
   BOOST_TEST((snapshot(sculptor) == before));
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
   const auto none = move_rigidly(sculptor, std::vector<Vertex_index>(), translation(Vector_3(1, 0, 0)));

@@ -121,7 +121,8 @@ BOOST_AUTO_TEST_CASE(small_meshes_of_long_faces_turn_about_axes_far_away) {
   inner.turn_inside_out();
   nested += inner;
   const Vector_3 axis(0.48, 0.6, 0.64);
-  for (const auto& [name, list] : {std::make_pair("torus of 9 vertices", meshes::torus(3, 3)), std::make_pair("cube in a cube", nested)})
+  for (const auto& [name, list] :
+       {std::make_pair("torus of 9 vertices", meshes::torus(3, 3)), std::make_pair("cube in a cube", nested)})
     for (const Point_3& centre : {Point_3(0, 0, 0), Point_3(3, -2, 1), Point_3(100, 30, -50)})
       for (const double angle : {0.5, 1.3, 1.5707}) {
         const auto turned = [&](const Mesh& m, Vertex_index v) {
@@ -247,7 +248,8 @@ BOOST_AUTO_TEST_CASE(a_slide_counts_by_its_work) {
   const Move_report whole = checked_run("noisy", mesh, noisy(1), Move_parameters().steps(false));
   BOOST_TEST(whole.counted > whole.drags); // some slides decide more than a drag does
   BOOST_TEST(!whole.out_of_work);
-  const Move_report stops = checked_run("noisy, stops only", mesh, noisy(1), Move_parameters().steps(false).slide(false));
+  const Move_report stops =
+      checked_run("noisy, stops only", mesh, noisy(1), Move_parameters().steps(false).slide(false));
   BOOST_TEST(stops.counted == stops.drags);
   // Whatever the limit is, it holds, and no more is left than where there are no slides.
   for (const std::size_t more : {1, 2, 10, 100, 1000}) {

@@ -11,15 +11,17 @@ namespace haptic_sculpt {
 namespace test {
 
 inline bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-inline bool same_bits(const Point_3& a, const Point_3& b) { return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z()); }
+inline bool same_bits(const Point_3& a, const Point_3& b) {
+  return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z());
+}
 inline bool same_bits(const Point_3::R::Vector_3& a, const Point_3::R::Vector_3& b) {
   return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()) && same_bits(a.z(), b.z());
 }
 
 inline bool same_bits(const Contact_3<Mesh>& a, const Contact_3<Mesh>& b) {
-  return a.kind == b.kind && a.vertices == b.vertices && same_bits(a.normal, b.normal) && same_bits(a.plane[0], b.plane[0]) &&
-         same_bits(a.plane[1], b.plane[1]) && same_bits(a.plane[2], b.plane[2]) && a.is_flat == b.is_flat &&
-         a.location == b.location && a.side == b.side;
+  return a.kind == b.kind && a.vertices == b.vertices && same_bits(a.normal, b.normal) &&
+         same_bits(a.plane[0], b.plane[0]) && same_bits(a.plane[1], b.plane[1]) && same_bits(a.plane[2], b.plane[2]) &&
+         a.is_flat == b.is_flat && a.location == b.location && a.side == b.side;
 }
 
 /// All but the work: that of a drag that takes the vertex anew is more.

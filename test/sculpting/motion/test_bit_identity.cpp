@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two sculptors do the same: one with the box tree, one that looks at every face. Drags, creations, removals, undo and redo are mixed;
-// every result with its contacts, and every coordinate, has to be the same to the bit.
+// Two sculptors do the same: one with the box tree, one that looks at every face. Drags, creations, removals, undo and
+// redo are mixed; every result with its contacts, and every coordinate, has to be the same to the bit.
 #include "sculpting/edits/random_edits.h"
 #include "sculpting/motion/same_bits.h"
 
@@ -35,8 +35,8 @@ struct Tally {
 /// The two sculptors with a mesh each.
 class Twins {
 public:
-  /// \param forgets whether the second takes the vertex anew for every drag, so that neither checklist nor free ball outlives a motion;
-  /// only the stop, which carries no contacts along, may be asked that
+  /// \param forgets whether the second takes the vertex anew for every drag, so that neither checklist nor free ball
+  /// outlives a motion; only the stop, which carries no contacts along, may be asked that
   Twins(const Mesh& mesh, const Sculptor_parameters& options, bool forgets, std::uint64_t seed)
     : a_(mesh), b_(mesh), tree_(a_, options), brute_force_(b_, options), forgets_(forgets), random_(seed) {}
 
@@ -100,7 +100,8 @@ private:
     switch (random_() % 6) {
     case 0: {
       const auto f = pick(a_.faces(), a_.number_of_faces(), random_);
-      const Point_3 p = in_face(a_, f, 0.35 + 0.2 * number(), 0.3) + 0.02 * meshes::Kernel::Vector_3(number(), number(), number());
+      const Point_3 p =
+          in_face(a_, f, 0.35 + 0.2 * number(), 0.3) + 0.02 * meshes::Kernel::Vector_3(number(), number(), number());
       return compared("a creation on a face", tree_.insert_on_face(f, p), brute_force_.insert_on_face(f, p));
     }
     case 1: {
@@ -115,7 +116,8 @@ private:
     default: {
       const bool back = random_() % 3 != 0;
       for (std::size_t i = 1 + random_() % 20; i > 0; --i, ++tally_.steps, ++tally_.undone)
-        compared(back ? "undo" : "redo", back ? tree_.undo() : tree_.redo(), back ? brute_force_.undo() : brute_force_.redo());
+        compared(back ? "undo" : "redo", back ? tree_.undo() : tree_.redo(),
+                 back ? brute_force_.undo() : brute_force_.redo());
     }
     }
   }
@@ -157,9 +159,9 @@ BOOST_AUTO_TEST_CASE(the_box_tree_gives_what_brute_force_gives) {
     all += tally;
     BOOST_REQUIRE_MESSAGE(tally.differing == 0, "scene of seed " << seed + scene);
   }
-  BOOST_TEST_MESSAGE(all.steps << " steps: " << all.drags << " drags, of which " << all.blocked << " blocked and " << all.with_contacts
-                               << " with contacts; " << all.edits << " edits, " << all.undone << " undone or redone, " << all.done
-                               << " of both done; " << all.differing << " differ");
+  BOOST_TEST_MESSAGE(all.steps << " steps: " << all.drags << " drags, of which " << all.blocked << " blocked and "
+                               << all.with_contacts << " with contacts; " << all.edits << " edits, " << all.undone
+                               << " undone or redone, " << all.done << " of both done; " << all.differing << " differ");
   BOOST_TEST(all.blocked > all.drags / 20);
   BOOST_TEST(all.with_contacts > all.drags / 20);
   BOOST_TEST(all.done > all.steps / 20);

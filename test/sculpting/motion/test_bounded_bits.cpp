@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A bound on the work of a drag ends it at the same pair whatever the broad phase: the same drags, and the same moves of many
-// vertices, give the same bits and the same count with four of them.
+// A bound on the work of a drag ends it at the same pair whatever the broad phase: the same drags, and the same moves
+// of many vertices, give the same bits and the same count with four of them.
 #include "sculpting/many_vertices/many_vertices_scene.h"
 #include "sculpting/motion/same_bits.h"
 
@@ -99,8 +99,8 @@ private:
 };
 
 bool same(const Move_report& a, const Move_report& b) {
-  return a.reached == b.reached && a.drags == b.drags && a.out_of_work == b.out_of_work && same_bits(a.left_l2, b.left_l2) &&
-         same_bits(a.left_max, b.left_max);
+  return a.reached == b.reached && a.drags == b.drags && a.out_of_work == b.out_of_work &&
+         same_bits(a.left_l2, b.left_l2) && same_bits(a.left_max, b.left_max);
 }
 
 std::size_t cut_short = 0, drags = 0, dabs = 0;
@@ -109,21 +109,24 @@ std::size_t cut_short = 0, drags = 0, dabs = 0;
 template <class Broad_phase>
 class Twin {
 public:
-  Twin(Player<Box_tree_broad_phase<Mesh>>& first, const Mesh& mesh, const Sculptor_parameters& options, const char* which)
-    : first_(&first), other_(mesh, options), which_(which) {}
+  Twin(Player<Box_tree_broad_phase<Mesh>>& first, const Mesh& mesh, const Sculptor_parameters& options,
+       const char* which)
+      : first_(&first), other_(mesh, options), which_(which) {}
 
-  void check_drags(const std::vector<Drag_result<Mesh>>& results, const Random& random, double edge, const std::string& name) {
+  void check_drags(const std::vector<Drag_result<Mesh>>& results, const Random& random, double edge,
+                   const std::string& name) {
     const auto others = other_.drags(random, edge);
     for (std::size_t i = 0; i < std::min(results.size(), others.size()); ++i)
       BOOST_REQUIRE_MESSAGE(same_bits(results[i], others[i]) && results[i].work == others[i].work,
-                            "drag " << i << " differs: " << name << ", " << which_ << ": "
-                                                                 << name_of(results[i].end) << ' ' << name_of(others[i].end) << ", work "
-                                                                 << results[i].work << ' ' << others[i].work);
+                            "drag " << i << " differs: " << name << ", " << which_ << ": " << name_of(results[i].end)
+                                    << ' ' << name_of(others[i].end) << ", work " << results[i].work << ' '
+                                    << others[i].work);
     BOOST_REQUIRE(results.size() == others.size());
     check_mesh(name);
   }
   void check_brush(const Move_report& report, const Random& random, double edge, const std::string& name) {
-    BOOST_REQUIRE_MESSAGE(same(report, other_.brush(random, edge)), "reports of a brush differ: " << name << ", " << which_);
+    BOOST_REQUIRE_MESSAGE(same(report, other_.brush(random, edge)),
+                          "reports of a brush differ: " << name << ", " << which_);
     check_mesh(name);
   }
 
@@ -140,8 +143,9 @@ private:
 void play(const Named_mesh& scene, std::size_t bound, std::uint64_t seed, int turns) {
   Random random(seed);
   const double edge = mean_edge(scene.mesh);
-  const Sculptor_parameters options =
-      parameters::work_limit(bound).response(seed % 4 == 0 ? Response::stop : Response::slide).delta(seed % 8 == 1 ? 0x1p-40 * edge : 0);
+  const Sculptor_parameters options = parameters::work_limit(bound)
+                                          .response(seed % 4 == 0 ? Response::stop : Response::slide)
+                                          .delta(seed % 8 == 1 ? 0x1p-40 * edge : 0);
   Player<Box_tree_broad_phase<Mesh>> first(scene.mesh, options);
   Twin<Six_list_broad_phase<Mesh>> six_lists(first, scene.mesh, options, "six lists");
   Twin<Brute_force_broad_phase<Mesh>> brute_force(first, scene.mesh, options, "brute force");

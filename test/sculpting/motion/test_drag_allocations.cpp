@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drags allocate nothing once they are warm: every operator new of this program is counted, and every request of GMP, to which exact
-// decisions turn where coordinates are more than 2^199 apart.
+// Drags allocate nothing once they are warm: every operator new of this program is counted, and every request of GMP,
+// to which exact decisions turn where coordinates are more than 2^199 apart.
 #include "../examples/count_allocations.h"
 #include "sculpting/Random_scene.h"
 
@@ -34,11 +34,12 @@ using Coordinates = std::array<double, 3>;
 
 /// What one round of drags did.
 struct Round {
-  std::size_t allocations = 0, gmp_allocations = 0, drags = 0, blocked = 0, with_contacts = 0, with_many_contacts = 0, legs = 0;
+  std::size_t allocations = 0, gmp_allocations = 0, drags = 0, blocked = 0, with_contacts = 0, with_many_contacts = 0,
+              legs = 0;
 };
 
-/// The same targets every round: a tenth of an edge each way about where the vertex was first, pressed against what is around it,
-/// along it, and pushed far through everything, inside one grab.
+/// The same targets every round: a tenth of an edge each way about where the vertex was first, pressed against what is
+/// around it, along it, and pushed far through everything, inside one grab.
 template <class Grab>
 Round drag_about(Grab& grab, const Point_3& home, double edge, std::uint64_t seed) {
   using Vector_3 = meshes::Kernel::Vector_3;
@@ -77,8 +78,8 @@ Round drag_about(Grab& grab, const Point_3& home, double edge, std::uint64_t see
   return round;
 }
 
-void check(const char* name, const meshes::Triangle_list& list, double edge, const Sculptor_parameters& options, std::uint64_t seed,
-           bool is_extreme = false) {
+void check(const char* name, const meshes::Triangle_list& list, double edge, const Sculptor_parameters& options,
+           std::uint64_t seed, bool is_extreme = false) {
   Mesh mesh = meshes::to_mesh(list);
   Sculptor<Mesh> sculptor(mesh, options);
   Random random(seed);
@@ -96,8 +97,9 @@ void check(const char* name, const meshes::Triangle_list& list, double edge, con
       with_contacts += round.with_contacts, many += round.with_many_contacts, legs += round.legs;
     }
   }
-  BOOST_TEST_MESSAGE(name << ", " << name_of(options.response_rule) << ": " << drags << " drags, " << blocked << " blocked, "
-                          << with_contacts << " with contacts (" << many << " with very many), " << legs << " legs, " << warm << " allocations, " << warm_gmp << " of GMP");
+  BOOST_TEST_MESSAGE(name << ", " << name_of(options.response_rule) << ": " << drags << " drags, " << blocked
+                          << " blocked, " << with_contacts << " with contacts (" << many << " with very many), " << legs
+                          << " legs, " << warm << " allocations, " << warm_gmp << " of GMP");
   BOOST_TEST(warm == 0u);
   BOOST_TEST(many < drags / 20);
   if (!is_extreme)
@@ -134,7 +136,8 @@ BOOST_AUTO_TEST_CASE(warm_drags_of_high_valence_allocate_nothing) {
     drag_about(grab, home, 0.2, seed);
     drag_about(grab, home, 0.2, seed);
     const Round round = drag_about(grab, home, 0.2, seed);
-    BOOST_TEST_MESSAGE(round.drags << " drags, " << round.blocked << " blocked, " << round.with_many_contacts << " by very many contacts, " << round.allocations << " allocations, "
+    BOOST_TEST_MESSAGE(round.drags << " drags, " << round.blocked << " blocked, " << round.with_many_contacts
+                                   << " by very many contacts, " << round.allocations << " allocations, "
                                    << round.gmp_allocations << " of GMP");
     BOOST_TEST(round.allocations == 0u);
     BOOST_TEST(round.gmp_allocations == 0u);
@@ -187,8 +190,10 @@ BOOST_AUTO_TEST_CASE(edits_allocate_nothing_after_reserve) {
         const auto f = any(Mesh::Face_index(), mesh.num_faces());
         const auto e = any(Mesh::Edge_index(), mesh.num_edges());
         const auto h = mesh.halfedge(f);
-        const Point_3 p = mesh.point(mesh.source(h)), q = mesh.point(mesh.target(h)), r = mesh.point(mesh.target(mesh.next(h)));
-        const Point_3 middle = CGAL::centroid(p, q, r), half = CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)));
+        const Point_3 p = mesh.point(mesh.source(h)), q = mesh.point(mesh.target(h)),
+                      r = mesh.point(mesh.target(mesh.next(h)));
+        const Point_3 middle = CGAL::centroid(p, q, r),
+                      half = CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)));
         const bool is_usual = mesh.degree(v) <= usual_valence && mesh.degree(mesh.source(h)) <= usual_valence;
         unusual += !is_usual;
         const std::size_t before_gmp = gmp_allocations;
@@ -220,9 +225,11 @@ BOOST_AUTO_TEST_CASE(edits_allocate_nothing_after_reserve) {
         warm += allocations_so_far - before;
         by_gmp += gmp_allocations - before_gmp;
       }
-      BOOST_TEST_MESSAGE("done " << done[0] << " " << done[1] << " " << done[2] << " " << done[3] << " " << done[4] << " " << done[5] << " " << done[6]
-                                 << ", allocations " << allocated[0] << " " << allocated[1] << " " << allocated[2] << " " << allocated[3] << " "
-                                 << allocated[4] << " " << allocated[5] << " " << allocated[6] << " " << allocated[7] << ", of GMP " << by_gmp);
+      BOOST_TEST_MESSAGE("done " << done[0] << " " << done[1] << " " << done[2] << " " << done[3] << " " << done[4]
+                                 << " " << done[5] << " " << done[6] << ", allocations " << allocated[0] << " "
+                                 << allocated[1] << " " << allocated[2] << " " << allocated[3] << " " << allocated[4]
+                                 << " " << allocated[5] << " " << allocated[6] << " " << allocated[7] << ", of GMP "
+                                 << by_gmp);
       BOOST_TEST(warm == 0u);
       BOOST_TEST(unusual < edits / 20);
       for (std::size_t kind = 0; kind < 7; ++kind)

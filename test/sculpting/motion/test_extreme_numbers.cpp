@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers near both ends of the range: what is outside is refused by name before anything moves, all else is guarded as ever;
-// and clearances that depend on the contact alone.
+// Numbers near both ends of the range: what is outside is refused by name before anything moves, all else is guarded as
+// ever; and clearances that depend on the contact alone.
 #include <boost/test/unit_test.hpp>
 
 #include "sculpting/Random_scene.h"
@@ -80,7 +80,8 @@ BOOST_AUTO_TEST_CASE(no_motion_to_what_is_out_of_range_is_free) {
   Box_tree_broad_phase<Mesh> broad_phase(mesh);
   const internal::Face_corners<Mesh> corners(mesh);
   Filter_counters counters;
-  internal::Guarded_star<Mesh, Box_tree_broad_phase<Mesh>> guard(mesh, broad_phase, corners, Exact_sweep_traits<Mesh>(&counters));
+  internal::Guarded_star<Mesh, Box_tree_broad_phase<Mesh>> guard(mesh, broad_phase, corners,
+                                                                 Exact_sweep_traits<Mesh>(&counters));
   const double beyond = std::nextafter(largest_coordinate, std::numeric_limits<double>::infinity());
   for (const Vertex_index v : mesh.vertices()) {
     guard.collect(v);
@@ -93,7 +94,8 @@ BOOST_AUTO_TEST_CASE(no_motion_to_what_is_out_of_range_is_free) {
           free += guard.decide(source, target(largest_coordinate), 0).is_free();
           if (x == 0 && y == 0 && z == 0)
             continue;
-          for (const double size : {beyond, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+          for (const double size :
+               {beyond, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
             BOOST_TEST(!guard.decide(source, target(size), 0).is_free());
             BOOST_TEST(!guard.is_free(source, target(size), 0));
           }
@@ -201,7 +203,9 @@ BOOST_AUTO_TEST_CASE(clearances_that_do_not_serve_are_refused_with_the_range_tha
   Mesh mesh = meshes::to_mesh(meshes::cube(4));
   const double ulp = internal::unit_in_the_last_place(4);
   Sculptor<Mesh> sculptor(mesh);
-  const auto says_range = [](const Invalid_parameter& e) { return std::string(e.what()).find("give ") != std::string::npos; };
+  const auto says_range = [](const Invalid_parameter& e) {
+    return std::string(e.what()).find("give ") != std::string::npos;
+  };
   BOOST_CHECK_EXCEPTION(sculptor.set_clearance(ulp / 2), Invalid_parameter, says_range);
   BOOST_CHECK_EXCEPTION(sculptor.set_clearance(1), Invalid_parameter, says_range);
   BOOST_CHECK_EXCEPTION(Sculptor<Mesh>(mesh, parameters::clearance(1)), Invalid_parameter, says_range);
@@ -227,7 +231,8 @@ BOOST_AUTO_TEST_CASE(units_in_the_last_place_are_those_of_the_next_double) {
 }
 
 BOOST_AUTO_TEST_CASE(a_slide_to_a_target_beyond_reach_does_no_less_than_a_stop) {
-  // A corner of a tetrahedron drawn through the face opposite: to 1e19 and beyond the slide has once stayed where it was.
+  // A corner of a tetrahedron drawn through the face opposite: to 1e19 and beyond the slide has once stayed where it
+  // was.
   std::size_t moved = 0, less = 0, unexplained = 0;
   for (const double far : {1e3, 2e3, 1e6, 1e17, 1e19, 1e20, 1e40, 1e100, 1e200, 1e301})
     for (const Point_3& direction : {Point_3(1, 0, 0), Point_3(1, 1, 1), Point_3(3, 1, 2), Point_3(1, 0, 1)}) {

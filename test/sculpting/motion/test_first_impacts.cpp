@@ -98,7 +98,8 @@ void check_queries(std::uint64_t seed) {
   std::vector<Mesh::Face_index> found, star;
   std::size_t missed = 0, twice = 0, dead = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Vertex_index v = *std::next(mesh.vertices().begin(), static_cast<std::ptrdiff_t>(random() % mesh.number_of_vertices()));
+    const Vertex_index v =
+        *std::next(mesh.vertices().begin(), static_cast<std::ptrdiff_t>(random() % mesh.number_of_vertices()));
     star.clear();
     switch (random() % 4) {
     case 0: { // move a vertex
@@ -180,7 +181,8 @@ BOOST_AUTO_TEST_CASE(simultaneous_firsts_agree_with_all_pairs_over_rationals) {
     const Mesh mesh = meshes::to_mesh(list);
     for (int k = 0; k < 10; ++k) {
       const Vertex_index v(static_cast<Mesh::size_type>(random() % list.points.size()));
-      const Point_3 target = random() % 2 == 0 ? random_grid_point(random, 4) : list.points[random() % list.points.size()];
+      const Point_3 target =
+          random() % 2 == 0 ? random_grid_point(random, 4) : list.points[random() % list.points.size()];
       if (target == mesh.point(v))
         continue;
       std::set<Named> found;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Altitudes that are below delta already, as undo may leave them after set_delta(): they may not get lower, and that is all.
+// Altitudes that are below delta already, as undo may leave them after set_delta(): they may not get lower, and that is
+// all.
 #include "sculpting/Mesh_snapshot.h"
 #include "sculpting/Random_scene.h"
 
@@ -16,7 +17,9 @@ using internal::Altitude_over;
 using Coordinates = std::array<double, 3>;
 using Rational_point = std::array<mpq_class, 3>;
 
-Rational_point minus(const Rational_point& p, const Rational_point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+Rational_point minus(const Rational_point& p, const Rational_point& q) {
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
 mpq_class squared(const Rational_point& p) { return p[0] * p[0] + p[1] * p[1] + p[2] * p[2]; }
 Rational_point rational(const Coordinates& p) { return {mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])}; }
 
@@ -27,13 +30,15 @@ mpq_class squared_height(const Rational_point& a, const Rational_point& b, const
   return squared(n) / squared(u);
 }
 
-mpq_class squared_altitude_at(const mpq_class& u, const Coordinates& s, const Coordinates& t, const Coordinates& g, const Coordinates& i,
-                              Altitude_over side) {
+mpq_class squared_altitude_at(const mpq_class& u, const Coordinates& s, const Coordinates& t, const Coordinates& g,
+                              const Coordinates& i, Altitude_over side) {
   const Rational_point from = rational(s), to = rational(t), rg = rational(g), ri = rational(i);
   Rational_point j;
   for (int k = 0; k < 3; ++k)
     j[k] = from[k] + u * (to[k] - from[k]);
-  return side == Altitude_over::gi ? squared_height(rg, ri, j) : side == Altitude_over::ji ? squared_height(j, ri, rg) : squared_height(j, rg, ri);
+  return side == Altitude_over::gi   ? squared_height(rg, ri, j)
+         : side == Altitude_over::ji ? squared_height(j, ri, rg)
+                                     : squared_height(j, rg, ri);
 }
 
 /// The squares of the three altitudes of each face.
@@ -117,7 +122,8 @@ BOOST_AUTO_TEST_CASE(the_limit_of_an_altitude_against_rational_samples) {
       const mpq_class least = start < square ? start : square;
       const auto is_broken = [&](const mpq_class& u) {
         // where J passes through a corner there is no altitude
-        const Rational_point j = {mpq_class(s[0]) + u * (mpq_class(t[0]) - s[0]), mpq_class(s[1]) + u * (mpq_class(t[1]) - s[1]),
+        const Rational_point j = {mpq_class(s[0]) + u * (mpq_class(t[0]) - s[0]),
+                                  mpq_class(s[1]) + u * (mpq_class(t[1]) - s[1]),
                                   mpq_class(s[2]) + u * (mpq_class(t[2]) - s[2])};
         return j != rational(g) && j != rational(i) && squared_altitude_at(u, s, t, g, i, side) < least;
       };
@@ -137,7 +143,8 @@ BOOST_AUTO_TEST_CASE(the_limit_of_an_altitude_against_rational_samples) {
       wrong += !is_broken(mpq_class(time + 1e-7)); // the least grid is far coarser
     }
   }
-  BOOST_TEST_MESSAGE(low << " begin low: " << held << " held, " << limited_later << " limited later; " << free << " others");
+  BOOST_TEST_MESSAGE(low << " begin low: " << held << " held, " << limited_later << " limited later; " << free
+                         << " others");
   BOOST_TEST(wrong == 0u);
   BOOST_TEST(low > 300u);
   BOOST_TEST(limited_later > 20u);
@@ -188,7 +195,8 @@ BOOST_AUTO_TEST_CASE(no_drag_lowers_an_altitude_below_delta) {
       }
       before = after;
     }
-    BOOST_TEST_MESSAGE(name_of(response) << ": " << moved << " of 400 drags moved, " << raised << " low altitudes raised");
+    BOOST_TEST_MESSAGE(name_of(response) << ": " << moved << " of 400 drags moved, " << raised
+                                         << " low altitudes raised");
     BOOST_TEST(lowered == 0u);
     BOOST_TEST(moved > 20u);
     BOOST_TEST(raised > 20u);

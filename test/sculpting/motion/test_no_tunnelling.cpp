@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every verdict and time of a moving star against an independent decision: all pairs of faces at every critical time and
-// between any two, in integers (oracle/embedding_oracle.h).
+// Every verdict and time of a moving star against an independent decision: all pairs of faces at every critical time
+// and between any two, in integers (oracle/embedding_oracle.h).
 #include "sculpting/motion/embedding_oracle_input.h"
 
 
@@ -37,7 +37,8 @@ BOOST_AUTO_TEST_CASE(verdicts_and_times_agree_with_an_independent_decision) {
     for (std::size_t i = 0; i < moves_per_mesh && done < moves; ++i, ++done) {
       const Vertex_index v(static_cast<Mesh::size_type>(random() % list.points.size()));
       const Point_3 target = random_target(random, list, size);
-      const auto expected = oracle::first_time_not_embedded(independent, static_cast<int>(v), {target.x(), target.y(), target.z()});
+      const auto expected =
+          oracle::first_time_not_embedded(independent, static_cast<int>(v), {target.x(), target.y(), target.z()});
       const auto found = first_impact(original, v, target);
       blocked += expected.has_value();
       if (expected.has_value() != found.has_value())
@@ -57,8 +58,8 @@ BOOST_AUTO_TEST_CASE(verdicts_and_times_agree_with_an_independent_decision) {
         ++invalid_ends;
     }
   }
-  BOOST_TEST_MESSAGE(moves << " moves, " << blocked << " blocked; wrong: " << wrong_verdicts << " verdicts, " << wrong_times
-                           << " times, " << invalid_ends << " ends");
+  BOOST_TEST_MESSAGE(moves << " moves, " << blocked << " blocked; wrong: " << wrong_verdicts << " verdicts, "
+                           << wrong_times << " times, " << invalid_ends << " ends");
   BOOST_TEST(wrong_verdicts == 0u);
   BOOST_TEST(wrong_times == 0u);
   BOOST_TEST(invalid_ends == 0u);

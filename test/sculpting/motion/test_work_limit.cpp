@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A bound on the work of a drag: what holds whatever it is, and that drags with one come to where drags without one end.
+// A bound on the work of a drag: what holds whatever it is, and that drags with one come to where drags without one
+// end.
 #include "sculpting/Random_scene.h"
 
 #include <boost/test/unit_test.hpp>
@@ -44,7 +45,9 @@ BOOST_AUTO_TEST_CASE(with_any_bound_a_mesh_stays_embedded) {
   for (const std::size_t bound : {0, 1, 3, 10, 30, 100, 300})
     for (int scene = 0; scene < 12; ++scene) {
       Mesh mesh = scene % 4 == 0 ? terrain() : meshes::to_mesh(random_small_list(random, 3));
-      Sculptor<Mesh> sculptor(mesh, parameters::work_limit(bound).response(scene % 3 == 0 ? Response::paper : scene % 3 == 1 ? Response::stop : Response::slide));
+      Sculptor<Mesh> sculptor(mesh, parameters::work_limit(bound).response(scene % 3 == 0   ? Response::paper
+                                                                           : scene % 3 == 1 ? Response::stop
+                                                                                            : Response::slide));
       for (int k = 0; k < 30; ++k) {
         const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
         auto grab = sculptor.grab(v);
@@ -91,7 +94,8 @@ BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_an_end_that_is_one_without_a_bound
       Mesh copy = mesh;
       Sculptor<Mesh> fresh(copy);
       const auto further = again_from(fresh, result.position);
-      improved += distance(result.position, target) - distance(further.position, target) > 64 * fresh.clearance(result.position);
+      improved += distance(result.position, target) - distance(further.position, target) >
+                  64 * fresh.clearance(result.position);
     };
     for (int k = 0; k < 100; ++k) {
       const Point_3 start(2, 0, 0), target = random_target(random, start, 0.4);
@@ -100,13 +104,14 @@ BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_an_end_that_is_one_without_a_bound
       });
       const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
       const Point_3 there = random_target(random, mesh.point(v), 0.4), home = mesh.point(v);
-      drag_to_the_end(sculptor.grab(v), there, [&](auto& fresh, const Point_3&) { return fresh.grab(v).drag_to(there); });
+      drag_to_the_end(sculptor.grab(v), there,
+                      [&](auto& fresh, const Point_3&) { return fresh.grab(v).drag_to(there); });
       if (mesh.point(v) != home)
         sculptor.undo();
     }
   }
-  BOOST_TEST_MESSAGE(drags << " drags, " << went_on << " of which went on over " << calls << " calls; " << held_ends << " held, of which "
-                           << improved << " could go on; " << not_ended << " did not end");
+  BOOST_TEST_MESSAGE(drags << " drags, " << went_on << " of which went on over " << calls << " calls; " << held_ends
+                           << " held, of which " << improved << " could go on; " << not_ended << " did not end");
   BOOST_TEST(went_on > 20);
   BOOST_TEST(held_ends > 50);
   BOOST_TEST(not_ended <= drags / 20);

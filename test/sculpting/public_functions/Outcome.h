@@ -11,8 +11,8 @@
 
 namespace haptic_sculpt::test {
 
-/// All that a call came to, number by number, each with the power of a length that it is: so what was done in a scene that
-/// is 2^k times as large can be compared with it, bit for bit.
+/// All that a call came to, number by number, each with the power of a length that it is: so what was done in a scene
+/// that is 2^k times as large can be compared with it, bit for bit.
 class Outcome {
 public:
   void length(double x) { add(x, 1); }
@@ -76,8 +76,8 @@ public:
     return true;
   }
 
-  /// The place of the first number that is not, bit for bit, what it is at scale 1, multiplied by 2^k as often as it is a
-  /// length; the size where all are.
+  /// The place of the first number that is not, bit for bit, what it is at scale 1, multiplied by 2^k as often as it is
+  /// a length; the size where all are.
   std::size_t first_difference(const Outcome& at_scale_1, int k) const {
     if (size() != at_scale_1.size())
       return std::min(size(), at_scale_1.size());
@@ -86,7 +86,9 @@ public:
         return i;
     return size();
   }
-  double value(std::size_t i) const { return i < size() ? values_[i].number : std::numeric_limits<double>::quiet_NaN(); }
+  double value(std::size_t i) const {
+    return i < size() ? values_[i].number : std::numeric_limits<double>::quiet_NaN();
+  }
 
 private:
   struct Value {

@@ -7,8 +7,8 @@
 namespace haptic_sculpt::test {
 
 /// An uneven ball and a moon beside it, in coordinates of 20 binary places times a power of two. So all of it is
-/// exact, down to subnormal numbers, and no coordinate is larger than twice the unit. What is asked of it is worked out in the
-/// usual mode, whatever that of the caller.
+/// exact, down to subnormal numbers, and no coordinate is larger than twice the unit. What is asked of it is worked out
+/// in the usual mode, whatever that of the caller.
 struct Scaled_scene {
   double unit;
   Mesh mesh;
@@ -16,7 +16,8 @@ struct Scaled_scene {
   explicit Scaled_scene(double unit) : unit(unit) {
     const internal::Rounding_to_nearest rounding;
     meshes::Triangle_list list = meshes::bumpy_sphere(1, 0.2);
-    list += meshes::tetrahedron(0.5).transform([](const Point_3& p) { return Point_3(p.x() + 1.25, p.y(), p.z() + 0.125); });
+    list += meshes::tetrahedron(0.5).transform(
+        [](const Point_3& p) { return Point_3(p.x() + 1.25, p.y(), p.z() + 0.125); });
     mesh = meshes::to_mesh(list);
     for (const Vertex_index v : mesh.vertices()) {
       const Point_3 p = mesh.point(v);

@@ -34,7 +34,8 @@ void sweep_over_a_grid(const Sweep& sweep, double unit, Outcome& outcome) {
   for (const double x : {-0.75, 0.0, 0.375})
     for (const double y : {-0.5, 0.0, 1.0})
       for (const double z : {0.0, 0.625}) {
-        const Point_3 s = at(x, y, 1), t = at(0.25, 0.125, -z), a = at(1, 0, z), b = at(-1, 0.5, 0), c = at(0.25, -1, y);
+        const Point_3 s = at(x, y, 1), t = at(0.25, 0.125, -z), a = at(1, 0, z), b = at(-1, 0.5, 0),
+                      c = at(0.25, -1, y);
         outcome.number(sweep.do_collide(s, t, a, b, c));
         if (const auto impact = sweep(s, t, a, b, c)) {
           outcome.impact(*impact);
@@ -45,8 +46,8 @@ void sweep_over_a_grid(const Sweep& sweep, double unit, Outcome& outcome) {
 }
 
 /// What moves many vertices, each a step farther out: many meet, some do not arrive.
-inline void move_the_ball(const Scaled_scene& scene, boost::vector_property_map<Point_3>& targets, std::vector<Vertex_index>& vertices,
-                          double along, double share) {
+inline void move_the_ball(const Scaled_scene& scene, boost::vector_property_map<Point_3>& targets,
+                          std::vector<Vertex_index>& vertices, double along, double share) {
   for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i) {
     const Vertex_index v = Scaled_scene::vertex(i);
     vertices.push_back(v);
@@ -102,7 +103,8 @@ inline std::vector<Public_function> free_functions() {
                      outcome.mesh(make_surface<Mesh>(read_face_soup(file.path)));
                      outcome.number(static_cast<double>(read_face_soup(file.path).number_of_faces()));
                    }});
-  for (const Guard_policy policy : {Guard_policy::back_off, Guard_policy::stop, Guard_policy::slide, Guard_policy::whole})
+  for (const Guard_policy policy :
+       {Guard_policy::back_off, Guard_policy::stop, Guard_policy::slide, Guard_policy::whole})
     all.push_back({"guarded_point_map", [=](double unit, Outcome& outcome) {
                      Scaled_scene scene(unit);
                      Sculptor<Mesh> sculptor(scene.mesh);
@@ -134,7 +136,8 @@ inline std::vector<Public_function> free_functions() {
                        boost::vector_property_map<Point_3> targets;
                        std::vector<Vertex_index> vertices, behind;
                        move_the_ball(scene, targets, vertices, along * share, share);
-                       tell(move_vertices(sculptor, vertices, targets, Move_parameters(), std::back_inserter(behind)), outcome);
+                       tell(move_vertices(sculptor, vertices, targets, Move_parameters(), std::back_inserter(behind)),
+                            outcome);
                        outcome.number(static_cast<double>(behind.size()));
                        outcome.mesh(scene.mesh);
                      }});
@@ -171,10 +174,13 @@ inline std::vector<Public_function> free_functions() {
   all.push_back({"isotropic_remeshing", [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);
-                   const auto report = isotropic_remeshing(sculptor, scene.length(0.375), CGAL::parameters::number_of_iterations(2),
-                                                           Remeshing_parameters().feature_angle(60));
-                   outcome.number(static_cast<double>(report.splits.done)), outcome.number(static_cast<double>(report.collapses.done));
-                   outcome.number(static_cast<double>(report.flips.done)), outcome.number(static_cast<double>(report.moves.done));
+                   const auto report =
+                       isotropic_remeshing(sculptor, scene.length(0.375), CGAL::parameters::number_of_iterations(2),
+                                           Remeshing_parameters().feature_angle(60));
+                   outcome.number(static_cast<double>(report.splits.done)),
+                       outcome.number(static_cast<double>(report.collapses.done));
+                   outcome.number(static_cast<double>(report.flips.done)),
+                       outcome.number(static_cast<double>(report.moves.done));
                    outcome.mesh(scene.mesh);
                  }});
   return all;

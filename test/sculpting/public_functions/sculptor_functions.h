@@ -11,7 +11,8 @@ inline std::vector<Public_function> sculptor_functions() {
   std::vector<Public_function> all;
   for (const Response response : {Response::slide, Response::stop, Response::paper})
     for (const double share : {1.25, 0.25, -1.75})
-      all.push_back({"Sculptor::Sculptor Sculptor::grab Sculptor::mesh Sculptor::set_response Grab::drag_to Grab::vertex Grab::release",
+      all.push_back({"Sculptor::Sculptor Sculptor::grab Sculptor::mesh Sculptor::set_response Grab::drag_to "
+                     "Grab::vertex Grab::release",
                      [=](double unit, Outcome& outcome) {
                        Scaled_scene scene(unit);
                        Sculptor<Mesh> sculptor(scene.mesh);
@@ -29,25 +30,27 @@ inline std::vector<Public_function> sculptor_functions() {
                        }
                        outcome.mesh(sculptor.mesh());
                      }});
-  all.push_back({"Sculptor::expect_single_drags Sculptor::expects_single_drags Sculptor::move_if_free Sculptor::release",
-                 [](double unit, Outcome& outcome) {
-                   Scaled_scene scene(unit);
-                   Sculptor<Mesh> sculptor(scene.mesh);
-                   sculptor.expect_single_drags(true);
-                   outcome.number(sculptor.expects_single_drags());
-                   for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i) {
-                     const Vertex_index v = Scaled_scene::vertex(i);
-                     for (const double share : {1.5, 0.75, -2.0})
-                       outcome.number(sculptor.move_if_free(v, scene.beyond(v, share)));
-                   }
-                   sculptor.release();
-                   outcome.mesh(scene.mesh);
-                 }});
+  all.push_back(
+      {"Sculptor::expect_single_drags Sculptor::expects_single_drags Sculptor::move_if_free Sculptor::release",
+       [](double unit, Outcome& outcome) {
+         Scaled_scene scene(unit);
+         Sculptor<Mesh> sculptor(scene.mesh);
+         sculptor.expect_single_drags(true);
+         outcome.number(sculptor.expects_single_drags());
+         for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i) {
+           const Vertex_index v = Scaled_scene::vertex(i);
+           for (const double share : {1.5, 0.75, -2.0})
+             outcome.number(sculptor.move_if_free(v, scene.beyond(v, share)));
+         }
+         sculptor.release();
+         outcome.mesh(scene.mesh);
+       }});
   all.push_back({"Sculptor::first_impact", [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);
                    for (std::size_t i = 0; i < Scaled_scene::ball_size; i += 3) {
-                     const auto first = sculptor.first_impact(Scaled_scene::vertex(i), scene.beyond(Scaled_scene::vertex(i), -1.5));
+                     const auto first =
+                         sculptor.first_impact(Scaled_scene::vertex(i), scene.beyond(Scaled_scene::vertex(i), -1.5));
                      outcome.number(first.has_value());
                      if (first)
                        outcome.impact(first->impact());
@@ -109,7 +112,8 @@ inline std::vector<Public_function> sculptor_functions() {
                    outcome.number(sculptor.halfedge_of(2, 3).is_valid());
                    outcome.mesh(scene.mesh);
                  }});
-  all.push_back({"Sculptor::insert_on_face Sculptor::insert_on_edge Sculptor::remove Sculptor::collapse Sculptor::flip Sculptor::undo "
+  all.push_back({"Sculptor::insert_on_face Sculptor::insert_on_edge Sculptor::remove Sculptor::collapse Sculptor::flip "
+                 "Sculptor::undo "
                  "Sculptor::redo Sculptor::reserve Sculptor::keep",
                  [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
@@ -156,7 +160,8 @@ inline std::vector<Public_function> sculptor_functions() {
                    outcome.edit(sculptor.undo());
                    outcome.mesh(scene.mesh);
                  }});
-  all.push_back({"Sculptor::set_delta Sculptor::set_clearance Sculptor::set_default_clearance Sculptor::clearance Sculptor::options "
+  all.push_back({"Sculptor::set_delta Sculptor::set_clearance Sculptor::set_default_clearance Sculptor::clearance "
+                 "Sculptor::options "
                  "Sculptor::set_work_limit",
                  [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
@@ -166,7 +171,8 @@ inline std::vector<Public_function> sculptor_functions() {
                    sculptor.set_work_limit(300);
                    const auto drags = [&](double share) {
                      for (std::size_t i = 1; i < Scaled_scene::ball_size; i += 5)
-                       outcome.drag(sculptor.grab(Scaled_scene::vertex(i)).drag_to(scene.beyond(Scaled_scene::vertex(i), share)));
+                       outcome.drag(sculptor.grab(Scaled_scene::vertex(i))
+                                        .drag_to(scene.beyond(Scaled_scene::vertex(i), share)));
                    };
                    drags(-1);
                    sculptor.set_clearance(scene.length(0x1p-12));
@@ -185,8 +191,10 @@ inline std::vector<Public_function> sculptor_functions() {
                    outcome.number(is_refused);
                    outcome.mesh(scene.mesh);
                  }});
-  all.push_back({"Sculptor::stroke Sculptor::history Sculptor::set_history_limit Sculptor::check_unchanged Stroke::end Stroke::is_open "
-                 "Sculptor::name Sculptor::vertex Sculptor::number_of_names Sculptor::face_of Sculptor::edge_of Sculptor::visitor "
+  all.push_back({"Sculptor::stroke Sculptor::history Sculptor::set_history_limit Sculptor::check_unchanged Stroke::end "
+                 "Stroke::is_open "
+                 "Sculptor::name Sculptor::vertex Sculptor::number_of_names Sculptor::face_of Sculptor::edge_of "
+                 "Sculptor::visitor "
                  "Sculptor::filter_counters Sculptor::memory",
                  [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);

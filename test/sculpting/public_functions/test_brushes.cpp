@@ -16,7 +16,8 @@ namespace {
 std::size_t dab(brushes::Kind kind, double unit, bool has_direction, Outcome& outcome) {
   const Scaled_scene scene(unit);
   const bool is_length = kind == brushes::Kind::grab || kind == brushes::Kind::inflate;
-  brushes::Dab<meshes::Kernel> dab{kind, scene.at(0.5, 0.25, 0.5), scene.length(0.75), is_length ? scene.length(0.125) : 0.5, {}};
+  brushes::Dab<meshes::Kernel> dab{
+      kind, scene.at(0.5, 0.25, 0.5), scene.length(0.75), is_length ? scene.length(0.125) : 0.5, {}};
   if (has_direction)
     dab.direction = scene.at(1, 0.5, 0.25) - scene.at(0, 0, 0);
   boost::vector_property_map<Point_3> targets;
@@ -43,7 +44,8 @@ BOOST_AUTO_TEST_CASE(brushes_act_alike_at_all_scales) {
       for (const int k : {-900, -511, -333, -259, 259, 333, 511, 900, 998}) {
         Outcome outcome;
         BOOST_TEST(dab(kind, std::ldexp(1.0, k), has_direction, outcome) > 4u);
-        BOOST_TEST(outcome.first_difference(at_scale_1, k) == at_scale_1.size(), "brush " << static_cast<int>(kind) << " at 2^" << k);
+        BOOST_TEST(outcome.first_difference(at_scale_1, k) == at_scale_1.size(),
+                   "brush " << static_cast<int>(kind) << " at 2^" << k);
       }
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every public function that reads coordinates, at both ends of their range and in every mode that a caller's processor may be in.
-// check_public_functions.py sees to it that none is missing.
+// Every public function that reads coordinates, at both ends of their range and in every mode that a caller's processor
+// may be in. check_public_functions.py sees to it that none is missing.
 #include <boost/test/unit_test.hpp>
 
 #include "sculpting/public_functions/free_functions.h"
@@ -25,7 +25,8 @@ std::vector<Public_function> public_functions() {
   return all;
 }
 
-/// As long as it lives, doubles are rounded so, and subnormal numbers are zeros or not, as a caller's program may have it.
+/// As long as it lives, doubles are rounded so, and subnormal numbers are zeros or not, as a caller's program may have
+/// it.
 class Callers_mode {
 public:
   Callers_mode(int rounding, bool flushes) {
@@ -45,7 +46,8 @@ public:
     std::fesetround(FE_TONEAREST);
   }
 
-  /// Whether all is as it was: the bits for what is rounded how, and what is flushed, not those that tell what has happened.
+  /// Whether all is as it was: the bits for what is rounded how, and what is flushed, not those that tell what has
+  /// happened.
   bool stands() const { return control() == at_first_; }
 
 private:
@@ -63,7 +65,8 @@ private:
 } // namespace
 
 BOOST_AUTO_TEST_CASE(functions_give_the_same_at_both_ends_of_the_range) {
-  // Below 2^-900 clearances are subnormal, as are what is measured there: then results need not be the same, but are finite.
+  // Below 2^-900 clearances are subnormal, as are what is measured there: then results need not be the same, but are
+  // finite.
   constexpr int least_exact = -900;
   for (const Public_function& function : public_functions()) {
     Outcome at_scale_1;
@@ -82,9 +85,9 @@ BOOST_AUTO_TEST_CASE(functions_give_the_same_at_both_ends_of_the_range) {
       if (k < least_exact)
         continue;
       const std::size_t first = outcome.first_difference(at_scale_1, k);
-      BOOST_TEST(first == at_scale_1.size(), function.names << " at 2^" << k << ": number " << first << " of " << outcome.size() << " is "
-                                                           << outcome.value(first) << " where it is " << at_scale_1.value(first)
-                                                           << " at scale 1");
+      BOOST_TEST(first == at_scale_1.size(),
+                 function.names << " at 2^" << k << ": number " << first << " of " << outcome.size() << " is "
+                                << outcome.value(first) << " where it is " << at_scale_1.value(first) << " at scale 1");
     }
   }
 }
@@ -109,12 +112,13 @@ BOOST_AUTO_TEST_CASE(functions_give_the_same_in_every_mode_and_leave_it_as_it_wa
             }
             stands = mode.stands();
           }
-          const std::string where = function.names + " in mode " + std::to_string(rounding) + (flushes ? ", flushing" : "") + (error.empty() ? "" : ": " + error);
+          const std::string where = function.names + " in mode " + std::to_string(rounding) +
+                                    (flushes ? ", flushing" : "") + (error.empty() ? "" : ": " + error);
           BOOST_TEST(error == "", where);
           BOOST_TEST(stands, where);
           const std::size_t first = outcome.first_difference(usual, 0);
-          BOOST_TEST(first == usual.size(), where << ": number " << first << " of " << outcome.size() << " is " << outcome.value(first)
-                                                 << ", not " << usual.value(first));
+          BOOST_TEST(first == usual.size(), where << ": number " << first << " of " << outcome.size() << " is "
+                                                  << outcome.value(first) << ", not " << usual.value(first));
         }
     }
 }

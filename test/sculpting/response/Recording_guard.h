@@ -33,7 +33,8 @@ public:
     return free;
   }
 
-  /// The legs of a way from source to target through free motions only, as few as can be, or none: then the vertex has gone where nothing was proven.
+  /// The legs of a way from source to target through free motions only, as few as can be, or none: then the vertex has
+  /// gone where nothing was proven.
   std::vector<std::pair<Coordinates, Coordinates>> way(const Coordinates& source, const Coordinates& target) const {
     std::map<Coordinates, Coordinates> came_from;
     std::deque<Coordinates> open = {source}; // those of fewest legs first

@@ -13,8 +13,8 @@
 
 namespace haptic_sculpt::test {
 
-/// Which response the tests of slides drag with. HAPTIC_SCULPT_TESTED_RESPONSE=stop shows what they say to a response that
-/// ends anywhere.
+/// Which response the tests of slides drag with. HAPTIC_SCULPT_TESTED_RESPONSE=stop shows what they say to a response
+/// that ends anywhere.
 inline Response response_under_test() {
   const char* text = std::getenv("HAPTIC_SCULPT_TESTED_RESPONSE");
   return text != nullptr && std::string(text) == "stop" ? Response::stop : Response::slide;

@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_TEST_CONVEX_SCENES_H
 
 /// \file
-/// Scenes in which the point a drag has to end at is unique: planes, convex cavities, concave corners; the plane of a pair of
-/// edges and that of a face and a vertex.
+/// Scenes in which the point a drag has to end at is unique: planes, convex cavities, concave corners; the plane of a
+/// pair of edges and that of a face and a vertex.
 
 #include "oracle/constrained_optimum.h"
 #include "sculpting/scene_parts.h"
@@ -22,8 +22,8 @@ struct Convex_scene {
   std::function<Point_3(Random&)> any_target;
   std::optional<std::array<Point_3, 3>> rim; ///< of a groove or a pit; the free side is positive
 
-  /// A target from where `moved` may be now. Out of a groove a slide could climb over the rim, and then another end is right;
-  /// not so where the ball about the target that holds the source, in which a slide stays, is all below the rim.
+  /// A target from where `moved` may be now. Out of a groove a slide could climb over the rim, and then another end is
+  /// right; not so where the ball about the target that holds the source, in which a slide stays, is all below the rim.
   Point_3 target(Random& random, const Point_3& source) const {
     for (;;) {
       const Point_3 t = any_target(random);
@@ -128,11 +128,14 @@ inline Draft groove_scene(Mover mover, Random& random) {
     // A point of the groove's left, right, or bottom, pushed into what is below it.
     const double height = uniform(r, 0.02, 0.9) * depth, y = uniform(r, -3, 3);
     const std::size_t kind = r() % 3;
-    const Point_3 left(-height / slope, y, height - depth), right(height / slope, y, height - depth), bottom(0, y, -depth);
+    const Point_3 left(-height / slope, y, height - depth), right(height / slope, y, height - depth),
+        bottom(0, y, -depth);
     const Vector_3 into_left(-slope / length, 0, -1 / length), into_right(slope / length, 0, -1 / length);
     const double deep = r() % 4 == 0 ? 20 : 2; // where it stands near the rim only a far target is right
     const double a = uniform(r, -0.05, deep), b = uniform(r, 0, deep);
-    return kind == 0 ? left + a * into_left : kind == 1 ? right + a * into_right : bottom + a * into_left + b * into_right;
+    return kind == 0   ? left + a * into_left
+           : kind == 1 ? right + a * into_right
+                       : bottom + a * into_left + b * into_right;
   };
   return draft;
 }
@@ -156,7 +159,8 @@ inline Draft pit_scene(Mover mover, Random& random) {
   draft.target = [=](Random& r) {
     const std::size_t i = r() % 3, j = (i + 1) % 3;
     const double deep = r() % 4 == 0 ? 20 : 2;
-    const double s = uniform(r, 0.05, 0.9), t = uniform(r, 0, 1), a = uniform(r, 0, deep), b = uniform(r, 0, deep), c = uniform(r, 0, deep);
+    const double s = uniform(r, 0.05, 0.9), t = uniform(r, 0, 1), a = uniform(r, 0, deep), b = uniform(r, 0, deep),
+                 c = uniform(r, 0, deep);
     switch (r() % 3) {
     case 0: return bottom + s * (t * (rim[i] - bottom) + (1 - t) * (rim[j] - bottom)) + a * into[i];
     // The edge from the bottom to rim[j] is that of sides i and j.
@@ -171,9 +175,11 @@ inline Draft pit_scene(Mover mover, Random& random) {
 inline Draft crossing_edges(Random& random) {
   const auto near = [&](double x, double y, double z) { return Point_3(x, y, z) + uniform_vector(random, 0.05); };
   Draft draft{"edge over edge",
-              two_tetrahedra({near(-8, 0, 0), near(8, 0, 0), near(0, -1, -3), near(0, 1, -3), near(0, -2, 1), near(0, 2, 0.5),
-                              near(-0.5, 0, 6), near(0.5, 0, 6)}),
-              4, {{5, 0, 1}}, {}};
+              two_tetrahedra({near(-8, 0, 0), near(8, 0, 0), near(0, -1, -3), near(0, 1, -3), near(0, -2, 1),
+                              near(0, 2, 0.5), near(-0.5, 0, 6), near(0.5, 0, 6)}),
+              4,
+              {{5, 0, 1}},
+              {}};
   const Point_3 v = draft.list.points[5], a = draft.list.points[0], b = draft.list.points[1];
   Vector_3 up = CGAL::cross_product(a - v, b - v);
   up = up / (up.z() > 0 ? std::sqrt(up.squared_length()) : -std::sqrt(up.squared_length()));
@@ -188,9 +194,11 @@ inline Draft crossing_edges(Random& random) {
 inline Draft face_over_vertex(Random& random) {
   const auto near = [&](double x, double y, double z) { return Point_3(x, y, z) + uniform_vector(random, 0.05); };
   Draft draft{"face over vertex",
-              two_tetrahedra({near(0, 0, 0), near(-1, -1, -3), near(1, -1, -3), near(0, 1, -3), near(0, 3, 1), near(-2, -1, 0.5),
-                              near(2, -1, 0.5), near(0, 0, 6)}),
-              4, {{5, 6, 0}}, {}};
+              two_tetrahedra({near(0, 0, 0), near(-1, -1, -3), near(1, -1, -3), near(0, 1, -3), near(0, 3, 1),
+                              near(-2, -1, 0.5), near(2, -1, 0.5), near(0, 0, 6)}),
+              4,
+              {{5, 6, 0}},
+              {}};
   const Point_3 g = draft.list.points[5], i = draft.list.points[6], a = draft.list.points[0];
   Vector_3 up = CGAL::cross_product(g - a, i - a);
   up = up / (up.z() > 0 ? std::sqrt(up.squared_length()) : -std::sqrt(up.squared_length()));

@@ -32,7 +32,10 @@ public:
 
   /// The mesh must outlive it and may change between two calls of take().
   explicit End_certifier(const Mesh& mesh)
-      : mesh_(&mesh), broad_phase_(mesh), corners_(mesh), guard_(mesh, broad_phase_, corners_, Exact_sweep_traits<Mesh>(&counters_)) {}
+      : mesh_(&mesh)
+      , broad_phase_(mesh)
+      , corners_(mesh)
+      , guard_(mesh, broad_phase_, corners_, Exact_sweep_traits<Mesh>(&counters_)) {}
 
   /// \param v is where the drag has left it, all else stands still \param way_asked |T - S|, how far it had to go
   End_certificate certify(Vertex_index v, const Point_3& target, double way_asked, double clearance, double delta,

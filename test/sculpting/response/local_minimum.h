@@ -3,10 +3,10 @@
 #define HAPTIC_SCULPT_TEST_LOCAL_MINIMUM_H
 
 /// \file
-/// Is the end of a drag a constrained local minimum of the distance to the target? From outside of a solid no end is the only
-/// right one, but this can be asked of each: the pull lies in the cone of the contacts' normals, and no short free way leads
-/// anywhere nearer. Distance is convex along a segment, so *any* free straight way to a nearer point, long or short, shows that
-/// the end is none.
+/// Is the end of a drag a constrained local minimum of the distance to the target? From outside of a solid no end is
+/// the only right one, but this can be asked of each: the pull lies in the cone of the contacts' normals, and no short
+/// free way leads anywhere nearer. Distance is convex along a segment, so *any* free straight way to a nearer point,
+/// long or short, shows that the end is none.
 
 #include "oracle/Still_surroundings.h"
 #include "oracle/constrained_optimum.h"
@@ -22,9 +22,11 @@ struct Local_minimum_check {
   double kkt_residual = 0;      ///< from normals computed anew
   bool wrong_contact = false;   ///< a contact that is not there: too far, on the wrong side, or with another normal
   bool only_flat = false;       ///< a flat impact is among what holds it, and without those the pull is not in the cone
-  double slack = 0;             ///< L: how far the end is from the optimum of its own contacts at clearance 0; 0 where those do not hold it
+  double slack =
+      0; ///< L: how far the end is from the optimum of its own contacts at clearance 0; 0 where those do not hold it
   double allowed = 0;           ///< gains below max(8 c, 4 L) are the clearance's
-  double random_gain = 0, directed_gain = 0; ///< how much nearer the best free way leads, less what is allowed; > 0: a fault
+  double random_gain = 0,
+         directed_gain = 0;     ///< how much nearer the best free way leads, less what is allowed; > 0: a fault
   Point_3 better;               ///< where the best free way leads
   std::size_t ways = 0, oracle_disagrees = 0;
 };
@@ -36,10 +38,12 @@ using Long_vector = std::array<long double, 3>;
 inline long double dot(const Long_vector& a, const Long_vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 inline Long_vector long_difference(const Point_3& a, const Point_3& b) {
-  return {static_cast<long double>(a.x()) - b.x(), static_cast<long double>(a.y()) - b.y(), static_cast<long double>(a.z()) - b.z()};
+  return {static_cast<long double>(a.x()) - b.x(), static_cast<long double>(a.y()) - b.y(),
+          static_cast<long double>(a.z()) - b.z()};
 }
 
-/// What is left of v when everything along up to three vectors is taken away (Gram and Schmidt, twice). Tells the weights.
+/// What is left of v when everything along up to three vectors is taken away (Gram and Schmidt, twice). Tells the
+/// weights.
 inline Long_vector without(Long_vector v, const std::vector<Long_vector>& along) {
   std::vector<Long_vector> base;
   for (Long_vector a : along) {
@@ -67,8 +71,8 @@ inline Long_vector without(Long_vector v, const std::vector<Long_vector>& along)
   return v;
 }
 
-/// |nearest point to the pull among the directions that no normal forbids| / |pull|. By Moreau's decomposition that is the
-/// distance from the pull to the cone of -normals, found here from the other side than by the library.
+/// |nearest point to the pull among the directions that no normal forbids| / |pull|. By Moreau's decomposition that is
+/// the distance from the pull to the cone of -normals, found here from the other side than by the library.
 inline double residual(const Long_vector& pull, const std::vector<Long_vector>& normals) {
   const long double size = std::sqrt(dot(pull, pull));
   Long_vector d = pull;
@@ -77,7 +81,8 @@ inline double residual(const Long_vector& pull, const std::vector<Long_vector>& 
   long double best = 1;
   Long_vector nearest{};
   const std::size_t n = normals.size();
-  // The nearest direction lies in the intersection of up to three planes, and no plane forbids it; of all such the longest.
+  // The nearest direction lies in the intersection of up to three planes, and no plane forbids it; of all such the
+  // longest.
   long double longest = -1;
   constexpr long double rounding = 1e-15L;
   const auto consider = [&](const std::vector<Long_vector>& planes) {
@@ -103,11 +108,12 @@ inline double residual(const Long_vector& pull, const std::vector<Long_vector>& 
 
 } // namespace internal_minimum
 
-/// \param random_ways how many random directions and lengths are tried, \param oracle_every every how many of them the oracle of
-/// the sweeps is asked too (0: never)
+/// \param random_ways how many random directions and lengths are tried, \param oracle_every every how many of them the
+/// oracle of the sweeps is asked too (0: never)
 template <class Result>
-Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& mesh, const Result& result, const Point_3& target,
-                                        double c, Random& random, int random_ways = 64, int oracle_every = 0) {
+Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& mesh, const Result& result,
+                                        const Point_3& target, double c, Random& random, int random_ways = 64,
+                                        int oracle_every = 0) {
   using namespace internal_minimum;
   Local_minimum_check check;
   const Point_3 x = result.position;
@@ -126,7 +132,8 @@ Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& 
       flat_too.push_back(claimed);
       continue;
     }
-    const Point_3 a = mesh.point(contact.vertices[0]), b = mesh.point(contact.vertices[1]), p = mesh.point(contact.vertices[2]);
+    const Point_3 a = mesh.point(contact.vertices[0]), b = mesh.point(contact.vertices[1]),
+                  p = mesh.point(contact.vertices[2]);
     const Long_vector ab = long_difference(b, a), ap = long_difference(p, a), ax = long_difference(x, a);
     Long_vector n = {ab[1] * ap[2] - ab[2] * ap[1], ab[2] * ap[0] - ab[0] * ap[2], ab[0] * ap[1] - ab[1] * ap[0]};
     const int side = CGAL::orientation(a, b, p, x);
@@ -135,10 +142,15 @@ Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& 
       k *= side / size;
     const long double height = dot(n, ax);
     constexpr double lifted = 8, normal_rounding = 1e-12;
-    check.wrong_contact |= side == 0 || side != contact.side || height > lifted * c + 4 * internal::unit_in_the_last_place(haptic_sculpt::internal::largest_magnitude({x.x(), x.y(), x.z()})) || !(dot(n, claimed) > 1 - normal_rounding);
+    check.wrong_contact |=
+        side == 0 || side != contact.side ||
+        height > lifted * c + 4 * internal::unit_in_the_last_place(
+                                      haptic_sculpt::internal::largest_magnitude({x.x(), x.y(), x.z()})) ||
+        !(dot(n, claimed) > 1 - normal_rounding);
     normals.push_back(n);
     flat_too.push_back(n);
-    planes.push_back({{std::array<double, 3>{a.x(), a.y(), a.z()}, {b.x(), b.y(), b.z()}, {p.x(), p.y(), p.z()}}, side});
+    planes.push_back(
+        {{std::array<double, 3>{a.x(), a.y(), a.z()}, {b.x(), b.y(), b.z()}, {p.x(), p.y(), p.z()}}, side});
   }
   check.kkt_residual = residual(pull, flat_too);
   check.only_flat = residual(pull, normals) > check.kkt_residual + 1e-10;
@@ -151,7 +163,8 @@ Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& 
 
   double random_gain = 0, directed_gain = 0;
   const auto try_way = [&](const Long_vector& direction, long double length, double& gain, bool ask_oracle) {
-    const Point_3 y(static_cast<double>(x.x() + length * direction[0]), static_cast<double>(x.y() + length * direction[1]),
+    const Point_3 y(static_cast<double>(x.x() + length * direction[0]),
+                    static_cast<double>(x.y() + length * direction[1]),
                     static_cast<double>(x.z() + length * direction[2]));
     const Long_vector rest = long_difference(target, y);
     const double nearer = static_cast<double>(far - std::sqrt(dot(rest, rest)));
@@ -172,7 +185,8 @@ Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& 
     if (dot(direction, pull) < 0)
       for (long double& k : direction)
         k = -k;
-    const double length = shortest * c * std::exp(uniform(random, 0, 1) * std::log(static_cast<double>(far) / (shortest * c)));
+    const double length =
+        shortest * c * std::exp(uniform(random, 0, 1) * std::log(static_cast<double>(far) / (shortest * c)));
     try_way(direction, length, random_gain, oracle_every != 0 && i % oracle_every == 0);
   }
   // On purpose: along the planes of the facets near by, one or two at a time, to where these alone would let it go.
@@ -187,7 +201,8 @@ Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& 
       return;
     for (long double& k : direction)
       k /= way;
-    for (const long double length : {way, way / 8, way / 64, std::sqrt(way * shortest * c), 32 * static_cast<long double>(shortest) * c})
+    for (const long double length :
+         {way, way / 8, way / 64, std::sqrt(way * shortest * c), 32 * static_cast<long double>(shortest) * c})
       if (length <= way)
         try_way(direction, length, directed_gain, false);
   };

@@ -16,8 +16,8 @@ inline double ulp_of(const Mesh& mesh, const Point_3& target) {
 
 inline Rational_point rational(const Point_3& p) { return rational(std::array<double, 3>{p.x(), p.y(), p.z()}); }
 
-/// The distance of an end from the unique optimum, and whether that is as small as promised: 0.1 c and 4 ulp; at the default
-/// clearance, which is a few ulp, 2 c over the least singular value of the normals that determine the optimum.
+/// The distance of an end from the unique optimum, and whether that is as small as promised: 0.1 c and 4 ulp; at the
+/// default clearance, which is a few ulp, 2 c over the least singular value of the normals that determine the optimum.
 struct Optimum_check {
   double error = 0;
   std::size_t planes = 0;           ///< that push; 0: the target keeps the clearance itself
@@ -38,7 +38,9 @@ struct Optimum_check {
   }
 };
 
-inline bool is_beyond_no_plane(const Convex_scene& scene, const Point_3& p) { return Offset_half_spaces(scene.half_spaces, 0).contains(rational(p)); }
+inline bool is_beyond_no_plane(const Convex_scene& scene, const Point_3& p) {
+  return Offset_half_spaces(scene.half_spaces, 0).contains(rational(p));
+}
 
 } // namespace haptic_sculpt::test
 

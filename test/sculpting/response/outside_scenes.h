@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_TEST_OUTSIDE_SCENES_H
 
 /// \file
-/// Scenes in which drags end at one of many local minima: probes and stars around solids, vertices dragged against their own
-/// star, and the targets that bring all kinds of contact about.
+/// Scenes in which drags end at one of many local minima: probes and stars around solids, vertices dragged against
+/// their own star, and the targets that bring all kinds of contact about.
 
 #include "sculpting/scene_parts.h"
 
@@ -28,8 +28,8 @@ struct Outside_scene {
   std::size_t first_of_mover = 0;  ///< vertices from here on belong to what is dragged; all others are other solids'
 };
 
-/// Notices a dragged vertex that has passed through a solid, and a solid that has come inside of the one that is dragged.
-/// Says nothing about vertices of the solids themselves: what those may not pass through, `validate` sees.
+/// Notices a dragged vertex that has passed through a solid, and a solid that has come inside of the one that is
+/// dragged. Says nothing about vertices of the solids themselves: what those may not pass through, `validate` sees.
 class Containment_check {
 public:
   explicit Containment_check(const Outside_scene& scene) : scene_(&scene) {
@@ -94,15 +94,17 @@ inline double half_extent(const meshes::Triangle_list& list) {
 }
 
 /// A mover near the surface of a solid about the origin, in a random direction.
-inline Outside_scene around(const std::string& name, meshes::Triangle_list solid, Mover mover, Random& random, double start = 1.8) {
+inline Outside_scene around(const std::string& name, meshes::Triangle_list solid, Mover mover, Random& random,
+                            double start = 1.8) {
   Outside_scene scene;
   scene.name = name + ", " + name_of(mover);
   scene.size = half_extent(solid);
   scene.first_of_mover = solid.points.size();
   const Vector_3 direction = uniform_direction(random);
   const Point_3 centre(0, 0, 0);
-  const std::size_t moved = add_mover(solid, mover, centre + start * scene.size * direction,
-                                      centre + (start + 0.7) * scene.size * direction, uniform(random, 0.1, 0.5) * scene.size);
+  const std::size_t moved =
+      add_mover(solid, mover, centre + start * scene.size * direction, centre + (start + 0.7) * scene.size * direction,
+                uniform(random, 0.1, 0.5) * scene.size);
   scene.mesh = valid_mesh(solid, scene.name);
   scene.moved = Vertex_index(static_cast<Mesh::size_type>(moved));
   return scene;
@@ -140,13 +142,17 @@ inline meshes::Triangle_list needle(Random& random) {
 /// Four solids about the origin, and a star in their middle whose tip can reach all.
 inline Outside_scene among_four_solids(Random& random) {
   meshes::Triangle_list list;
-  const std::array<meshes::Triangle_list, 4> solids = {irregular_tetrahedron(random), split_cube(), meshes::icosphere(1),
-                                                       meshes::bumpy_sphere(2, 0.4, 0.05, static_cast<std::uint32_t>(random()))};
-  const std::array<Vector_3, 4> places = {Vector_3(1, 1, 1), Vector_3(-1, 1, -1), Vector_3(1, -1, -1), Vector_3(-1, -1, 1)};
+  const std::array<meshes::Triangle_list, 4> solids = {
+      irregular_tetrahedron(random), split_cube(), meshes::icosphere(1),
+      meshes::bumpy_sphere(2, 0.4, 0.05, static_cast<std::uint32_t>(random()))};
+  const std::array<Vector_3, 4> places = {Vector_3(1, 1, 1), Vector_3(-1, 1, -1), Vector_3(1, -1, -1),
+                                          Vector_3(-1, -1, 1)};
   for (int i = 0; i < 4; ++i) {
     meshes::Triangle_list solid = solids[i];
     const Rigid_motion motion = Rigid_motion::random(random);
-    solid.transform([&](const Point_3& p) { return Point_3(0, 0, 0) + 0.35 * (motion(p) - Point_3(0, 0, 0) - motion.shift) + 0.7 * places[i]; });
+    solid.transform([&](const Point_3& p) {
+      return Point_3(0, 0, 0) + 0.35 * (motion(p) - Point_3(0, 0, 0) - motion.shift) + 0.7 * places[i];
+    });
     list += solid;
   }
   Outside_scene scene;
@@ -184,7 +190,8 @@ inline std::vector<Outside_scene> outside_scenes(Random& random) {
   return scenes;
 }
 
-/// The valid meshes of a folder with at most so many faces, in order of their names; which vertex is dragged is left open.
+/// The valid meshes of a folder with at most so many faces, in order of their names; which vertex is dragged is left
+/// open.
 inline std::vector<Outside_scene> shared_scenes(const std::filesystem::path& folder, std::size_t most_faces) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -204,7 +211,8 @@ inline std::vector<Outside_scene> shared_scenes(const std::filesystem::path& fol
         points.points.push_back(scene.mesh.point(v));
       scene.size = internal_scenes::half_extent(points);
       const auto box = CGAL::bbox_3(points.points.begin(), points.points.end());
-      scene.centre = Point_3((box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2);
+      scene.centre =
+          Point_3((box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2);
       scenes.push_back(std::move(scene));
     } catch (const Invalid_surface&) {
       // What read_surface() refuses is none of a drag's business; test_surface sees to it.
@@ -212,12 +220,15 @@ inline std::vector<Outside_scene> shared_scenes(const std::filesystem::path& fol
   return scenes;
 }
 
-/// Somewhere, and on purpose: through other vertices, exactly on them, on faces, in the plane of own faces, along own edges,
-/// beyond the own star's other side, with coordinates of other vertices so that paths lie in planes of faces, and close by.
+/// Somewhere, and on purpose: through other vertices, exactly on them, on faces, in the plane of own faces, along own
+/// edges, beyond the own star's other side, with coordinates of other vertices so that paths lie in planes of faces,
+/// and close by.
 inline Point_3 outside_target(const Outside_scene& scene, const Mesh& mesh, Random& random) {
   const Vertex_index v = scene.moved;
   const Point_3 p = mesh.point(v);
-  const auto any = [&] { return mesh.point(Vertex_index(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()))); };
+  const auto any = [&] {
+    return mesh.point(Vertex_index(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices())));
+  };
   const auto neighbour = [&] {
     if (mesh.is_isolated(v))
       return any();
@@ -233,7 +244,10 @@ inline Point_3 outside_target(const Outside_scene& scene, const Mesh& mesh, Rand
   case 4: return any();
   case 5: { const Point_3 a = any(), b = any(); return CGAL::midpoint(a, b); }
   case 6: { const Point_3 a = neighbour(); return p + uniform(random, -1, 2) * (a - p); }
-  case 7: { const Point_3 a = neighbour(), b = neighbour(); return p + uniform(random, 0, 2) * (CGAL::midpoint(a, b) - p); }
+  case 7: {
+    const Point_3 a = neighbour(), b = neighbour();
+    return p + uniform(random, 0, 2) * (CGAL::midpoint(a, b) - p);
+  }
   case 8: { // in planes of faces, where those lie along the axes
     const Point_3 q = any();
     const std::size_t kept = random() % 3;

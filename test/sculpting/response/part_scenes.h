@@ -131,7 +131,8 @@ inline Part_scene part_scene(std::size_t family, Random& random) {
     if (scene.family.find("turned") != std::string::npos) {
       const Rigid_motion motion = Rigid_motion::random(random);
       list.transform([&](const Point_3& p) { return motion(p); });
-      std::transform(scene.probes.begin(), scene.probes.end(), scene.probes.begin(), [&](const Point_3& p) { return motion(p); });
+      std::transform(scene.probes.begin(), scene.probes.end(), scene.probes.begin(),
+                     [&](const Point_3& p) { return motion(p); });
     }
     try {
       scene.mesh = meshes::to_mesh(list);
@@ -159,7 +160,8 @@ inline Vertex_index part_vertex(const Part_scene& scene, const Mesh& mesh, Rando
 
 /// On vertices and edges, in planes of faces, on extensions of edges, beyond faces, along axes, near and anywhere.
 /// \param v what is dragged, null: a probe \param p where it is
-inline Point_3 part_target(const Part_scene& scene, const Mesh& mesh, Vertex_index v, const Point_3& p, Random& random) {
+inline Point_3 part_target(const Part_scene& scene, const Mesh& mesh, Vertex_index v, const Point_3& p,
+                           Random& random) {
   const auto any_vertex = [&] {
     for (;;) {
       const Vertex_index w(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));

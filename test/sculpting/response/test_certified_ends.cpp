@@ -128,8 +128,8 @@ BOOST_AUTO_TEST_CASE(a_slot_that_closes_by_less_than_a_clearance_is_gone_through
       ++drags;
       if (result.reached)
         continue;
-      const auto found =
-          certifier.certify(Vertex_index(), result.position, target, std::sqrt(CGAL::squared_distance(source, target)), c, 0, random, 300);
+      const auto found = certifier.certify(Vertex_index(), result.position, target,
+                                           std::sqrt(CGAL::squared_distance(source, target)), c, 0, random, 300);
       certified += found.asked;
       missed += found.gain > 0;
       gave_up += result.end == Drag_end::stuck;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Slides of a vertex at the origin, where a unit in the last place is the least number there is, towards targets that are farther
-// than 2^62 of those by more than the exponents of doubles can say.
+// Slides of a vertex at the origin, where a unit in the last place is the least number there is, towards targets that
+// are farther than 2^62 of those by more than the exponents of doubles can say.
 #include "sculpting/Random_scene.h"
 
 #include <boost/test/unit_test.hpp>
@@ -32,7 +32,8 @@ BOOST_AUTO_TEST_CASE(a_far_target_is_slid_to_from_the_origin) {
     BOOST_TEST(r.position.x() > 0.5, "first drag to " << far);
     for (int drags = 1; r.end == Drag_end::leg_limit && drags < 32; ++drags)
       r = grab.drag_to(target);
-    BOOST_TEST_MESSAGE(far << ": " << name_of(r.end) << ", " << r.legs << " legs, at " << r.position << ", residual " << r.kkt_residual);
+    BOOST_TEST_MESSAGE(far << ": " << name_of(r.end) << ", " << r.legs << " legs, at " << r.position << ", residual "
+                           << r.kkt_residual);
     BOOST_TEST((r.end == Drag_end::held || r.end == Drag_end::reached));
     BOOST_TEST(r.kkt_residual < 1e-9);
     BOOST_TEST(validate(mesh).is_valid());
@@ -40,7 +41,8 @@ BOOST_AUTO_TEST_CASE(a_far_target_is_slid_to_from_the_origin) {
 }
 
 BOOST_AUTO_TEST_CASE(a_far_target_is_slid_to_on_extreme_coordinates) {
-  Mesh mesh = tetrahedron_at_the_origin(Point_3(1e150, 0, 0), Point_3(0, 1e-160, 0), Point_3(0x1.7b8p-1062, 0x1p-1074, 1e120));
+  Mesh mesh =
+      tetrahedron_at_the_origin(Point_3(1e150, 0, 0), Point_3(0, 1e-160, 0), Point_3(0x1.7b8p-1062, 0x1p-1074, 1e120));
   BOOST_REQUIRE(validate(mesh).is_valid());
   Sculptor<Mesh> sculptor(mesh);
   const auto r = sculptor.grab(Vertex_index(0)).drag_to(Point_3(std::exp2(498.6), 0, 0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// No result of a drag contradicts itself, whatever the response, the bound on the work, the mesh and the target: those that
-// numbers of the size of coordinates cannot tell from others included.
+// No result of a drag contradicts itself, whatever the response, the bound on the work, the mesh and the target: those
+// that numbers of the size of coordinates cannot tell from others included.
 #include "sculpting/Random_scene.h"
 #include "sculpting/result_contradiction.h"
 #include "sculpting/Mover_hand.h"
@@ -20,7 +20,9 @@ namespace {
 /// A number of any magnitude, zeros of both signs among them.
 double any_number(Random& random) {
   const double sign = random() % 2 == 0 ? 1 : -1;
-  return random() % 8 == 0 ? sign * 0 : sign * std::ldexp(1 + static_cast<double>(random() >> 12) * 0x1p-52, static_cast<int>(random() % 2000) - 1000);
+  return random() % 8 == 0 ? sign * 0
+                           : sign * std::ldexp(1 + static_cast<double>(random() >> 12) * 0x1p-52,
+                                               static_cast<int>(random() % 2000) - 1000);
 }
 
 Point_3 any_target(const Outside_scene& scene, const Mesh& mesh, Random& random) {
@@ -31,7 +33,8 @@ Point_3 any_target(const Outside_scene& scene, const Mesh& mesh, Random& random)
   }
   case 1: { // one coordinate of its own, so that it may be that of the vertex but for its sign
     const Point_3 p = mesh.point(scene.moved);
-    return Point_3(random() % 2 == 0 ? p.x() : -p.x(), random() % 2 == 0 ? p.y() : -p.y(), random() % 2 == 0 ? p.z() : any_number(random));
+    return Point_3(random() % 2 == 0 ? p.x() : -p.x(), random() % 2 == 0 ? p.y() : -p.y(),
+                   random() % 2 == 0 ? p.z() : any_number(random));
   }
   default: return outside_target(scene, mesh, random);
   }
@@ -44,7 +47,9 @@ struct Tally {
 
 void drag_about(Outside_scene scene, std::size_t drags, Random& random, Tally& tally) {
   for (std::size_t done = 0; done < drags;) {
-    Sculptor_parameters options = parameters::response(random() % 4 == 0 ? Response::stop : random() % 4 == 0 ? Response::paper : Response::slide);
+    Sculptor_parameters options = parameters::response(random() % 4 == 0   ? Response::stop
+                                                       : random() % 4 == 0 ? Response::paper
+                                                                           : Response::slide);
     std::size_t limit = std::numeric_limits<std::size_t>::max();
     if (random() % 3 == 0)
       options.work_limit(limit = random() % 200);
@@ -58,9 +63,11 @@ void drag_about(Outside_scene scene, std::size_t drags, Random& random, Tally& t
         const auto r = grab.drag_to(target, path);
         ++tally.drags;
         ++tally.ends[name_of(r.end)];
-        const char* what = r.position == mesh.point(scene.moved) ? contradiction(r, source, target, &path, limit) : "the position is another";
+        const char* what = r.position == mesh.point(scene.moved) ? contradiction(r, source, target, &path, limit)
+                                                                 : "the position is another";
         if (what != nullptr && ++tally.contradictions <= 10)
-          BOOST_TEST_MESSAGE(scene.name << ", drag " << done << ": " << what << "; " << name_of(r.end) << ", " << r.legs << " legs, " << r.contacts.size() << " contacts");
+          BOOST_TEST_MESSAGE(scene.name << ", drag " << done << ": " << what << "; " << name_of(r.end) << ", " << r.legs
+                                        << " legs, " << r.contacts.size() << " contacts");
       } catch (const Out_of_range&) {
       }
     }
@@ -80,7 +87,8 @@ BOOST_AUTO_TEST_CASE(no_result_contradicts_itself) {
   Tally tally;
   for (const Outside_scene& scene : scenes) {
     Random own(seed_of(scene.name, seed));
-    const bool is_extreme = scene.name == "gen_extreme_exponent_tet.off"; // a drag there costs little, and most went wrong
+    const bool is_extreme =
+        scene.name == "gen_extreme_exponent_tet.off"; // a drag there costs little, and most went wrong
     drag_about(scene, is_extreme ? drags / 4 : drags / scenes.size(), own, tally);
   }
   for (const auto& [name, number] : tally.ends)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Slides whose end is known: the unique constrained optimum of planes, cavities and corners, for vertices and for probes.
+// Slides whose end is known: the unique constrained optimum of planes, cavities and corners, for vertices and for
+// probes.
 #include <boost/test/unit_test.hpp>
 
 #include "sculpting/Mover_hand.h"
@@ -27,15 +28,18 @@ struct Findings {
 };
 
 template <class Result>
-void check_end(const Convex_scene& scene, const Mesh& mesh, const Point_3& source, const Point_3& target, double c, bool is_default,
-               const Result& r, const std::string& which, Findings& found, const Drag_history* history = nullptr) {
+void check_end(const Convex_scene& scene, const Mesh& mesh, const Point_3& source, const Point_3& target, double c,
+               bool is_default, const Result& r, const std::string& which, Findings& found,
+               const Drag_history* history = nullptr) {
   Errors& errors = found.errors[is_default ? 0 : 1][scene.name];
   ++errors.pushes;
   errors.held += !r.reached;
   errors.most_legs = std::max(errors.most_legs, static_cast<std::size_t>(r.legs));
   const auto fault = [&](Slide_faults& faults, const std::string& what) {
     faults.add(scene.name, mesh, scene.moved, source, target, c,
-               what + "; " + name_of(r.end) + " at " + exact_text(r.position) + ", " + std::to_string(r.legs) + " legs, " + which, history);
+               what + "; " + name_of(r.end) + " at " + exact_text(r.position) + ", " + std::to_string(r.legs) +
+                   " legs, " + which,
+               history);
   };
   // The triangles of one side of a turned cube are coplanar to within an ulp only.
   if (!Offset_half_spaces(scene.half_spaces, -4 * ulp_of(mesh, target)).contains(rational(r.position)))
@@ -43,8 +47,8 @@ void check_end(const Convex_scene& scene, const Mesh& mesh, const Point_3& sourc
   if (r.reached != (r.position == target) || r.end != (r.reached ? Drag_end::reached : Drag_end::held))
     if (r.position != source || r.end != Drag_end::no_progress) // it may be where it has to be
       fault(found.end, "neither reached nor held");
-  // Clearance is kept from what is in the way. Where J reaches a target beyond no plane nothing was, though planes may be nearer
-  // to it than a clearance: a drag that ends at its target has no error. Counted apart.
+  // Clearance is kept from what is in the way. Where J reaches a target beyond no plane nothing was, though planes may
+  // be nearer to it than a clearance: a drag that ends at its target has no error. Counted apart.
   if (r.reached && is_beyond_no_plane(scene, target)) {
     errors.reached_beside += !Offset_half_spaces(scene.half_spaces, c).contains(rational(target));
     return;
@@ -53,7 +57,8 @@ void check_end(const Convex_scene& scene, const Mesh& mesh, const Point_3& sourc
   errors.largest = std::fmax(errors.largest, check.error / c * (is_default ? check.least_singular_value : 1));
   if (!check.is_right) {
     std::ostringstream what;
-    what << "error " << check.error / c << " c, " << check.planes << " planes, least singular value " << check.least_singular_value;
+    what << "error " << check.error / c << " c, " << check.planes << " planes, least singular value "
+         << check.least_singular_value;
     fault(found.optimum, what.str());
   }
 }
@@ -62,9 +67,10 @@ void report(const Findings& found) {
   for (const auto& by_scene : found.errors)
     for (const auto& [name, e] : by_scene) {
       const bool is_default = &by_scene == found.errors;
-      BOOST_TEST_MESSAGE(name << (is_default ? ", default clearance: " : ": ") << e.pushes << " pushes, " << e.held << " held, " << e.reached_beside
-                              << " reached less than a clearance from a plane, error at most "
-                              << e.largest << (is_default ? " c / least singular value, " : " c, ") << e.most_legs << " legs");
+      BOOST_TEST_MESSAGE(name << (is_default ? ", default clearance: " : ": ") << e.pushes << " pushes, " << e.held
+                              << " held, " << e.reached_beside
+                              << " reached less than a clearance from a plane, error at most " << e.largest
+                              << (is_default ? " c / least singular value, " : " c, ") << e.most_legs << " legs");
     }
   BOOST_TEST(found.optimum.count() == 0u);
   BOOST_TEST(found.tunnelled.count() == 0u);
@@ -94,7 +100,8 @@ BOOST_AUTO_TEST_CASE(pushes_end_at_the_unique_optimum) {
           history.targets.push_back(target);
           const auto r = grab.drag_to(target);
           BOOST_REQUIRE(r.position == mesh.point(scene.moved));
-          check_end(scene, mesh, source, target, is_default ? largest_clearance(sculptor, target) : length, is_default, r, "push " + std::to_string(i), found, &history);
+          check_end(scene, mesh, source, target, is_default ? largest_clearance(sculptor, target) : length, is_default,
+                    r, "push " + std::to_string(i), found, &history);
         }
         BOOST_REQUIRE(validate(grab.surface()).is_valid());
       }
@@ -120,8 +127,9 @@ BOOST_AUTO_TEST_CASE(probes_end_at_the_unique_optimum) {
         for (int i = 0; i < 10; ++i, ++done) { // each without contacts
           const Point_3 target = scene.target(random, source);
           const auto r = sculptor.probe(source, Probe_start::anywhere).drag_to(target);
-          check_end(scene, scene.mesh, source, target, length == default_length ? largest_clearance(sculptor, target) : length,
-                    length == default_length, r, "probe", found);
+          check_end(scene, scene.mesh, source, target,
+                    length == default_length ? largest_clearance(sculptor, target) : length, length == default_length,
+                    r, "probe", found);
         }
         sculptor.check_unchanged();
       }

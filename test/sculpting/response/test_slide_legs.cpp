@@ -51,7 +51,8 @@ BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
       const std::optional<double> c = i % 2 == 0 ? std::nullopt : std::optional<double>(1e-6);
       Drag_result<Mesh> result;
       guard.clear();
-      const Coordinates end = responses.move(response_under_test(), guard, mesh, s, t, {internal::Clearance_rule(c), 0}, result);
+      const Coordinates end =
+          responses.move(response_under_test(), guard, mesh, s, t, {internal::Clearance_rule(c), 0}, result);
       held += end != t;
       const auto legs = guard.way(s, end);
       // The path that is reported is one of free motions: none of fewer legs is needed to explain it.
@@ -72,8 +73,8 @@ BOOST_AUTO_TEST_CASE(every_leg_of_a_slide_is_free) {
       invalid += !validate(mesh).is_valid();
     }
   }
-  BOOST_TEST_MESSAGE(done << " drags, " << held << " held, " << checked << " legs checked, " << crossing << " cross something, " << unproven
-                          << " ways are not proven");
+  BOOST_TEST_MESSAGE(done << " drags, " << held << " held, " << checked << " legs checked, " << crossing
+                          << " cross something, " << unproven << " ways are not proven");
   BOOST_TEST(checked > drags / 2);
   BOOST_TEST(held > drags / 4);
   BOOST_TEST(crossing == 0u);

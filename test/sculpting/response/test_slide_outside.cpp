@@ -31,13 +31,14 @@ struct Outside_findings {
 CGAL::Simple_cartesian<CGAL::Gmpq>::Point_3 exact(const Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 double ulp_at(const Point_3& x, const Point_3& target) {
-  return internal::unit_in_the_last_place(std::fmax(haptic_sculpt::internal::largest_magnitude({x.x(), x.y(), x.z()}),
-                                          haptic_sculpt::internal::largest_magnitude({target.x(), target.y(), target.z()})));
+  return internal::unit_in_the_last_place(
+      std::fmax(haptic_sculpt::internal::largest_magnitude({x.x(), x.y(), x.z()}),
+                haptic_sculpt::internal::largest_magnitude({target.x(), target.y(), target.z()})));
 }
 
 /// Drags of one grab and the next, each end checked.
-void drag_and_check(const Outside_scene& scene, double clearance, std::size_t drags, Random& random, Outside_findings& found,
-                    Response response) {
+void drag_and_check(const Outside_scene& scene, double clearance, std::size_t drags, Random& random,
+                    Outside_findings& found, Response response) {
   Mover_hand grab(scene.mesh, scene.moved, parameters::response(response));
   const Mesh& mesh = grab.mesh;
   auto& sculptor = grab.sculptor;
@@ -62,11 +63,12 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
     ends.legs += static_cast<std::size_t>(r.legs);
     ends.most_legs = std::max(ends.most_legs, static_cast<std::size_t>(r.legs));
     const auto fault = [&](Slide_faults& faults, const std::string& what) {
-      std::string text = what + "; " + name_of(r.end) + " at " + exact_text(r.position) + ", " + std::to_string(r.legs) + " legs, drag " +
-                         std::to_string(i) + ", contacts";
+      std::string text = what + "; " + name_of(r.end) + " at " + exact_text(r.position) + ", " +
+                         std::to_string(r.legs) + " legs, drag " + std::to_string(i) + ", contacts";
       for (const auto& contact : r.contacts)
-        text += std::string(" ") + name_of(contact.kind) + (contact.is_flat ? "(flat) " : " ") + std::to_string(contact.vertices[0]) + '-' +
-                std::to_string(contact.vertices[1]) + '-' + std::to_string(contact.vertices[2]);
+        text += std::string(" ") + name_of(contact.kind) + (contact.is_flat ? "(flat) " : " ") +
+                std::to_string(contact.vertices[0]) + '-' + std::to_string(contact.vertices[1]) + '-' +
+                std::to_string(contact.vertices[2]);
       faults.add(scene.name, mesh, scene.moved, source, target, c, text, &history);
     };
     if (r.position != mesh.point(scene.moved))
@@ -77,8 +79,10 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
       ++ends.at_limit;
       fault(found.limit, "unfinished");
     }
-    const double before = std::sqrt(CGAL::squared_distance(source, target)), after = std::sqrt(CGAL::squared_distance(r.position, target));
-    if (CGAL::compare(CGAL::squared_distance(exact(r.position), exact(target)), CGAL::squared_distance(exact(source), exact(target))) == CGAL::LARGER)
+    const double before = std::sqrt(CGAL::squared_distance(source, target)),
+                 after = std::sqrt(CGAL::squared_distance(r.position, target));
+    if (CGAL::compare(CGAL::squared_distance(exact(r.position), exact(target)),
+                      CGAL::squared_distance(exact(source), exact(target))) == CGAL::LARGER)
       fault(found.farther, "farther than before by " + std::to_string((after - before) / c) + " c");
     if (!containment.holds(r.position))
       fault(found.tunnelled, "on the other side of a surface");
@@ -104,10 +108,12 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
     if (!has_residual)
       ends.largest_slack = std::fmax(ends.largest_slack, check.slack / c);
     if (check.random_gain > 0) {
-      what << ", nearer by " << check.random_gain / c << " c (allowed " << check.allowed / c << ") at " << exact_text(check.better);
+      what << ", nearer by " << check.random_gain / c << " c (allowed " << check.allowed / c << ") at "
+           << exact_text(check.better);
       fault(found.better, what.str());
     } else if (check.directed_gain > 0) {
-      what << ", nearer by " << check.directed_gain / c << " c (allowed " << check.allowed / c << ") at " << exact_text(check.better);
+      what << ", nearer by " << check.directed_gain / c << " c (allowed " << check.allowed / c << ") at "
+           << exact_text(check.better);
       fault(found.along_facets, what.str());
     }
     ends.no_minimum += has_residual || check.random_gain > 0;
@@ -117,21 +123,25 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
 }
 
 /// Prints what was found, and fails where a promise was broken.
-/// \param no_minimum the share of drags that may end at no minimum (ten times as many in grooves of needles), beside one of each;
-/// doc/slide.md, "Measured"
+/// \param no_minimum the share of drags that may end at no minimum (ten times as many in grooves of needles), beside
+/// one of each; doc/slide.md, "Measured"
 void judge(const Outside_findings& found, double no_minimum) {
   std::size_t drags = 0, failed = 0, grooves = 0, failed_in_grooves = 0, most_legs = 0;
   for (const auto& [name, e] : found.by_scene) {
-    BOOST_TEST_MESSAGE(name << ": " << e.drags << " drags, " << e.held << " held, " << e.at_limit << " unfinished, " << e.no_minimum << " at no minimum, " << e.along_facets
-                            << " free along a facet, residual at most " << e.largest_residual << ", L at most " << e.largest_slack
-                            << " c, legs " << static_cast<double>(e.legs) / static_cast<double>(e.drags) << " mean, " << e.most_legs
-                            << " most");
+    BOOST_TEST_MESSAGE(
+        name << ": " << e.drags << " drags, " << e.held << " held, " << e.at_limit << " unfinished, " << e.no_minimum
+             << " at no minimum, " << e.along_facets << " free along a facet, residual at most " << e.largest_residual
+             << ", L at most " << e.largest_slack << " c, legs "
+             << static_cast<double>(e.legs) / static_cast<double>(e.drags) << " mean, " << e.most_legs << " most");
     (e.has_needle_grooves ? failed_in_grooves : failed) += e.no_minimum;
     (e.has_needle_grooves ? grooves : drags) += e.drags;
     most_legs = std::max(most_legs, e.most_legs);
   }
-  BOOST_TEST_MESSAGE(drags << " drags, " << failed << " at no minimum; in needles' grooves " << failed_in_grooves << " of " << grooves);
-  const auto at_most = [](double share, std::size_t of) { return 1 + static_cast<std::size_t>(share * static_cast<double>(of)); };
+  BOOST_TEST_MESSAGE(drags << " drags, " << failed << " at no minimum; in needles' grooves " << failed_in_grooves
+                           << " of " << grooves);
+  const auto at_most = [](double share, std::size_t of) {
+    return 1 + static_cast<std::size_t>(share * static_cast<double>(of));
+  };
   BOOST_TEST(failed <= at_most(no_minimum, drags));
   BOOST_TEST(failed_in_grooves <= at_most(10 * no_minimum, grooves));
   BOOST_TEST(most_legs <= 32u);
@@ -170,7 +180,8 @@ BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
   const std::uint64_t seed = seed_from_environment(509);
   Outside_findings found;
   const auto scenes = shared_scenes(*folder, largest);
-  std::vector<Random> streams; // each mesh has its own: what is found on one does not hang on what other files there are
+  std::vector<Random>
+      streams; // each mesh has its own: what is found on one does not hang on what other files there are
   for (const Outside_scene& scene : scenes)
     streams.emplace_back(seed_of(scene.name, seed));
   for (std::size_t done = 0; done < drags && !scenes.empty();)
@@ -178,7 +189,8 @@ BOOST_AUTO_TEST_CASE(every_end_on_the_shared_meshes_is_a_local_minimum) {
       Outside_scene scene = scenes[i];
       Random& random = streams[i];
       scene.moved = Vertex_index(static_cast<Mesh::size_type>(random() % scene.mesh.number_of_vertices()));
-      drag_and_check(scene, random() % 2 == 0 ? 0 : 1e-9 * scene.size, drags_per_scene, random, found, response_under_test());
+      drag_and_check(scene, random() % 2 == 0 ? 0 : 1e-9 * scene.size, drags_per_scene, random, found,
+                     response_under_test());
       done += drags_per_scene;
     }
   judge(found, 3e-4); // fans of a thousand slivers are among them

@@ -14,7 +14,9 @@ using namespace haptic_sculpt::test;
 namespace {
 
 /// From one point to the next with the least jerk, as hands move; never outside of their convex hull.
-Point_3 hand_path(const Point_3& a, const Point_3& b, double t) { return a + t * t * t * (10 + t * (6 * t - 15)) * (b - a); }
+Point_3 hand_path(const Point_3& a, const Point_3& b, double t) {
+  return a + t * t * t * (10 + t * (6 * t - 15)) * (b - a);
+}
 
 double length_of(const Vector_3& v) { return std::sqrt(v.squared_length()); }
 
@@ -44,8 +46,8 @@ struct Legs {
 
 constexpr int steps_per_move = 1000;
 
-/// A jump of T - x is the surface's where x falls off a convex edge; else no longer than the step of the hand. The ends are
-/// right to within some clearances.
+/// A jump of T - x is the surface's where x falls off a convex edge; else no longer than the step of the hand. The ends
+/// are right to within some clearances.
 constexpr double most_jump = 1.001, jump_slack = 8;
 
 /// Of one step of a hand, whatever it does: slide, meet, or fall over an edge from deep behind it.
@@ -76,7 +78,8 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
       for (int move = 0; move < 4; ++move) {
         const Point_3 from = hand;
         for (int i = 1; i <= steps_per_move; ++i) {
-          const Point_3 source = mesh.point(scene.moved), target = hand_path(from, next, static_cast<double>(i) / steps_per_move);
+          const Point_3 source = mesh.point(scene.moved),
+                        target = hand_path(from, next, static_cast<double>(i) / steps_per_move);
           const Vector_3 before = hand - source;
           const double step = length_of(target - hand), c = sculptor.clearance(target);
           const auto r = grab.drag_to(target);
@@ -88,8 +91,8 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
             worst = std::fmax(worst, jump / step);
           if (jump > most_jump * step + jump_slack * c)
             jumps.add(scene.name, mesh, scene.moved, source, target, c,
-                      "T - x jumps by " + std::to_string(jump / step) + " hand steps, from hand at " + exact_text(hand) + " to " +
-                          exact_text(r.position));
+                      "T - x jumps by " + std::to_string(jump / step) + " hand steps, from hand at " +
+                          exact_text(hand) + " to " + exact_text(r.position));
           if (r.legs > most_legs_of_a_step)
             many_legs.add(scene.name, mesh, scene.moved, source, target, c, std::to_string(r.legs) + " legs");
           hand = target;
@@ -98,8 +101,8 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
       }
       BOOST_REQUIRE(validate(grab.surface()).is_valid());
     }
-  BOOST_TEST_MESSAGE(all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, " << all.most()
-                                 << " most; jump at most " << worst << " hand steps");
+  BOOST_TEST_MESSAGE(all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, "
+                                 << all.most() << " most; jump at most " << worst << " hand steps");
   BOOST_TEST(jumps.count() == 0u);
   BOOST_TEST(held.total() > all.total() / 3);
   BOOST_TEST(all.median() <= 1u);
@@ -124,12 +127,14 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_around_solids_makes_few_legs) {
       for (int move = 0; move < 2; ++move) {
         const Point_3 from = hand, next = Point_3(0, 0, 0) + uniform_vector(random, 1.2 * scene.size);
         for (int i = 1; i <= steps_per_move; ++i) {
-          const Point_3 source = mesh.point(scene.moved), target = hand_path(from, next, static_cast<double>(i) / steps_per_move);
+          const Point_3 source = mesh.point(scene.moved),
+                        target = hand_path(from, next, static_cast<double>(i) / steps_per_move);
           const Vector_3 before = hand - source;
           const double step = length_of(target - hand), c = sculptor.clearance(target);
           const auto r = grab.drag_to(target);
           const bool has_jumped = length_of((target - r.position) - before) > most_jump * step + jump_slack * c;
-          const bool is_deep = length_of(target - r.position) > deepest_hand * scene.size || length_of(before) > deepest_hand * scene.size;
+          const bool is_deep = length_of(target - r.position) > deepest_hand * scene.size ||
+                               length_of(before) > deepest_hand * scene.size;
           jumps += has_jumped;
           all.add(r.legs);
           if (is_deep)
@@ -142,14 +147,17 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_around_solids_makes_few_legs) {
           hand = target;
         }
         if (!containment.holds(mesh.point(scene.moved)))
-          tunnelled.add(scene.name, mesh, scene.moved, from, next, sculptor.clearance(next), "on the other side of a surface");
+          tunnelled.add(scene.name, mesh, scene.moved, from, next, sculptor.clearance(next),
+                        "on the other side of a surface");
       }
       BOOST_REQUIRE(validate(grab.surface()).is_valid());
     }
-  BOOST_TEST_MESSAGE(all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, " << all.most() << " most; "
-                                 << many_legs.count() << " steps with more than " << most_legs_of_a_step << "; " << deep.total() << " steps with the hand deep in a solid, "
-                                 << deep.most() << " legs most; T - x jumped " << jumps << " times, over convex edges, " << at_jumps.total()
-                                 << " times from deep, " << at_jumps.most() << " legs most");
+  BOOST_TEST_MESSAGE(all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, "
+                                 << all.most() << " most; " << many_legs.count() << " steps with more than "
+                                 << most_legs_of_a_step << "; " << deep.total()
+                                 << " steps with the hand deep in a solid, " << deep.most()
+                                 << " legs most; T - x jumped " << jumps << " times, over convex edges, "
+                                 << at_jumps.total() << " times from deep, " << at_jumps.most() << " legs most");
   BOOST_TEST(held.total() > all.total() / 10);
   BOOST_TEST(all.median() <= 1u);
   BOOST_TEST(many_legs.count() == 0u);
@@ -183,7 +191,10 @@ BOOST_AUTO_TEST_CASE(seams_between_coplanar_triangles_are_not_felt) {
         }
         for (std::size_t i = 0; i < drags; ++i) {
           // Also to and along grid lines and vertices.
-          const auto coordinate = [&] { return random() % 2 == 0 ? uniform(random, -0.9, 0.9) : 2.0 * static_cast<double>(random() % 60 + 5) / cells - 1; };
+          const auto coordinate = [&] {
+            return random() % 2 == 0 ? uniform(random, -0.9, 0.9)
+                                     : 2.0 * static_cast<double>(random() % 60 + 5) / cells - 1;
+          };
           const double x = coordinate(), y = coordinate(), z = uniform(random, -0.5, 0.05);
           const Point_3 target = motion(Point_3(x, y, z)), source = on_cut.mesh.point(v);
           const auto a = on_whole.drag_to(target), b = on_cut.drag_to(target);
@@ -200,7 +211,8 @@ BOOST_AUTO_TEST_CASE(seams_between_coplanar_triangles_are_not_felt) {
             most_extra = std::max(most_extra, static_cast<std::size_t>(b.legs - a.legs));
         }
       }
-  BOOST_TEST_MESSAGE(held << " drags held, at most " << worst << " clearances apart and " << most_extra << " legs more");
+  BOOST_TEST_MESSAGE(held << " drags held, at most " << worst << " clearances apart and " << most_extra
+                          << " legs more");
   BOOST_TEST(held > 0u);
   BOOST_TEST(apart.count() == 0u);
   BOOST_TEST(many_legs.count() == 0u);
@@ -236,7 +248,8 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
       const auto height = [&](std::size_t i, const Point_3& p) {
         const std::array<double, 3>& a = scene.half_spaces[i].plane[0];
         const std::array<double, 3>& n = permitted.normal(i);
-        return static_cast<double>((static_cast<long double>(p.x()) - a[0]) * n[0] + (static_cast<long double>(p.y()) - a[1]) * n[1] +
+        return static_cast<double>((static_cast<long double>(p.x()) - a[0]) * n[0] +
+                                   (static_cast<long double>(p.y()) - a[1]) * n[1] +
                                    (static_cast<long double>(p.z()) - a[2]) * n[2]);
       };
       Point_3 first;
@@ -248,8 +261,10 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
         if (i == 0)
           first = r.position;
         if (i + 1 == steps / 2 && length_of(r.position - first) > 4 * c / permitted.least_singular_value(active))
-          wander.add(scene.name, mesh, scene.moved, source, hand, c, "an unchanged push has moved it by " + std::to_string(length_of(r.position - first) / c) + " c");
-        // What is kept is a clearance of the triangle in contact, which is in its plane to an ulp or two of the scene only.
+          wander.add(scene.name, mesh, scene.moved, source, hand, c,
+                     "an unchanged push has moved it by " + std::to_string(length_of(r.position - first) / c) + " c");
+        // What is kept is a clearance of the triangle in contact, which is in its plane to an ulp or two of the scene
+        // only.
         const double least_kept = sculptor.clearance(r.position), most_kept = largest_clearance(sculptor, r.position),
                      flatness = 2 * ulp_of(mesh, r.position);
         for (const std::size_t plane : active) {
@@ -259,7 +274,8 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
           if (i < steps / 2)
             most = std::fmax(most, (h - flatness) / most_kept);
           if (h < 0.5 * least_kept - flatness || (h > 2 * most_kept + flatness && i < steps / 2))
-            gap.add(scene.name, mesh, scene.moved, source, hand, c, "gap " + std::to_string(h / c) + " c after " + std::to_string(i) + " steps");
+            gap.add(scene.name, mesh, scene.moved, source, hand, c,
+                    "gap " + std::to_string(h / c) + " c after " + std::to_string(i) + " steps");
         }
       }
       const Point_3 source = mesh.point(scene.moved);
@@ -269,11 +285,13 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
       const Point_3 lifted = source + 1e-3 / length_of(off) * off;
       const auto up = grab.drag_to(lifted);
       if (!up.reached || up.legs != 1 || !up.contacts.empty())
-        lift.add(scene.name, mesh, scene.moved, source, lifted, c, "does not lift off at once: " + std::to_string(up.legs) + " legs");
+        lift.add(scene.name, mesh, scene.moved, source, lifted, c,
+                 "does not lift off at once: " + std::to_string(up.legs) + " legs");
       grab.drag_to(target);
       const Point_3 again = mesh.point(scene.moved), sideways = scene.target(random, again);
       const auto r = grab.drag_to(sideways);
-      const Optimum_check check(scene, r.position, sideways, length == 0 ? largest_clearance(sculptor, sideways) : length, length == 0);
+      const Optimum_check check(scene, r.position, sideways,
+                                length == 0 ? largest_clearance(sculptor, sideways) : length, length == 0);
       if (!check.is_right && !(r.reached && is_beyond_no_plane(scene, sideways)))
         slide.add(scene.name, mesh, scene.moved, again, sideways, c, "error " + std::to_string(check.error / c) + " c");
     }

@@ -46,11 +46,14 @@ static mpq_class multiplied(double x, double power_of_two) { return mpq_class(x)
 BOOST_AUTO_TEST_CASE(scaled_boxes_are_outward_whatever_overflows_or_underflows) {
   Random random(seed());
   constexpr double largest = std::numeric_limits<double>::max();
-  std::vector<double> values = {0.0, -0.0, 5e-324, -5e-324, 2e-323, -2e-323, 0x1p-1022, -0x1p-1022, largest, -largest, 0x1p1000, -0x1p1000};
+  std::vector<double> values = {0.0,       -0.0,       5e-324,  -5e-324,  2e-323,   -2e-323,
+                                0x1p-1022, -0x1p-1022, largest, -largest, 0x1p1000, -0x1p1000};
   for (int k = 0; k < 5000; ++k)
     values.push_back(std::ldexp(uniform(random), static_cast<int>(random() % 2090) - 1070));
   for (const int exponent : {-1074, -1073, -1022, -600, -150, -1, 0, 1, 128, 500, 999, 1000, 1023}) {
-    const internal::Box_scale scale([&](const auto& visit) { visit(Box_3::Coordinates{0, -std::ldexp(1.0, exponent), 0}); });
+    const internal::Box_scale scale([&](const auto& visit) {
+      visit(Box_3::Coordinates{0, -std::ldexp(1.0, exponent), 0});
+    });
     // The scene is brought to 1 as far as the factor and its inverse are normal numbers.
     BOOST_TEST(scale.factor() == std::ldexp(1.0, std::max(-1000, std::min(1000, -exponent))));
     std::vector<mpq_class> exact;
@@ -69,7 +72,8 @@ BOOST_AUTO_TEST_CASE(scaled_boxes_are_outward_whatever_overflows_or_underflows) 
         const auto [lower, upper, least, most] = found[k];
         const auto is_at_most = [](float a, const mpq_class& b) { return std::isinf(a) ? a < 0 : mpq_class(a) <= b; };
         wrong += !is_at_most(lower, exact[k]) || !is_at_most(-upper, -exact[k]);
-        // What is asked for is met, by its own box and by one that is as wide as there are: nothing is lost at the ends.
+        // What is asked for is met, by its own box and by one that is as wide as there are: nothing is lost at the
+        // ends.
         wrong += !(lower <= most && upper >= least);
       }
       BOOST_TEST(wrong == 0u);

@@ -138,8 +138,10 @@ BOOST_AUTO_TEST_CASE(hubs_agree_with_all_pairs) {
       for (const auto g : faces)
         if (f < g && (flat[f] || flat[g] ? meet_improperly.degenerate(f, g) : meet_improperly(f, g)))
           expected.emplace_back(f, g);
-    const auto found = haptic_sculpt::internal::improper_intersections(soup, faces, flat, Validity_report::all_intersections);
-    BOOST_TEST((found.pairs == expected), "round " << round << ": " << found.pairs.size() << ", not " << expected.size());
+    const auto found =
+        haptic_sculpt::internal::improper_intersections(soup, faces, flat, Validity_report::all_intersections);
+    BOOST_TEST((found.pairs == expected),
+               "round " << round << ": " << found.pairs.size() << ", not " << expected.size());
     hits += expected.size();
     const auto some = haptic_sculpt::internal::improper_intersections(soup, faces, flat, 100);
     BOOST_TEST(some.has_more);

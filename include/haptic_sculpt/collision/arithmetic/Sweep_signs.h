@@ -10,8 +10,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Exact signs among the five points of one sweep, by index. The points become integers once, when the first sign needs it:
-/// on degenerate inputs several do.
+/// Exact signs among the five points of one sweep, by index. The points become integers once, when the first sign needs
+/// it: on degenerate inputs several do.
 template <class Counters>
 class Sweep_signs {
 public:

@@ -100,8 +100,9 @@ public:
     return orientation_2(m_.start[a], m_.start[b], m_.start[c], m_.axis, counters_);
   }
 
-  /// Whether the projections of the triangles f, f + 1, f + 2 and g, g + 1, g + 2 are certainly apart: an edge of the first
-  /// has all of the second strictly beyond it. Then no features of theirs meet. \param side the first as seen, or 0
+  /// Whether the projections of the triangles f, f + 1, f + 2 and g, g + 1, g + 2 are certainly apart: an edge of the
+  /// first has all of the second strictly beyond it. Then no features of theirs meet. \param side the first as seen, or
+  /// 0
   bool is_seen_beside(int side, int f, int g) const {
     for (int i = 0; i < 3 && side != 0; ++i) {
       const int a = f + i, b = f + (i + 1) % 3;
@@ -112,7 +113,8 @@ public:
   }
 
 private:
-  /// How to look at a vertical plane: drop a coordinate so that `along` tells points apart that are not above one another.
+  /// How to look at a vertical plane: drop a coordinate so that `along` tells points apart that are not above one
+  /// another.
   struct Plane {
     int along, dropped;
     int up; ///< the sign of orientation_2 of a point above a segment that goes along
@@ -136,8 +138,8 @@ private:
     return {j, i, 1};      // without i at (j, axis)
   }
 
-  /// The signs of the heights of v above the segment p, q where it is over it: one at each end, or two where the segment
-  /// is vertical.
+  /// The signs of the heights of v above the segment p, q where it is over it: one at each end, or two where the
+  /// segment is vertical.
   void add_heights(const Plane& plane, int v, int p, int q, int factor, Equal_signs& signs) const {
     const double at = m_.start[v][plane.along], from = m_.start[p][plane.along], to = m_.start[q][plane.along];
     if (signs.is_broken() || (at < from && at < to) || (from < at && to < at))

@@ -7,7 +7,8 @@
 ///
 /// Signs of determinants do not change when all coordinates are divided by one power of two, so a handful of doubles
 /// becomes a handful of integers. Doubles of like size need one 64-bit limb, doubles up to 2^71 apart two, up to 2^199
-/// apart (0 and what rounding makes of it) four, and anything else GMP, which allocates. See doc/exact_sweeps.md, "The integer stages".
+/// apart (0 and what rounding makes of it) four, and anything else GMP, which allocates. See doc/exact_sweeps.md, "The
+/// integer stages".
 
 #include <haptic_sculpt/collision/arithmetic/Fixed_integer.h>
 
@@ -35,7 +36,8 @@ struct Split_double {
     std::memcpy(&bits, &x, sizeof bits);
     const int biased = static_cast<int>((bits >> 52) & 0x7ffU);
     const std::uint64_t fraction = bits & ((std::uint64_t{1} << 52) - 1);
-    const std::int64_t magnitude = static_cast<std::int64_t>(biased == 0 ? fraction : fraction | (std::uint64_t{1} << 52));
+    const std::int64_t magnitude =
+        static_cast<std::int64_t>(biased == 0 ? fraction : fraction | (std::uint64_t{1} << 52));
     mantissa = (bits >> 63) != 0 ? -magnitude : magnitude;
     exponent = (biased == 0 ? 1 : biased) - 1075;
   }

@@ -158,7 +158,8 @@ private:
       verdict.location = compare(a, 0) == 0   ? locations.first
                          : compare(b, 0) == 0 ? locations.second
                                               : locations.inside;
-    } else if (start == 0 && target == 0) { // along the line of the segment, from outside it: its nearer end comes first
+    } else if (start == 0 &&
+               target == 0) { // along the line of the segment, from outside it: its nearer end comes first
       const bool a_is_nearer = compare(0, a) == compare(a, b);
       const int nearer = a_is_nearer ? a : b;
       if (compare(0, 1) != 0 && is_on_segment(0, 1, nearer)) {

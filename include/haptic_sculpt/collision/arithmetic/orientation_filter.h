@@ -31,7 +31,8 @@ namespace internal {
 constexpr double orientation_3_error = 0x1p-46;
 /// The same for the 2x2 determinant: 8 units of 2^-52 from the derivation, doubled.
 constexpr double orientation_2_error = 0x1p-48;
-/// While the largest differences in x, y and z all stay between these, neither overflow nor underflow reaches the bound.
+/// While the largest differences in x, y and z all stay between these, neither overflow nor underflow reaches the
+/// bound.
 constexpr double least_safe_difference = 0x1p-300;
 constexpr double largest_safe_difference = 0x1p+300;
 
@@ -90,18 +91,21 @@ inline Enclosed_determinant enclosed_orientation_2(const Coordinates& a, const C
           least >= least_safe_difference && largest <= largest_safe_difference};
 }
 
-/// The second stage of the filter: |computed - exact| <= this times the sum of the magnitudes of all six products, which is
-/// far less than six times the largest possible one where coordinates differ in size. 9 units of 2^-52 each, doubled.
+/// The second stage of the filter: |computed - exact| <= this times the sum of the magnitudes of all six products,
+/// which is far less than six times the largest possible one where coordinates differ in size. 9 units of 2^-52 each,
+/// doubled.
 constexpr double permanent_error = 0x1p-47;
-/// What underflow can add in the second stage: six products that err by 2^-1074, times a third factor of at most 2^300, with room.
+/// What underflow can add in the second stage: six products that err by 2^-1074, times a third factor of at most 2^300,
+/// with room.
 constexpr double permanent_underflow = 0x1p-760;
 /// The same after scaling: entries err by 2^-1074, which scaling a column up multiplies by at most 2^500, with room.
 constexpr double scaled_permanent_underflow = 0x1p-540;
-/// A column that is smaller than this once the rows are of size 1 is not scaled up: it may have lost digits to underflow.
+/// A column that is smaller than this once the rows are of size 1 is not scaled up: it may have lost digits to
+/// underflow.
 constexpr double least_scaled_column = 0x1p-500;
 
-/// Scales three entries by a power of two so that the largest is in [1, 2), and says whether it could: not where they have
-/// overflowed or none is as large as `least`.
+/// Scales three entries by a power of two so that the largest is in [1, 2), and says whether it could: not where they
+/// have overflowed or none is as large as `least`.
 inline bool scale_to_one(double& a, double& b, double& c, double least) {
   const double m = largest_magnitude(a, b, c);
   if (!(m >= least) || !std::isfinite(m))
@@ -123,20 +127,23 @@ inline int sign_by_permanent(Coordinates b, Coordinates c, Coordinates d, bool i
       if (!scale_to_one(b[axis], c[axis], d[axis], least_scaled_column))
         return 0;
   }
-  const double bc = b[0] * c[1], cb = b[1] * c[0], cd = b[1] * c[2], dc = b[2] * c[1], db = b[2] * c[0], bd = b[0] * c[2];
+  const double bc = b[0] * c[1], cb = b[1] * c[0], cd = b[1] * c[2], dc = b[2] * c[1], db = b[2] * c[0],
+               bd = b[0] * c[2];
   const double value = (bc - cb) * d[2] + (cd - dc) * d[0] + (db - bd) * d[1];
-  const double permanent = (std::abs(bc) + std::abs(cb)) * std::abs(d[2]) + (std::abs(cd) + std::abs(dc)) * std::abs(d[0]) +
+  const double permanent = (std::abs(bc) + std::abs(cb)) * std::abs(d[2]) +
+                           (std::abs(cd) + std::abs(dc)) * std::abs(d[0]) +
                            (std::abs(db) + std::abs(bd)) * std::abs(d[1]);
   const double error = permanent_error * permanent + (is_safe ? permanent_underflow : scaled_permanent_underflow);
   return (value > error) - (value < -error);
 }
 
-/// The same of the determinant of (b - a, c - a, d - a) from rows that are as short as may be: from d, and b's from a where
-/// that is nearer. Far from the still points, where a drag to a far target leads, the moving one's two places are a, b, or one
-/// of them; rows that are all from there are all but parallel, and as long as it is far.
+/// The same of the determinant of (b - a, c - a, d - a) from rows that are as short as may be: from d, and b's from a
+/// where that is nearer. Far from the still points, where a drag to a far target leads, the moving one's two places are
+/// a, b, or one of them; rows that are all from there are all but parallel, and as long as it is far.
 inline int sign_by_short_rows(const Coordinates& a, const Coordinates& b, const Coordinates& c, const Coordinates& d) {
   const auto size = [](const Coordinates& row) { return largest_magnitude(row[0], row[1], row[2]); };
-  const Coordinates of_a = difference(a, d), of_c = difference(c, d), from_a = difference(b, a), from_d = difference(b, d);
+  const Coordinates of_a = difference(a, d), of_c = difference(c, d), from_a = difference(b, a),
+                    from_d = difference(b, d);
   const Coordinates& of_b = size(from_a) < size(from_d) ? from_a : from_d;
   return -sign_by_permanent(of_a, of_b, of_c, enclosed_determinant_3(of_a, of_b, of_c).is_safe);
 }
@@ -154,9 +161,9 @@ int exact_orientation_3(const Coordinates& a, const Coordinates& b, const Coordi
 }
 
 template <class Counters>
-HAPTIC_SCULPT_NOINLINE int orientation_3_past_the_filter(const Coordinates& a, const Coordinates& b, const Coordinates& c,
-                                                         const Coordinates& d, bool first_stage_was_safe,
-                                                         Counters& counters) {
+HAPTIC_SCULPT_NOINLINE int orientation_3_past_the_filter(const Coordinates& a, const Coordinates& b,
+                                                         const Coordinates& c, const Coordinates& d,
+                                                         bool first_stage_was_safe, Counters& counters) {
   const int sign = sign_by_permanent(difference(b, a), difference(c, a), difference(d, a), first_stage_was_safe);
   if (sign != 0) {
     counters.count_permanent();

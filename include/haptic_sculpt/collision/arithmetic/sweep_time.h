@@ -26,7 +26,8 @@ constexpr double widest_filtered_time = 0x1p-40;
 
 /// f at the moving vertex's start (`end == 0`) or target (`end == 1`), in doubles. \param unit a power of two, by which
 /// differences are multiplied: what underflows then is far less than what is safe
-inline Enclosed_determinant enclosed_time_function(const Sweep_points& p, const Sweep_verdict& verdict, int end, double unit) {
+inline Enclosed_determinant enclosed_time_function(const Sweep_points& p, const Sweep_verdict& verdict, int end,
+                                                   double unit) {
   const auto& through = verdict.through;
   const auto from = [&](const Coordinates& q) {
     const Coordinates d = difference(q, p[through[0]]);
@@ -100,7 +101,9 @@ inline Exponent_range time_range(const Sweep_points& p, const Sweep_verdict& ver
   Exponent_range range;
   if (verdict.form == Time_form::at_start)
     return range;
-  const std::size_t number_of_static_points = verdict.form == Time_form::plane ? 3 : verdict.form == Time_form::line ? 2 : 1;
+  const std::size_t number_of_static_points = verdict.form == Time_form::plane  ? 3
+                                              : verdict.form == Time_form::line ? 2
+                                                                                : 1;
   range.include(p[0]), range.include(p[1]);
   for (std::size_t i = 0; i < number_of_static_points; ++i)
     range.include(p[verdict.through[i]]);
@@ -126,7 +129,8 @@ inline std::pair<double, double> tight_time(const Sweep_points& p, const Sweep_v
 inline std::pair<double, double> filtered_time(const Sweep_points& p, const Sweep_verdict& verdict) {
   if (verdict.form == Time_form::at_start)
     return {0, 0};
-  Enclosed_determinant start = enclosed_time_function(p, verdict, 0, 1), target = enclosed_time_function(p, verdict, 1, 1);
+  Enclosed_determinant start = enclosed_time_function(p, verdict, 0, 1),
+                       target = enclosed_time_function(p, verdict, 1, 1);
   if (start.is_safe && start.error == 0)
     return {0, 0};
   if (target.is_safe && target.error == 0)
@@ -157,7 +161,8 @@ inline std::pair<double, double> time_of_fraction(const Sweep_points& p, const S
     if (sign_of(fraction.numerator) == 0)
       return {0, 0};
     const double time = (Wide_double(fraction.numerator) / Wide_double(fraction.denominator)).to_double();
-    // Conversions round twice a limb, of which there are six in each, and the quotient once; a subnormal quotient by 2^-1074.
+    // Conversions round twice a limb, of which there are six in each, and the quotient once; a subnormal quotient by
+    // 2^-1074.
     const double slack = 32 * unit_roundoff_any_rounding * time + std::numeric_limits<double>::denorm_min();
     return {std::max(0.0, time - slack), std::min(1.0, time + slack)};
   });

@@ -11,8 +11,8 @@
 namespace haptic_sculpt {
 
 /// What the loop's thread has done, on its way to the thread that writes it down, each as it can be done again: a move
-/// is one straight leg, so no contact and no bound on work plays a role in it. Bounded, without a lock; the edits of a tick come
-/// through whole or not at all, and one of kind `none` ends them.
+/// is one straight leg, so no contact and no bound on work plays a role in it. Bounded, without a lock; the edits of a
+/// tick come through whole or not at all, and one of kind `none` ends them.
 ///
 /// Once an entry finds no room, or the oldest that waits is older than `most_age` ticks, the journal has overrun: it
 /// takes nothing more, so that what is written ends at the end of a tick, and the run should end.

@@ -10,8 +10,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Where a face is in a motion along one axis: the intervals of the two other coordinates, which do not change, and those
-/// along the axis at the start and at the end. Floats in a unit of the scene's own, rounded outward.
+/// Where a face is in a motion along one axis: the intervals of the two other coordinates, which do not change, and
+/// those along the axis at the start and at the end. Floats in a unit of the scene's own, rounded outward.
 struct Axis_box {
   std::array<float, 4> lower, upper; ///< of the next coordinate, of the one after, at the start, at the end
 
@@ -44,7 +44,8 @@ struct alignas(64) Axis_box_node {
   static constexpr unsigned width = 8;
 
   float lower[4][width], upper[4][width];
-  std::uint8_t is_there = 0, is_active = 0; ///< bits: which children there are, and which have changed, or hold what has
+  std::uint8_t is_there = 0,
+               is_active = 0; ///< bits: which children there are, and which have changed, or hold what has
 
   void set(unsigned j, const Axis_box& box) {
     for (int k = 0; k < 4; ++k)
@@ -72,8 +73,8 @@ struct alignas(64) Axis_box_node {
   }
 
   /// Bit j: whether what is in box j may meet what is in the other at some time. Not where their places seen along the
-  /// axis are apart, nor where all of the one is above all of the other both at the start and at the end: heights change
-  /// at constant speed, so then it is so between.
+  /// axis are apart, nor where all of the one is above all of the other both at the start and at the end: heights
+  /// change at constant speed, so then it is so between.
   unsigned meeting(const Axis_box& other) const {
     static constexpr int bits[width] = {1, 2, 4, 8, 16, 32, 64, 128};
     int mask = 0;

@@ -14,8 +14,9 @@ namespace internal {
 /// An implicit 8-wide tree over slots, neighbours in space side by side, that finds the pairs of slots whose boxes may
 /// meet in a motion along one axis.
 ///
-/// Slots are set for the whole motion or a few again; the pairs asked for are those of which one is active, that is, has
-/// been set as such since `begin_round()`. Cost: linear in what is set; of a search linear in the pairs found, about.
+/// Slots are set for the whole motion or a few again; the pairs asked for are those of which one is active, that is,
+/// has been set as such since `begin_round()`. Cost: linear in what is set; of a search linear in the pairs found,
+/// about.
 class Axis_box_tree {
 public:
   /// For so many slots, all empty.
@@ -51,8 +52,8 @@ public:
       active_.push_back(number);
   }
 
-  /// Calls `found(a, b)` for each pair of slots of which one is active and whose boxes may meet; a != b, each pair once.
-  /// Ends where it returns false.
+  /// Calls `found(a, b)` for each pair of slots of which one is active and whose boxes may meet; a != b, each pair
+  /// once. Ends where it returns false.
   template <class Found>
   void for_each_pair(const Found& found) {
     refit();

@@ -18,8 +18,8 @@ namespace internal {
 template <class Mesh>
 using Axis_ways = std::vector<std::pair<typename Mesh::Vertex_index, double>>;
 
-/// Decides whether many vertices of a mesh can go at once along one axis, and holds those back that cannot: it reads the
-/// mesh and changes nothing. The theorem is in doc/proofs/axis_moves.md.
+/// Decides whether many vertices of a mesh can go at once along one axis, and holds those back that cannot: it reads
+/// the mesh and changes nothing. The theorem is in doc/proofs/axis_moves.md.
 ///
 /// All decisions are exact, and no result depends on the order in which pairs are looked at.
 /// \pre the mesh is closed and embedded
@@ -31,8 +31,8 @@ public:
   Axis_move(const Mesh& mesh, Filter_counters& counters) : mesh_(&mesh), counters_(&counters) {}
 
   /// Which faces are looked at from here on, until connectivity changes.
-  /// \param faces near ones side by side \param are_all whether these are all; else at least those that move and all that
-  /// these could meet. Cost: linear in what is taken
+  /// \param faces near ones side by side \param are_all whether these are all; else at least those that move and all
+  /// that these could meet. Cost: linear in what is taken
   void take(const std::vector<Face_index>& faces, bool are_all) {
     are_all_ = are_all;
     scale_ = Box_scale([&](const auto& visit) {
@@ -55,9 +55,10 @@ public:
   /// Connectivity is to change: what was taken is of no use any more.
   void forget() { are_all_ = false; }
 
-  /// A motion of the vertices given, each once. \param delta 0: no rule \param most it is given up as soon as it is known
-  /// that more would be held back; the search ends then. \pre every face of theirs has been taken
-  void begin(int axis, const Axis_ways<Mesh>& ways, double delta, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  /// A motion of the vertices given, each once. \param delta 0: no rule \param most it is given up as soon as it is
+  /// known that more would be held back; the search ends then. \pre every face of theirs has been taken
+  void begin(int axis, const Axis_ways<Mesh>& ways, double delta,
+             std::size_t most = std::numeric_limits<std::size_t>::max()) {
     axis_ = axis;
     delta_ = delta;
     held_ = 0;
@@ -91,10 +92,9 @@ public:
   /// Where the vertex is along the axis at the end, as far as it is held back by now.
   double end(Vertex_index v) const { return end_of(index(v)); }
 
-  /// Holds vertices back until the motion is free: each by the least that some round proposes. Every round holds one back
-  /// at least, and one held back `most_pulls` times stays where it is; standing still is free.
-  /// \return false where it was given up
-  /// \throw Mesh_changed where the mesh cannot have been embedded
+  /// Holds vertices back until the motion is free: each by the least that some round proposes. Every round holds one
+  /// back at least, and one held back `most_pulls` times stays where it is; standing still is free. \return false where
+  /// it was given up \throw Mesh_changed where the mesh cannot have been embedded
   bool hold_back() {
     while (!is_free()) {
       if (pulled_.empty())
@@ -144,7 +144,7 @@ private:
   Axis_box_tree tree_;
   std::vector<std::uint32_t> active_; ///< slots to be looked at in this round
   std::vector<Axis_obstacle> obstacles_;
-  std::vector<std::uint32_t> pulled_;                            ///< vertices for which shares are proposed in this round
+  std::vector<std::uint32_t> pulled_; ///< vertices for which shares are proposed in this round
   std::vector<std::pair<std::uint32_t, std::uint32_t>> put_off_; ///< pairs of slots
 
   static std::uint32_t index(Vertex_index v) { return static_cast<std::uint32_t>(v); }
@@ -193,8 +193,8 @@ private:
       active_.push_back(slot);
   }
 
-  /// A star all of whose faces are seen from one side is seen without a fold: its link, a closed curve that does not cross
-  /// itself about an embedded vertex, goes round once.
+  /// A star all of whose faces are seen from one side is seen without a fold: its link, a closed curve that does not
+  /// cross itself about an embedded vertex, goes round once.
   bool is_unfolded(std::uint32_t k) const {
     const Vertex& v = vertices_[k];
     return (are_all_ || v.moves) && std::abs(v.sides) == v.faces;
@@ -202,8 +202,8 @@ private:
 
   bool is_given_up() const { return held_ > most_; }
 
-  /// One round: finds all obstacles and what they propose, or enough to give up. Pairs of which one face is to be held back
-  /// anyway come last: where so much is in the way that it is given up, most pairs are such, and are spared.
+  /// One round: finds all obstacles and what they propose, or enough to give up. Pairs of which one face is to be held
+  /// back anyway come last: where so much is in the way that it is given up, most pairs are such, and are spared.
   void decide() {
     obstacles_.clear();
     pulled_.clear();
@@ -324,7 +324,8 @@ private:
     const Vertex_index v(k);
     for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
       if (f != mesh_->null_face())
-        set(slot_of_face_[static_cast<std::size_t>(f)], motion_of(items_[slot_of_face_[static_cast<std::size_t>(f)]].corners), true);
+        set(slot_of_face_[static_cast<std::size_t>(f)],
+            motion_of(items_[slot_of_face_[static_cast<std::size_t>(f)]].corners), true);
   }
 };
 

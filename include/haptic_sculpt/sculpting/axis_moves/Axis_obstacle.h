@@ -31,8 +31,8 @@ struct Axis_pull {
 };
 
 /// The height of one feature of a pair above the other is a sum of weighted heights of the four corners; the weights do
-/// not change. Rounded, and only a proposal: what is made of it is decided again. Where nothing can be said, in vertical
-/// planes, all go half their ways.
+/// not change. Rounded, and only a proposal: what is made of it is decided again. Where nothing can be said, in
+/// vertical planes, all go half their ways.
 inline Axis_pull pull_for(Axis_obstacle::Kind kind, const Axis_motion<4>& motion) {
   Axis_pull pull{{true, true, true, true}, 0.5};
   const int i = (motion.axis + 1) % 3, j = (motion.axis + 2) % 3, h = motion.axis;

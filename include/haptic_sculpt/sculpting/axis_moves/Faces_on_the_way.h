@@ -14,8 +14,9 @@ namespace internal {
 template <class Mesh>
 using Vertex_targets = std::vector<std::pair<typename Mesh::Vertex_index, std::array<double, 3>>>;
 
-/// Finds the faces that move with some vertices, and all that these could meet as long as each vertex stays in the box of its
-/// place and its target: what stands still is found by a broad phase, asked for some dozens of neighbours at a time.
+/// Finds the faces that move with some vertices, and all that these could meet as long as each vertex stays in the box
+/// of its place and its target: what stands still is found by a broad phase, asked for some dozens of neighbours at a
+/// time.
 template <class Mesh>
 class Faces_on_the_way {
 public:
@@ -50,7 +51,9 @@ public:
   }
 
   /// Bytes held, capacity included.
-  std::size_t memory() const { return place_.capacity() * sizeof(std::uint32_t) + faces_.capacity() * sizeof(Face_index); }
+  std::size_t memory() const {
+    return place_.capacity() * sizeof(std::uint32_t) + faces_.capacity() * sizeof(Face_index);
+  }
 
 private:
   static constexpr std::size_t faces_a_query = 64; ///< fewer cost more queries, more have larger boxes

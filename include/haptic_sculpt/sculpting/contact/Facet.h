@@ -50,8 +50,8 @@ public:
   /// A wall holds for one drag only: another path meets another wall.
   bool is_wall() const { return contact_.kind != Contact_kind::delta && contact_.is_flat; }
 
-  /// How far J is from the facet's plane, as of the last measure(); negative beyond. A clearance where an altitude is below
-  /// delta: the facet then goes with J.
+  /// How far J is from the facet's plane, as of the last measure(); negative beyond. A clearance where an altitude is
+  /// below delta: the facet then goes with J.
   double height() const { return height_; }
 
   /// What J keeps from the plane where it is, as of the last measure().

@@ -7,8 +7,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// A bound of the coordinates of all vertices of a mesh under way: it grows with every move, and is taken anew where that
-/// matters.
+/// A bound of the coordinates of all vertices of a mesh under way: it grows with every move, and is taken anew where
+/// that matters.
 template <class Mesh>
 class Scene_bound {
 public:

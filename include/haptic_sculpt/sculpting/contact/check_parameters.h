@@ -41,8 +41,8 @@ struct Scene_extent {
   }
 };
 
-/// \throw Invalid_parameter unless a clearance that is set serves the scene: what is less than an ulp cannot be kept, and the
-/// longest way that a slide goes back to keep it from several planes should not be longer than the scene.
+/// \throw Invalid_parameter unless a clearance that is set serves the scene: what is less than an ulp cannot be kept,
+/// and the longest way that a slide goes back to keep it from several planes should not be longer than the scene.
 template <class Mesh>
 void check_clearance(const Mesh& mesh, const Sculptor_parameters& parameters) {
   if (!parameters.clearance_length)
@@ -53,12 +53,13 @@ void check_clearance(const Mesh& mesh, const Sculptor_parameters& parameters) {
     widest = std::fmax(widest, extent.box.upper[i] - extent.box.lower[i]);
   const double least = unit_in_the_last_place(extent.largest), most = widest / Slide_lengths::clearances_of_retreat;
   if (!(*parameters.clearance_length >= least && *parameters.clearance_length <= most))
-    throw Invalid_parameter("the clearance " + number(*parameters.clearance_length) + " does not serve this scene: give " +
-                            number(least) + " (an ulp of its largest coordinate) to " + number(most) +
-                            " (1/128 of its extent), or none");
+    throw Invalid_parameter(
+        "the clearance " + number(*parameters.clearance_length) + " does not serve this scene: give " + number(least) +
+        " (an ulp of its largest coordinate) to " + number(most) + " (1/128 of its extent), or none");
 }
 
-/// Returns the mesh. \throw Invalid_surface, Invalid_parameter, Out_of_range unless a Sculptor can guard it. Cost: that of validate().
+/// Returns the mesh. \throw Invalid_surface, Invalid_parameter, Out_of_range unless a Sculptor can guard it. Cost: that
+/// of validate().
 template <class Mesh>
 const Mesh& checked_scene(const Mesh& mesh, const Sculptor_parameters& parameters) {
   check_parameters(parameters);

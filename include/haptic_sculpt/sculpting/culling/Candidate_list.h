@@ -75,8 +75,9 @@ public:
   void assign(const Mesh& mesh, const Corners_of& corners_of, const Star<Mesh>& star,
               const std::vector<Face_index>& candidates, const Box_3& region, const Is_known& is_known) {
     region_ = region;
-    // Each of the first three loops asks for all of its memory at once: nothing read decides what is read next. And none
-    // branches on what is as good as random: whatever comes is written behind the last one, and counted if it is new.
+    // Each of the first three loops asks for all of its memory at once: nothing read decides what is read next. And
+    // none branches on what is as good as random: whatever comes is written behind the last one, and counted if it is
+    // new.
     const std::size_t n = candidates.size();
     corners_.resize(n);
     for (std::size_t k = 0; k < n; ++k)

@@ -9,17 +9,19 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// A cheap proof that the motion of an ordinary star is free: its link, seen along some direction n, is a strictly convex polygon, its
-/// centre stays strictly inside, and every other face nearby is beyond one of the walls that stand on the link's edges along n.
+/// A cheap proof that the motion of an ordinary star is free: its link, seen along some direction n, is a strictly
+/// convex polygon, its centre stays strictly inside, and every other face nearby is beyond one of the walls that stand
+/// on the link's edges along n.
 ///
-/// The wall of link edge AB is the plane through AB along n; its normal n x AB points out, A to B being the order of the link about
-/// the star. If all other link vertices, and both ends of the motion, are strictly inside of all walls, then the star's triangles
-/// tile the polygon at all times, so the star is embedded and meets its link where it has to. All of it is on the inner side of
-/// each wall, and on the wall itself there is only AB. So a face whose vertices are strictly outside of a wall, but for those it
-/// shares with the wall's edge, meets the star only there.
+/// The wall of link edge AB is the plane through AB along n; its normal n x AB points out, A to B being the order of
+/// the link about the star. If all other link vertices, and both ends of the motion, are strictly inside of all walls,
+/// then the star's triangles tile the polygon at all times, so the star is embedded and meets its link where it has to.
+/// All of it is on the inner side of each wall, and on the wall itself there is only AB. So a face whose vertices are
+/// strictly outside of a wall, but for those it shares with the wall's edge, meets the star only there.
 ///
-/// n is taken as it was rounded; the wall of AB is the exact plane through AB along that n. `error_` bounds what rounding can do to the
-/// side of a point, a hundred times over. Where nothing is proven, nothing is said: the sweeps decide.
+/// n is taken as it was rounded; the wall of AB is the exact plane through AB along that n. `error_` bounds what
+/// rounding can do to the side of a point, a hundred times over. Where nothing is proven, nothing is said: the sweeps
+/// decide.
 template <class Mesh>
 class Convex_star {
 public:
@@ -49,8 +51,8 @@ public:
     for (std::size_t i = 0; i < n; ++i) // in the orientation of the mesh the link runs the other way round
       along_ = plus(along_, quick_cross(link_[star.next(i)], link_[i]));
     const double size = quick_magnitude(along_);
-    // A side is a sum of products of at most 24 size reach^2 in all, and some twelve roundings of 2^-53 of that go into it, those of
-    // the coordinates relative to the source included: less than 2^-44 size reach^2.
+    // A side is a sum of products of at most 24 size reach^2 in all, and some twelve roundings of 2^-53 of that go into
+    // it, those of the coordinates relative to the source included: less than 2^-44 size reach^2.
     error_ = 0x1p-36 * size * reach_ * reach_;
     if (!(reach_ > least_size && reach_ < largest_size && size > least_size))
       return false;
@@ -71,8 +73,8 @@ public:
     return true;
   }
 
-  /// Whether a face that is not of the star meets it, at all times of the motion, in nothing but what they share. False where that is
-  /// not proven.
+  /// Whether a face that is not of the star meets it, at all times of the motion, in nothing but what they share. False
+  /// where that is not proven.
   bool is_apart(const Mesh& mesh, const std::array<Vertex_index, 3>& corners) const {
     constexpr std::size_t none = most_walls;
     const std::size_t n = star_->valence();

@@ -12,8 +12,9 @@ namespace internal {
 
 /// Numbers the distinct ones of a stream of 64-bit numbers in the order in which they come first.
 ///
-/// Open addressing in one array that is kept: made to be filled again and again, hundreds of numbers at a time, without an
-/// allocation and without clearing it; a std::unordered_map allocates a node for each. Cost: constant an insertion, expected.
+/// Open addressing in one array that is kept: made to be filled again and again, hundreds of numbers at a time, without
+/// an allocation and without clearing it; a std::unordered_map allocates a node for each. Cost: constant an insertion,
+/// expected.
 class Distinct_numbers {
 public:
   /// Forgets all. \pre no more than `most` insertions follow

@@ -9,8 +9,9 @@ namespace internal {
 
 /// Tells the distinct ones of a stream of pairs (a, b) of small numbers: the edges of some faces with few vertices.
 ///
-/// A bit for each pair there can be, as long as these are fewer than a cache holds; else a table of those that came. Made to
-/// be filled again and again without an allocation. Cost: constant an insertion, expected; n^2 / 64 to forget all.
+/// A bit for each pair there can be, as long as these are fewer than a cache holds; else a table of those that came.
+/// Made to be filled again and again without an allocation. Cost: constant an insertion, expected; n^2 / 64 to forget
+/// all.
 class Distinct_pairs {
 public:
   /// Forgets all. \pre the numbers of the pairs that follow are below n, and no more than `most` insertions follow

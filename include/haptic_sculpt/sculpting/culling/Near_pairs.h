@@ -24,7 +24,8 @@ public:
 
   /// A moving and a still feature.
   struct Pair {
-    double square; ///< J has to go that far from the centre, squared, before they can touch, in units; 0: nothing is known
+    double
+        square; ///< J has to go that far from the centre, squared, before they can touch, in units; 0: nothing is known
     Impact_feature feature;
     std::uint32_t spoke;     ///< which face or edge of the star; unless J itself moves against a face
     std::uint32_t candidate; ///< which face, edge or vertex of the candidates
@@ -90,8 +91,11 @@ public:
     Star_motion at_centre(centre_, centre_);
     const auto are_few = [&] { return pairs_.size() <= most_pairs; };
     runs.for_each_run(star, list, at_centre, radius_ / unit_, [&](const auto& run) {
-      return run.for_each_edge_pair([&](std::size_t i, std::uint32_t e) { return edge(star, list, i, e), are_few(); }) &&
-             run.for_each_vertex_pair([&](std::size_t i, std::uint32_t v) { return vertex(star, list, i, v), are_few(); });
+      return run.for_each_edge_pair([&](std::size_t i, std::uint32_t e) {
+        return edge(star, list, i, e), are_few();
+      }) && run.for_each_vertex_pair([&](std::size_t i, std::uint32_t v) {
+        return vertex(star, list, i, v), are_few();
+      });
     });
     if (!are_few())
       return clear();
@@ -105,14 +109,14 @@ private:
 
   /// 2^-40: a thousand times what the some twenty roundings of a bound or a comparison, each of 2^-53, can make.
   static constexpr double rounding = 0x1p-40;
-  /// Stars smaller or larger than these are measured in a unit of their own: squares of squares might leave the range of
-  /// doubles.
+  /// Stars smaller or larger than these are measured in a unit of their own: squares of squares might leave the range
+  /// of doubles.
   static constexpr double least_plain = 0x1p-100, largest_plain = 0x1p+100;
   /// In units, stars smaller or surroundings larger than these get no pairs.
   static constexpr double least_extent = 0x1p-200, largest_extent = 0x1p+200;
-  /// The radius, in the smaller of the star's extent and the mean edge of its link. A wider ball is left later, but the one
-  /// motion that takes its pairs bounds more of them: at 0.75 the slowest motion in a thousand takes 1.7 times as long, the
-  /// mean is the same.
+  /// The radius, in the smaller of the star's extent and the mean edge of its link. A wider ball is left later, but the
+  /// one motion that takes its pairs bounds more of them: at 0.75 the slowest motion in a thousand takes 1.7 times as
+  /// long, the mean is the same.
   static constexpr double widest = 0.35;
   /// The centre is so many radii ahead, for a hand goes on in its direction; motions longer than `longest` radii are
   /// not worth it.
@@ -173,7 +177,8 @@ private:
     const auto &a = list.vertices()[edge[0]], &b = list.vertices()[edge[1]];
     if (are_far(list.box(edge), Box_3(centre_).include(star.link_points[i])))
       return;
-    const std::array<Vector, 2> moving = {Vector{}, local(star.link_points[i])}, still = {local(a.point), local(b.point)};
+    const std::array<Vector, 2> moving = {Vector{}, local(star.link_points[i])},
+                                still = {local(a.point), local(b.point)};
     keep(separation(moving, still, between_segments(moving, still), error_),
          Impact_feature::edge_edge, i, e);
   }

@@ -14,9 +14,9 @@ namespace internal {
 /// Points and their outcodes: on the far side of which planes each certainly lies, a bit a side. All of an edge or face
 /// lies on a side if all its corners do, which is one `and`.
 ///
-/// The claim is that of any separating plane: whatever direction n has, a set is apart from what reaches no higher along
-/// n than the lowest of the set. So directions may be rounded; what is measured along them has what rounding can do
-/// taken off by slack(). Separating_planes, Spoke_planes and Swept_fan say which planes, and what each bit means.
+/// The claim is that of any separating plane: whatever direction n has, a set is apart from what reaches no higher
+/// along n than the lowest of the set. So directions may be rounded; what is measured along them has what rounding can
+/// do taken off by slack(). Separating_planes, Spoke_planes and Swept_fan say which planes, and what each bit means.
 ///
 /// One array for each coordinate, so that compilers take several points at a time.
 class Outcodes {
@@ -109,8 +109,8 @@ public:
 private:
   static constexpr double least_reach = 0x1p-200, largest_reach = 0x1p+200;
 
-  /// 2^-45: more than ten times what two sums of three products with a direction, whose coordinates are at most 2, and a
-  /// difference rounded once can be wrong together.
+  /// 2^-45: more than ten times what two sums of three products with a direction, whose coordinates are at most 2, and
+  /// a difference rounded once can be wrong together.
   static constexpr double rounding = 0x1p-45;
 
   static constexpr Outcode none = 0;

@@ -13,8 +13,8 @@ namespace internal {
 
 /// Planes about some consecutive faces of a star, which part many pairs of a moving and a still feature at once.
 ///
-/// For each plane it is told of every still point on which side of what moves it certainly lies, if on any: 64 sides of a
-/// point are one number. A still edge or face all of whose corners lie on one side of a plane, beyond what a moving
+/// For each plane it is told of every still point on which side of what moves it certainly lies, if on any: 64 sides of
+/// a point are one number. A still edge or face all of whose corners lie on one side of a plane, beyond what a moving
 /// feature sweeps over, is apart from that, which is one comparison of numbers. Whatever direction a plane has, that
 /// holds: what is swept over is measured along it, and roundings are taken off. (doc/performance.md)
 ///

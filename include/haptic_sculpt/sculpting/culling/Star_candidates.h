@@ -11,8 +11,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// A star, or a probe, and what it may touch: looks candidates up in the broad phase when the motions of a grab leave the
-/// region for which they are known.
+/// A star, or a probe, and what it may touch: looks candidates up in the broad phase when the motions of a grab leave
+/// the region for which they are known.
 ///
 /// \tparam Fetch a function object `fetch(v)`, told of each vertex that will be read: to ask for memory ahead
 template <class Mesh, class Broad_phase, class Fetch>
@@ -35,8 +35,8 @@ public:
 
   /// Takes the star of a vertex, and asks for the memory that its first motion will read. Cost: the valence.
   void collect(Vertex_index v) {
-    // While the star is read, each of whose faces is found by what memory tells of the last one, the broad phase can wait
-    // for its own memory: the surroundings are about as large as those of the star before.
+    // While the star is read, each of whose faces is found by what memory tells of the last one, the broad phase can
+    // wait for its own memory: the surroundings are about as large as those of the star before.
     const double size = usual_reach * link_extent();
     Box_3 about(vertex_coordinates(*mesh_, v));
     for (int i = 0; i < 3; ++i)
@@ -49,8 +49,8 @@ public:
     invalidate();
   }
 
-  /// Whether a star is taken to make one motion only: then its candidates are looked up for that one, with no room for others.
-  /// No decision depends on it.
+  /// Whether a star is taken to make one motion only: then its candidates are looked up for that one, with no room for
+  /// others. No decision depends on it.
   void expect_one_motion(bool on) { is_for_one_motion_ = on; }
 
   /// Makes room for a star and candidates of usual size.
@@ -71,8 +71,8 @@ public:
     crowded_way_ = std::numeric_limits<double>::infinity();
   }
 
-  /// Whether there is a proof that the motion is free which costs less than the sweeps. Looked for where only one motion is to be
-  /// decided; if there is none the faces found are left for the list.
+  /// Whether there is a proof that the motion is free which costs less than the sweeps. Looked for where only one
+  /// motion is to be decided; if there is none the faces found are left for the list.
   bool is_certainly_free(const Coordinates& source, const Coordinates& target) {
     has_looked_ = false;
     if (!is_for_one_motion_ || star_.valence() == 0 || is_long(source, target) ||
@@ -80,9 +80,10 @@ public:
       return false;
     look_at(star_.swept(source, target));
     has_looked_ = true;
-    return !work_->is_spent() && std::all_of(candidates_.begin(), candidates_.end(), [this](typename Mesh::Face_index f) {
-      return convex_star_.is_apart(*mesh_, (*corners_of_)(f));
-    });
+    return !work_->is_spent() &&
+           std::all_of(candidates_.begin(), candidates_.end(), [this](typename Mesh::Face_index f) {
+             return convex_star_.is_apart(*mesh_, (*corners_of_)(f));
+           });
   }
 
   /// Whether pairs cover the motion; takes them where it is worth while.
@@ -103,8 +104,8 @@ public:
     return covered;
   }
 
-  /// Makes the list complete for a motion, or for a part of it from the start, and calls `is_enough(part)`; for longer parts
-  /// until that is true, and at last for the whole. Does not call it where the work is spent before.
+  /// Makes the list complete for a motion, or for a part of it from the start, and calls `is_enough(part)`; for longer
+  /// parts until that is true, and at last for the whole. Does not call it where the work is spent before.
   template <class Is_enough>
   void look_along(const Coordinates& source, const Coordinates& target, const Is_enough& is_enough) {
     Swept_star_3 part = star_.swept(source, target);
@@ -156,24 +157,27 @@ private:
   std::size_t looks_ = 0;
   int patience_ = 1, waited_ = 0;
   bool is_crowded_ = false; ///< the last long motion passed over many faces
-  double crowded_way_ = std::numeric_limits<double>::infinity(); ///< about a probe's motion of half that length many were
+  double crowded_way_ =
+      std::numeric_limits<double>::infinity();          ///< about a probe's motion of half that length many were
   bool is_for_one_motion_ = false, has_looked_ = false; ///< has_looked_: the candidates are those of the motion at hand
   Convex_star<Mesh> convex_star_;
   std::vector<typename Mesh::Face_index> candidates_, whole_candidates_;
 
-  /// How much larger than the motion, in extents of the link, the region of a list is: of the first, which has to be filled from
-  /// memory not seen lately, and of those that follow in one grab.
+  /// How much larger than the motion, in extents of the link, the region of a list is: of the first, which has to be
+  /// filled from memory not seen lately, and of those that follow in one grab.
   static constexpr double first_margin = 0.125, region_margin = 0.5;
 
   /// From a vertex to the end of its first region, in extents of a link: half of one and the margin.
   static constexpr double usual_reach = 0.5 + first_margin;
 
-  /// Pairs cost as much as to decide a motion or two without them, so they are taken at the second motion of a grab, and with every
-  /// one that leaves the ball. Where they cannot be had, or are too many, they are tried again after twice as many motions.
+  /// Pairs cost as much as to decide a motion or two without them, so they are taken at the second motion of a grab,
+  /// and with every one that leaves the ball. Where they cannot be had, or are too many, they are tried again after
+  /// twice as many motions.
   static constexpr int most_patience = 64;
 
-  /// So many faces are looked at at once. Of a long way that passes over more, first a part is looked at, about as long as the star is
-  /// wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many are soon stopped.
+  /// So many faces are looked at at once. Of a long way that passes over more, first a part is looked at, about as long
+  /// as the star is wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many are
+  /// soon stopped.
   static constexpr std::size_t few_faces = 192;
   static constexpr double least_part = 0x1p-10;
 
@@ -255,7 +259,8 @@ private:
   /// Where more is near than there is work left, the work is spent and what was found is of no use.
   void look_at(const Swept_star_3& part) {
     candidates_.clear();
-    const std::size_t left = work_->left(), most = left < Work::unbounded - star_.valence() ? left + star_.valence() : left;
+    const std::size_t left = work_->left(),
+                      most = left < Work::unbounded - star_.valence() ? left + star_.valence() : left;
     if (broad_phase_->query_star(part, candidates_, most)) {
       leave_own_faces_out();
       if (candidates_.size() <= left)

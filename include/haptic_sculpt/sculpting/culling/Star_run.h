@@ -76,7 +76,8 @@ public:
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
       const auto& [a, b, c] = faces[f].vertices;
       const Outcodes& outcodes = near_->outcodes; // of all vertices of the list, in its order
-      if ((outcodes.outcode(a) & outcodes.outcode(b) & outcodes.outcode(c) & planes_->beyond_vertex()) == 0 && !visit(f))
+      if ((outcodes.outcode(a) & outcodes.outcode(b) & outcodes.outcode(c) & planes_->beyond_vertex()) == 0 &&
+          !visit(f))
         return false;
     }
     return true;

@@ -21,8 +21,8 @@ public:
 
   /// Calls `visit(run)` until it returns false; returns whether it never did. In no run are pairs that certainly do not
   /// touch in the part of the motion that is of interest, and are then farther than `margin` (rounded) from each other;
-  /// of those that may, none is left out. The visitor may shorten the motion. \pre it does not keep the run, nor ask for
-  /// other runs meanwhile: they share their memory
+  /// of those that may, none is left out. The visitor may shorten the motion. \pre it does not keep the run, nor ask
+  /// for other runs meanwhile: they share their memory
   template <class Visit>
   bool for_each_run(const Star<Mesh>& star, const Candidate_list<Mesh>& list, Star_motion& motion, double margin,
                     const Visit& visit) {
@@ -70,7 +70,8 @@ private:
   std::vector<Level> levels_ = std::vector<Level>(1); ///< by how often the star has been divided
   std::vector<Vector> spokes_;                        ///< from where the motion starts, like all points
   double reach_ = 0;                                  ///< of the coordinates of spokes and points
-  double unit_ = 1; ///< a power of two, by which all of these are multiplied where products of them might leave the range
+  double unit_ =
+      1; ///< a power of two, by which all of these are multiplied where products of them might leave the range
   Separating_planes planes_;
   Spoke_planes spoke_planes_;
   static constexpr std::uint32_t nowhere = 0xffffffff;
@@ -133,7 +134,8 @@ private:
     for (std::size_t k = 0; k < parts; ++k) {
       // What is beyond the ends of a part has been left out before.
       const std::array<bool, 2> ends = {depth == 0 || k > 0, depth == 0 || k + 1 < parts};
-      Swept_fan(way_of(scene), spokes_, begin(k), begin(k + 1), reach_, scene.margin * unit_, ends).compare(outcodes, k);
+      Swept_fan(way_of(scene), spokes_, begin(k), begin(k + 1), reach_, scene.margin * unit_, ends)
+          .compare(outcodes, k);
       typename Level::Part& part = level.parts[k];
       if (part.edges.size() < edges.size())
         part.edges.resize(edges.size());

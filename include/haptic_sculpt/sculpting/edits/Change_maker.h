@@ -17,16 +17,16 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Makes changes of a mesh and takes them back, and keeps the broad phase, the numbers of the vertices and a visitor told. Nothing
-/// is proven here: what comes in has been, or restores what was.
+/// Makes changes of a mesh and takes them back, and keeps the broad phase, the numbers of the vertices and a visitor
+/// told. Nothing is proven here: what comes in has been, or restores what was.
 ///
-/// Every change but a move, a shift and a flip replaces the fan of one vertex over a polygon by the star of another, or the other way round.
-/// Cost: the size of the polygon, the degree of the fan's vertex to find it, and the broad phase.
+/// Every change but a move, a shift and a flip replaces the fan of one vertex over a polygon by the star of another, or
+/// the other way round. Cost: the size of the polygon, the degree of the fan's vertex to find it, and the broad phase.
 ///
-/// In this order: what is to be replaced is looked up and compared with what is known; room is made for all that will be
-/// written; values are kept, and the visitor hears, of what dies; all is written, `noted` included; what was made gets
-/// values, and the visitor hears of it. So an exception leaves a change not begun, or complete. One that comes while all
-/// is written leaves the Write_state saying so (doc/edits.md, "Memory that runs out").
+/// In this order: what is to be replaced is looked up and compared with what is known; room is made for all that will
+/// be written; values are kept, and the visitor hears, of what dies; all is written, `noted` included; what was made
+/// gets values, and the visitor hears of it. So an exception leaves a change not begun, or complete. One that comes
+/// while all is written leaves the Write_state saying so (doc/edits.md, "Memory that runs out").
 template <class Mesh, class Broad_phase, class Visitor>
 class Change_maker {
 public:
@@ -49,10 +49,10 @@ public:
   using Place = typename Kept_properties<Mesh>::Place;
 
   /// \param place where it stands in the history
-  /// \param noted called as `noted(v)` when the change is made and the visitor has not been told yet; v has moved or is new, or is the
-  /// null index. May not throw: room for what it writes has to be there
-  /// \return the vertex moved or created; of a removal, the neighbour it went into; of a flip, an end of the new edge
-  /// \throw Mesh_changed where the faces to be replaced are not those known; std::bad_alloc; and nothing has changed
+  /// \param noted called as `noted(v)` when the change is made and the visitor has not been told yet; v has moved or is
+  /// new, or is the null index. May not throw: room for what it writes has to be there \return the vertex moved or
+  /// created; of a removal, the neighbour it went into; of a flip, an end of the new edge \throw Mesh_changed where the
+  /// faces to be replaced are not those known; std::bad_alloc; and nothing has changed
   template <class Noted>
   Vertex_index make(const Change& edit, const Place& place, const Noted& noted) {
     begin(edit, false, place);
@@ -72,7 +72,8 @@ public:
     }
   }
 
-  /// \return the vertex moved or revived; of a creation, a neighbour of what was created; of a flip, an end of the old edge
+  /// \return the vertex moved or revived; of a creation, a neighbour of what was created; of a flip, an end of the old
+  /// edge
   template <class Noted>
   Vertex_index take_back(const Change& edit, const Place& place, const Noted& noted) {
     begin(edit, true, place);
@@ -90,7 +91,8 @@ public:
     }
   }
 
-  /// Whether a change since expect_change() has had all it needed: an exception came from the visitor then, or broke it off.
+  /// Whether a change since expect_change() has had all it needed: an exception came from the visitor then, or broke it
+  /// off.
   bool was_ready() const { return is_ready_; }
   void expect_change() { is_ready_ = false; }
 
@@ -260,7 +262,8 @@ private:
 
   auto inside_of_fan() const { return CGAL::make_range(fan_.begin() + 1, fan_.end()); }
 
-  /// Looks up and compares the fan that a star of this valence is to replace, and makes room for all that will be written.
+  /// Looks up and compares the fan that a star of this valence is to replace, and makes room for all that will be
+  /// written.
   void make_room_for_star(const Change& edit, std::size_t valence, const Elements& born, const Elements& dead) {
     collect_fan_faces();
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);

@@ -70,9 +70,9 @@ private:
   Star<Mesh> star_;                ///< the corners about the new vertex
   Convex_star<Mesh> convex_star_;
 
-  /// Whether the corners of the old faces, seen along some direction, are a convex polygon with p inside: then old and new faces
-  /// are within its walls, and a face beyond one of them is near neither. So of the needles about a split one, whose boxes all
-  /// meet its own, few are left for exact decisions.
+  /// Whether the corners of the old faces, seen along some direction, are a convex polygon with p inside: then old and
+  /// new faces are within its walls, and a face beyond one of them is near neither. So of the needles about a split
+  /// one, whose boxes all meet its own, few are left for exact decisions.
   bool is_convex(const Coordinates& p) {
     star_.clear();
     const auto add = [this](const Corner<Mesh>& corner) {

@@ -214,7 +214,9 @@ private:
 
   static_assert(sizeof(std::size_t) == sizeof(double), "coordinates are kept among numbers of vertices");
   /// That are kept of it besides.
-  static std::size_t words_of(const Change& edit) { return edit.around.size() * (edit.kind == Edit_kind::shift ? 3 : 1); }
+  static std::size_t words_of(const Change& edit) {
+    return edit.around.size() * (edit.kind == Edit_kind::shift ? 3 : 1);
+  }
   static std::size_t word_of(double x) {
     std::size_t word;
     std::memcpy(&word, &x, sizeof word);

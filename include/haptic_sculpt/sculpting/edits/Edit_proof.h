@@ -76,17 +76,18 @@ public:
                .hits;
   }
 
-  /// The sweeps of a star's centre into its neighbour `link[pivot]`, for the collapse that follows: true when nothing but
-  /// the faces that vanish is touched. `list` holds the faces not incident to the centre.
+  /// The sweeps of a star's centre into its neighbour `link[pivot]`, for the collapse that follows: true when nothing
+  /// but the faces that vanish is touched. `list` holds the faces not incident to the centre.
   template <class Elements>
-  bool can_collapse(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Coordinates& centre, std::size_t pivot,
-                    Elements& in_the_way) {
+  bool can_collapse(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Coordinates& centre,
+                    std::size_t pivot, Elements& in_the_way) {
     const std::size_t n = star.valence();
     const std::size_t left = pivot + 1 < n ? pivot + 1 : 0, right = pivot > 0 ? pivot - 1 : n - 1;
     const Vertex_index apex = star.link[pivot];
     const Coordinates& target = star.link_points[pivot];
     const auto& vertices = list.vertices();
-    // The least that the first spoke or face in the way meets, so that what is told does not depend on the order of the list.
+    // The least that the first spoke or face in the way meets, so that what is told does not depend on the order of the
+    // list.
     const auto note = [&](Elements found) {
       if (in_the_way.empty() || found < in_the_way)
         in_the_way = std::move(found);

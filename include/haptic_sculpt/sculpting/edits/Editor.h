@@ -14,9 +14,9 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Creates and removes vertices of a mesh and flips edges by Euler operations: each is proven and then done, or refused and nothing
-/// has changed. Also takes changes back and makes them again, in the steps of the history. Change_maker makes what is decided here.
-/// See doc/edits.md.
+/// Creates and removes vertices of a mesh and flips edges by Euler operations: each is proven and then done, or refused
+/// and nothing has changed. Also takes changes back and makes them again, in the steps of the history. Change_maker
+/// makes what is decided here. See doc/edits.md.
 template <class Mesh, class Broad_phase, class Visitor = Default_edit_visitor>
 class Editor {
 public:
@@ -27,11 +27,15 @@ public:
   using Result = Edit_result<Mesh>;
 
   /// \param watch is told of what has changed \param writing while anything is written
-  Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters, Mesh_watch<Mesh>& watch,
-         Write_state& writing, Visitor visitor = Visitor())
-    : mesh_(&mesh), watch_(&watch), writing_(&writing), changes_(mesh, broad_phase, corners, watch, writing, std::move(visitor)),
-      creation_(mesh, broad_phase, corners, counters), collapse_(mesh, broad_phase, corners, counters),
-      flip_(mesh, broad_phase, corners, counters) {}
+  Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters,
+         Mesh_watch<Mesh>& watch, Write_state& writing, Visitor visitor = Visitor())
+      : mesh_(&mesh)
+      , watch_(&watch)
+      , writing_(&writing)
+      , changes_(mesh, broad_phase, corners, watch, writing, std::move(visitor))
+      , creation_(mesh, broad_phase, corners, counters)
+      , collapse_(mesh, broad_phase, corners, counters)
+      , flip_(mesh, broad_phase, corners, counters) {}
 
   const Vertex_names<Mesh>& names() const { return changes_.names(); }
   Visitor& visitor() { return changes_.visitor(); }
@@ -66,7 +70,8 @@ public:
     const Halfedge_index h = mesh_->halfedge(f);
     if (auto refusal = creation_.refuse({h}, p, delta))
       return {std::nullopt, std::move(refusal)};
-    describe(Edit_kind::insert_on_face, names().size(), p, {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))});
+    describe(Edit_kind::insert_on_face, names().size(), p,
+             {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))});
     return make();
   }
 
@@ -112,7 +117,8 @@ public:
     return make();
   }
 
-  /// Moves many vertices along one axis, a motion that has been proven free; one change. \param ways where each is to be
+  /// Moves many vertices along one axis, a motion that has been proven free; one change. \param ways where each is to
+  /// be
   void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
     Change edit; // not kept: there may be millions
     edit.kind = Edit_kind::shift;
@@ -130,8 +136,8 @@ public:
     });
   }
 
-  /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. What delta is now
-  /// does not matter.
+  /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. What
+  /// delta is now does not matter.
   Result undo() {
     return go_through_step(Refusal_reason::nothing_to_undo, [this] { return history_.to_undo(); }, true);
   }
@@ -176,8 +182,8 @@ private:
   Pivot_order<Mesh> order_;
   Change edit_; ///< the one that is made, kept to allocate no more
 
-  /// Takes a step back or makes it again, all of its changes or none: where one lacks memory, those before it are made undone.
-  /// \param next gives the next change
+  /// Takes a step back or makes it again, all of its changes or none: where one lacks memory, those before it are made
+  /// undone. \param next gives the next change
   template <class Next>
   Result go_through_step(Refusal_reason nothing, const Next& next, bool is_back) {
     history_.end_stroke();

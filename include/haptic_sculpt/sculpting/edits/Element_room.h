@@ -8,11 +8,11 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Makes room in a mesh, and in all that is kept for each of its elements, for an edit that is about to begin: no array grows in the
-/// middle of it.
+/// Makes room in a mesh, and in all that is kept for each of its elements, for an edit that is about to begin: no array
+/// grows in the middle of it.
 ///
-/// Surface_mesh does not say how much room it has, so what was asked for last is kept here. Cost: a few comparisons; where there is no
-/// room all arrays grow by half.
+/// Surface_mesh does not say how much room it has, so what was asked for last is kept here. Cost: a few comparisons;
+/// where there is no room all arrays grow by half.
 template <class Mesh, class Broad_phase>
 class Element_room {
 public:
@@ -39,9 +39,10 @@ public:
     const Elements needed = {slots(mesh_->num_vertices(), born.vertices, free.vertices),
                              slots(mesh_->num_edges(), born.edges, free.edges),
                              slots(mesh_->num_faces(), born.faces, free.faces)};
-    if (needed.vertices > room_.vertices || needed.edges > room_.edges || needed.faces > room_.faces || points() != points_)
-      reserve({std::max(needed.vertices, grown(mesh_->num_vertices())), std::max(needed.edges, grown(mesh_->num_edges())),
-               std::max(needed.faces, grown(mesh_->num_faces()))});
+    if (needed.vertices > room_.vertices || needed.edges > room_.edges || needed.faces > room_.faces ||
+        points() != points_)
+      reserve({std::max(needed.vertices, grown(mesh_->num_vertices())),
+               std::max(needed.edges, grown(mesh_->num_edges())), std::max(needed.faces, grown(mesh_->num_faces()))});
     if (insertions > insertions_)
       reserve_insertions(std::max(insertions, usual_insertions));
     insertions_ -= insertions;

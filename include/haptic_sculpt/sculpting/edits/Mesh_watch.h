@@ -15,10 +15,11 @@ namespace internal {
 
 /// A private copy of the points and counts of a mesh, against which changes by others are found.
 ///
-/// Comparing all points before every drag would cost more than the drag. So counts are compared every time, the star and
-/// the candidates of a drag whenever they are looked up and a few of them in turn at every drag, and at a grab `points_per_look` more
-/// points in turn; all points of a mesh of up to `few_points` vertices are compared then. Connectivity is compared with a copy of the
-/// faces' corners: of the star whenever the candidates are looked up, and of what an edit takes away. `check_all()` compares everything.
+/// Comparing all points before every drag would cost more than the drag. So counts are compared every time, the star
+/// and the candidates of a drag whenever they are looked up and a few of them in turn at every drag, and at a grab
+/// `points_per_look` more points in turn; all points of a mesh of up to `few_points` vertices are compared then.
+/// Connectivity is compared with a copy of the faces' corners: of the star whenever the candidates are looked up, and
+/// of what an edit takes away. `check_all()` compares everything.
 template <class Mesh>
 class Mesh_watch {
 public:
@@ -79,7 +80,9 @@ public:
   void reserve(std::size_t vertices) { points_.reserve(vertices); }
 
   /// Asks for the memory that check(v) will read.
-  void prefetch(Vertex_index v) const { internal::prefetch(&points_[static_cast<std::size_t>(v)], sizeof(Coordinates)); }
+  void prefetch(Vertex_index v) const {
+    internal::prefetch(&points_[static_cast<std::size_t>(v)], sizeof(Coordinates));
+  }
 
   /// Compares the next points_per_look points in turn, or few_points where there are no more.
   void check_some() {

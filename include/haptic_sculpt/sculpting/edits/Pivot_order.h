@@ -14,12 +14,12 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// The neighbours that a vertex may be drawn into, best first: by the least altitude, relative to the longest edge, among the
-/// triangles of the fan that would be left; equal ones in link order. A heuristic: rounded numbers are good enough, as what is
-/// taken is proven.
+/// The neighbours that a vertex may be drawn into, best first: by the least altitude, relative to the longest edge,
+/// among the triangles of the fan that would be left; equal ones in link order. A heuristic: rounded numbers are good
+/// enough, as what is taken is proven.
 ///
-/// The least of some triangles bounds that of all from above, so a fan is looked at only while its bound is the largest. Cost:
-/// up to n^2 for all of n neighbours in turn; about n log n for the first.
+/// The least of some triangles bounds that of all from above, so a fan is looked at only while its bound is the
+/// largest. Cost: up to n^2 for all of n neighbours in turn; about n log n for the first.
 template <class Mesh>
 class Pivot_order {
 public:
@@ -54,7 +54,9 @@ private:
   struct Fan {
     double bound; ///< the least altitude among the triangles seen
     std::size_t pivot, seen;
-    bool operator<(const Fan& other) const { return bound < other.bound || (bound == other.bound && pivot > other.pivot); }
+    bool operator<(const Fan& other) const {
+      return bound < other.bound || (bound == other.bound && pivot > other.pivot);
+    }
   };
 
   const Star<Mesh>* star_ = nullptr;
@@ -63,7 +65,8 @@ private:
   /// Of triangle k of the fan of a pivot, to its longest edge.
   double relative_altitude(std::size_t pivot, std::size_t k) const {
     const std::size_t n = star_->valence();
-    const auto &a = star_->link_points[pivot], &b = star_->link_points[(pivot + k) % n], &c = star_->link_points[(pivot + k + 1) % n];
+    const auto &a = star_->link_points[pivot], &b = star_->link_points[(pivot + k) % n],
+               &c = star_->link_points[(pivot + k + 1) % n];
     const Vector ab = minus(b, a), ac = minus(c, a), bc = minus(c, b);
     const double longest = std::fmax(length(ab), std::fmax(length(ac), length(bc)));
     return length(cross(scaled(ab, 1 / longest), scaled(ac, 1 / longest)));

@@ -9,8 +9,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Numbers of vertices that last: a new vertex takes the next number never used, and a removed one's number stays dead until
-/// undo revives it. Surface_mesh's own indices are recycled and do neither.
+/// Numbers of vertices that last: a new vertex takes the next number never used, and a removed one's number stays dead
+/// until undo revives it. Surface_mesh's own indices are recycled and do neither.
 ///
 /// At the beginning the number of a vertex is its index.
 template <class Mesh>
@@ -57,7 +57,9 @@ public:
   void reserve_slots(std::size_t slots) { names_.reserve(slots); }
 
   /// Bytes held, capacity included.
-  std::size_t memory() const { return vertices_.capacity() * sizeof(Vertex_index) + names_.capacity() * sizeof(std::size_t); }
+  std::size_t memory() const {
+    return vertices_.capacity() * sizeof(Vertex_index) + names_.capacity() * sizeof(std::size_t);
+  }
 
 private:
   std::vector<Vertex_index> vertices_;

@@ -9,7 +9,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Whether the mesh, or what is kept beside it, is being written. An exception that comes meanwhile leaves it so, for good.
+/// Whether the mesh, or what is kept beside it, is being written. An exception that comes meanwhile leaves it so, for
+/// good.
 class Write_state {
 public:
   void begin() noexcept {

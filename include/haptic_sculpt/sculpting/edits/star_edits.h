@@ -49,7 +49,8 @@ typename Mesh::Halfedge_index remove_star(Mesh& mesh, typename Mesh::Vertex_inde
   return CGAL::Euler::remove_center_vertex(mesh.halfedge(v), mesh);
 }
 
-/// A fan is told by the halfedges into its apex, one in each of its faces: the first on the polygon around the fan, the others within.
+/// A fan is told by the halfedges into its apex, one in each of its faces: the first on the polygon around the fan, the
+/// others within.
 template <class Mesh>
 using Fan = std::vector<typename Mesh::Halfedge_index>;
 
@@ -65,8 +66,8 @@ void fill_with_fan(Mesh& mesh, typename Mesh::Halfedge_index h, typename Mesh::V
   }
 }
 
-/// Finds the fan of so many faces that begins with the halfedge `first` into its apex, in the order of Star::link, which runs
-/// against the orientation of the faces. Cost: its size.
+/// Finds the fan of so many faces that begins with the halfedge `first` into its apex, in the order of Star::link,
+/// which runs against the orientation of the faces. Cost: its size.
 template <class Mesh>
 void find_fan(const Mesh& mesh, typename Mesh::Halfedge_index first, std::size_t faces, Fan<Mesh>& fan) {
   fan.assign(1, first);
@@ -78,7 +79,8 @@ void find_fan(const Mesh& mesh, typename Mesh::Halfedge_index first, std::size_t
 template <class Mesh>
 typename Mesh::Halfedge_index merge_fan(Mesh& mesh, const Fan<Mesh>& fan) {
   for (std::size_t i = 1; i < fan.size(); ++i)
-    CGAL::Euler::join_face(mesh.opposite(fan[i]), mesh); // the triangle of fan[i] goes; the other way the loop would be walked again and again
+    CGAL::Euler::join_face(mesh.opposite(fan[i]),
+                           mesh); // the triangle of fan[i] goes; the other way the loop would be walked again and again
   return fan[0];
 }
 

@@ -9,11 +9,11 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// The work of a drag, in pairs decided and candidates looked up, and its bound. Counted, never timed: a replay stops at the
-/// same pair (doc/work.md).
+/// The work of a drag, in pairs decided and candidates looked up, and its bound. Counted, never timed: a replay stops
+/// at the same pair (doc/work.md).
 ///
-/// Also keeps which trials are due when a drag goes on with a search that another one left. The trials of a search always come
-/// in the same order, so their number tells.
+/// Also keeps which trials are due when a drag goes on with a search that another one left. The trials of a search
+/// always come in the same order, so their number tells.
 class Work {
 public:
   static constexpr std::size_t unbounded = std::numeric_limits<std::size_t>::max();
@@ -50,7 +50,8 @@ public:
     trials_ = 0;
     begin_search();
   }
-  /// To be asked once before each trial of a search. False where the last drag has made it, and where the work is spent.
+  /// To be asked once before each trial of a search. False where the last drag has made it, and where the work is
+  /// spent.
   bool is_due() {
     if (is_spent())
       return false;

@@ -43,10 +43,11 @@ inline Vector unit(const Wide_vector& v, double sign) {
   return scaled(normalized(m), sign);
 }
 
-/// Of an impact that is not flat. \param points those of the sweep, exact in Integer \param denominator |f(S) - f(T)|, f being
-/// the determinant of the plane and J; not 0
+/// Of an impact that is not flat. \param points those of the sweep, exact in Integer \param denominator |f(S) - f(T)|,
+/// f being the determinant of the plane and J; not 0
 template <class Integer>
-Path_at_plane path_at_plane(const std::array<std::array<Integer, 3>, 5>& points, double time, const Wide_double& denominator) {
+Path_at_plane path_at_plane(const std::array<std::array<Integer, 3>, 5>& points, double time,
+                            const Wide_double& denominator) {
   const auto& [s, t, a, b, c] = points;
   const Wide_vector normal = wide_normal<Integer>(a, b, c);
   const Wide_vector path = {Wide_double(t[0] - s[0]), Wide_double(t[1] - s[1]), Wide_double(t[2] - s[2])};
@@ -80,8 +81,8 @@ Path_at_plane path_at_plane(const Impact_3<K>& impact) {
   });
 }
 
-/// The same of what other traits have decided, by the time they tell. Where the motion is, in truth, in the plane, or the three
-/// points span none, the impact counts as flat.
+/// The same of what other traits have decided, by the time they tell. Where the motion is, in truth, in the plane, or
+/// the three points span none, the impact counts as flat.
 template <class Impact>
 Path_at_plane path_at_plane(const Impact& impact) {
   const Sweep_points p = sweep_points(impact.source(), impact.target(), impact.static_point(0), impact.static_point(1),
@@ -103,14 +104,16 @@ Path_at_plane path_at_plane(const Impact& impact) {
     const int sign = sign_of(denominator);
     if (sign == 0)
       return path_at_no_plane(p[0], p[1], time);
-    const Wide_double magnitude = sign < 0 ? Wide_double(decltype(denominator)() - denominator) : Wide_double(denominator);
+    const Wide_double magnitude =
+        sign < 0 ? Wide_double(decltype(denominator)() - denominator) : Wide_double(denominator);
     return path_at_plane<Integer>(points, time, magnitude);
   });
 }
 
 /// The distance of q from the contact plane, signed: positive where
 /// orientation(a, b, c, q) > 0. Exact up to one rounding. 0 where a, b, c are collinear.
-inline double height_over_plane(const Coordinates& a, const Coordinates& b, const Coordinates& c, const Coordinates& q) {
+inline double height_over_plane(const Coordinates& a, const Coordinates& b, const Coordinates& c,
+                                const Coordinates& q) {
   Exponent_range range;
   range.include(a), range.include(b), range.include(c), range.include(q);
   No_filter_counters uncounted;

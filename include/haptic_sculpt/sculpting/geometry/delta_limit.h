@@ -5,10 +5,11 @@
 /// \file
 /// The delta rule along a drag (the 1997 paper, 3.1): when does a moving triangle first get an altitude below delta?
 ///
-/// With J(u) = S + u (T - S) the doubled area vector n(u) = (G - J) x (I - J) is affine in u, so over each side of length
-/// L the condition "altitude >= delta" is q(u) = |n|^2 - delta^2 L^2 >= 0 with q quadratic. The limit is inf { u : q < 0 }:
-/// 0, a rational, or a root of a quadratic with rational coefficients. An altitude that is below delta at the start may not get lower
-/// than it is there: then q(u) = |n(u)|^2 L(0)^2 - |n(0)|^2 L(u)^2. See doc/stop.md, "The delta rule".
+/// With J(u) = S + u (T - S) the doubled area vector n(u) = (G - J) x (I - J) is affine in u, so over each side of
+/// length L the condition "altitude >= delta" is q(u) = |n|^2 - delta^2 L^2 >= 0 with q quadratic. The limit is inf { u
+/// : q < 0 }: 0, a rational, or a root of a quadratic with rational coefficients. An altitude that is below delta at
+/// the start may not get lower than it is there: then q(u) = |n(u)|^2 L(0)^2 - |n(0)|^2 L(u)^2. See doc/stop.md, "The
+/// delta rule".
 
 #include <haptic_sculpt/collision/Impact_3.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
@@ -57,7 +58,8 @@ struct Squared_altitude {
 /// That of one triangle over one of its sides.
 template <class Number>
 Squared_altitude<Number> squared_altitude(const std::array<Number, 3>& s, const std::array<Number, 3>& t,
-                                          const std::array<Number, 3>& g, const std::array<Number, 3>& i, Altitude_over side) {
+                                          const std::array<Number, 3>& g, const std::array<Number, 3>& i,
+                                          Altitude_over side) {
   const auto area = [&](const std::array<Number, 3>& j) {
     std::array<Number, 3> n;
     for (int k = 0; k < 3; ++k) {
@@ -74,7 +76,8 @@ Squared_altitude<Number> squared_altitude(const std::array<Number, 3>& s, const 
     slope += 2 * n0[k] * d;
     curvature += d * d;
   }
-  // The squared side is quadratic in u too; it follows from its values at 0 and 1 and its leading coefficient |T - S|^2.
+  // The squared side is quadratic in u too; it follows from its values at 0 and 1 and its leading coefficient |T -
+  // S|^2.
   const Number side0 = squared_side(s, g, i, side), side1 = squared_side(t, g, i, side);
   Number leading = 0;
   if (side != Altitude_over::gi)
@@ -155,8 +158,8 @@ inline bool certainly_high(Coordinates s, Coordinates t, Coordinates g, Coordina
   return extent > 0x1p-200 && extent < 0x1p+200 && delta > 0x1p-200 && delta < 0x1p+200 && lowest > error;
 }
 
-/// When the triangle J, G, I first gets the altitude over `side` below delta, or below what it is at the start where that is less;
-/// exactly, or nothing.
+/// When the triangle J, G, I first gets the altitude over `side` below delta, or below what it is at the start where
+/// that is less; exactly, or nothing.
 inline std::optional<Limit_time> delta_limit(const Coordinates& s, const Coordinates& t, const Coordinates& g,
                                              const Coordinates& i, double delta, Altitude_over side) {
   if (certainly_high(s, t, g, i, delta, side))
@@ -174,7 +177,8 @@ inline Vector altitude_slope(const Coordinates& at, const Coordinates& far_g, co
   // Relative to J, and of size one: the gradient has no unit, and no product over- or underflows.
   const Vector to_g = minus(far_g, at), to_i = minus(far_i, at), j{};
   const double size = std::fmax(largest_magnitude(to_g), largest_magnitude(to_i));
-  const Vector g = {to_g[0] / size, to_g[1] / size, to_g[2] / size}, i = {to_i[0] / size, to_i[1] / size, to_i[2] / size};
+  const Vector g = {to_g[0] / size, to_g[1] / size, to_g[2] / size},
+               i = {to_i[0] / size, to_i[1] / size, to_i[2] / size};
   const Vector n = cross(g, i);
   const Vector area_gradient = cross(minus(g, i), normalized(n));
   if (side == Altitude_over::gi)

@@ -30,7 +30,8 @@ inline double path_length(const Coordinates& source, const Coordinates& target) 
   return 2 * length(minus(scaled(target, 0.5), scaled(source, 0.5)));
 }
 
-/// Stops short of an impact at time u, at least `setback` before it, at a rounded point to which the way is proven free.
+/// Stops short of an impact at time u, at least `setback` before it, at a rounded point to which the way is proven
+/// free.
 ///
 /// `is_free(Q)` decides exactly whether the motion from source to Q touches nothing. The setback doubles until it does;
 /// at the latest Q = source, which is no motion, ends it. (doc/stop.md)

@@ -72,8 +72,8 @@ inline Vector normalized(const Vector& a) {
   return {b[0] / l, b[1] / l, b[2] / l};
 }
 
-/// By how much `to` is nearer to `target` than `from` is; negative where it is farther. Keeps its digits where the target
-/// is so far that both distances are the same double. Rounded.
+/// By how much `to` is nearer to `target` than `from` is; negative where it is farther. Keeps its digits where the
+/// target is so far that both distances are the same double. Rounded.
 inline double nearer_by(const Vector& target, const Vector& from, const Vector& to) {
   const Vector a = minus(target, from), b = minus(target, to);
   const double sum = length(a) + length(b);

@@ -18,8 +18,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// A mesh with all that guards it, and the ways of a drag, a probe, a search and an edit through that. What its users see of it
-/// is the Sculptor, which says what each operation promises.
+/// A mesh with all that guards it, and the ways of a drag, a probe, a search and an edit through that. What its users
+/// see of it is the Sculptor, which says what each operation promises.
 template <class Mesh, class Broad_phase, class Visitor, class Traits>
 class Guarded_mesh {
 public:
@@ -29,7 +29,8 @@ public:
   using Result = Drag_result<Mesh>;
   using Edited = Edit_result<Mesh>;
 
-  /// \param make_traits is called with the counters, which the traits may refer to; the last argument lives as long as this takes
+  /// \param make_traits is called with the counters, which the traits may refer to; the last argument lives as long as
+  /// this takes
   template <class Make_traits>
   Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Make_traits& make_traits,
                const Rounding_to_nearest& /*rounding*/)
@@ -153,7 +154,8 @@ public:
     return std::nullopt;
   }
 
-  /// Sweeps a point. What was looked up, and the contacts, are carried on where the last one ended here and the mesh is the same.
+  /// Sweeps a point. What was looked up, and the contacts, are carried on where the last one ended here and the mesh is
+  /// the same.
   Result drag_probe(const Point& source, const Point& target, std::vector<Point>* path) {
     const Rounding_to_nearest rounding;
     check_point("the target", target);
@@ -217,8 +219,8 @@ public:
     return edited(edit);
   }
 
-  /// Has axis moves look at what they may meet from here on: motions of these vertices, each in the box of its place and its
-  /// target, along any axis. Where many move that is all of the mesh, and is kept until connectivity changes.
+  /// Has axis moves look at what they may meet from here on: motions of these vertices, each in the box of its place
+  /// and its target, along any axis. Where many move that is all of the mesh, and is kept until connectivity changes.
   void look_around(const Vertex_targets<Mesh>& targets) {
     const Rounding_to_nearest rounding;
     release();
@@ -286,8 +288,8 @@ public:
     watch_.check_all(corners_);
   }
   std::size_t memory() const {
-    return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory() + axis_move_.memory() +
-           on_the_way_.memory();
+    return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory() +
+           axis_move_.memory() + on_the_way_.memory();
   }
 
 private:
@@ -319,8 +321,9 @@ private:
     watch_.check_some();
   }
 
-  /// The one place where a drag writes the mesh. Whatever the response has proposed: each leg has been proven by the sweeps, which
-  /// take no end that is not in range. Nothing is allocated: room to note the move was made before it was decided.
+  /// The one place where a drag writes the mesh. Whatever the response has proposed: each leg has been proven by the
+  /// sweeps, which take no end that is not in range. Nothing is allocated: room to note the move was made before it was
+  /// decided.
   void put(Vertex_index v, const Coordinates& from, const Coordinates& to) {
     if (!is_in_range(to))
       throw Error("a drag would have ended out of range: this is a fault of haptic_sculpt, the mesh is as it was");

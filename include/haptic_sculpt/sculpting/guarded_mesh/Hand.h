@@ -41,7 +41,8 @@ public:
     return true;
   }
 
-  /// Takes another vertex, having let go of the last. \param meanwhile is called while memory is waited for \throw Mesh_changed
+  /// Takes another vertex, having let go of the last. \param meanwhile is called while memory is waited for \throw
+  /// Mesh_changed
   template <class Meanwhile>
   void take(Vertex_index v, const Meanwhile& meanwhile) {
     prefetch(&mesh_->point(v), sizeof(typename Mesh::Point));
@@ -99,7 +100,8 @@ public:
 
   /// Writes where the last move was after each leg, the start first.
   template <class Point>
-  void write_path(Response response, const Coordinates& source, const Coordinates& end, std::vector<Point>& path) const {
+  void write_path(Response response, const Coordinates& source, const Coordinates& end,
+                  std::vector<Point>& path) const {
     path.clear();
     if (source == end)
       path.emplace_back(source[0], source[1], source[2]);
@@ -121,8 +123,8 @@ public:
   /// The mesh has been written: v has moved.
   void note_moved() { has_moved_ = true; }
 
-  /// Compares candidates with where they were left: all where they have just been looked up, else some of them in turn. To be called
-  /// when a motion has been decided. \throw Mesh_changed, and what was looked up is not used any more.
+  /// Compares candidates with where they were left: all where they have just been looked up, else some of them in turn.
+  /// To be called when a motion has been decided. \throw Mesh_changed, and what was looked up is not used any more.
   void check_candidates() {
     compare_candidates();
     is_ready_ = true;
@@ -143,7 +145,8 @@ private:
   Responses<Mesh> responses_;
   Vertex_index held_;      ///< whose star guard_ has; invalid when none
   bool expects_single_drags_ = false;
-  /// Whether what was looked up about the held vertex is whole: not while a motion is decided, nor where an exception has ended that.
+  /// Whether what was looked up about the held vertex is whole: not while a motion is decided, nor where an exception
+  /// has ended that.
   bool is_ready_ = false;
   bool has_moved_ = false; ///< the broad phase has not been told yet where the held star is
   std::size_t compared_look_ = 0, next_compared_ = 0;

@@ -23,8 +23,8 @@ public:
     paper_.forget();
   }
 
-  /// Moves from source towards target and fills in the result. Returns where the vertex is then: no farther from the target than it
-  /// was, exactly. \pre source != target, both in range
+  /// Moves from source towards target and fills in the result. Returns where the vertex is then: no farther from the
+  /// target than it was, exactly. \pre source != target, both in range
   template <class Guard>
   Coordinates move(Response response, Guard& guard, const Mesh& mesh, const Coordinates& source,
                    const Coordinates& target, const Drag_rules& rules, Drag_result<Mesh>& result) {

@@ -10,8 +10,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Brings many vertices towards their targets by axis moves: all along x, then along y, then along z. Whole ways first; where
-/// too many are held back all is taken back and tried by half (doc/many_vertices.md).
+/// Brings many vertices towards their targets by axis moves: all along x, then along y, then along z. Whole ways first;
+/// where too many are held back all is taken back and tried by half (doc/many_vertices.md).
 ///
 /// Each coordinate of a vertex only comes nearer to that of its target.
 template <class Sculptor>
@@ -64,8 +64,8 @@ public:
   }
 
 private:
-  /// Steps of this share of the way are tried whatever comes of it; shorter ones, to the least, only while half as long a
-  /// step at least halves the number held back: that is so in twists, and not in noise.
+  /// Steps of this share of the way are tried whatever comes of it; shorter ones, to the least, only while half as long
+  /// a step at least halves the number held back: that is so in twists, and not in noise.
   static constexpr double worth_trying = 1.0 / 16, least_step = 1.0 / 256;
   /// Steps are tried where so many motions a vertex may be made.
   static constexpr std::size_t work_of_steps = 16;

@@ -30,7 +30,8 @@ inline double distance(const Coordinates& p, const Coordinates& q) {
 /// Vertices and their targets, each once, all read before anything moves. \param target_of `target_of(v)`, a point
 /// \throw Unknown_vertex, Out_of_range
 template <class Mesh, class Vertex_range, class Target_of>
-std::vector<Moving_vertex<Mesh>> moving_vertices(const Mesh& mesh, const Vertex_range& vertices, const Target_of& target_of) {
+std::vector<Moving_vertex<Mesh>> moving_vertices(const Mesh& mesh, const Vertex_range& vertices,
+                                                 const Target_of& target_of) {
   std::vector<Moving_vertex<Mesh>> moving;
   moving.reserve(static_cast<std::size_t>(std::distance(std::begin(vertices), std::end(vertices))));
   std::vector<bool> is_given(mesh.num_vertices(), false);

@@ -10,8 +10,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Sets the response of a Sculptor and whether it expects single drags; at its end, an exception included, these and the bound
-/// on the work of a drag, which may be set meanwhile, are as they were before. Lets go of the vertex in hand.
+/// Sets the response of a Sculptor and whether it expects single drags; at its end, an exception included, these and
+/// the bound on the work of a drag, which may be set meanwhile, are as they were before. Lets go of the vertex in hand.
 template <class Sculptor>
 class Response_scope {
 public:

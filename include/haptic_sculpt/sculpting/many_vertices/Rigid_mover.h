@@ -10,8 +10,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Moves vertices as one, in steps that are made by all or by none, each along x, then y, then z, to places worked out from
-/// where all were at the start: so what is rounded does not add up.
+/// Moves vertices as one, in steps that are made by all or by none, each along x, then y, then z, to places worked out
+/// from where all were at the start: so what is rounded does not add up.
 template <class Sculptor>
 class Rigid_mover {
 public:

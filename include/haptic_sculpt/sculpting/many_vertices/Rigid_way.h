@@ -32,8 +32,9 @@ public:
       refuse("it shifts along the axis of its rotation; make it of a rotation and a translation");
   }
 
-  /// What is left of a displacement that the whole way makes of it, at a share of the way: the chord of a part of an arc
-  /// is shorter than that of the arc, and turned against it by half of what is missing. Rounded. \param share in [0, 1]
+  /// What is left of a displacement that the whole way makes of it, at a share of the way: the chord of a part of an
+  /// arc is shorter than that of the arc, and turned against it by half of what is missing. Rounded. \param share in
+  /// [0, 1]
   Vector at(double share, const Vector& whole) const {
     if (angle_ == 0)
       return scaled(whole, share);
@@ -52,7 +53,8 @@ private:
   Vector axis_; ///< of length 1, or zero
 
   [[noreturn]] static void refuse(const char* why) {
-    throw Invalid_parameter(std::string("a rigid motion must be a translation, or a rotation by less than half a turn: ") + why);
+    throw Invalid_parameter(
+        std::string("a rigid motion must be a translation, or a rotation by less than half a turn: ") + why);
   }
 
   /// Near half a turn the sine says too little: (R + R^T) / 2 = cosine I + (1 - cosine) u u^T.

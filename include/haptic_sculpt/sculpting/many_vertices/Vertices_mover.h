@@ -21,8 +21,13 @@ public:
   using Moving = Moving_vertex<Mesh>;
 
   /// \param vertices all targets are in range \param report filled in by run()
-  Vertices_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters, Move_report& report)
-      : sculptor_(sculptor), vertices_(vertices), parameters_(parameters), report_(&report), budget_(parameters, report)
+  Vertices_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
+                 Move_report& report)
+      : sculptor_(sculptor)
+      , vertices_(vertices)
+      , parameters_(parameters)
+      , report_(&report)
+      , budget_(parameters, report)
       , bound_(sculptor.options().work_bound) {}
 
   /// Fills in what the report tells of drags, `cancelled` and `out_of_work`.

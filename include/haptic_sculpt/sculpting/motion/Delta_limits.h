@@ -29,7 +29,8 @@ public:
   void find(const Star<Mesh>& star, const Coordinates& source, const Coordinates& target, double delta) {
     limits_.clear();
     for_each(star, source, target, delta, [&](Limit limit) {
-      const CGAL::Comparison_result order = limits_.empty() ? CGAL::SMALLER : CGAL::compare(limit.time, limits_[0].time);
+      const CGAL::Comparison_result order =
+          limits_.empty() ? CGAL::SMALLER : CGAL::compare(limit.time, limits_[0].time);
       if (order == CGAL::SMALLER)
         limits_.clear();
       if (order != CGAL::LARGER)
@@ -40,7 +41,8 @@ public:
 
   /// Calls `found(contact)` for each; returns when, in double. \pre not empty
   template <class Found>
-  double for_each_contact(const Star<Mesh>& star, const Coordinates& source, const Coordinates& target, const Found& found) const {
+  double for_each_contact(const Star<Mesh>& star, const Coordinates& source, const Coordinates& target,
+                          const Found& found) const {
     const double time = CGAL::to_double(limits_[0].time);
     for (const Limit& limit : limits_)
       found(contact_of(limit, star, point_of_path(source, target, time)));
@@ -70,7 +72,8 @@ private:
   std::vector<Limit> limits_;
 
   template <class Found>
-  static void for_each(const Star<Mesh>& star, const Coordinates& source, const Coordinates& target, double delta, const Found& found) {
+  static void for_each(const Star<Mesh>& star, const Coordinates& source, const Coordinates& target, double delta,
+                       const Found& found) {
     if (delta <= 0)
       return;
     for (std::size_t i = 0; i < star.valence(); ++i)

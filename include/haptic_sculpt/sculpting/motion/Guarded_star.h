@@ -20,9 +20,9 @@ struct Fetch_nothing {
 
 /// A star, or a probe, with its candidates: decides motions and makes legs that are proven free.
 ///
-/// Knows nothing of who holds it or watches the mesh, which is read for candidates only. All motions of a drag are decided
-/// here, and here alone is said that one is free: never of a target that is not in range, and never once the work is spent.
-/// \tparam Traits decide the sweeps: a model of SweptCollisionTraits_3
+/// Knows nothing of who holds it or watches the mesh, which is read for candidates only. All motions of a drag are
+/// decided here, and here alone is said that one is free: never of a target that is not in range, and never once the
+/// work is spent. \tparam Traits decide the sweeps: a model of SweptCollisionTraits_3
 template <class Mesh, class Broad_phase, class Traits = Exact_sweep_traits<Mesh>, class Fetch = Fetch_nothing>
 class Guarded_star {
 public:
@@ -65,9 +65,9 @@ public:
       return star_->firsts_.empty() ? std::nullopt : std::optional<Impact>(star_->firsts_[0]);
     }
 
-    /// Calls `found(contact, sine)` for all that come exactly first; `sine` is that of the angle between the path and the
-    /// contact plane. There are none where the motion is free, out of range, or cost more than the work that was left.
-    /// Returns when, as a fraction of the path.
+    /// Calls `found(contact, sine)` for all that come exactly first; `sine` is that of the angle between the path and
+    /// the contact plane. There are none where the motion is free, out of range, or cost more than the work that was
+    /// left. Returns when, as a fraction of the path.
     template <class Found>
     double for_each_first_contact(const Found& found) const {
       double time = 1;
@@ -125,8 +125,10 @@ public:
     return free && !is_spent() && Delta_limits<Mesh>::are_kept(star(), source, target, delta);
   }
 
-  /// One leg from source towards target: all the way if it is free, else proven up to a stop. Fills contacts and stop error.
-  Coordinates leg(const Coordinates& source, const Coordinates& target, const Drag_rules& rules, Drag_result<Mesh>& result) {
+  /// One leg from source towards target: all the way if it is free, else proven up to a stop. Fills contacts and stop
+  /// error.
+  Coordinates leg(const Coordinates& source, const Coordinates& target, const Drag_rules& rules,
+                  Drag_result<Mesh>& result) {
     ++result.legs;
     result.contacts.clear();
     result.stop_error = result.stop_error_along_path = 0;
@@ -175,8 +177,8 @@ private:
       limits_.clear();
   }
 
-  void measure_stop(const Coordinates& source, const Coordinates& target, const Coordinates& end, double time, double delta,
-                    Drag_result<Mesh>& result) const {
+  void measure_stop(const Coordinates& source, const Coordinates& target, const Coordinates& end, double time,
+                    double delta, Drag_result<Mesh>& result) const {
     const double made = length(minus(end, source));
     result.stop_error_along_path = std::fmax(0.0, std::fma(time, path_length(source, target), -made));
     double normal = limits_.least_excess(star(), source, end, delta);

@@ -11,11 +11,11 @@ namespace internal {
 
 /// All three sweeps of a star against its candidates (completeness: doc/exact_sweeps.md).
 ///
-/// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between its
-/// two, when it cannot come first any more, or when it shares a vertex that makes its meeting no collision: faces
-/// incident to the moving vertex, edges at the far end of the moving edge. All of this is exact whatever the traits; they
-/// decide the pairs that are left, and which of two impacts is first.
-/// \tparam Traits a model of SweptCollisionTraits_3
+/// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between
+/// its two, when it cannot come first any more, or when it shares a vertex that makes its meeting no collision: faces
+/// incident to the moving vertex, edges at the far end of the moving edge. All of this is exact whatever the traits;
+/// they decide the pairs that are left, and which of two impacts is first. \tparam Traits a model of
+/// SweptCollisionTraits_3
 template <class Mesh, class Traits = Exact_sweep_traits<Mesh>>
 class Narrow_phase {
 public:
@@ -64,8 +64,8 @@ public:
   /// Working memory, to be shared.
   Star_runs<Mesh>& runs() { return runs_; }
 
-  /// Each pair that is swept counts. Once the bound is passed nothing more is decided: no way is free then, and no impacts
-  /// are told of.
+  /// Each pair that is swept counts. Once the bound is passed nothing more is decided: no way is free then, and no
+  /// impacts are told of.
   Work& work() { return work_; }
   const Work& work() const { return work_; }
 
@@ -88,14 +88,14 @@ private:
     Star_motion motion;
   };
 
-  /// What is done with a pair, `hit(sweep, vertices, s, t, a, b, c)`: it asks the sweep, and tells up to what fraction of the way
-  /// hits are of interest from then on (later ones may be told or not), or that it has enough.
+  /// What is done with a pair, `hit(sweep, vertices, s, t, a, b, c)`: it asks the sweep, and tells up to what fraction
+  /// of the way hits are of interest from then on (later ones may be told or not), or that it has enough.
   static constexpr double enough = -1, whole_way = 1;
 
   struct Any {
     template <class Sweep>
-    double operator()(const Sweep& sweep, const Vertices&, const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b,
-                      const Point_3& c) const {
+    double operator()(const Sweep& sweep, const Vertices&, const Point_3& s, const Point_3& t, const Point_3& a,
+                      const Point_3& b, const Point_3& c) const {
       return sweep.do_collide(s, t, a, b, c) ? enough : whole_way;
     }
   };
@@ -104,8 +104,8 @@ private:
     const Compare_time& compare;
 
     template <class Sweep>
-    double operator()(const Sweep& sweep, const Vertices& vertices, const Point_3& s, const Point_3& t, const Point_3& a,
-                      const Point_3& b, const Point_3& c) const {
+    double operator()(const Sweep& sweep, const Vertices& vertices, const Point_3& s, const Point_3& t,
+                      const Point_3& a, const Point_3& b, const Point_3& c) const {
       const auto impact = sweep(s, t, a, b, c);
       if (!impact)
         return whole_way;
@@ -166,7 +166,8 @@ private:
     work_.spend();
     if (work_.is_spent())
       return false;
-    const double until = hit(sweep, vertices, point(scene.motion.source()), point(scene.motion.target()), point(a), point(b), point(c));
+    const double until =
+        hit(sweep, vertices, point(scene.motion.source()), point(scene.motion.target()), point(a), point(b), point(c));
     if (until == enough)
       return false;
     scene.motion.shorten(until);

@@ -14,12 +14,13 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// The walk of the 1997 paper (3.2.2, rules a to e), kept to be compared with: from face to edge to vertex, each time to the
-/// point nearest to the target on the triangles at the feature in contact; edge on edge and face on vertex stick.
+/// The walk of the 1997 paper (3.2.2, rules a to e), kept to be compared with: from face to edge to vertex, each time
+/// to the point nearest to the target on the triangles at the feature in contact; edge on edge and face on vertex
+/// stick.
 ///
-/// The paper's sub-cases of (b) and (c) are in a figure only. Here: among the triangles at the feature, the nearest point
-/// decides which face, edge or vertex is next; J lifts off where the target is on its free side of that triangle. Every leg stops
-/// and is proven like any motion. Does not reach a nearest point everywhere; that is the paper's.
+/// The paper's sub-cases of (b) and (c) are in a figure only. Here: among the triangles at the feature, the nearest
+/// point decides which face, edge or vertex is next; J lifts off where the target is on its free side of that triangle.
+/// Every leg stops and is proven like any motion. Does not reach a nearest point everywhere; that is the paper's.
 template <class Mesh>
 class Paper_response {
 public:
@@ -95,7 +96,8 @@ private:
     int side = 0;
 
     Touched() = default;
-    Touched(const std::array<Vertex_index, 3>& corners, int count, int on_side) : vertices(corners), number(count), side(on_side) {
+    Touched(const std::array<Vertex_index, 3>& corners, int count, int on_side)
+        : vertices(corners), number(count), side(on_side) {
       std::sort(vertices.begin(), vertices.begin() + number); // a set: faces are met from any corner
     }
 

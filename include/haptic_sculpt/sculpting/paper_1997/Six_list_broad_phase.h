@@ -72,7 +72,8 @@ public:
       remove(f);
   }
 
-  /// Makes room for so many faces in all: insertions allocate nothing then. Moves, removals and queries of few faces never do.
+  /// Makes room for so many faces in all: insertions allocate nothing then. Moves, removals and queries of few faces
+  /// never do.
   void reserve(std::size_t faces, std::size_t /*insertions*/) {
     boxes_.reserve(faces);
     alive_.reserve(faces);

@@ -16,8 +16,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Where a vertex J is, and the facets of its contacts, measured from there: which of them are known, where they let J go,
-/// and which it has left (doc/slide.md).
+/// Where a vertex J is, and the facets of its contacts, measured from there: which of them are known, where they let J
+/// go, and which it has left (doc/slide.md).
 template <class Mesh>
 class Slide_contacts {
 public:
@@ -49,7 +49,8 @@ public:
 
   bool is_beyond_reach(const Vector& target) const { return length(minus(target, x)) > lengths_.farthest_pull(); }
 
-  /// x and a displacement. What is less than the last bits of all else here is noise, which exact decisions would pay for.
+  /// x and a displacement. What is less than the last bits of all else here is noise, which exact decisions would pay
+  /// for.
   Vector place_at(const Vector& displacement) const {
     Vector place = plus(x, displacement);
     for (double& coordinate : place)
@@ -63,7 +64,8 @@ public:
     const double distance = length(pull);
     Nearest_permitted found;
     for (const double share : {1.0, 0.5, 0.25}) {
-      found = nearest_among(pull, distance, [&](const Facet<Mesh>& f) { return share * clearances * f.clearance() - f.height(); });
+      found = nearest_among(pull, distance,
+                            [&](const Facet<Mesh>& f) { return share * clearances * f.clearance() - f.height(); });
       found.is_squeezed = share < 1;
       if (found.exists &&
           (found.number_active < 2 || length(minus(pull, found.displacement)) <= distance + lengths_.retreat()))
@@ -169,9 +171,9 @@ public:
     });
   }
 
-  /// Takes in the steepest of the contacts that come first in the motion decided, from x to y, and are not known yet: of
-  /// several features that meet in one point some are no obstacle, and whichever is will be met next. Returns
-  /// the fraction of the way.
+  /// Takes in the steepest of the contacts that come first in the motion decided, from x to y, and are not known yet:
+  /// of several features that meet in one point some are no obstacle, and whichever is will be met next. Returns the
+  /// fraction of the way.
   template <class Decision>
   double meet_first(const Decision& decision, const Vector& y, double& steepest, bool& is_new) {
     std::optional<Contact_3<Mesh>> best;
@@ -202,8 +204,8 @@ private:
     lengths_ = {rules_.clearance.at(reach), unit_in_the_last_place(reach)};
   }
 
-  /// As nearest(), with `least(facet)` the height above where it is now that J has to have over each. Normals that differ
-  /// by rounding alone count as one.
+  /// As nearest(), with `least(facet)` the height above where it is now that J has to have over each. Normals that
+  /// differ by rounding alone count as one.
   template <class Least>
   Nearest_permitted nearest_among(const Vector& pull, double distance, const Least& least) const {
     const double slack = lengths_.resolution, slack_there = slack + rounding_of_normals * distance;

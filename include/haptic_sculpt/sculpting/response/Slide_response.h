@@ -194,9 +194,9 @@ private:
       }
   }
 
-  /// Where not even short leaps have led on: tries flights as far as the target is, and shorter, along the tangent and as
-  /// J went, rising more or less, each ended by what it hits, and takes what brings J nearest. Returns whether any did by
-  /// more than clearances feign.
+  /// Where not even short leaps have led on: tries flights as far as the target is, and shorter, along the tangent and
+  /// as J went, rising more or less, each ended by what it hits, and takes what brings J nearest. Returns whether any
+  /// did by more than clearances feign.
   template <class Guard>
   bool leap_far(Guard& guard, const Vector& before, const Vector& target) {
     using namespace internal;

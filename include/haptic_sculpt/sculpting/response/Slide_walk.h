@@ -140,8 +140,8 @@ public:
     place(other.x);
   }
 
-  /// A trial from where `kept` is: walks on to the target, and takes its place where that has brought it nearer by more than
-  /// `least`. Returns whether it has.
+  /// A trial from where `kept` is: walks on to the target, and takes its place where that has brought it nearer by more
+  /// than `least`. Returns whether it has.
   template <class Guard>
   bool go_instead_of(Slide_walk& kept, Guard& guard, const Vector& target, int most_legs, double least) {
     go(guard, target, most_legs);

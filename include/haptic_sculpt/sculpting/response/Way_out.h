@@ -50,7 +50,8 @@ public:
       ++trials;
       trial_.forget_progress();
       if (first_aim != target) {
-        trial_.go(guard, first_aim, std::min(trial_.legs() + 1, most_legs_)); // one leg: on from there it must not climb
+        trial_.go(guard, first_aim,
+                  std::min(trial_.legs() + 1, most_legs_)); // one leg: on from there it must not climb
         trial_.forget_progress();
       }
       const bool is_nearer =
@@ -152,7 +153,8 @@ private:
 
   /// Tries to go without some of the contacts that hold.
   template <class Guard, class Brings_nearer>
-  bool leave_contacts(Guard& guard, const Nearest_permitted& held, const Vector& target, const Brings_nearer& brings_nearer) {
+  bool leave_contacts(Guard& guard, const Nearest_permitted& held, const Vector& target,
+                      const Brings_nearer& brings_nearer) {
     const unsigned subsets = 1u << (held.exists ? held.number_active : 0);
     for (unsigned subset = 1; subset < subsets; ++subset) {
       if (!guard.work().is_due())
@@ -254,8 +256,8 @@ private:
         continue;
       for (const double reach : {lengths.lifted(), std::sqrt(lengths.lifted() / distance) * distance}) {
         const Vector end = advanced(walk_->x, reach, direction);
-        if (!guard.work().is_due() || walk_->legs() >= most_legs_ || end == walk_->x || nearer_by(target, walk_->x, end) < -gain ||
-            !guard.is_free(walk_->x, end, walk_->delta()))
+        if (!guard.work().is_due() || walk_->legs() >= most_legs_ || end == walk_->x ||
+            nearer_by(target, walk_->x, end) < -gain || !guard.is_free(walk_->x, end, walk_->delta()))
           continue;
         trial_.begin_at(*walk_);
         trial_.step_to(end);

@@ -30,8 +30,8 @@ namespace nearest_permitted_detail {
 /// they count as one plane or line: below, the meeting of the planes is lost in the rounding of their normals.
 constexpr double least_independence = 0x1p-48;
 
-/// Mends what rounding has left, by a step of iterative refinement: where planes are all but parallel, all of the digits
-/// of their meeting may be lost at first.
+/// Mends what rounding has left, by a step of iterative refinement: where planes are all but parallel, all of the
+/// digits of their meeting may be lost at first.
 inline void refine(Vector& d, const Half_space& a) {
   d = advanced(d, a.least - dot(a.normal, d), a.normal);
 }

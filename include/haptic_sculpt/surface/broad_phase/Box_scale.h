@@ -12,9 +12,9 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// The power of two by which coordinates are multiplied before they become floats: the range of floats ends at 2^128, that
-/// of coordinates does not. Taken from the scene once. What is outside of the range of floats then has boxes that are
-/// infinite, or too wide: no answer is lost.
+/// The power of two by which coordinates are multiplied before they become floats: the range of floats ends at 2^128,
+/// that of coordinates does not. Taken from the scene once. What is outside of the range of floats then has boxes that
+/// are infinite, or too wide: no answer is lost.
 class Box_scale {
 public:
   Box_scale() = default; ///< 1
@@ -78,8 +78,9 @@ public:
       result.lower[i] = below(box.lower[i]), result.upper[i] = above(box.upper[i]);
     return result;
   }
-  /// The box to ask with: it meets what around(box) meets, except the box of nothing. For the lower bound of a box around
-  /// finite doubles is never +infinity: no such box is lost where an upper bound asked with is at most the largest float.
+  /// The box to ask with: it meets what around(box) meets, except the box of nothing. For the lower bound of a box
+  /// around finite doubles is never +infinity: no such box is lost where an upper bound asked with is at most the
+  /// largest float.
   Float_box query(const Box_3& box) const {
     constexpr float largest = std::numeric_limits<float>::max();
     Float_box result = around(box);

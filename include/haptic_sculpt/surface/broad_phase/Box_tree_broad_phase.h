@@ -39,8 +39,8 @@ public:
     descend([&around](const Node& node) { return node.meeting(around); }, faces);
   }
 
-  /// Appends the faces whose boxes pass the filter of the star; gives up where there are more than `most`. Returns whether the
-  /// answer is whole.
+  /// Appends the faces whose boxes pass the filter of the star; gives up where there are more than `most`. Returns
+  /// whether the answer is whole.
   bool query_star(const Swept_star_3& star, std::vector<Face_index>& faces, std::size_t most = unlimited) {
     const internal::Star_filter filter(star, scale());
     return descend([&filter](const Node& node) { return filter.meeting(node); }, faces, most);
@@ -74,7 +74,8 @@ public:
     overflow_.visit_nearest_first(bound, limit, [&visit](std::uint32_t f) { return visit(Face_index(f)); });
   }
 
-  /// Appends all faces, near ones side by side: in the order of the slots, unless many came since. Cost: linear, else n log n
+  /// Appends all faces, near ones side by side: in the order of the slots, unless many came since. Cost: linear, else n
+  /// log n
   void faces_in_order(std::vector<Face_index>& faces) const {
     constexpr std::size_t few = 16; // one in so many
     std::size_t in_overflow = 0;
@@ -173,8 +174,9 @@ public:
   /// Bytes held, capacity included.
   std::size_t memory() const {
     return nodes_.capacity() * sizeof(Node) + slot_of_face_.capacity() * sizeof(std::uint32_t) +
-           face_of_slot_.capacity() * sizeof(std::uint32_t) + (touched_.capacity() + queue_.capacity()) * sizeof(std::uint32_t) +
-           nearest_.memory() + overflow_.memory() + sizeof *this;
+           face_of_slot_.capacity() * sizeof(std::uint32_t) +
+           (touched_.capacity() + queue_.capacity()) * sizeof(std::uint32_t) + nearest_.memory() + overflow_.memory() +
+           sizeof *this;
   }
 
 private:
@@ -186,8 +188,8 @@ private:
                                                   << 31; ///< slots from here on are places of the overflow
   static constexpr int most_levels = 11;                 ///< 8^11 > 2^31
 
-  /// Levels that begin before this node, at 192 KiB, are taken to be in cache. With more nodes on a level than most_ahead
-  /// nothing is fetched: what was guessed is much too large.
+  /// Levels that begin before this node, at 192 KiB, are taken to be in cache. With more nodes on a level than
+  /// most_ahead nothing is fetched: what was guessed is much too large.
   static constexpr std::uint32_t nodes_in_cache = 1024, most_ahead = 64;
 
   static constexpr std::size_t usual_queue = 8192;  ///< room is made for so many
@@ -329,8 +331,8 @@ private:
 
   /// Puts the children that pass in the place of the nodes of a level.
   ///
-  /// All are asked for before the first is read, so that memory is waited for once a level; on the way to one leaf after
-  /// the other it would be waited for on each.
+  /// All are asked for before the first is read, so that memory is waited for once a level; on the way to one leaf
+  /// after the other it would be waited for on each.
   template <class Passing>
   void go_down(const Passing& passing) {
     const Node* const nodes = &nodes_[level_begin_[level_]];

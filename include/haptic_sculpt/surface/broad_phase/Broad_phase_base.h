@@ -15,8 +15,8 @@ namespace internal {
 struct Broad_phase_access;
 }
 
-/// What every broad phase has without doing anything for it: each model of BroadPhase derives from this, and writes its own
-/// members in place of those here that it can do better.
+/// What every broad phase has without doing anything for it: each model of BroadPhase derives from this, and writes its
+/// own members in place of those here that it can do better.
 ///
 /// \tparam Mesh_ the mesh \tparam Derived the broad phase itself: it has `query(box, faces)`
 template <class Mesh_, class Derived>
@@ -24,9 +24,10 @@ class Broad_phase_base {
 public:
   using Face_index = typename Mesh_::Face_index; ///< what queries append
 
-  /// Appends the faces whose boxes pass the filter of the star (doc/broad_phase.md, "Which faces count"), no others, in any
-  /// order: at least all faces that meet one of the tetrahedra that the star sweeps. Gives up where there are more than
-  /// `most`. Returns whether the answer is whole. Cost: here that of the query for a box, all of whose answer is read.
+  /// Appends the faces whose boxes pass the filter of the star (doc/broad_phase.md, "Which faces count"), no others, in
+  /// any order: at least all faces that meet one of the tetrahedra that the star sweeps. Gives up where there are more
+  /// than `most`. Returns whether the answer is whole. Cost: here that of the query for a box, all of whose answer is
+  /// read.
   bool query_star(const Swept_star_3& star, std::vector<Face_index>& faces, std::size_t most = unlimited) {
     const internal::Star_filter filter(star, scale_);
     const std::size_t first = faces.size();
@@ -40,11 +41,10 @@ public:
     return faces.size() - first <= most;
   }
 
-  /// Visits at least the faces that count: `visit(face)` returns the limit from then on, and a face counts where a lower
-  /// bound of its box is not above the limit. Here all whose boxes meet the region are visited.
-  /// \param region holds all that counts at first
-  /// \param bound `bound(node, lowest)` writes a lower bound for each of the eight boxes of an `internal::Box_node`, and
-  /// returns the bits of those that count
+  /// Visits at least the faces that count: `visit(face)` returns the limit from then on, and a face counts where a
+  /// lower bound of its box is not above the limit. Here all whose boxes meet the region are visited. \param region
+  /// holds all that counts at first \param bound `bound(node, lowest)` writes a lower bound for each of the eight boxes
+  /// of an `internal::Box_node`, and returns the bits of those that count
   template <class Bound, class Visit>
   void visit_nearest_first(const Box_3& region, const Bound& bound, double limit, const Visit& visit) {
     static_cast<void>(bound), static_cast<void>(limit);
@@ -64,8 +64,8 @@ public:
   void fetch_ahead(const Box_3& /*box*/) {}
   /// Called now and then until that query: goes on with asking. Here nothing is done.
   void fetch_on() {}
-  /// Makes room for so many faces in all and so many insertions, so that they allocate nothing; asked before edits, again and
-  /// again. Here nothing is done: right where what comes and moves allocates nothing.
+  /// Makes room for so many faces in all and so many insertions, so that they allocate nothing; asked before edits,
+  /// again and again. Here nothing is done: right where what comes and moves allocates nothing.
   void reserve(std::size_t /*faces*/, std::size_t /*insertions*/) {}
 
 protected:

@@ -116,9 +116,10 @@ public:
 
   /// Makes room for so many insertions, whatever is removed meanwhile. Removals never need any.
   ///
-  /// Nodes come by halving alone, and by a new root. A full node is halved at once, another only after at least four more children have
-  /// come: of n insertions n / 4 halve leaves, n / 16 the nodes above, ... together n / 3, besides those that were full before, and
-  /// what these bring about above, a third more. No insertion halves more than one node a level.
+  /// Nodes come by halving alone, and by a new root. A full node is halved at once, another only after at least four
+  /// more children have come: of n insertions n / 4 halve leaves, n / 16 the nodes above, ... together n / 3, besides
+  /// those that were full before, and what these bring about above, a third more. No insertion halves more than one
+  /// node a level.
   void reserve(std::size_t insertions) {
     const std::size_t in_use = used_ - free_nodes_.size();
     const std::size_t full = std::min<std::size_t>(in_use + in_use / 3, insertions * (height() + 1));

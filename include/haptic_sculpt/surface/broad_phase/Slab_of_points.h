@@ -18,7 +18,8 @@ public:
 
   Slab_of_points() = default; ///< everything
 
-  /// \param scale of the boxes \param normal of the planes; any will do, and of one that is too short or not finite the slab is everything
+  /// \param scale of the boxes \param normal of the planes; any will do, and of one that is too short or not finite the
+  /// slab is everything
   Slab_of_points(const Swept_star_3& star, const Box_scale& scale, const Vector& normal) {
     const double largest = std::fmax(std::fmax(std::abs(normal[0]), std::abs(normal[1])), std::abs(normal[2]));
     if (star.valence == 0 || !(largest > least_normal && largest < 1 / least_normal))

@@ -50,7 +50,8 @@ public:
     return mask;
   }
 
-  /// Boxes of doubles which, rounded outward to floats, pass meet this closed box: to ask a broad phase that knows doubles.
+  /// Boxes of doubles which, rounded outward to floats, pass meet this closed box: to ask a broad phase that knows
+  /// doubles.
   Box_3 holding_what_passes() const {
     Box_3 result;
     for (int i = 0; i < 3; ++i)

@@ -10,7 +10,8 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// The nodes that a search of a tree of boxes has found and not looked at yet. The nearest of those found last is on top.
+/// The nodes that a search of a tree of boxes has found and not looked at yet. The nearest of those found last is on
+/// top.
 class Nearest_first_stack {
 public:
   struct Entry {
@@ -39,9 +40,11 @@ public:
     }
   }
 
-  /// Visits the items of a lowest node that are not farther than the limit, `visit(item(j))` telling the next one. Returns the last.
+  /// Visits the items of a lowest node that are not farther than the limit, `visit(item(j))` telling the next one.
+  /// Returns the last.
   template <class Bound, class Item, class Visit>
-  static double visit_items(const Box_node& node, const Bound& bound, double limit, const Item& item, const Visit& visit) {
+  static double visit_items(const Box_node& node, const Bound& bound, double limit, const Item& item,
+                            const Visit& visit) {
     alignas(64) double lowest[Box_node::width];
     for (unsigned mask = bound(node, lowest); mask != 0; mask &= mask - 1)
       if (const unsigned j = lowest_bit(mask); !(lowest[j] > limit))

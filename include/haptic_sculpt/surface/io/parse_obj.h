@@ -17,9 +17,18 @@ namespace internal {
 /// Reads the text of a Wavefront OBJ file: its `v` and `f` lines. Texture coordinates, normals, colours, materials,
 /// groups and lines are skipped; free-form surfaces and lines continued by a backslash are refused. \throw Read_error
 inline Face_soup parse_obj(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 12> left_out{
-      {{"vt", "texture coordinates"}, {"vn", "normals"}, {"vp", "curves"}, {"g", "groups"}, {"o", "groups"}, {"s", "groups"},
-       {"mg", "groups"}, {"l", "lines"}, {"p", "points of their own"}, {"usemtl", "materials"}, {"mtllib", "materials"}, {"usemap", "materials"}}};
+  constexpr std::array<std::pair<std::string_view, const char*>, 12> left_out{{{"vt", "texture coordinates"},
+                                                                               {"vn", "normals"},
+                                                                               {"vp", "curves"},
+                                                                               {"g", "groups"},
+                                                                               {"o", "groups"},
+                                                                               {"s", "groups"},
+                                                                               {"mg", "groups"},
+                                                                               {"l", "lines"},
+                                                                               {"p", "points of their own"},
+                                                                               {"usemtl", "materials"},
+                                                                               {"mtllib", "materials"},
+                                                                               {"usemap", "materials"}}};
   Text_scanner scan(text);
   Face_soup soup;
   std::int64_t highest = -1;
@@ -58,7 +67,8 @@ inline Face_soup parse_obj(std::string_view text) {
         soup.corners.push_back(static_cast<Face_soup::Index>(v));
       }
       soup.close_face();
-    } else if (const auto found = std::find_if(left_out.begin(), left_out.end(), [&](const auto& pair) { return pair.first == keyword; });
+    } else if (const auto found = std::find_if(left_out.begin(), left_out.end(),
+                                               [&](const auto& pair) { return pair.first == keyword; });
                found != left_out.end()) {
       soup.leave_out(found->second);
       scan.skip_rest_of_line();

@@ -58,7 +58,8 @@ inline Face_soup parse_off(std::string_view text) {
       throw Read_error("the file ends after " + std::to_string(i) + " of " + std::to_string(n) + " " + what);
   };
   Face_soup soup;
-  for (const auto& [letter, what] : {std::pair{'S', "texture coordinates"}, std::pair{'C', "colours"}, std::pair{'N', "normals"}})
+  for (const auto& [letter, what] :
+       {std::pair{'S', "texture coordinates"}, std::pair{'C', "colours"}, std::pair{'N', "normals"}})
     if (prefix.find(letter) != std::string::npos)
       soup.leave_out(what);
   soup.points.reserve(vertices);

@@ -206,7 +206,8 @@ inline Face_soup parse_ply(std::string_view bytes) {
     if (is_face && !indices)
       throw Read_error("the faces lack the list of integers 'vertex_indices'");
     for (std::size_t i = 0; (is_vertex || is_face) && i < element.properties.size(); ++i)
-      if (!(is_vertex && (coordinate[0] == i || coordinate[1] == i || coordinate[2] == i)) && !(is_face && indices == i))
+      if (!(is_vertex && (coordinate[0] == i || coordinate[1] == i || coordinate[2] == i)) &&
+          !(is_face && indices == i))
         soup.leave_out(left_out_by_ply(element.properties[i].name));
     if (!is_vertex && !is_face && element.count > 0)
       soup.leave_out("the element " + in_quotes(element.name));
@@ -219,8 +220,8 @@ inline Face_soup parse_ply(std::string_view bytes) {
       try {
         return values.take(type);
       } catch (const Read_error& error) {
-        throw Read_error(escaped(element.name) + " " + std::to_string(item) + " of " + std::to_string(element.count) + ": " +
-                         error.what());
+        throw Read_error(escaped(element.name) + " " + std::to_string(item) + " of " + std::to_string(element.count) +
+                         ": " + error.what());
       }
     };
     std::vector<double> row(element.properties.size());

@@ -108,7 +108,8 @@ struct Repair_report {
               internal::number(removed_distance) + " from the surface as it is now";
     text += "; " + std::to_string(points_added) + " are new\n";
     if (!is_repaired())
-      text += "what is left could not be repaired, and nothing was changed (numbers are those of its attempt):\n" + left.message(8, reader);
+      text += "what is left could not be repaired, and nothing was changed (numbers are those of its attempt):\n" +
+              left.message(8, reader);
     return text;
   }
 };

@@ -20,7 +20,7 @@ namespace haptic_sculpt {
 /// 4 bytes a corner and a face, 24 a point.
 struct Face_soup {
   using Point_3 = Decision_kernel::Point_3; ///< three doubles, as given
-  using Index = std::uint32_t;              ///< of points and corners: fewer than 2^32 of each, which is not checked here
+  using Index = std::uint32_t; ///< of points and corners: fewer than 2^32 of each, which is not checked here
 
   std::vector<Point_3> points;        ///< in the order of the file
   std::vector<Index> corners;         ///< indices of points, face after face
@@ -31,8 +31,12 @@ struct Face_soup {
   std::size_t number_of_faces() const { return first_corner.size() - 1; } ///< those that are closed
   /// How many corners a face has. \pre face < number_of_faces()
   std::size_t number_of_corners(std::size_t face) const { return first_corner[face + 1] - first_corner[face]; }
-  const Index* begin(std::size_t face) const { return corners.data() + first_corner[face]; }   ///< The first corner, as an index.
-  const Index* end(std::size_t face) const { return corners.data() + first_corner[face + 1]; } ///< Behind the last corner.
+  const Index* begin(std::size_t face) const {
+    return corners.data() + first_corner[face];
+  } ///< The first corner, as an index.
+  const Index* end(std::size_t face) const {
+    return corners.data() + first_corner[face + 1];
+  } ///< Behind the last corner.
 
   /// Appends a point. Every coordinate of a file comes through here.
   void add_point(double x, double y, double z) { points.emplace_back(x, y, z); }
