@@ -37,15 +37,18 @@ struct Swept_collision_traits_3 {
   /// \param counters where to count filter stages; must outlive this and the objects made by it.
   explicit Swept_collision_traits_3(Counters* counters = nullptr) : counters_(counters) {}
 
+  /// Counts where this does.
   Vertex_face_sweep_3 vertex_face_sweep_3_object() const {
     return Vertex_face_sweep_3(counters_);
-  } ///< Counts where this does.
+  }
+  /// Counts where this does.
   Edge_edge_sweep_3 edge_edge_sweep_3_object() const {
     return Edge_edge_sweep_3(counters_);
-  } ///< Counts where this does.
+  }
+  /// Counts where this does.
   Face_vertex_sweep_3 face_vertex_sweep_3_object() const {
     return Face_vertex_sweep_3(counters_);
-  }                                                                                  ///< Counts where this does.
+  }
   Compare_time_3 compare_time_3_object() const { return Compare_time_3(counters_); } ///< Counts where this does.
 
 private:

@@ -55,9 +55,10 @@ public:
   /// \param violations one sentence each; `what()` joins them
   explicit Invalid_device_parameters(std::vector<std::string> violations)
       : Error(joined(violations)), violations_(std::move(violations)) {}
+  /// One sentence for each thing that is wrong.
   const std::vector<std::string>& violations() const {
     return violations_;
-  } ///< One sentence for each thing that is wrong.
+  }
 
 private:
   static std::string joined(const std::vector<std::string>& violations) {
@@ -166,9 +167,10 @@ public:
   const S& primary_mass() const { return d_.primary_mass; }       ///< m1, of each primary link, kg; not negative.
   const S& secondary_mass() const { return d_.secondary_mass; }   ///< m2, of each secondary link, kg; not negative.
   const S& platform_mass() const { return d_.platform_mass; }                      ///< M, kg; not negative.
+  /// About the platform's axes, kg m^2.
   const Device_vector<S>& platform_inertia() const {
     return d_.platform_inertia;
-  }                                                           ///< About the platform's axes, kg m^2.
+  }
   const S& rotor_inertia() const { return d_.rotor_inertia; } ///< Of one motor, reflected to its joint, kg m^2.
   const S& gravity() const { return d_.gravity; }                                  ///< Along -z, m/s^2; of either sign.
   const S& torque_limit() const { return d_.torque_limit; }                        ///< Of one joint, N m; positive.

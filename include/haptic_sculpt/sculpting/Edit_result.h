@@ -54,9 +54,10 @@ struct Edit_result {
 
   explicit operator bool() const { return !refusal; } ///< the edit was done
 
+  /// One that was done; v becomes `vertex`
   static Edit_result done(typename Mesh::Vertex_index v) {
     return {v, std::nullopt};
-  } ///< one that was done; v becomes `vertex`
+  }
   /// One that was refused.
   static Edit_result refused(Refusal_reason reason, typename Refusal<Mesh>::Elements elements = {}) {
     return {std::nullopt, Refusal<Mesh>{reason, std::move(elements)}};

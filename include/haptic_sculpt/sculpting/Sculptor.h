@@ -99,9 +99,10 @@ public:
   /// Whether vertices are dragged once each: then a drag looks up what is near for itself alone, and only the points of
   /// the star are compared with where they were left. Off at first. No result depends on it.
   void expect_single_drags(bool on) { guarded_.expect_single_drags(on); }
+  /// What expect_single_drags() was told last
   bool expects_single_drags() const {
     return guarded_.expects_single_drags();
-  } ///< what expect_single_drags() was told last
+  }
 
   /// Moves v straight to `target` if nothing is touched on the way and the delta rule is kept; else it stays where it
   /// is. A step of the history. Returns whether it is at the target. \throw Unknown_vertex, Out_of_range, Mesh_changed.
@@ -238,9 +239,10 @@ public:
   /// At first a vertex's index; a new vertex takes the next number never used; a removed one's stays dead until undo
   /// revives it.
   ///@{
+  /// The number of v. \pre v is in the mesh
   std::size_t name(Vertex_index v) const {
     return guarded_.whole_editor().names().name(v);
-  } ///< the number of v. \pre v is in the mesh
+  }
   /// The null index where the vertex is dead, or the number was never given.
   Vertex_index vertex(std::size_t name) const { return guarded_.whole_editor().names().vertex(name); }
   /// One more than the largest number given.

@@ -21,9 +21,10 @@ public:
                                       : "")),
         report_(std::move(report)) {}
 
+  /// Every offending element; lives as long as the exception.
   const Validity_report& report() const {
     return report_;
-  } ///< Every offending element; lives as long as the exception.
+  }
 
 private:
   Validity_report report_;

@@ -19,9 +19,10 @@ public:
   using Edited = Applied<typename Sculptor::Mesh_type>; ///< what an edit gives
   using Result = typename Sculptor::Result;             ///< what a drag gives
 
+  /// Without a journal
   explicit Journaled_edits(Sculptor& sculptor) : sculptor_(&sculptor) {
     legs_.reserve(most_legs);
-  } ///< without a journal
+  }
   /// From here on in another scene, without a journal. \pre no stroke is under way
   void enter(Sculptor& sculptor) { sculptor_ = &sculptor, journal_ = nullptr; }
   void keep_journal(Edit_journal* journal) { journal_ = journal; } ///< nullptr: none

@@ -31,12 +31,14 @@ struct Face_soup {
   std::size_t number_of_faces() const { return first_corner.size() - 1; } ///< those that are closed
   /// How many corners a face has. \pre face < number_of_faces()
   std::size_t number_of_corners(std::size_t face) const { return first_corner[face + 1] - first_corner[face]; }
+  /// The first corner, as an index.
   const Index* begin(std::size_t face) const {
     return corners.data() + first_corner[face];
-  } ///< The first corner, as an index.
+  }
+  /// Behind the last corner.
   const Index* end(std::size_t face) const {
     return corners.data() + first_corner[face + 1];
-  } ///< Behind the last corner.
+  }
 
   /// Appends a point. Every coordinate of a file comes through here.
   void add_point(double x, double y, double z) { points.emplace_back(x, y, z); }
