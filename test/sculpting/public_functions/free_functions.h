@@ -150,7 +150,7 @@ inline std::vector<Public_function> free_functions() {
                    }), outcome);
                    outcome.mesh(scene.mesh);
                  }});
-  for (const double along : {0.125, 2.0})
+  for (const double along : {0.125, 1.0})
     all.push_back({"move_rigidly", [=](double unit, Outcome& outcome) {
                      Scaled_scene scene(unit);
                      Sculptor<Mesh> sculptor(scene.mesh);
@@ -160,7 +160,8 @@ inline std::vector<Public_function> free_functions() {
                      using Transformation = CGAL::Aff_transformation_3<meshes::Kernel>;
                      const double x = scene.length(along);
                      for (const auto& t : {Transformation(1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0),
-                                           Transformation(0.6, -0.8, 0, -x / 8, 0.8, 0.6, 0, x / 4, 0, 0, 1, 0)}) {
+                                           Transformation(0.6, -0.8, 0, scene.length(-along / 8), 0.8, 0.6, 0,
+                                                          scene.length(along / 4), 0, 0, 1, 0)}) {
                        const auto report = move_rigidly(sculptor, ball, t);
                        outcome.number(report.share), outcome.number(static_cast<double>(report.asked));
                        for (const auto& contact : report.contacts) {

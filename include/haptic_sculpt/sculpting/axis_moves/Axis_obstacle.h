@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include <utility>
+
 namespace haptic_sculpt {
 namespace internal {
 
@@ -22,6 +24,19 @@ struct Axis_obstacle {
   std::array<std::uint32_t, 4> vertices; ///< indices; of a face three, and the last is the first again
 
   int size() const { return kind == Kind::vertex_face || kind == Kind::edge_edge ? 4 : 3; }
+  /// The same, whichever of two edges was found first.
+  Axis_obstacle in_order() const {
+    auto [a, b, c, d] = vertices;
+    if (kind != Kind::edge_edge)
+      return *this;
+    if (b < a)
+      std::swap(a, b);
+    if (d < c)
+      std::swap(c, d);
+    if (std::make_pair(c, d) < std::make_pair(a, b))
+      std::swap(a, c), std::swap(b, d);
+    return {kind, {a, b, c, d}};
+  }
 };
 
 /// What share of their ways vertices may go so that a quarter of a gap is left.

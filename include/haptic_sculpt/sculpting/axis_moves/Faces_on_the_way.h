@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_FACES_ON_THE_WAY_H
 
 #include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+#include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/broad_phase/spatial_order.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
@@ -35,7 +35,8 @@ public:
         faces_.push_back(f);
     }
     keep_each_once();
-    const auto moving = faces_in_spatial_order(mesh, faces_);
+    const Box_scale& scale = Broad_phase_access::scale(broad_phase);
+    const auto moving = faces_in_spatial_order(mesh, faces_, scale);
     for (std::size_t i = 0; i < moving.size();) {
       Box_3 box;
       for (std::size_t end = std::min(i + faces_a_query, moving.size()); i < end; ++i)
@@ -44,7 +45,7 @@ public:
       broad_phase.query(box, faces_);
     }
     keep_each_once();
-    const auto ordered = faces_in_spatial_order(mesh, faces_);
+    const auto ordered = faces_in_spatial_order(mesh, faces_, scale);
     for (std::size_t i = 0; i < ordered.size(); ++i)
       faces_[i] = Face_index(ordered[i].face);
     return faces_;

@@ -47,7 +47,7 @@ inline void order_in_space(Face_middle* begin, Face_middle* end, std::size_t cap
 /// Some faces of a mesh in such an order. Cost: n log n.
 template <class Mesh, class Faces>
 std::vector<Face_middle> faces_in_spatial_order(const Mesh& mesh, const Faces& given,
-                                                const Box_scale& scale = Box_scale()) {
+                                                const Box_scale& scale) {
   std::vector<Face_middle> faces;
   faces.reserve(given.size());
   for (const auto f : given) {
