@@ -6,7 +6,6 @@
 #include <haptic_sculpt/collision/arithmetic/unit_of.h>
 
 #include <cmath>
-
 #include <utility>
 
 namespace haptic_sculpt {
