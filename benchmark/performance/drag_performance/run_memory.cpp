@@ -54,7 +54,8 @@ std::pair<double, double> nanoseconds_a_line(std::size_t bytes, std::uint64_t se
 class Tree_lines {
 public:
   explicit Tree_lines(const Mesh& mesh) {
-    for (const internal::Face_middle& face : internal::faces_in_spatial_order(mesh, mesh.faces(), internal::Box_scale::of(mesh)))
+    for (const internal::Face_middle& face :
+         internal::faces_in_spatial_order(mesh, mesh.faces(), internal::Box_scale::of(mesh)))
       faces_.push_back(Mesh::Face_index(face.face));
     std::vector<Box_3> boxes;
     for (const auto f : faces_)

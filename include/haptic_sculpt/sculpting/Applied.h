@@ -18,7 +18,7 @@ struct Applied : Edit_result<Mesh> {
   Edit edit;
   std::optional<Drag_result<Mesh>> drag; ///< of a move: the last leg's
 
-  operator const Edit&() const { return edit; }
+  operator const Edit&() const { return edit; } ///< to be kept, or given to apply() again
 };
 
 namespace internal {
