@@ -2,6 +2,7 @@
 // CGAL's tangential relaxation of a thin wall, by itself and with one named parameter more.
 #include "example_meshes.h"
 
+#include <haptic_sculpt/sculpting/apply_guarded.h>
 #include <haptic_sculpt/sculpting/guarded_point_map.h>
 
 #include <CGAL/Polygon_mesh_processing/tangential_relaxation.h>
@@ -25,6 +26,9 @@ int main() {
     const auto stroke = sculptor.stroke(); // one step of undo
     PMP::tangential_relaxation(guarded, params::number_of_iterations(5).vertex_point_map(map));
   }
+  haptic_sculpt::apply_guarded(sculptor, [](auto& mesh, auto map) {
+    PMP::tangential_relaxation(mesh, params::number_of_iterations(5).vertex_point_map(map));
+  });
   const std::size_t guarded_pairs = self_intersecting_pairs(guarded);
   std::cout << "after CGAL under the guard: " << guarded_pairs << "; " << map.refused() << " of " << map.counts().puts
             << " points were not reached\n";

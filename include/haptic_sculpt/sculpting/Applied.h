@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_APPLIED_H
 #define HAPTIC_SCULPT_SCULPTING_APPLIED_H
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/Edit.h>
 #include <haptic_sculpt/sculpting/Edit_result.h>
@@ -31,6 +32,7 @@ public:
   using Done = Applied<Mesh>;
 
   Done apply(Sculptor& sculptor, const Edit& edit) {
+    const Rounding_to_nearest rounding;
     const auto& v = edit.vertices;
     const Point p = point(edit.point);
     if (edit.kind != Edit_kind::move)

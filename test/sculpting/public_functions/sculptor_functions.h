@@ -30,8 +30,7 @@ inline std::vector<Public_function> sculptor_functions() {
                        }
                        outcome.mesh(sculptor.mesh());
                      }});
-  all.push_back(
-      {"Sculptor::expect_single_drags Sculptor::expects_single_drags Sculptor::move_if_free Sculptor::release",
+  all.push_back({"Sculptor::expect_single_drags Sculptor::expects_single_drags Sculptor::move_if_free Sculptor::release",
        [](double unit, Outcome& outcome) {
          Scaled_scene scene(unit);
          Sculptor<Mesh> sculptor(scene.mesh);

@@ -42,7 +42,12 @@ public:
       for (std::size_t end = std::min(i + faces_a_query, moving.size()); i < end; ++i)
         for (const Vertex_index v : corners_of_face(mesh, Face_index(moving[i].face)))
           include_way(mesh, v, targets, box);
+      const auto first = static_cast<std::ptrdiff_t>(faces_.size());
       broad_phase.query(box, faces_);
+      // Whatever the broad phase names beside these: the same faces are looked at with any.
+      faces_.erase(std::remove_if(faces_.begin() + first, faces_.end(),
+                                  [&](Face_index f) { return !do_meet(face_box(mesh, f), box); }),
+                   faces_.end());
     }
     keep_each_once();
     const auto ordered = faces_in_spatial_order(mesh, faces_, scale);

@@ -26,6 +26,7 @@ struct Sculptor_access {
 template <class Guarded, class Mesh = std::decay_t<decltype(std::declval<Guarded&>().mesh())>>
 Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways) {
   using Vertex_index = typename Mesh::Vertex_index;
+  const Rounding_to_nearest rounding;
   if (axis < 0 || axis > 2)
     throw Invalid_parameter("the axis of a shift must be 0, 1 or 2, not " + std::to_string(axis));
   std::reverse(ways.begin(), ways.end());

@@ -34,7 +34,7 @@ public:
   void run() {
     asked_ = sum_left();
     const Response_scope scope(sculptor_, Response::stop, true);
-    if (vertices_.size() >= many)
+    if (parameters_.takes_steps && vertices_.size() >= many)
       goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_).run();
     finish();
   }

@@ -74,23 +74,6 @@ public:
     overflow_.visit_nearest_first(bound, limit, [&visit](std::uint32_t f) { return visit(Face_index(f)); });
   }
 
-  /// Appends all faces, near ones side by side: in the order of the slots, unless many came since. Cost: linear, else n
-  /// log n
-  void faces_in_order(std::vector<Face_index>& faces) const {
-    constexpr std::size_t few = 16; // one in so many
-    std::size_t in_overflow = 0;
-    for (const std::uint32_t slot : slot_of_face_)
-      in_overflow += is_in_overflow(slot);
-    if (few * in_overflow > slot_of_face_.size())
-      return Base::faces_in_order(faces);
-    for (const std::uint32_t f : face_of_slot_)
-      if (f != no_face)
-        faces.push_back(Face_index(f));
-    for (std::size_t f = 0; f < slot_of_face_.size(); ++f)
-      if (is_in_overflow(slot_of_face_[f]))
-        faces.push_back(Face_index(static_cast<typename Mesh::size_type>(f)));
-  }
-
   /// Begins to fetch from memory what a query about here will read. Changes no answer. Cost: log n.
   void fetch_ahead(const Box_3& box) {
     if (levels_ == 0 || level_begin_[0] < nodes_in_cache)
