@@ -10,7 +10,15 @@ import os
 import re
 import sys
 
-page = os.path.splitext(os.path.basename(sys.argv[1]))[0].lower()
+folder = os.path.dirname(os.path.abspath(sys.argv[1]))
+
+
+def of_page(path):
+    """Folder and name, for pages of one name may stand in two folders."""
+    return "-".join(os.path.splitext(os.path.normpath(os.path.join(folder, path)))[0].lower().split(os.sep)[-2:])
+
+
+page = of_page(os.path.basename(sys.argv[1]))
 
 
 def name_of(heading):
@@ -34,7 +42,7 @@ def link(match):
     if is_picture:
         target = os.path.basename(path)
     elif name and not path.startswith("http"):
-        of = os.path.splitext(os.path.basename(path))[0].lower() or page
+        of = of_page(path) if path else page
         target = f"@ref {label(of, name)}"
     elif path.startswith("examples/tutorials/"):
         target = os.path.basename(path).replace(".", "_8") + "-example.html"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mechanism as a calculator: one JSON request a line in, one JSON answer a line out. doc/device.md has the keys.
+// The mechanism as a calculator: one JSON request a line in, one JSON answer a line out. doc/use/device.md has the keys.
 #include "common/json_words.h"
 #include "common/run_program.h"
 #include "device_json.h"
@@ -324,7 +324,7 @@ Requests: form, params and one op, with the keys it takes (those in brackets may
   dynamics  the same, thetad thetadd            also velocity, acceleration and both dynamic models
   inverse   p [theta]                           joint angles; theta is the seed in the general form
   modes     theta                               all assembly modes
-doc/device.md says what each key means.
+doc/use/device.md says what each key means.
 
 A request that cannot be answered gets {"ok":false,"error":CODE,"message":TEXT}, and the next line is read. Keys that are not
 known are listed in the answer as "unknown_keys". A line may have 1048576 bytes, 1000 values and 32 levels of nesting.

@@ -83,7 +83,7 @@ int main(int argument_count, char** arguments) {
   if (argument_count > 1 && std::strcmp(arguments[1], "--help") == 0) {
     std::puts("device_workspace [SAMPLES.txt [DEVICE.json]]\n"
               "Prints workspace, force and inertia of the designs D1, D2, D3 in both forms, or of DEVICE.json (the "
-              "keys of doc/device.md);\n"
+              "keys of doc/use/device.md);\n"
               "writes the samples of the first one for examples/plot_device_workspace.py.");
     return 0;
   }

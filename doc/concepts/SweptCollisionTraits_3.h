@@ -5,7 +5,7 @@
 /// argument of haptic_sculpt::first_impacts(). Has model haptic_sculpt::Swept_collision_traits_3, which is exact.
 ///
 /// One vertex J goes from S to T in a straight line while all else stands still. The three sweeps say whether a pair of features
-/// meets, as closed sets, and when first (doc/exact_sweeps.md). A Sculptor asks only of pairs that boxes and separating planes
+/// meets, as closed sets, and when first (doc/proofs/exact_sweeps.md). A Sculptor asks only of pairs that boxes and separating planes
 /// leave, both exact; and it takes each answer at its word. What is promised of a drag is so as right as its traits: with a model
 /// that answers wrongly now and then, vertices pass through surfaces, or are stopped where nothing is.
 ///

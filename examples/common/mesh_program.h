@@ -30,7 +30,7 @@ inline std::string message_of(const std::exception& error) {
   if (refused->report().is_repairable())
     text += "`sculpt MESH --repair -o OUT` repairs what can be repaired.";
   else
-    text += "doc/validity.md says what a surface has to be.";
+    text += "doc/use/validity.md says what a surface has to be.";
   while (!text.empty() && text.back() == '\n')
     text.pop_back();
   return text;

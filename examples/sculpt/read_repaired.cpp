@@ -25,7 +25,7 @@ Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_ou
   if (!report.is_repaired()) {
     write_refusal(arguments, report.attempt, report.left);
     throw Read_error("cannot repair '" + arguments.mesh + "':\n" + told +
-                     "doc/repair.md says what is refused, and what to do then");
+                     "doc/use/repair.md says what is refused, and what to do then");
   }
   left_out = std::move(soup.left_out);
   return make_surface<Mesh>(soup, parameters.delta_length);

@@ -12,7 +12,7 @@
 
 namespace haptic_sculpt::sculpt_program {
 
-/// A repair as JSON; its keys: doc/repair.md.
+/// A repair as JSON; its keys: doc/use/repair.md.
 inline std::string json_of(const Repair_report& report) {
   using Json = nlohmann::ordered_json;
   Json steps = Json::array();

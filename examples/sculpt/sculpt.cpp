@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/sculpt.md.
+// Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/use/sculpt.md.
 #include "../common/contents_of.h"
 #include "../common/mesh_program.h"
 #include "../common/numbers.h"

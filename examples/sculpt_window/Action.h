@@ -16,7 +16,7 @@ struct Spot {
   std::array<double, 3> coordinates{};
 };
 
-/// What a script does in one frame of the window, or what it waits for. The words are those of doc/window.md.
+/// What a script does in one frame of the window, or what it waits for. The words are those of doc/use/window.md.
 struct Action {
   enum class Kind {
     move,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A window to sculpt in. See --help; what the mouse and the keys do, scripts, limits: doc/window.md.
+// A window to sculpt in. See --help; what the mouse and the keys do, scripts, limits: doc/use/window.md.
 #include "Application.h"
 
 #include "../common/contents_of.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The axis sweeps against linear feasibility in rational numbers at all critical times and between.
-// HAPTIC_SCULPT_AXIS_QUERIES sets how many queries are asked, HAPTIC_SCULPT_SEED which; see doc/testing.md.
+// HAPTIC_SCULPT_AXIS_QUERIES sets how many queries are asked, HAPTIC_SCULPT_SEED which; see doc/use/testing.md.
 #include "collision/Sweeps_under_test.h"
 #include "oracle/axis_oracle.h"
 #include "populations/Portable_random.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sweeps against linear feasibility over the integers, on every population: verdict, time, order of times.
-// HAPTIC_SCULPT_SWEEP_QUERIES sets how many queries are asked, HAPTIC_SCULPT_SEED which; see doc/testing.md.
+// HAPTIC_SCULPT_SWEEP_QUERIES sets how many queries are asked, HAPTIC_SCULPT_SEED which; see doc/use/testing.md.
 #include "collision/Sweeps_under_test.h"
 #include "oracle/hexadecimal.h"
 #include "oracle/sample_queries.h"

@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 root, build = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-pages = [root / "README.md", *sorted((root / "doc").glob("*.md"))]
+pages = [root / "README.md", *sorted((root / "doc").rglob("*.md"))]
 faults, counts = [], {"C++": 0, "commands": 0, "options": 0}
 
 

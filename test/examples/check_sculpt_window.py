@@ -381,7 +381,7 @@ check(window(BALL, "--no-log", "--samples", 0, "--screenshot", at("last.png"))[1
 for option in ("--help", "--version"):
     done = subprocess.run([WINDOW, option], capture_output=True, text=True)
     check(done.returncode == 0 and "sculpt_window" in done.stdout, option)
-described = open(os.path.join(SOURCE, "doc/window.md")).read()
+described = open(os.path.join(SOURCE, "doc/use/window.md")).read()
 help_text = subprocess.run([WINDOW, "--help"], capture_output=True, text=True).stdout
 for action in ("move", "press", "release", "click", "drag", "scroll", "key", "view", "orbit", "zoom", "fit", "tool", "brush", "depth", "wait", "settle",
                "screenshot", "save", "open", "record", "print", "where", "close", "quit"):

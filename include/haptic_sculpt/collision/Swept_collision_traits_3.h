@@ -13,7 +13,7 @@ namespace haptic_sculpt {
 /// concept SweptCollisionTraits_3 that is the default everywhere.
 ///
 /// Every answer is a sign of a polynomial in the input doubles: no tolerance, no root finding, no time step. All sets
-/// are closed: touching is a hit. Guarantees and their derivation: doc/exact_sweeps.md.
+/// are closed: touching is a hit. Guarantees and their derivation: doc/proofs/exact_sweeps.md.
 ///
 /// \tparam K a CGAL kernel with `FT` = double.
 /// \tparam Counters `Filter_counters` to learn how many signs left each filter stage; by default nothing is counted.

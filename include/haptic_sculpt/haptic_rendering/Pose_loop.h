@@ -20,7 +20,7 @@ struct Pose_loop_parameters {
   Virtual_mass_parameters virtual_mass;     ///< of what is grabbed; off by default
   std::optional<double> controller_damping; ///< N s/m; nothing: half of what may be asked for
   double reach = 0.001;                     ///< of a grab, m in the device
-  std::size_t work = 400; ///< pairs a drag may decide; more where a vertex of high valence is in hand (doc/work.md)
+  std::size_t work = 400; ///< pairs a drag may decide; more where a vertex of high valence is in hand (doc/use/work.md)
 
   /// For a device that dissipates so much at its handle, N s/m: with the delay it bounds the stiffness.
   explicit Pose_loop_parameters(double friction) { device.friction = friction; }

@@ -7,7 +7,7 @@
 
 /// \file
 /// Where a free mass that is told its own acceleration, velocity or place begins to swing by itself
-/// (doc/haptic_stability.md, "What a free mass carries").
+/// (doc/proofs/haptic_stability.md, "What a free mass carries").
 
 namespace haptic_sculpt {
 namespace internal {

@@ -26,7 +26,7 @@ namespace haptic_sculpt {
 ///   new is noted.
 /// - A visitor that has data of its own for faces or edges may also have `face_replaces(created, dead)` and
 ///   `edge_replaces(created, dead)`: before `vertex_created`, for each new element that comes from an old one, with the
-///   descriptor that the old one had (doc/properties.md says which comes from which). Undo and redo tell it, too.
+///   descriptor that the old one had (doc/use/properties.md says which comes from which). Undo and redo tell it, too.
 /// - Nothing is told of what was refused, or lacked memory, of a drag that did not move, of Sculptor::probe(), of
 /// set_delta() and the
 ///   like; of an undo of several changes that ended so halfway, what was taken back and made again.

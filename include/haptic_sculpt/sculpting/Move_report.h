@@ -42,7 +42,7 @@ struct Move_parameters {
   std::size_t drag_limit = std::numeric_limits<std::size_t>::max(); ///< most_drags(); at first without limit
 
   /// A slide counts as one drag for each so many pairs that it decides, or part of them: as many as a drag that is
-  /// stopped at its first impact decides, or a little more (doc/many_vertices.md).
+  /// stopped at its first impact decides, or a little more (doc/use/many_vertices.md).
   static constexpr std::size_t pairs_a_drag = 64;
   std::function<bool(const Move_progress&)> progress_function;      ///< progress(); at first none
   bool takes_steps = true, ///< steps()

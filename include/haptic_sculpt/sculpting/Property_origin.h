@@ -8,7 +8,7 @@
 
 namespace haptic_sculpt {
 
-/// What the property of a new element can be made of: the values of those that it comes from (doc/properties.md).
+/// What the property of a new element can be made of: the values of those that it comes from (doc/use/properties.md).
 template <class Value>
 struct Property_origin {
   std::size_t size = 0;                 ///< how many values there are, 1 to 3

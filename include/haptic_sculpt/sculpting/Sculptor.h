@@ -18,11 +18,11 @@ namespace haptic_sculpt {
 /// Guards a mesh: embedded in, embedded out, whatever is dragged where.
 ///
 /// \tparam Mesh_ `CGAL::Surface_mesh<K::Point_3>` with K::FT = double
-/// \tparam Broad_phase_ a model of BroadPhase (doc/broad_phase.md); no result depends on the choice
+/// \tparam Broad_phase_ a model of BroadPhase (doc/proofs/broad_phase.md); no result depends on the choice
 /// \tparam Visitor_ a model of EditVisitor (Default_edit_visitor), told of moved, created and dead elements
 /// \tparam Traits_ a model of SweptCollisionTraits_3: decides what a dragged vertex meets, and what of it first. With
 /// the default no decision is ever wrong; with another nothing is promised of drags but what that one keeps. Edits,
-/// finding, the delta rule, and which pairs are not looked at, are exact whatever the traits (doc/exact_sweeps.md).
+/// finding, the delta rule, and which pairs are not looked at, are exact whatever the traits (doc/proofs/exact_sweeps.md).
 ///
 /// Refers to the mesh, which must outlive it, and moves its vertices in place: descriptors and property maps stay.
 /// Changes made to the mesh by others are refused where they are found (Mesh_watch says when); `check_unchanged()`
@@ -31,7 +31,7 @@ namespace haptic_sculpt {
 ///
 /// An exception leaves everything as it was, std::bad_alloc included, or the change complete where it came from the
 /// visitor. Where it could not, every later call throws Unfinished_change but those that only tell: mesh(), options(),
-/// visitor(), filter_counters(), history(), memory() (doc/edits.md, "Memory that runs out").
+/// visitor(), filter_counters(), history(), memory() (doc/use/edits.md, "Memory that runs out").
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
@@ -120,7 +120,7 @@ public:
   void release() { guarded_.release(); }
 
   /// \name Finding
-  /// Exact (doc/finding.md). Changes nothing, and does not end
+  /// Exact (doc/use/finding.md). Changes nothing, and does not end
   /// the grab at hand. Cost: log n with the default broad phase.
   ///@{
 
@@ -164,7 +164,7 @@ public:
   }
 
   /// Draws v into one of its neighbours and lets the edge between them collapse. The neighbours are tried in the order
-  /// of the triangles they leave, best first (doc/edits.md). \post v has died, and so have the edges and faces of its
+  /// of the triangles they leave, best first (doc/use/edits.md). \post v has died, and so have the edges and faces of its
   /// star; its neighbours have not.
   Edited remove(Vertex_index v) {
     return edited(v, mesh().num_vertices(), [&](auto& editor) { return editor.remove(v, delta()); });
@@ -185,7 +185,7 @@ public:
 
   /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one
   /// given again. Done where the surface stays embedded, and the delta rule kept, at every time; decided exactly,
-  /// whatever the traits (doc/axis_moves.md). Else refused, with the vertices of a place that is in the way. One change
+  /// whatever the traits (doc/use/axis_moves.md). Else refused, with the vertices of a place that is in the way. One change
   /// of the history. \param axis 0 to 2 \post Nothing has died. \throw Unknown_vertex, Out_of_range. Cost: n log n in
   /// what moves and is near
   Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
@@ -223,7 +223,7 @@ public:
   ///@}
 
   /// Keeps the values of a property map from now on: what undo and redo revive has its values again, and what edits
-  /// create gets a value made of those of the elements it comes from (doc/properties.md); where it comes from none, the
+  /// create gets a value made of those of the elements it comes from (doc/use/properties.md); where it comes from none, the
   /// mesh's default.
   /// \param map a model of `ReadWritePropertyMap`, copied; its keys are vertices, halfedges, edges or faces of the mesh
   /// \param carry `value carry(const Property_origin<value>&)`: Copy_property, Interpolate_property, or your own
@@ -260,7 +260,7 @@ public:
   }
   ///@}
 
-  /// A point that touches the surface, to be dragged about the scene; changes nothing (doc/probes.md). Refused where p
+  /// A point that touches the surface, to be dragged about the scene; changes nothing (doc/use/probes.md). Refused where p
   /// is on a face, nearer to one than the clearance, or inside of a solid, of which a cavity is no part. Any change of
   /// the mesh ends it. Does not end the grab at hand. \throw Out_of_range, Invalid_parameter, Mesh_changed. Cost: log n
   /// and the faces whose boxes a ray meets.
@@ -291,7 +291,7 @@ public:
   void set_default_clearance() { guarded_.settings().clearance_length.reset(); }
 
   /// Of drags and edits from here on; undo and redo restore what was, and altitudes that are lower then may only grow
-  /// (doc/stop.md). \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude
+  /// (doc/proofs/stop.md). \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude
   /// already. Cost: that of validate().
   void set_delta(double length) {
     const internal::Rounding_to_nearest rounding;

@@ -33,7 +33,7 @@ struct Sculptor_parameters {
     return *this;
   }
   /// Bounds the work of a drag, for a loop that has to be in time: so many pairs decided and candidates looked up, and
-  /// it ends as Drag_end::work_limit where it is (doc/work.md).
+  /// it ends as Drag_end::work_limit where it is (doc/use/work.md).
   Sculptor_parameters& work_limit(std::size_t pairs) {
     work_bound = pairs;
     return *this;

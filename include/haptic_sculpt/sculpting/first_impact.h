@@ -55,7 +55,7 @@ void check_point(const char* what, const Point_3& p) {
 /// exactly first, or none when the way is free. Changes nothing.
 ///
 /// A mesh that is closed and embedded stays so up to `target`, and passes over no probe, if and only if the result is
-/// empty; otherwise it stays so up to, and not at, the time of the impacts (doc/exact_sweeps.md, "Completeness"). On
+/// empty; otherwise it stays so up to, and not at, the time of the impacts (doc/proofs/exact_sweeps.md, "Completeness"). On
 /// other meshes the answer is about the three sweeps only. A vertex without faces, a probe, stands in the way of a star
 /// like a vertex of the surface, and touches faces itself; probes do not touch each other. \throw Unknown_vertex,
 /// Out_of_range Cost: reads every face once; the sweeps cost valence times the candidates whose boxes meet the swept

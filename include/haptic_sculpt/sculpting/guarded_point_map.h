@@ -33,7 +33,7 @@ struct Guard_counts {
 /// A model of `ReadWritePropertyMap` from vertices to points to be passed as `vertex_point_map` to functions that only
 /// move points: each `put` is a proven drag. So whatever the function writes, the mesh stays embedded.
 ///
-/// Copies count together. Refers to the Sculptor, which must outlive it. doc/many_vertices.md tells which functions of
+/// Copies count together. Refers to the Sculptor, which must outlive it. doc/use/many_vertices.md tells which functions of
 /// CGAL it serves. To have all that a function does as one step of the history, call it while there is a
 /// `Sculptor::stroke()`.
 template <class Sculptor>

@@ -50,7 +50,7 @@ inline Repair_report repaired(const Face_soup& soup, const Repair_parameters& pa
 } // namespace internal
 
 /// Makes a valid surface of whatever a file holds, as far as CGAL's functions can: a soup of faces, with holes, gaps,
-/// doubled, turned and degenerate faces, self-intersections, overlapping solids. doc/repair.md says what is done, in
+/// doubled, turned and degenerate faces, self-intersections, overlapping solids. doc/use/repair.md says what is done, in
 /// which order, and what comes through.
 ///
 /// All is done on a copy. Where faults are left, the soup is unchanged, and the report says which. Where there is no

@@ -171,7 +171,7 @@ Face_soup face_soup(const Mesh& mesh, std::vector<Face_soup::Index>* face_name =
 /// \param delta the delta rule's length (paper, section 3.1), >= 0; 0: only exact degeneracy counts
 /// \param most_intersections pairs of intersecting faces to name, at least one; `Validity_report::all_intersections`:
 /// all \throw Error if delta is negative or not finite Complexity: O(n log^3 n + pairs of faces with meeting boxes) up
-/// to the last pair named, components included (doc/validity.md); 1.6 s for a million triangles. Memory: about 80 bytes
+/// to the last pair named, components included (doc/use/validity.md); 1.6 s for a million triangles. Memory: about 80 bytes
 /// a triangle beside the mesh. Thread-safe as far as reading the mesh is; whatever rounding mode the caller has set.
 template <class Mesh>
 Validity_report validate(const Mesh& mesh, double delta = 0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Motions of whole meshes along one axis against all pairs of faces, in integers, at many times of the motion.
-// HAPTIC_SCULPT_AXIS_MOVES sets how many motions of small meshes are tried; see doc/testing.md.
+// HAPTIC_SCULPT_AXIS_MOVES sets how many motions of small meshes are tried; see doc/use/testing.md.
 #include "oracle/axis_oracle.h"
 #include "sculpting/axis_moves/embedded_at.h"
 #include "sculpting/motion/embedding_oracle_input.h"

@@ -7,7 +7,7 @@
 ///
 /// They drop to exact 2D predicates in a coordinate projection that is one-to-one on the plane of the points. The
 /// first contact in a plane is always a vertex reaching a segment, so two questions serve all three sweeps; see
-/// doc/exact_sweeps.md, "Flat sweeps".
+/// doc/proofs/exact_sweeps.md, "Flat sweeps".
 
 #include <haptic_sculpt/collision/arithmetic/Sweep_signs.h>
 #include <haptic_sculpt/collision/arithmetic/sweep_time.h>

@@ -5,7 +5,7 @@
 /// \file
 /// Exact signs of orientation determinants of doubles: a semi-static filter, then integers.
 ///
-/// The bounds are derived in doc/exact_sweeps.md, "The floating-point filter". They hold in every rounding mode, with
+/// The bounds are derived in doc/proofs/exact_sweeps.md, "The floating-point filter". They hold in every rounding mode, with
 /// and without contraction to fused multiply-add.
 
 #include <haptic_sculpt/collision/Filter_counters.h>

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_COLLISION_SWEEP_DECISION_H
 
 /// \file
-/// The three sweeps on plain coordinates: whether and when. Why these signs decide: doc/exact_sweeps.md.
+/// The three sweeps on plain coordinates: whether and when. Why these signs decide: doc/proofs/exact_sweeps.md.
 
 #include <haptic_sculpt/collision/arithmetic/flat_sweep.h>
 

@@ -6,7 +6,7 @@
 /// The time of an impact: u = f(S) / (f(S) - f(T)) for an affine f that vanishes at the impact.
 ///
 /// Along the path f does not change sign before the impact, so f(S) and f(T) have opposite signs (or one is 0), and
-/// u = a / (a + b) with a = |f(S)|, b = |f(T)|. See doc/exact_sweeps.md, "The time of an impact".
+/// u = a / (a + b) with a = |f(S)|, b = |f(T)|. See doc/proofs/exact_sweeps.md, "The time of an impact".
 
 #include <haptic_sculpt/collision/arithmetic/Sweep_verdict.h>
 #include <haptic_sculpt/collision/arithmetic/unit_of.h>

@@ -25,7 +25,7 @@ struct Haptic_parameters {
   /// it was loaded. false: for measuring what a coupling that is not passive does.
   bool follows_pose = true;
   double reach = 0.001;   ///< of a grab, m in the device
-  std::size_t work = 400; ///< pairs a drag may decide; more where a vertex of high valence is in hand (doc/work.md)
+  std::size_t work = 400; ///< pairs a drag may decide; more where a vertex of high valence is in hand (doc/use/work.md)
 
   /// That the coupling needs at the handle to be passive, N s/m.
   double needed_friction() const {

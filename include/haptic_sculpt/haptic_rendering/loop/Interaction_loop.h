@@ -19,7 +19,7 @@ struct Haptic_tick {
   bool is_new_fault = false;                          ///< true in the one tick in which the fault was found
 };
 
-/// What stands between a device and a sculpture: at each tick a reading in, a force out. doc/haptic_rendering.md has
+/// What stands between a device and a sculpture: at each tick a reading in, a force out. doc/use/haptic_rendering.md has
 /// the way of a tick. Haptic_loop and Pose_loop are made of it.
 ///
 /// Deterministic: the same readings give the same mesh and forces, bit for bit. Reads no clock, waits for nothing, and

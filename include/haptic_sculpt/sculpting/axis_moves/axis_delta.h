@@ -13,7 +13,7 @@ namespace internal {
 
 /// Whether q(t) = |n|^2 - delta^2 |side|^2 >= 0 for all t in [0, 1], for each side of the triangle 0, 1, 2; n is the
 /// normal, a cross product of two sides. One coordinate of n is constant and two are affine in t, so q is a quadratic
-/// a t^2 + b t + c, and nothing but signs is asked (doc/axis_moves.md).
+/// a t^2 + b t + c, and nothing but signs is asked (doc/use/axis_moves.md).
 template <class Number>
 CGAL::Uncertain<bool> is_delta_kept_in(const Axis_motion<3>& motion, double delta) {
   struct Affine { // start + t slope

@@ -10,7 +10,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// What one contact forbids the moving vertex J, taken as a point: to cross a planar convex facet
-/// (doc/slide.md).
+/// (doc/proofs/slide.md).
 ///
 /// vertex-face: the triangle ABC; edge-edge: the part of plane V A B beyond AB, between the rays VA and VB;
 /// face-vertex: the wedge A + s (A - G) + t (A - I), s, t >= 0. The delta rule forbids to go through the surface of

@@ -10,7 +10,7 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Decides into which of its neighbours a vertex can be drawn, for the edge between them to collapse (doc/edits.md).
+/// Decides into which of its neighbours a vertex can be drawn, for the edge between them to collapse (doc/use/edits.md).
 template <class Mesh, class Broad_phase>
 class Collapse_proof {
 public:

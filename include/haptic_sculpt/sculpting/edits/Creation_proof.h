@@ -16,7 +16,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Decides whether one or two faces can be replaced by the star of a new vertex: the new faces meet nothing improperly,
-/// and nothing stands between them and the old (doc/edits.md).
+/// and nothing stands between them and the old (doc/use/edits.md).
 template <class Mesh, class Broad_phase>
 class Creation_proof {
 public:

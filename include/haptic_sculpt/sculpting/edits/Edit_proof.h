@@ -40,7 +40,7 @@ bool keeps_delta(const Coordinates& a, const Coordinates& b, const Coordinates& 
   return Satisfies_delta_rule_3<typename CGAL::Kernel_traits<Point>::Kernel>(delta)(point(a), point(b), point(c));
 }
 
-/// Exact decisions about creations, collapses and flips. See doc/edits.md.
+/// Exact decisions about creations, collapses and flips. See doc/use/edits.md.
 template <class Mesh, class Counters>
 class Edit_proof {
 public:

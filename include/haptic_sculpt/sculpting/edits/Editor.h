@@ -16,7 +16,7 @@ namespace internal {
 
 /// Creates and removes vertices of a mesh and flips edges by Euler operations: each is proven and then done, or refused
 /// and nothing has changed. Also takes changes back and makes them again, in the steps of the history. Change_maker
-/// makes what is decided here. See doc/edits.md.
+/// makes what is decided here. See doc/use/edits.md.
 template <class Mesh, class Broad_phase, class Visitor = Default_edit_visitor>
 class Editor {
 public:

@@ -12,7 +12,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Decides whether the edge AB between the faces ABC and BAD can be flipped to CD: the new faces meet nothing
-/// improperly, and nothing is in the tetrahedron ABCD between them and the old. Exact; the argument is in doc/edits.md.
+/// improperly, and nothing is in the tetrahedron ABCD between them and the old. Exact; the argument is in doc/use/edits.md.
 template <class Mesh, class Broad_phase>
 class Flip_proof {
 public:

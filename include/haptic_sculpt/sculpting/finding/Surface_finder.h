@@ -16,7 +16,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Finds the vertex nearest to a point, and what of the surface a segment meets first. Exact; vertices without faces
-/// are no part of the surface (doc/finding.md).
+/// are no part of the surface (doc/use/finding.md).
 template <class Mesh, class Broad_phase>
 class Surface_finder {
 public:

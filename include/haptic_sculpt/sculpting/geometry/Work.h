@@ -10,7 +10,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// The work of a drag, in pairs decided and candidates looked up, and its bound. Counted, never timed: a replay stops
-/// at the same pair (doc/work.md).
+/// at the same pair (doc/use/work.md).
 ///
 /// Also keeps which trials are due when a drag goes on with a search that another one left. The trials of a search
 /// always come in the same order, so their number tells.

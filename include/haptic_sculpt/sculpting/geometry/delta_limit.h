@@ -8,7 +8,7 @@
 /// With J(u) = S + u (T - S) the doubled area vector n(u) = (G - J) x (I - J) is affine in u, so over each side of
 /// length L the condition "altitude >= delta" is q(u) = |n|^2 - delta^2 L^2 >= 0 with q quadratic. The limit is inf { u
 /// : q < 0 }: 0, a rational, or a root of a quadratic with rational coefficients. An altitude that is below delta at
-/// the start may not get lower than it is there: then q(u) = |n(u)|^2 L(0)^2 - |n(0)|^2 L(u)^2. See doc/stop.md, "The
+/// the start may not get lower than it is there: then q(u) = |n(u)|^2 L(0)^2 - |n(0)|^2 L(u)^2. See doc/proofs/stop.md, "The
 /// delta rule".
 
 #include <haptic_sculpt/collision/Impact_3.h>

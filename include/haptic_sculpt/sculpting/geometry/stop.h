@@ -34,7 +34,7 @@ inline double path_length(const Coordinates& source, const Coordinates& target) 
 /// free.
 ///
 /// `is_free(Q)` decides exactly whether the motion from source to Q touches nothing. The setback doubles until it does;
-/// at the latest Q = source, which is no motion, ends it. (doc/stop.md)
+/// at the latest Q = source, which is no motion, ends it. (doc/proofs/stop.md)
 template <class Is_free>
 Coordinates stop_before(const Coordinates& source, const Coordinates& target, double time, double setback,
                         const Is_free& is_free) {

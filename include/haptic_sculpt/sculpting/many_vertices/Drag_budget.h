@@ -10,7 +10,7 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// How many drags may still be made, a slide counting by its work (doc/many_vertices.md, "Limits of time").
+/// How many drags may still be made, a slide counting by its work (doc/use/many_vertices.md, "Limits of time").
 class Drag_budget {
 public:
   /// A slide decides at most so many pairs: few need more, where parts lie close about each other, and these would take

@@ -9,7 +9,7 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// All three sweeps of a star against its candidates (completeness: doc/exact_sweeps.md).
+/// All three sweeps of a star against its candidates (completeness: doc/proofs/exact_sweeps.md).
 ///
 /// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between
 /// its two, when it cannot come first any more, or when it shares a vertex that makes its meeting no collision: faces

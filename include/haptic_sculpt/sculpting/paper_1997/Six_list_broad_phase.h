@@ -15,7 +15,7 @@ namespace haptic_sculpt {
 ///
 /// A face meets the query box when six comparisons hold, one a list; each list is divided by its pointer into those for
 /// which it holds and the others. The faces for which all six hold are the checklist. A model of BroadPhase
-/// (doc/broad_phase.md), and the historical baseline.
+/// (doc/proofs/broad_phase.md), and the historical baseline.
 ///
 /// Cost: a query, the number of list entries between the old and the new pointers: few in a drag, all on a far jump.
 /// A face that moves: log n to find its entries, and as many steps as entries are passed. One that comes or goes: the n

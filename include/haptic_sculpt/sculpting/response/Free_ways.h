@@ -8,7 +8,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Where a walk has ended, no plane is taken at its word any more: looks for a free straight way that leads nearer to
-/// the target, by deciding motions (doc/slide.md, "The last look").
+/// the target, by deciding motions (doc/proofs/slide.md, "The last look").
 ///
 /// Near J what is free is bounded by planes: those of contacts, and those through J that graze the border of a facet,
 /// past which there is no obstacle. Of all directions in which it is free the best is that of the target, or that as

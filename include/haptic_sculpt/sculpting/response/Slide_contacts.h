@@ -17,7 +17,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Where a vertex J is, and the facets of its contacts, measured from there: which of them are known, where they let J
-/// go, and which it has left (doc/slide.md).
+/// go, and which it has left (doc/proofs/slide.md).
 template <class Mesh>
 class Slide_contacts {
 public:

@@ -12,7 +12,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// The default response: a blocked vertex slides along what blocks it to a point nearest to its target
-/// (doc/slide.md).
+/// (doc/proofs/slide.md).
 ///
 /// Carries its contacts from one drag of a grab to the next. Allocates nothing.
 template <class Mesh>
@@ -22,7 +22,7 @@ public:
   static constexpr int most_legs = Slide_path::most_legs;
   /// When the drag has ended, straight ways are tried where it has made more legs than `few_legs`, bent ones too where
   /// more than `many_legs` are left: one step of a hand shall make no more than so many, and a slide over a plane cut
-  /// into triangles no more than three beside the first (doc/slide.md, "The path made shorter").
+  /// into triangles no more than three beside the first (doc/proofs/slide.md, "The path made shorter").
   static constexpr int few_legs = 4, many_legs = 8;
   /// What bending has left may be bent again, so often.
   static constexpr int most_bendings = 4;

@@ -8,7 +8,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Where a walk has settled, planes may be nearer than a clearance that were never in its way. Looks for them, so that
-/// the clearance is kept from those too (doc/slide.md, "The walk").
+/// the clearance is kept from those too (doc/proofs/slide.md, "The walk").
 template <class Mesh>
 class Unmet_planes {
 public:

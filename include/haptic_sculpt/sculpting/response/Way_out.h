@@ -8,7 +8,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// Half-spaces forbid more than facets do: at a corner that is neither convex nor concave there may be a way on
-/// although the planes meet. Looks for one where a walk has settled (doc/slide.md, "The way out").
+/// although the planes meet. Looks for one where a walk has settled (doc/proofs/slide.md, "The way out").
 template <class Mesh>
 class Way_out {
 public:

@@ -15,7 +15,7 @@ namespace haptic_sculpt {
 /// level has the children 8k ... 8k + 7 of the level below, and the children of the lowest level are the slots, one a
 /// face: no pointers. Moves refit the boxes above the faces that moved, up to the first that does not change. A new
 /// face takes a slot that was freed beside a face it shares an edge with; if there is none it goes to an overflow tree
-/// that grows. Nothing is ever built anew. A model of BroadPhase (doc/broad_phase.md).
+/// that grows. Nothing is ever built anew. A model of BroadPhase (doc/proofs/broad_phase.md).
 ///
 /// Cost: build n log n; a query log n plus its answer; an update log n. 35.4 bytes a face, about 60 for one in the
 /// overflow. A query allocates nothing once its output has grown; neither do moves.

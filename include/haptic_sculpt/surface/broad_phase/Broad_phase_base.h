@@ -24,7 +24,7 @@ class Broad_phase_base {
 public:
   using Face_index = typename Mesh_::Face_index; ///< what queries append
 
-  /// Appends the faces whose boxes pass the filter of the star (doc/broad_phase.md, "Which faces count"), no others, in
+  /// Appends the faces whose boxes pass the filter of the star (doc/proofs/broad_phase.md, "Which faces count"), no others, in
   /// any order: at least all faces that meet one of the tetrahedra that the star sweeps. Gives up where there are more
   /// than `most`. Returns whether the answer is whole. Cost: here that of the query for a box, all of whose answer is
   /// read.

@@ -13,7 +13,7 @@ namespace internal {
 /// All boxes (1 - t) A + t B, 0 <= t <= until, between two boxes: up to `until` = 1 the convex hull of both, and more.
 ///
 /// Where the boxes are far apart it is far thinner than one box around them. The proof that no rounding loses a box is
-/// in doc/broad_phase.md.
+/// in doc/proofs/broad_phase.md.
 class Cone_of_boxes {
 public:
   Cone_of_boxes() = default; ///< everything

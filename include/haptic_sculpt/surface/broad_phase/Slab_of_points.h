@@ -11,7 +11,7 @@ namespace internal {
 
 /// What lies between two parallel planes that have a swept star between them. A long edge that goes far sideways sweeps
 /// a sheet, which one slab holds; a needle is held by two that cross along it. The proof that no rounding loses a box
-/// is in doc/broad_phase.md.
+/// is in doc/proofs/broad_phase.md.
 class Slab_of_points {
 public:
   using Vector = std::array<double, 3>;

@@ -15,7 +15,7 @@ namespace internal {
 ///
 /// Whether a box passes depends on that box and the star alone, and a box that contains one that passes passes too, as
 /// rounded: what is asked is made of operations that round monotonically. So which boxes pass does not depend on what
-/// tree they are in (doc/broad_phase.md, "Which faces count").
+/// tree they are in (doc/proofs/broad_phase.md, "Which faces count").
 class Star_filter {
 public:
   /// \param scale of the boxes \pre the star stays as it is while it is asked
