@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(no_end_on_a_part_is_too_early) {
   const End_counts ends = drag_in_all_families(Response::slide, 0, first_near_degenerate_family,
                                                count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
   BOOST_TEST(is_enough(ends.certified, 500));
-  BOOST_TEST(ends.missed <= 1 + ends.drags / 250); // doc/proofs/slide.md, "Measured"
+  BOOST_TEST(ends.missed <= 1 + ends.drags / 250); // doc/results/slide.md
 }
 
 BOOST_AUTO_TEST_CASE(few_ends_on_near_degenerate_solids_are_too_early) {

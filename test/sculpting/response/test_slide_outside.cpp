@@ -124,7 +124,7 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
 
 /// Prints what was found, and fails where a promise was broken.
 /// \param no_minimum the share of drags that may end at no minimum (ten times as many in grooves of needles), beside
-/// one of each; doc/proofs/slide.md, "Measured"
+/// one of each; doc/results/slide.md
 void judge(const Outside_findings& found, double no_minimum) {
   std::size_t drags = 0, failed = 0, grooves = 0, failed_in_grooves = 0, most_legs = 0;
   for (const auto& [name, e] : found.by_scene) {
