@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sculpts in a closed loop with a simulated device in a simulated hand. See --help; formats: doc/use/haptic_rendering.md.
+// Sculpts in a closed loop with a simulated device in a simulated hand. See --help; formats: doc/use/haptic_loop.md.
 #include "Loop_report.h"
 
 #include "../common/mesh_program.h"
