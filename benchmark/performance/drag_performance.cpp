@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a drag costs: against the size of the mesh, the valence, and what others do. See doc/results/performance.md.
+// What a drag costs: against the size of the mesh, the valence, and what others do. See doc/results/drags.md.
 #include "Shard.h"
 #include "drag_performance/run_structures.h"
 

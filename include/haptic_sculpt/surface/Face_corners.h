@@ -18,7 +18,7 @@ std::array<typename Mesh::Vertex_index, 3> corners_of_face(const Mesh& mesh, typ
 /// A copy of the corners of every face, 12 bytes a face.
 ///
 /// Walking a face's halfedges in a large mesh waits for memory three times, one after the other; here once. Of
-/// candidates' 58 faces in a million that is most of the cost of grabbing a vertex (doc/results/performance.md).
+/// candidates' 58 faces in a million that is most of the cost of grabbing a vertex (doc/results/drags.md).
 template <class Mesh>
 class Face_corners {
 public:

@@ -16,7 +16,7 @@ namespace internal {
 /// A point of the star is (1 - t) J + t B with B fixed on the link, so it is nowhere farther from where it was than J
 /// is. Distances are bounded from below by separating planes, with all roundings taken off; so what is left out is
 /// proven free, not guessed. Near a contact a few pairs are left to be swept, elsewhere none.
-/// (doc/results/performance.md, with the proof)
+/// (doc/proofs/culling.md, with the proof)
 template <class Mesh>
 class Near_pairs {
 public:

@@ -16,7 +16,7 @@ namespace internal {
 /// For each plane it is told of every still point on which side of what moves it certainly lies, if on any: 64 sides of
 /// a point are one number. A still edge or face all of whose corners lie on one side of a plane, beyond what a moving
 /// feature sweeps over, is apart from that, which is one comparison of numbers. Whatever direction a plane has, that
-/// holds: what is swept over is measured along it, and roundings are taken off. (doc/results/performance.md)
+/// holds: what is swept over is measured along it, and roundings are taken off. (doc/proofs/culling.md)
 ///
 /// There is one plane along each spoke, which tells the sectors of the star apart; one along each edge of the link, for
 /// what lies beyond it; and the sides of a box. Points are given relative to the start of the motion, rounded once.

@@ -15,7 +15,7 @@ namespace internal {
 /// At each spoke's end there are four, as in Swept_fan: beyond each lies what is to one side of the spoke, and either
 /// under or over the fan. How far a point is under or over the fan is measured once for all spokes, so a plane costs
 /// half a product sum a point. Each plane has a bit of its own spoke, so what is apart from which spokes takes a few
-/// operations for all of them. (doc/results/performance.md)
+/// operations for all of them. (doc/proofs/culling.md)
 ///
 /// Points are given relative to the start of the motion, rounded once.
 class Spoke_planes {
