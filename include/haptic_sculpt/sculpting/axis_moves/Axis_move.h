@@ -138,7 +138,7 @@ private:
   bool are_all_ = false;
   std::size_t held_ = 0; ///< vertices that have been pulled, or are to be in this round
   std::size_t most_ = 0;
-  std::vector<Item> items_; ///< by slot; faces in the order of space, then vertices without
+  std::vector<Item> items_; ///< by slot, in the order of space
   std::vector<std::uint32_t> slot_of_face_; ///< of those taken
   std::vector<Vertex> vertices_;            ///< corners of what is taken; others are as they were left
   Axis_box_tree tree_;
@@ -245,8 +245,6 @@ private:
     const unsigned shared_of_f = shared_corners(f, g);
     if (are_side_by_side(f, g, shared_of_f))
       return;
-    if (!f.is_face() && !g.is_face())
-      return;
     const std::array<std::uint32_t, 6> v{f.corners[0], f.corners[1], f.corners[2],
                                          g.corners[0], g.corners[1], g.corners[2]};
     const Axis_motion<6> motion = motion_of(v);
@@ -256,9 +254,9 @@ private:
     const unsigned shared = shared_of_f | shared_corners(g, f) << 3;
     const auto is_shared = [shared](int k) { return (shared >> k & 1) != 0; };
     for (int i = 0; i < 3; ++i) {
-      if ((f.owned >> i & 1) != 0 && !is_shared(i) && g.is_face() && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
+      if ((f.owned >> i & 1) != 0 && !is_shared(i) && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
         add(Axis_obstacle::Kind::vertex_face, {v[i], v[3], v[4], v[5]});
-      if ((g.owned >> i & 1) != 0 && !is_shared(3 + i) && f.is_face() && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
+      if ((g.owned >> i & 1) != 0 && !is_shared(3 + i) && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
         add(Axis_obstacle::Kind::vertex_face, {v[3 + i], v[0], v[1], v[2]});
     }
     for (int i = 0; i < 3; ++i) {

@@ -225,14 +225,13 @@ public:
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
-    if (axis_move_.has_taken_all())
-      return;
     constexpr std::size_t many = 8; // an eighth of all vertices: then the search costs more than it spares
     if (many * targets.size() < mesh_->number_of_vertices())
       return axis_move_.take(on_the_way_.find(*mesh_, broad_phase_, targets), false);
-    std::vector<Face_index> faces;
-    faces.reserve(mesh_->number_of_faces());
-    broad_phase_.faces_in_order(faces);
+    if (axis_move_.has_taken_all())
+      return;
+    std::vector<Face_index> faces(mesh_->faces().begin(), mesh_->faces().end());
+    broad_phase_.put_in_order(faces);
     axis_move_.take(faces, true);
   }
 

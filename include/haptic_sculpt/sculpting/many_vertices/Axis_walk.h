@@ -34,7 +34,7 @@ public:
       targets.emplace_back(v.vertex, v.target);
     guarded_.look_around(targets); // no coordinate leaves the interval from where it is to its target
     // Steps that are taken back would use up what few motions there are.
-    const bool takes_steps = parameters_.takes_steps && parameters_.drag_limit / work_of_steps >= vertices_.size();
+    const bool takes_steps = parameters_.drags_singly && parameters_.drag_limit / work_of_steps >= vertices_.size();
     double way = takes_steps ? 0 : 1, step = 1;
     std::size_t before = vertices_.size(); // so many were held back in the step twice as long
     while (way < 1 && goes_on_) {
@@ -56,7 +56,7 @@ public:
     for (double left = sum_left(); goes_on_ && left > 0;) {
       step_to(1, vertices_.size());
       const double gone = left - sum_left();
-      if (!(gone > least_gain * left))
+      if (!parameters_.drags_singly || !(gone > least_gain * left))
         break;
       left -= gone;
     }
