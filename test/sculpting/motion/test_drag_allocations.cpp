@@ -84,7 +84,8 @@ void check(const char* name, const meshes::Triangle_list& list, double edge, con
   Sculptor<Mesh> sculptor(mesh, options);
   Random random(seed);
   std::size_t drags = 0, blocked = 0, with_contacts = 0, legs = 0, warm = 0, warm_gmp = 0, many = 0;
-  for (int k = 0; k < 12; ++k) {
+  const std::size_t grabs = count_from_environment("HAPTIC_SCULPT_WARM_GRABS", 12);
+  for (std::size_t k = 0; k < grabs; ++k) {
     const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
     auto grab = sculptor.grab(v);
     const Point_3 home = mesh.point(v);
@@ -101,11 +102,11 @@ void check(const char* name, const meshes::Triangle_list& list, double edge, con
                           << " blocked, " << with_contacts << " with contacts (" << many << " with very many), " << legs
                           << " legs, " << warm << " allocations, " << warm_gmp << " of GMP");
   BOOST_TEST(warm == 0u);
-  BOOST_TEST(many < drags / 20);
+  BOOST_TEST((share_of_sizes() < 1 || many < drags / 20));
   if (!is_extreme)
     BOOST_TEST(warm_gmp == 0u);
-  BOOST_TEST(blocked > drags / 50);
-  BOOST_TEST(with_contacts > drags / 50);
+  BOOST_TEST(is_enough(blocked, drags / 50));
+  BOOST_TEST(is_enough(with_contacts, drags / 50));
 }
 
 } // namespace

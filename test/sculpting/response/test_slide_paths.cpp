@@ -50,6 +50,13 @@ constexpr int steps_per_move = 1000;
 /// are right to within some clearances.
 constexpr double most_jump = 1.001, jump_slack = 8;
 
+/// How far an end may stay behind the hand along a surface. Its coordinates are rounded, so it may be an ulp or two
+/// nearer to the surface or farther from it than the optimum is; and an end that is farther from the target than the
+/// start, exactly, is not taken. A way d along the surface shortens the distance D by d^2 / 2 D only.
+double held_by_rounding(const Mesh& mesh, const Point_3& at, const Point_3& target) {
+  return std::sqrt(2 * length_of(target - at) * 2 * ulp_of(mesh, at));
+}
+
 /// Of one step of a hand, whatever it does: slide, meet, or fall over an edge from deep behind it.
 constexpr int most_legs_of_a_step = 8;
 
@@ -89,7 +96,7 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
             held.add(r.legs);
           if (step > 1e4 * c)
             worst = std::fmax(worst, jump / step);
-          if (jump > most_jump * step + jump_slack * c)
+          if (jump > most_jump * step + jump_slack * c + held_by_rounding(mesh, r.position, target))
             jumps.add(scene.name, mesh, scene.moved, source, target, c,
                       "T - x jumps by " + std::to_string(jump / step) + " hand steps, from hand at " +
                           exact_text(hand) + " to " + exact_text(r.position));
@@ -132,7 +139,8 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_around_solids_makes_few_legs) {
           const Vector_3 before = hand - source;
           const double step = length_of(target - hand), c = sculptor.clearance(target);
           const auto r = grab.drag_to(target);
-          const bool has_jumped = length_of((target - r.position) - before) > most_jump * step + jump_slack * c;
+          const bool has_jumped = length_of((target - r.position) - before) >
+                                  most_jump * step + jump_slack * c + held_by_rounding(mesh, r.position, target);
           const bool is_deep = length_of(target - r.position) > deepest_hand * scene.size ||
                                length_of(before) > deepest_hand * scene.size;
           jumps += has_jumped;
@@ -223,7 +231,7 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
   Random random(seed_from_environment(508));
   Slide_faults gap("gap"), lift("lift"), slide("slide after"), wander("wander");
   double least = 1e300, most = 0;
-  std::size_t held = 0;
+  std::size_t held = 0, lifts = 0;
   for (const double length : {0.0, 1e-9})
     for (const Convex_scene& scene : convex_scenes(random)) {
       Mover_hand grab(scene.mesh, scene.moved, parameters::response(response_under_test()));
@@ -284,7 +292,10 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
         off = off + Vector_3(permitted.normal(i)[0], permitted.normal(i)[1], permitted.normal(i)[2]);
       const Point_3 lifted = source + 1e-3 / length_of(off) * off;
       const auto up = grab.drag_to(lifted);
-      if (!up.reached || up.legs != 1 || !up.contacts.empty())
+      // Where planes meet at a sharp angle the sum of their normals may lead into one of them.
+      const bool is_free = is_beyond_no_plane(scene, lifted);
+      lifts += is_free;
+      if (is_free && (!up.reached || up.legs != 1 || !up.contacts.empty()))
         lift.add(scene.name, mesh, scene.moved, source, lifted, c,
                  "does not lift off at once: " + std::to_string(up.legs) + " legs");
       grab.drag_to(target);
@@ -299,5 +310,6 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
   BOOST_TEST(gap.count() == 0u);
   BOOST_TEST(wander.count() == 0u);
   BOOST_TEST(lift.count() == 0u);
+  BOOST_TEST(lifts > held / 2);
   BOOST_TEST(slide.count() == 0u);
 }
