@@ -72,7 +72,7 @@ std::map<Vertex_index, Point_3> wanted(const Mesh& mesh, const Dab& dab, const s
   return targets;
 }
 
-double distance(const Point_3& p, const Point_3& q) {
+double length_between(const Point_3& p, const Point_3& q) {
   return std::sqrt(CGAL::squared_distance(p, q));
 }
 
@@ -111,9 +111,9 @@ BOOST_AUTO_TEST_CASE(a_dab_goes_where_its_formula_says_and_no_farther_from_there
             continue;
           }
           // The formula, and its writing out again, are rounded.
-          const double slack = 1e-9 * (edge + distance(before.point(v), CGAL::ORIGIN) * 1e-3);
-          wrong += distance(mesh.point(v), found->second) > distance(before.point(v), found->second) + slack;
-          reached += distance(mesh.point(v), found->second) <= slack;
+          const double slack = 1e-9 * (edge + length_between(before.point(v), CGAL::ORIGIN) * 1e-3);
+          wrong += length_between(mesh.point(v), found->second) > length_between(before.point(v), found->second) + slack;
+          reached += length_between(mesh.point(v), found->second) <= slack;
         }
         BOOST_TEST(wrong == 0u, scene.name << ", brush " << static_cast<int>(kind));
         reached += static_cast<std::size_t>(std::count_if(
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(both_sides_of_a_plane_go_alike_and_several_dabs_add_up) {
       const Point_3 &p = start.point(v), &q = mesh.point(v);
       const auto other = at.find(key(-p.x(), p.y(), p.z()));
       BOOST_REQUIRE((other != at.end()));
-      worst = std::fmax(worst, distance(Point_3(-q.x(), q.y(), q.z()), mesh.point(other->second)));
+      worst = std::fmax(worst, length_between(Point_3(-q.x(), q.y(), q.z()), mesh.point(other->second)));
     }
     BOOST_TEST(worst < 1e-12);
     BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(both_sides_of_a_plane_go_alike_and_several_dabs_add_up) {
     apply_brush(of_stronger, Dabs{strong});
     double apart = 0;
     for (const Vertex_index v : start.vertices())
-      apart = std::fmax(apart, distance(twice.point(v), stronger.point(v)));
+      apart = std::fmax(apart, length_between(twice.point(v), stronger.point(v)));
     BOOST_TEST(apart < 1e-12);
   }
 }
