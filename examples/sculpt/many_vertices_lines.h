@@ -23,7 +23,8 @@ struct Many_vertices_outcome {
 template <class Sculptor>
 Many_vertices_outcome carry_out_brush(Sculptor& sculptor, const Command& command) {
   try {
-    const Move_report report = apply_brush(sculptor, std::array<Dab_3<Kernel>, 1>{dab_of(command)});
+    const Move_report report = apply_brush(sculptor, std::array<Dab_3<Kernel>, 1>{dab_of(command)},
+                                           boost::static_property_map<double, Vertex_index>(1.0), Move_parameters());
     if (report.asked == 0)
       return {"nothing-in-reach", 0, 0, "no vertex is nearer to the centre than the radius"};
     std::ostringstream detail;

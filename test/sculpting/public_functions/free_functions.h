@@ -161,8 +161,11 @@ inline std::vector<Public_function> free_functions() {
                        if (has_direction)
                          dab.direction = meshes::Kernel::Vector_3(scene.length(1), scene.length(0.5), scene.length(0.25));
                        // A plane is told by a direction, of any length, and a place.
-                       const auto other = mirrored(
-                           dab, meshes::Kernel::Plane_3(scene.at(0.25, 0, 0), meshes::Kernel::Vector_3(1, 0.5, 0.25)));
+                       const auto plane = [&] {
+                         const internal::Rounding_to_nearest rounding; // its constructor multiplies
+                         return meshes::Kernel::Plane_3(scene.at(0.25, 0, 0), meshes::Kernel::Vector_3(1, 0.5, 0.25));
+                       }();
+                       const auto other = mirrored(dab, plane);
                        outcome.point(other.centre);
                        boost::vector_property_map<Point_3> targets;
                        const auto touched = touched_vertices(scene.mesh, dab, Scaled_scene::vertex(1));
