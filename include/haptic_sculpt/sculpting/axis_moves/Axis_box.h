@@ -24,17 +24,17 @@ struct Axis_box {
   template <std::size_t corners>
   Axis_box(const Box_scale& scale, int axis, const std::array<std::array<double, 3>, corners>& start,
            const std::array<double, corners>& end)
-    : Axis_box() {
-    for (std::size_t i = 0; i < corners; ++i)
-      include(scale, {start[i][(axis + 1) % 3], start[i][(axis + 2) % 3], start[i][axis], end[i]});
-  }
-
-private:
-  void include(const Box_scale& scale, const std::array<double, 4>& p) {
+  {
     for (int k = 0; k < 4; ++k) {
-      const float below = scale.below(p[k]), above = scale.above(p[k]);
-      lower[k] = below < lower[k] ? below : lower[k];
-      upper[k] = above > upper[k] ? above : upper[k];
+      const auto coordinate = [&](std::size_t i) { return k < 3 ? start[i][(axis + 1 + k) % 3] : end[i]; };
+      double least = coordinate(0), largest = least;
+      for (std::size_t i = 1; i < corners; ++i) {
+        const double x = coordinate(i);
+        least = x < least ? x : least;
+        largest = x > largest ? x : largest;
+      }
+      lower[k] = scale.below(least);
+      upper[k] = scale.above(largest);
     }
   }
 };

@@ -63,9 +63,12 @@ public:
     delta_ = delta;
     held_ = 0;
     most_ = most;
-    for (const Item& item : items_)
-      for (const std::uint32_t v : item.corners)
-        vertices_[v] = Vertex{};
+    if (are_all_)
+      vertices_.assign(vertices_.size(), Vertex{});
+    else
+      for (const Item& item : items_)
+        for (const std::uint32_t v : item.corners)
+          vertices_[v] = Vertex{};
     tree_.begin_round();
     for (const auto& [v, end] : ways)
       if (end != height(index(v)))
@@ -76,7 +79,7 @@ public:
       const Axis_motion<3> motion = motion_of(item.corners);
       item.side = static_cast<std::int8_t>(Axis_sweep<3, Filter_counters>(motion, *counters_).seen(0, 1, 2));
       for (const std::uint32_t v : item.corners)
-        ++vertices_[v].faces, vertices_[v].sides += item.side;
+        vertices_[v].sides = static_cast<std::uint8_t>(vertices_[v].sides | 1u << (item.side + 1));
       set(slot, motion, does_move(item));
     }
     for (Item& item : items_)
@@ -123,8 +126,7 @@ private:
   struct Vertex {
     double end = 0;    ///< where it moves
     double share = 1;  ///< proposed in this round
-    std::int32_t faces = 0; ///< of those taken, around it
-    std::int32_t sides = 0; ///< the sum of their sides
+    std::uint8_t sides = 0; ///< bits: whether a face around it is seen from below, on edge, from above
     std::uint8_t pulls = 0;
     bool moves = false, is_pulled = false;
   };
@@ -197,7 +199,7 @@ private:
   /// cross itself about an embedded vertex, goes round once.
   bool is_unfolded(std::uint32_t k) const {
     const Vertex& v = vertices_[k];
-    return (are_all_ || v.moves) && std::abs(v.sides) == v.faces;
+    return (are_all_ || v.moves) && (v.sides == 1u || v.sides == 4u);
   }
 
   bool is_given_up() const { return held_ > most_; }
