@@ -217,7 +217,7 @@ BOOST_AUTO_TEST_CASE(seams_between_coplanar_triangles_are_not_felt) {
           const double c = largest_clearance(on_cut.sculptor, target), distance = length_of(a.position - b.position);
           held += !b.reached;
           worst = std::fmax(worst, distance / c);
-          if (distance > 4 * c)
+          if (distance > 4 * c + 8 * ulp_of(on_cut.mesh, b.position)) // two ends, each rounded in three coordinates
             apart.add(std::string("plate, ") + name_of(mover), on_cut.mesh, v, source, target, c,
                       std::to_string(distance / c) + " c apart, drag " + std::to_string(i));
           if (b.legs > a.legs + most_legs_for_seams)
@@ -279,10 +279,10 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
         if (i + 1 == steps / 2 && length_of(r.position - first) > 4 * c / permitted.least_singular_value(active))
           wander.add(scene.name, mesh, scene.moved, source, hand, c,
                      "an unchanged push has moved it by " + std::to_string(length_of(r.position - first) / c) + " c");
-        // What is kept is a clearance of the triangle in contact, which is in its plane to an ulp or two of the scene
+        // What is kept is a clearance of the triangle in contact, which is in its plane to two or three ulps of the scene
         // only.
         const double least_kept = sculptor.clearance(r.position), most_kept = largest_clearance(sculptor, r.position),
-                     flatness = 2 * ulp_of(mesh, r.position);
+                     flatness = 3 * ulp_of(mesh, r.position);
         for (const std::size_t plane : active) {
           const double h = height(plane, r.position);
           least = std::fmin(least, (h + flatness) / least_kept);
