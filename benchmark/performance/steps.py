@@ -13,5 +13,8 @@ STEPS = [
          full=Effort("--seed {seed}", 60, memory=4000)),
     Step("hand", "hand_drags",
          full=Effort("--drags 100000 --work 400 --runs 3 --seed {seed}", 60, shards=3, memory=4000)),
+    Step("dabs", "brush_dabs",
+         quick=Effort("--level 6 --dabs 50 --seed {seed}", 5),
+         full=Effort("--level 7 --dabs 1000 --seed {seed}", 60, memory=4000)),
     Step("ticks", "haptic_ticks", full=Effort("--runs 3", 60, memory=4000)),
 ]

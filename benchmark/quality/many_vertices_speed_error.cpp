@@ -9,6 +9,7 @@
 #include <haptic_sculpt/sculpting.h>
 #include <haptic_sculpt/surface.h>
 
+#include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
@@ -92,6 +93,35 @@ std::vector<Motion> motions(int level, std::uint64_t seed) {
           })};
 }
 
+/// Turns and a twist of a mesh about its middle, and every vertex by a tenth of an edge.
+std::vector<Motion> motions_of(const Mesh& mesh, std::uint64_t seed) {
+  using Transformation = CGAL::Aff_transformation_3<meshes::Kernel>;
+  const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());
+  const Vector_3 middle((box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2);
+  const auto about_middle = [&](const Transformation& turn, Vertex_index v) {
+    return turn.transform(mesh.point(v) - middle) + middle;
+  };
+  const Transformation about_z(0, -1, 0, 1, 0, 0, 0, 0, 1);
+  // A right angle about (1, 2, 2) / 3: R = u u^T + [u]x.
+  const Transformation generic(1 / 9., -4 / 9., 8 / 9., 8 / 9., 4 / 9., 1 / 9., -4 / 9., 7 / 9., 4 / 9.);
+  std::mt19937_64 random(seed);
+  const auto uniform = [&] { return 2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1; };
+  const double edge = mean_edge(mesh), height = box.zmax() - box.zmin();
+  return {motion("a right angle about z", mesh, [&](Vertex_index v) { return about_middle(about_z, v); }),
+          motion("a right angle about (1, 2, 2)", mesh, [&](Vertex_index v) { return about_middle(generic, v); }),
+          motion("half a twist about z", mesh,
+                 [&](Vertex_index v) {
+                   const double angle = 3.141592653589793 * (mesh.point(v).z() - box.zmin()) / height;
+                   const double c = std::cos(angle), d = std::sin(angle);
+                   return about_middle(Transformation(c, -d, 0, d, c, 0, 0, 0, 1), v);
+                 }),
+          motion("every vertex by a tenth of an edge", mesh, [&](Vertex_index v) {
+            const double x = uniform(), y = uniform(), z = uniform();
+            const Vector_3 way(x, y, z);
+            return mesh.point(v) + 0.1 * edge / std::sqrt(way.squared_length()) * way;
+          })};
+}
+
 /// 1 where all arrive, from squared distances.
 double share_of_the_way(const Motion& m, const Mesh& mesh) {
   double asked = 0, left = 0;
@@ -138,7 +168,7 @@ double seconds_since(std::clock_t begin) {
 }
 
 Json row(const Motion& m, const char* method, std::clock_t begin, const Mesh& mesh, bool has_passed) {
-  const double seconds = seconds_since(begin);
+  const double seconds = seconds_since(begin); // what follows is not timed
   Json result = {{"motion", m.name},
                  {"method", method},
                  {"vertices", mesh.number_of_vertices()},
@@ -181,17 +211,33 @@ void measure(const Motion& m, Json& rows) {
   }
 }
 
+/// The motion alone: neither validation nor the tree of the Sculptor; and beside it one check of CGAL's.
+void measure_motion(const Motion& m, Json& rows) {
+  for (const bool drags : {false, true}) {
+    Mesh mesh = m.start, targets = m.start;
+    move_straight(m, targets, 1);
+    Sculptor<Mesh> sculptor(mesh, Sculptor_parameters().known_valid(true));
+    const std::clock_t begin = std::clock();
+    move_vertices(sculptor, mesh.vertices(), get(CGAL::vertex_point, targets), Move_parameters().drags(drags));
+    rows.push_back(row(m, drags ? "move_vertices" : "one round of axis moves", begin, mesh, false));
+  }
+  const std::clock_t begin = std::clock();
+  PMP::does_self_intersect(m.start);
+  rows.push_back(row(m, "one does_self_intersect", begin, m.start, false));
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
   CLI::App app(
       "Many vertices to targets: share of the way against time, by move_vertices, by one drag after the other, and all "
       "at once with a line search on CGAL's does_self_intersect. Exit code 10: a guarded mesh is not embedded.");
-  std::string file;
+  std::string file, given;
   std::uint64_t seed = 1;
   int level = 4, rounds = 1;
   Shard shard;
   app.add_option("--json", file, "Write all figures to this file");
+  app.add_option("--mesh", given, "Turns, a twist and small motions of this mesh instead: times of the motion alone");
   app.add_option("--level", level, "Fineness: 20 * 4^level triangles")->check(CLI::Range(1, 8))->capture_default_str();
   app.add_option("--rounds", rounds, "Each with another seed")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
@@ -201,11 +247,12 @@ int main(int argc, char** argv) {
     Json rows = Json::array();
     std::size_t asked = 0, broken = 0;
     for (int round = 0; round < rounds; ++round)
-      for (const Motion& m : motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))) {
+      for (const Motion& m : given.empty() ? motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))
+                                           : motions_of(read_surface<Mesh>(given), seed + static_cast<std::uint64_t>(round))) {
         const std::size_t unit = shard.next_unit(), before = rows.size();
         if (!shard.takes_next())
           continue;
-        measure(m, rows);
+        given.empty() ? measure(m, rows) : measure_motion(m, rows);
         for (std::size_t k = before; k < rows.size(); ++k) {
           rows[k]["unit"] = unit;
           if (rows[k]["method"] != "halving on does_self_intersect")

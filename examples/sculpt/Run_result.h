@@ -4,8 +4,6 @@
 
 #include "Script.h"
 
-#include "../brushes.h"
-
 #include <haptic_sculpt/sculpting.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -25,9 +23,9 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex_index = Mesh::Vertex_index;
 
 /// \pre `command` is a brush
-inline brushes::Dab<Kernel> dab_of(const Command& command) {
+inline Dab_3<Kernel> dab_of(const Command& command) {
   const auto& c = command.points[0];
-  brushes::Dab<Kernel> dab{*brushes::kind_named(command.word), {c[0], c[1], c[2]}, command.length, command.strength};
+  Dab_3<Kernel> dab{*brush_kind(command.word), {c[0], c[1], c[2]}, command.length, command.strength};
   if (command.points.size() == 2)
     dab.direction = Kernel::Vector_3(command.points[1][0], command.points[1][1], command.points[1][2]);
   return dab;

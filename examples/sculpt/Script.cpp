@@ -3,11 +3,11 @@
 
 #include "printable.h"
 
-#include "../brushes.h"
 #include "../common/contents_of.h"
 #include "../common/numbers.h"
 
 #include <haptic_sculpt/sculpting/Response.h>
+#include <haptic_sculpt/sculpting/brushes/Dab_3.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 
 #include <algorithm>
@@ -140,7 +140,7 @@ private:
 /// KIND X Y Z RADIUS STRENGTH [NX NY NZ]
 void read_brush(Line& line, Command& command) {
   command.word = line.word("grab, inflate, smooth, flatten or pinch");
-  if (!brushes::kind_named(command.word))
+  if (!brush_kind(command.word))
     line.fail("'" + printable(command.word) + "' is not a brush: grab, inflate, smooth, flatten or pinch");
   command.points.push_back(line.coordinates("a coordinate of the centre"));
   command.length = line.number("a radius");

@@ -4,7 +4,6 @@
 #include "many_vertices_lines.h"
 #include "nearest_vertices.h"
 
-#include "../brushes.h"
 #include "../drawing/occlusion.h"
 #include "../drawing/surface_mesh_arrays.h"
 #include "../drawing/write_picture.h"
@@ -51,7 +50,16 @@ void move(Mesh& mesh, const Command& command) {
 
 void dab(Mesh& mesh, const Command& command) {
   std::unordered_map<Vertex_index, Kernel::Point_3> targets;
-  brushes::fill_targets(mesh, dab_of(command), boost::associative_property_map<decltype(targets)>(targets));
+  const auto brush = dab_of(command);
+  Vertex_index nearest;
+  const auto distance = [&](Vertex_index v) { return internal::squared_share(mesh.point(v), brush); };
+  for (const Vertex_index v : mesh.vertices())
+    if (!nearest.is_valid() || distance(v) < distance(nearest))
+      nearest = v;
+  if (nearest.is_valid())
+    fill_brush_targets(touched_vertices(mesh, brush, nearest), mesh, brush,
+                       boost::associative_property_map<decltype(targets)>(targets),
+                       boost::static_property_map<double, Vertex_index>(1.0));
   for (const auto& [v, target] : targets)
     if (internal::is_in_range({target.x(), target.y(), target.z()}))
       mesh.point(v) = target;
@@ -83,7 +91,7 @@ drawing::Scene scene_with_pairs(const Mesh& mesh, const Pairs& pairs) {
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
       corners[i++] = static_cast<int>(scene.points.size());
       scene.points.push_back(drawing::to_eigen(mesh.point(v)));
-      scene.point_normals.push_back(drawing::to_eigen(brushes::normal(mesh, v)));
+      scene.point_normals.push_back(drawing::to_eigen(internal::vertex_normal(mesh, v)));
       scene.point_colors.push_back(pairs.is_red[f] ? drawing::colors::red : open[v] * drawing::colors::surface);
     }
     scene.triangles.push_back(corners);

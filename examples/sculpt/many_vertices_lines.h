@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <sstream>
-#include <unordered_map>
 
 /// \file
 /// The lines `move`, `brush` and `remesh` of a script. Each is one step of undo.
@@ -23,13 +22,11 @@ struct Many_vertices_outcome {
 /// A dab with a brush.
 template <class Sculptor>
 Many_vertices_outcome carry_out_brush(Sculptor& sculptor, const Command& command) {
-  std::unordered_map<Vertex_index, Kernel::Point_3> places;
-  const boost::associative_property_map<decltype(places)> targets(places);
-  const auto vertices = brushes::fill_targets(sculptor.mesh(), dab_of(command), targets);
-  if (vertices.empty())
-    return {"nothing-in-reach", 0, 0, "no vertex is nearer to the centre than the radius"};
   try {
-    const Move_report report = move_vertices(sculptor, vertices, targets, Move_parameters().steps(false));
+    const Move_report report = apply_brush(sculptor, std::array<Dab_3<Kernel>, 1>{dab_of(command)},
+                                           boost::static_property_map<double, Vertex_index>(1.0), Move_parameters());
+    if (report.asked == 0)
+      return {"nothing-in-reach", 0, 0, "no vertex is nearer to the centre than the radius"};
     std::ostringstream detail;
     detail.precision(3);
     detail << report.reached << " of " << report.asked << " vertices arrived";

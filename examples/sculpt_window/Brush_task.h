@@ -2,7 +2,6 @@
 #ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_BRUSH_TASK_H
 #define HAPTIC_SCULPT_EXAMPLES_WINDOW_BRUSH_TASK_H
 
-#include "../brushes.h"
 #include "Tasks.h"
 
 namespace haptic_sculpt::window_program {
@@ -81,7 +80,7 @@ private:
       const double least = 1e-3; // of the radius: less is no motion of a hand
       if (way.stableNorm() < least * brush_.radius)
         return;
-      find({brushes::Kind::grab, internal::point_of<Kernel::Point_3>(centre_), brush_.radius, way.stableNorm(),
+      find({Brush_kind::grab, internal::point_of<Kernel::Point_3>(centre_), brush_.radius, way.stableNorm(),
             Kernel::Vector_3(way[0], way[1], way[2])},
            scene);
       centre_ += way;
@@ -90,20 +89,20 @@ private:
       const double share = brush_.kind == Brush_kind::inflate ? 0.03 * brush_.radius
                            : brush_.kind == Brush_kind::pinch ? 0.25
                                                               : 1.0;
-      find({static_cast<brushes::Kind>(brush_.kind), hit->point, brush_.radius, share * brush_.strength}, scene);
+      find({brush_.kind, hit->point, brush_.radius, share * brush_.strength}, scene);
     }
   }
 
   /// The vertices that a dab touches, and where it wants them.
-  void find(const brushes::Dab<Kernel>& dab, Scene& scene) {
+  void find(const Dab_3<Kernel>& dab, Scene& scene) {
     wait_ = ticks_a_dab;
     next_ = 0;
     vertices_.clear();
     const Vertex_index nearest = scene.sculptor.nearest_vertex(dab.centre, dab.radius);
     if (!nearest.is_valid())
       return;
-    vertices_ = brushes::touched(scene.mesh, dab, nearest);
-    brushes::fill_targets_of(vertices_, scene.mesh, dab, targets(scene),
+    vertices_ = touched_vertices(scene.mesh, dab, nearest);
+    fill_brush_targets(vertices_, scene.mesh, dab, targets(scene),
                              boost::static_property_map<double, Vertex_index>(1.0));
   }
 };

@@ -136,7 +136,7 @@ private:
     }
     held.hold = Status::Hold::vertex;
     held.home = place(internal::vector_of(scene.mesh.point(tool.vertex())));
-    held.normal = place(internal::vertex_normal(scene.mesh, tool.vertex()));
+    held.normal = place(internal::vector_of(internal::vertex_normal(scene.mesh, tool.vertex())));
     return true;
   }
 

@@ -7,6 +7,7 @@
 /// Numbers of vertices are those of files and logs.
 
 #include <haptic_sculpt/haptic_rendering/Pose_reading.h>
+#include <haptic_sculpt/sculpting/brushes/Dab_3.h>
 
 #include <Eigen/Core>
 
@@ -28,7 +29,6 @@ inline Place place(const Eigen::Vector3d& v) {
 }
 
 enum class Tool : std::uint8_t { drag, probe, create, remove, brush };
-enum class Brush_kind : std::uint8_t { grab, inflate, smooth, flatten, pinch }; ///< as in examples/brushes.h
 
 /// Where the mouse is: it points along the segment from the eye to beyond the mesh.
 struct Pointer {

@@ -8,6 +8,7 @@
 #include <haptic_sculpt/sculpting/Allow_embedded_move.h>
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/apply_guarded.h>
+#include <haptic_sculpt/sculpting/brushes.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/guarded_point_map.h>
 #include <haptic_sculpt/sculpting/isotropic_remeshing.h>

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_TEST_RANDOM_SCENE_H
 #define HAPTIC_SCULPT_TEST_RANDOM_SCENE_H
 
+#include "seeds_and_sizes.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/sculpting.h>
@@ -20,34 +21,12 @@ using Random = std::mt19937_64;
 /// Of 42 vertices.
 inline Mesh ball() { return meshes::to_mesh(meshes::icosphere(1)); }
 
-inline std::uint64_t seed_from_environment(std::uint64_t otherwise) {
-  const char* text = std::getenv("HAPTIC_SCULPT_SEED");
-  const std::uint64_t seed = text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-  std::cout << "seed " << seed << '\n';
-  return seed;
-}
-
 /// The seed of what is named: its own, so that nothing drawn for it hangs on what else there is.
 inline std::uint64_t seed_of(const std::string& name, std::uint64_t seed) {
   std::uint64_t hash = 14695981039346656037u; // FNV-1a: the same everywhere
   for (const char c : name)
     hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
   return hash ^ (seed * 0x9e3779b97f4a7c15u);
-}
-
-/// The share of their sizes with which tests are to run: 1, unless `test/seeds` says less.
-inline double share_of_sizes() {
-  const char* text = std::getenv("HAPTIC_SCULPT_SHARE");
-  return text != nullptr ? std::strtod(text, nullptr) : 1;
-}
-
-/// Whether a population was met more than `least` times: asked of runs of full size only.
-inline bool is_enough(std::size_t times, std::size_t least) { return share_of_sizes() < 1 || times > least; }
-
-inline std::size_t count_from_environment(const char* name, std::size_t otherwise) {
-  const char* text = std::getenv(name);
-  const auto share = static_cast<std::size_t>(share_of_sizes() * static_cast<double>(otherwise));
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : share > 0 ? share : 1;
 }
 
 inline Point_3 random_grid_point(Random& random, int size) {

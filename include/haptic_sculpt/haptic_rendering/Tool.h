@@ -266,7 +266,7 @@ private:
 
   Tool_event release(const Eigen::Vector3d& hand) {
     const Vertex_index v = grab_->vertex();
-    const Eigen::Vector3d place = place_of(v), away = internal::vertex_normal(sculptor_->mesh(), v);
+    const Eigen::Vector3d place = place_of(v), away = internal::vector_of(internal::vertex_normal(sculptor_->mesh(), v));
     grab_.reset();
     mesh_edits_.end_stroke();
     put_probe_near(place, away, hand);
@@ -305,7 +305,7 @@ private:
     const Vertex_index v = grab_ ? grab_->vertex() : internal::nearest_vertex(*sculptor_, aim(hand), reach_);
     if (!v.is_valid())
       return Tool_event::refused;
-    const Eigen::Vector3d place = place_of(v), away = internal::vertex_normal(sculptor_->mesh(), v);
+    const Eigen::Vector3d place = place_of(v), away = internal::vector_of(internal::vertex_normal(sculptor_->mesh(), v));
     const bool was_held = grab_.has_value();
     grab_.reset();
     const auto made = mesh_edits_.make(Edit::of(Edit_kind::remove, {sculptor_->name(v), 0, 0}));

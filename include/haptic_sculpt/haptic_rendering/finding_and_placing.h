@@ -28,24 +28,6 @@ typename Sculptor::Vertex_index nearest_vertex(Sculptor& sculptor, const Eigen::
   return sculptor.nearest_vertex(point_of<typename Sculptor::Point>(p), within);
 }
 
-/// The sum of the normals of a vertex's faces, with their areas; of length 1, or 0.
-template <class Mesh>
-Eigen::Vector3d vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d p = vector_of(mesh.point(v));
-  const auto around = CGAL::halfedges_around_target(mesh.halfedge(v), mesh);
-  double size = 0; // of the star: in a unit of its own areas stay in the range of doubles
-  for (const auto h : around)
-    size = std::fmax(size, (vector_of(mesh.point(mesh.source(h))) - p).template lpNorm<Eigen::Infinity>());
-  const double unit = unit_of(size);
-  const auto edge_to = [&](typename Mesh::Vertex_index w) -> Eigen::Vector3d {
-    return unit * (vector_of(mesh.point(w)) - p);
-  };
-  for (const auto h : around)
-    sum += edge_to(mesh.target(mesh.next(h))).cross(edge_to(mesh.source(h)));
-  return sum.stableNormalized();
-}
-
 /// Nearer to an edge than this share of the face's altitude, a vertex is created on the edge: on the face it would
 /// leave a sliver.
 constexpr double edge_share = 0.05;

@@ -45,7 +45,8 @@ struct Move_parameters {
   /// stopped at its first impact decides, or a little more (doc/use/many_vertices.md).
   static constexpr std::size_t pairs_a_drag = 64;
   std::function<bool(const Move_progress&)> progress_function;      ///< progress(); at first none
-  bool takes_steps = true, ///< steps()
+  bool takes_steps = true,  ///< steps()
+      drags_singly = true, ///< drags()
       slides = true;       ///< slide()
 
   /// So many drags are made at most, a slide counting by its work (pairs_a_drag); then the call ends as it would if it
@@ -68,6 +69,12 @@ struct Move_parameters {
   /// by default; without, each is dragged by itself.
   Move_parameters& steps(bool on) {
     takes_steps = on;
+    return *this;
+  }
+  /// Whether what is held back is brought on by smaller steps, drags of its own and slides. On by default; without, all
+  /// go at once along each axis, once and all of their ways, and what is held back stays there: what apply_brush() does.
+  Move_parameters& drags(bool on) {
+    drags_singly = on;
     return *this;
   }
   /// Whether what is left at the end slides along what it may not cross. On by default.

@@ -41,7 +41,7 @@ void measure_distances(const Mesh& mesh, const std::vector<Moving_vertex<Mesh>>&
 
 /// As move_vertices(). \param target_of `target_of(v)`, asked of each vertex once, in their order
 template <class Sculptor, class Vertex_range, class Target_of, class Output_iterator>
-Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, const Target_of& target_of,
+Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Target_of target_of,
                             const Move_parameters& parameters, Output_iterator left_behind) {
   const auto asked = moving_vertices(sculptor.mesh(), vertices, target_of);
   check_clearance_at_targets(asked, sculptor.options().clearance_length);

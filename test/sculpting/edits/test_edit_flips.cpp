@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(flips_agree_with_an_independent_decision_on_grids) {
     check_edges(list, delta, delta == 0, tally);
   }
   tally.report("grids");
-  BOOST_TEST(tally.refused() >= tally.asked / 5);
+  BOOST_TEST(is_enough(tally.refused(), tally.asked / 5));
   for (const Flip_obstacle obstacle :
        {Flip_obstacle::none, Flip_obstacle::none_flat, Flip_obstacle::joined, Flip_obstacle::degenerate,
         Flip_obstacle::low, Flip_obstacle::folded, Flip_obstacle::vertex_inside,

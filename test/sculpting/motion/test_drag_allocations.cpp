@@ -84,7 +84,8 @@ void check(const char* name, const meshes::Triangle_list& list, double edge, con
   Sculptor<Mesh> sculptor(mesh, options);
   Random random(seed);
   std::size_t drags = 0, blocked = 0, with_contacts = 0, legs = 0, warm = 0, warm_gmp = 0, many = 0;
-  for (int k = 0; k < 12; ++k) {
+  const std::size_t grabs = count_from_environment("HAPTIC_SCULPT_WARM_GRABS", 12);
+  for (std::size_t k = 0; k < grabs; ++k) {
     const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
     auto grab = sculptor.grab(v);
     const Point_3 home = mesh.point(v);
@@ -101,11 +102,18 @@ void check(const char* name, const meshes::Triangle_list& list, double edge, con
                           << " blocked, " << with_contacts << " with contacts (" << many << " with very many), " << legs
                           << " legs, " << warm << " allocations, " << warm_gmp << " of GMP");
   BOOST_TEST(warm == 0u);
-  BOOST_TEST(many < drags / 20);
+  BOOST_TEST((share_of_sizes() < 1 || many < drags / 20));
   if (!is_extreme)
     BOOST_TEST(warm_gmp == 0u);
-  BOOST_TEST(blocked > drags / 50);
-  BOOST_TEST(with_contacts > drags / 50);
+  BOOST_TEST(is_enough(blocked, drags / 50));
+  BOOST_TEST(is_enough(with_contacts, drags / 50));
+}
+
+std::size_t largest_degree(const Mesh& mesh) {
+  std::size_t largest = 0;
+  for (const Vertex_index v : mesh.vertices())
+    largest = std::max(largest, static_cast<std::size_t>(mesh.degree(v)));
+  return largest;
 }
 
 } // namespace
@@ -196,6 +204,7 @@ BOOST_AUTO_TEST_CASE(edits_allocate_nothing_after_reserve) {
                       half = CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)));
         const bool is_usual = mesh.degree(v) <= usual_valence && mesh.degree(mesh.source(h)) <= usual_valence;
         unusual += !is_usual;
+        const bool is_all_usual = (kind != 5 && kind != 6) || largest_degree(mesh) <= usual_valence;
         const std::size_t before_gmp = gmp_allocations;
         before = allocations_so_far;
         if (random() % 16 == 0)
@@ -219,7 +228,7 @@ BOOST_AUTO_TEST_CASE(edits_allocate_nothing_after_reserve) {
         }
         }
         done[kind] += is_done;
-        if (!is_usual)
+        if (!is_usual || !is_all_usual) // undo and redo are where they are
           continue;
         allocated[kind] += allocations_so_far - before;
         warm += allocations_so_far - before;

@@ -150,6 +150,35 @@ inline std::vector<Public_function> free_functions() {
                    }), outcome);
                    outcome.mesh(scene.mesh);
                  }});
+  for (const Brush_kind kind :
+       {Brush_kind::grab, Brush_kind::inflate, Brush_kind::smooth, Brush_kind::flatten, Brush_kind::pinch})
+    for (const bool has_direction : {false, true})
+      all.push_back({"apply_brush mirrored touched_vertices fill_brush_targets", [=](double unit, Outcome& outcome) {
+                       Scaled_scene scene(unit);
+                       const bool is_length = kind == Brush_kind::grab || kind == Brush_kind::inflate;
+                       Dab_3<meshes::Kernel> dab{
+                           kind, scene.at(0.5, 0.25, 0.5), scene.length(0.75), is_length ? scene.length(0.125) : 0.5, {}};
+                       if (has_direction)
+                         dab.direction = meshes::Kernel::Vector_3(scene.length(1), scene.length(0.5), scene.length(0.25));
+                       // A plane is told by a direction, of any length, and a place.
+                       const auto plane = [&] {
+                         const internal::Rounding_to_nearest rounding; // its constructor multiplies
+                         return meshes::Kernel::Plane_3(scene.at(0.25, 0, 0), meshes::Kernel::Vector_3(1, 0.5, 0.25));
+                       }();
+                       const auto other = mirrored(dab, plane);
+                       outcome.point(other.centre);
+                       boost::vector_property_map<Point_3> targets;
+                       const auto touched = touched_vertices(scene.mesh, dab, Scaled_scene::vertex(1));
+                       fill_brush_targets(touched, scene.mesh, dab, targets,
+                                          boost::static_property_map<double, Vertex_index>(0.5));
+                       for (const Vertex_index v : touched) {
+                         outcome.index(v);
+                         outcome.point(targets[static_cast<std::size_t>(v)]);
+                       }
+                       Sculptor<Mesh> sculptor(scene.mesh);
+                       tell(apply_brush(sculptor, std::array<Dab_3<meshes::Kernel>, 2>{dab, other}), outcome);
+                       outcome.mesh(scene.mesh);
+                     }});
   for (const double along : {0.125, 1.0})
     all.push_back({"move_rigidly", [=](double unit, Outcome& outcome) {
                      Scaled_scene scene(unit);

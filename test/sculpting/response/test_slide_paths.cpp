@@ -50,6 +50,13 @@ constexpr int steps_per_move = 1000;
 /// are right to within some clearances.
 constexpr double most_jump = 1.001, jump_slack = 8;
 
+/// How far an end may stay behind the hand along a surface. Its coordinates are rounded, so it may be an ulp or two
+/// nearer to the surface or farther from it than the optimum is; and an end that is farther from the target than the
+/// start, exactly, is not taken. A way d along the surface shortens the distance D by d^2 / 2 D only.
+double held_by_rounding(const Mesh& mesh, const Point_3& at, const Point_3& target) {
+  return std::sqrt(2 * length_of(target - at) * 2 * ulp_of(mesh, at));
+}
+
 /// Of one step of a hand, whatever it does: slide, meet, or fall over an edge from deep behind it.
 constexpr int most_legs_of_a_step = 8;
 
@@ -67,6 +74,7 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
   Slide_faults jumps("jump"), many_legs("legs");
   Legs all, held;
   double worst = 0;
+  std::size_t left = 0;
   for (std::size_t round = 0; round < rounds; ++round)
     for (const Convex_scene& scene : convex_scenes(random)) {
       Mover_hand grab(scene.mesh, scene.moved, parameters::response(response_under_test()));
@@ -75,7 +83,9 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
       if (random() % 2 == 0)
         sculptor.set_clearance(1e-9);
       Point_3 hand = mesh.point(scene.moved), next = scene.target(random, hand);
-      for (int move = 0; move < 4; ++move) {
+      // Over a rim, which the planes do not know: from there on they are not what holds it.
+      bool has_left = false;
+      for (int move = 0; move < 4 && !has_left; ++move) {
         const Point_3 from = hand;
         for (int i = 1; i <= steps_per_move; ++i) {
           const Point_3 source = mesh.point(scene.moved),
@@ -83,13 +93,16 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
           const Vector_3 before = hand - source;
           const double step = length_of(target - hand), c = sculptor.clearance(target);
           const auto r = grab.drag_to(target);
+          has_left = r.reached && !is_beyond_no_plane(scene, target);
+          if (has_left)
+            break;
           const double jump = length_of((target - r.position) - before);
           all.add(r.legs);
           if (!r.reached)
             held.add(r.legs);
           if (step > 1e4 * c)
             worst = std::fmax(worst, jump / step);
-          if (jump > most_jump * step + jump_slack * c)
+          if (jump > most_jump * step + jump_slack * c + held_by_rounding(mesh, r.position, target))
             jumps.add(scene.name, mesh, scene.moved, source, target, c,
                       "T - x jumps by " + std::to_string(jump / step) + " hand steps, from hand at " +
                           exact_text(hand) + " to " + exact_text(r.position));
@@ -99,10 +112,12 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
         }
         next = scene.target(random, mesh.point(scene.moved));
       }
+      left += has_left;
       BOOST_REQUIRE(validate(grab.surface()).is_valid());
     }
-  BOOST_TEST_MESSAGE(all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, "
+  BOOST_TEST_MESSAGE(left << " hands led out of a groove; " << all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, "
                                  << all.most() << " most; jump at most " << worst << " hand steps");
+  BOOST_TEST(left <= all.total() / (4 * steps_per_move));
   BOOST_TEST(jumps.count() == 0u);
   BOOST_TEST(held.total() > all.total() / 3);
   BOOST_TEST(all.median() <= 1u);
@@ -132,7 +147,8 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_around_solids_makes_few_legs) {
           const Vector_3 before = hand - source;
           const double step = length_of(target - hand), c = sculptor.clearance(target);
           const auto r = grab.drag_to(target);
-          const bool has_jumped = length_of((target - r.position) - before) > most_jump * step + jump_slack * c;
+          const bool has_jumped = length_of((target - r.position) - before) >
+                                  most_jump * step + jump_slack * c + held_by_rounding(mesh, r.position, target);
           const bool is_deep = length_of(target - r.position) > deepest_hand * scene.size ||
                                length_of(before) > deepest_hand * scene.size;
           jumps += has_jumped;
@@ -201,7 +217,7 @@ BOOST_AUTO_TEST_CASE(seams_between_coplanar_triangles_are_not_felt) {
           const double c = largest_clearance(on_cut.sculptor, target), distance = length_of(a.position - b.position);
           held += !b.reached;
           worst = std::fmax(worst, distance / c);
-          if (distance > 4 * c)
+          if (distance > 4 * c + 8 * ulp_of(on_cut.mesh, b.position)) // two ends, each rounded in three coordinates
             apart.add(std::string("plate, ") + name_of(mover), on_cut.mesh, v, source, target, c,
                       std::to_string(distance / c) + " c apart, drag " + std::to_string(i));
           if (b.legs > a.legs + most_legs_for_seams)
@@ -223,7 +239,7 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
   Random random(seed_from_environment(508));
   Slide_faults gap("gap"), lift("lift"), slide("slide after"), wander("wander");
   double least = 1e300, most = 0;
-  std::size_t held = 0;
+  std::size_t held = 0, lifts = 0;
   for (const double length : {0.0, 1e-9})
     for (const Convex_scene& scene : convex_scenes(random)) {
       Mover_hand grab(scene.mesh, scene.moved, parameters::response(response_under_test()));
@@ -263,10 +279,10 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
         if (i + 1 == steps / 2 && length_of(r.position - first) > 4 * c / permitted.least_singular_value(active))
           wander.add(scene.name, mesh, scene.moved, source, hand, c,
                      "an unchanged push has moved it by " + std::to_string(length_of(r.position - first) / c) + " c");
-        // What is kept is a clearance of the triangle in contact, which is in its plane to an ulp or two of the scene
+        // What is kept is a clearance of the triangle in contact, which is in its plane to two or three ulps of the scene
         // only.
         const double least_kept = sculptor.clearance(r.position), most_kept = largest_clearance(sculptor, r.position),
-                     flatness = 2 * ulp_of(mesh, r.position);
+                     flatness = 3 * ulp_of(mesh, r.position);
         for (const std::size_t plane : active) {
           const double h = height(plane, r.position);
           least = std::fmin(least, (h + flatness) / least_kept);
@@ -284,7 +300,10 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
         off = off + Vector_3(permitted.normal(i)[0], permitted.normal(i)[1], permitted.normal(i)[2]);
       const Point_3 lifted = source + 1e-3 / length_of(off) * off;
       const auto up = grab.drag_to(lifted);
-      if (!up.reached || up.legs != 1 || !up.contacts.empty())
+      // Where planes meet at a sharp angle the sum of their normals may lead into one of them.
+      const bool is_free = is_beyond_no_plane(scene, lifted);
+      lifts += is_free;
+      if (is_free && (!up.reached || up.legs != 1 || !up.contacts.empty()))
         lift.add(scene.name, mesh, scene.moved, source, lifted, c,
                  "does not lift off at once: " + std::to_string(up.legs) + " legs");
       grab.drag_to(target);
@@ -299,5 +318,6 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
   BOOST_TEST(gap.count() == 0u);
   BOOST_TEST(wander.count() == 0u);
   BOOST_TEST(lift.count() == 0u);
+  BOOST_TEST(lifts > held / 2);
   BOOST_TEST(slide.count() == 0u);
 }

@@ -2,10 +2,10 @@
 #ifndef HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_RANDOM_POINTS_H
 #define HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_RANDOM_POINTS_H
 
+#include "seeds_and_sizes.h"
+
 #include <array>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
 #include <random>
 
 namespace broad_phase_tests {
@@ -13,12 +13,7 @@ namespace broad_phase_tests {
 using Random = std::mt19937_64;
 using Coordinates = std::array<double, 3>;
 
-inline std::uint64_t seed() {
-  const char* text = std::getenv("HAPTIC_SCULPT_SEED");
-  const std::uint64_t value = text != nullptr ? std::strtoull(text, nullptr, 10) : 20260101;
-  std::cout << "seed " << value << '\n';
-  return value;
-}
+inline std::uint64_t seed() { return haptic_sculpt::test::seed_from_environment(20260101); }
 
 inline double uniform(Random& random) {
   return static_cast<double>(random() >> 11) * 0x1p-52 - 1;

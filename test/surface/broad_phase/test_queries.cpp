@@ -23,13 +23,14 @@ std::vector<Mesh> scenes() {
 
 BOOST_AUTO_TEST_CASE(queries_answer_as_brute_force_does_while_the_mesh_changes) {
   Random random(seed());
+  const std::size_t rounds = test::count_from_environment("HAPTIC_SCULPT_QUERY_ROUNDS", 60);
   std::size_t inserted = 0, removed = 0, parts = 0, given_up = 0;
   for (const Mesh& scene : scenes())
     for (const Frame& frame : frames) {
       Checked_mesh changing(scene, frame);
       changing.check_everything();
-      for (int round = 0; round < 60; ++round) {
-        const unsigned growth = round < 30 ? 4 : 1; // grows far beyond what it was built for, then shrinks
+      for (std::size_t round = 0; round < rounds; ++round) {
+        const unsigned growth = 2 * round < rounds ? 4 : 1; // grows far beyond what it was built for, then shrinks
         for (int k = 0; k < 4; ++k)
           changing.change(random, growth);
         changing.check(random);
@@ -42,12 +43,12 @@ BOOST_AUTO_TEST_CASE(queries_answer_as_brute_force_does_while_the_mesh_changes) 
       Checked_mesh anew(changing.mesh, {1, 0}); // with garbage among its faces
       anew.check_everything();
       anew.check(random);
-      BOOST_TEST(anew.mesh.has_garbage());
+        BOOST_TEST(test::is_enough(anew.mesh.has_garbage() ? 1 : 0, 0));
     }
-  BOOST_TEST(inserted > 1000u);
-  BOOST_TEST(parts > 100u);
-  BOOST_TEST(given_up > 1000u);
-  BOOST_TEST(removed > 1000u);
+  BOOST_TEST(test::is_enough(inserted, 1000));
+  BOOST_TEST(test::is_enough(parts, 100));
+  BOOST_TEST(test::is_enough(given_up, 1000));
+  BOOST_TEST(test::is_enough(removed, 1000));
 }
 
 BOOST_AUTO_TEST_CASE(rounding_modes_lose_nothing) {

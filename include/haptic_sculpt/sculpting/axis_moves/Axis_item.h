@@ -8,14 +8,12 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// What an axis move looks at in pairs: a face, or a vertex without faces three times.
+/// A face, as an axis move looks at it.
 struct Axis_item {
   std::array<std::uint32_t, 3> corners;
   std::uint8_t owned;        ///< bits: of the corners 0, 1, 2 and the edges after them, those looked at with this face
   std::int8_t side;          ///< the orientation as seen along the axis
   std::uint8_t unfolded = 0; ///< bits: of the corners, those whose stars are seen along the axis without a fold
-
-  bool is_face() const { return corners[0] != corners[1]; }
 };
 
 /// Bits: which corners of f are corners of g. Without a branch: most pairs found are neighbours, in no order that a

@@ -63,9 +63,12 @@ public:
     delta_ = delta;
     held_ = 0;
     most_ = most;
-    for (const Item& item : items_)
-      for (const std::uint32_t v : item.corners)
-        vertices_[v] = Vertex{};
+    if (are_all_)
+      vertices_.assign(vertices_.size(), Vertex{});
+    else
+      for (const Item& item : items_)
+        for (const std::uint32_t v : item.corners)
+          vertices_[v] = Vertex{};
     tree_.begin_round();
     for (const auto& [v, end] : ways)
       if (end != height(index(v)))
@@ -76,7 +79,7 @@ public:
       const Axis_motion<3> motion = motion_of(item.corners);
       item.side = static_cast<std::int8_t>(Axis_sweep<3, Filter_counters>(motion, *counters_).seen(0, 1, 2));
       for (const std::uint32_t v : item.corners)
-        ++vertices_[v].faces, vertices_[v].sides += item.side;
+        vertices_[v].sides = static_cast<std::uint8_t>(vertices_[v].sides | 1u << (item.side + 1));
       set(slot, motion, does_move(item));
     }
     for (Item& item : items_)
@@ -123,8 +126,7 @@ private:
   struct Vertex {
     double end = 0;    ///< where it moves
     double share = 1;  ///< proposed in this round
-    std::int32_t faces = 0; ///< of those taken, around it
-    std::int32_t sides = 0; ///< the sum of their sides
+    std::uint8_t sides = 0; ///< bits: whether a face around it is seen from below, on edge, from above
     std::uint8_t pulls = 0;
     bool moves = false, is_pulled = false;
   };
@@ -138,7 +140,7 @@ private:
   bool are_all_ = false;
   std::size_t held_ = 0; ///< vertices that have been pulled, or are to be in this round
   std::size_t most_ = 0;
-  std::vector<Item> items_; ///< by slot; faces in the order of space, then vertices without
+  std::vector<Item> items_; ///< by slot, in the order of space
   std::vector<std::uint32_t> slot_of_face_; ///< of those taken
   std::vector<Vertex> vertices_;            ///< corners of what is taken; others are as they were left
   Axis_box_tree tree_;
@@ -197,7 +199,7 @@ private:
   /// cross itself about an embedded vertex, goes round once.
   bool is_unfolded(std::uint32_t k) const {
     const Vertex& v = vertices_[k];
-    return (are_all_ || v.moves) && std::abs(v.sides) == v.faces;
+    return (are_all_ || v.moves) && (v.sides == 1u || v.sides == 4u);
   }
 
   bool is_given_up() const { return held_ > most_; }
@@ -245,8 +247,6 @@ private:
     const unsigned shared_of_f = shared_corners(f, g);
     if (are_side_by_side(f, g, shared_of_f))
       return;
-    if (!f.is_face() && !g.is_face())
-      return;
     const std::array<std::uint32_t, 6> v{f.corners[0], f.corners[1], f.corners[2],
                                          g.corners[0], g.corners[1], g.corners[2]};
     const Axis_motion<6> motion = motion_of(v);
@@ -256,9 +256,9 @@ private:
     const unsigned shared = shared_of_f | shared_corners(g, f) << 3;
     const auto is_shared = [shared](int k) { return (shared >> k & 1) != 0; };
     for (int i = 0; i < 3; ++i) {
-      if ((f.owned >> i & 1) != 0 && !is_shared(i) && g.is_face() && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
+      if ((f.owned >> i & 1) != 0 && !is_shared(i) && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
         add(Axis_obstacle::Kind::vertex_face, {v[i], v[3], v[4], v[5]});
-      if ((g.owned >> i & 1) != 0 && !is_shared(3 + i) && f.is_face() && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
+      if ((g.owned >> i & 1) != 0 && !is_shared(3 + i) && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
         add(Axis_obstacle::Kind::vertex_face, {v[3 + i], v[0], v[1], v[2]});
     }
     for (int i = 0; i < 3; ++i) {

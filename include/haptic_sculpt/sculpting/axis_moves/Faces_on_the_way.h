@@ -3,8 +3,8 @@
 #define HAPTIC_SCULPT_SCULPTING_FACES_ON_THE_WAY_H
 
 #include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/Round_marks.h>
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
-#include <haptic_sculpt/surface/broad_phase/spatial_order.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
@@ -27,45 +27,44 @@ public:
   template <class Broad_phase>
   const std::vector<Face_index>& find(const Mesh& mesh, Broad_phase& broad_phase, const Vertex_targets<Mesh>& targets) {
     faces_.clear();
+    is_taken_.begin(mesh.num_faces());
     if (place_.size() < mesh.num_vertices())
       place_.resize(mesh.num_vertices());
     for (std::size_t k = 0; k < targets.size(); ++k) {
       place_[targets[k].first] = static_cast<std::uint32_t>(k);
       for (const Face_index f : mesh.faces_around_target(mesh.halfedge(targets[k].first)))
-        faces_.push_back(f);
+        take(f);
     }
-    keep_each_once();
-    const Box_scale& scale = Broad_phase_access::scale(broad_phase);
-    const auto moving = faces_in_spatial_order(mesh, faces_, scale);
-    for (std::size_t i = 0; i < moving.size();) {
+    broad_phase.put_in_order(faces_);
+    const std::size_t moving = faces_.size();
+    for (std::size_t i = 0; i < moving;) {
       Box_3 box;
-      for (std::size_t end = std::min(i + faces_a_query, moving.size()); i < end; ++i)
-        for (const Vertex_index v : corners_of_face(mesh, Face_index(moving[i].face)))
+      for (const std::size_t end = std::min(i + faces_a_query, moving); i < end; ++i)
+        for (const Vertex_index v : corners_of_face(mesh, faces_[i]))
           include_way(mesh, v, targets, box);
-      const auto first = static_cast<std::ptrdiff_t>(faces_.size());
-      broad_phase.query(box, faces_);
+      found_.clear();
+      broad_phase.query(box, found_);
       // Whatever the broad phase names beside these: the same faces are looked at with any.
-      faces_.erase(std::remove_if(faces_.begin() + first, faces_.end(),
-                                  [&](Face_index f) { return !do_meet(face_box(mesh, f), box); }),
-                   faces_.end());
+      for (const Face_index f : found_)
+        if (do_meet(face_box(mesh, f), box))
+          take(f);
     }
-    keep_each_once();
-    const auto ordered = faces_in_spatial_order(mesh, faces_, scale);
-    for (std::size_t i = 0; i < ordered.size(); ++i)
-      faces_[i] = Face_index(ordered[i].face);
+    broad_phase.put_in_order(faces_);
     return faces_;
   }
 
   /// Bytes held, capacity included.
   std::size_t memory() const {
-    return place_.capacity() * sizeof(std::uint32_t) + faces_.capacity() * sizeof(Face_index);
+    return place_.capacity() * sizeof(std::uint32_t) + (faces_.capacity() + found_.capacity()) * sizeof(Face_index) +
+           is_taken_.memory();
   }
 
 private:
   static constexpr std::size_t faces_a_query = 64; ///< fewer cost more queries, more have larger boxes
 
   std::vector<std::uint32_t> place_; ///< of a vertex in the targets, where it is there; else anything
-  std::vector<Face_index> faces_;
+  std::vector<Face_index> faces_, found_; ///< by all queries, by one
+  Round_marks is_taken_;                  ///< faces
 
   void include_way(const Mesh& mesh, Vertex_index v, const Vertex_targets<Mesh>& targets, Box_3& box) const {
     box.include(vertex_coordinates(mesh, v));
@@ -73,9 +72,9 @@ private:
       box.include(targets[k].second);
   }
 
-  void keep_each_once() {
-    std::sort(faces_.begin(), faces_.end());
-    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+  void take(Face_index f) {
+    if (is_taken_.mark(static_cast<std::size_t>(f)))
+      faces_.push_back(f);
   }
 };
 

@@ -124,6 +124,7 @@ private:
   Fan<Mesh> fan_;
   std::vector<Vertex_index> link_;
   std::vector<Face_index> faces_;
+  Round_marks is_taken_; ///< faces
   bool is_ready_ = false;
 
   Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
@@ -160,7 +161,7 @@ private:
   template <class Noted>
   Vertex_index put_all(const Change& edit, int end, const Noted& noted) {
     // All that allocates comes before the first point is written.
-    collect_faces_around(*mesh_, names_, edit.around, faces_);
+    collect_faces_around(*mesh_, names_, edit.around, is_taken_, faces_);
     is_ready_ = true;
     writing_->begin();
     for (std::size_t k = 0; k < edit.around.size(); ++k) {

@@ -38,7 +38,7 @@ public:
     , editor_(mesh, broad_phase_, corners_, counters_, watch_, writing_, std::move(visitor))
     , hand_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
     , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
-    , finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh), axis_move_(mesh, counters_) {}
+    , finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh), whole_move_(mesh, counters_), near_move_(mesh, counters_) {}
   Guarded_mesh(const Guarded_mesh&) = delete; // its parts refer to each other
   Guarded_mesh& operator=(const Guarded_mesh&) = delete;
 
@@ -206,7 +206,7 @@ public:
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
-    axis_move_.forget();
+    whole_move_.forget();
     const Edited result = edit();
     if (result && !mesh_->is_removed(*result.vertex))
       scene_.include(vertex_coordinates(*mesh_, *result.vertex));
@@ -225,15 +225,15 @@ public:
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
-    if (axis_move_.has_taken_all())
-      return;
     constexpr std::size_t many = 8; // an eighth of all vertices: then the search costs more than it spares
-    if (many * targets.size() < mesh_->number_of_vertices())
-      return axis_move_.take(on_the_way_.find(*mesh_, broad_phase_, targets), false);
-    std::vector<Face_index> faces;
-    faces.reserve(mesh_->number_of_faces());
-    broad_phase_.faces_in_order(faces);
-    axis_move_.take(faces, true);
+    are_many_ = many * targets.size() >= mesh_->number_of_vertices();
+    if (!are_many_)
+      return near_move_.take(on_the_way_.find(*mesh_, broad_phase_, targets), false);
+    if (whole_move_.has_taken_all())
+      return;
+    std::vector<Face_index> faces(mesh_->faces().begin(), mesh_->faces().end());
+    broad_phase_.put_in_order(faces);
+    whole_move_.take(faces, true);
   }
 
   /// Moves vertices at once along one axis as far as that is free, as one change; each vertex is given once.
@@ -244,20 +244,21 @@ public:
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
-    if (axis_move_.has_taken_all())
+    Axis_move<Mesh>& move = axis_move();
+    if (move.has_taken_all())
       for (const Vertex_index v : mesh_->vertices())
         watch_.check(v);
     else
-      for (const Axis_item& item : axis_move_.items())
+      for (const Axis_item& item : move.items())
         for (const std::uint32_t v : item.corners)
           watch_.check(Vertex_index(v));
-    axis_move_.begin(axis, ways, parameters.delta_length, most_held);
-    if (!axis_move_.hold_back())
+    move.begin(axis, ways, parameters.delta_length, most_held);
+    if (!move.hold_back())
       return false;
     Axis_ways<Mesh> made;
     for (const auto& [v, end] : ways)
-      if (Coordinates p = vertex_coordinates(*mesh_, v); axis_move_.end(v) != p[axis]) {
-        p[axis] = axis_move_.end(v);
+      if (Coordinates p = vertex_coordinates(*mesh_, v); move.end(v) != p[axis]) {
+        p[axis] = move.end(v);
         made.emplace_back(v, p[axis]);
         scene_.include(p);
       }
@@ -266,12 +267,12 @@ public:
     return true;
   }
   /// The last one.
-  const Axis_move<Mesh>& axis_move() const { return axis_move_; }
+  Axis_move<Mesh>& axis_move() { return are_many_ ? whole_move_ : near_move_; }
   /// All that is in the way of a motion, not only what was found until it was given up. \pre as of shift()
   const std::vector<Axis_obstacle>& obstacles_to(int axis, const Axis_ways<Mesh>& ways) {
     const Rounding_to_nearest rounding;
-    axis_move_.begin(axis, ways, parameters.delta_length);
-    return axis_move_.obstacles();
+    axis_move().begin(axis, ways, parameters.delta_length);
+    return axis_move().obstacles();
   }
 
   void reserve(std::size_t edits, std::size_t moves) {
@@ -289,7 +290,7 @@ public:
   }
   std::size_t memory() const {
     return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory() +
-           axis_move_.memory() + on_the_way_.memory();
+           whole_move_.memory() + near_move_.memory() + on_the_way_.memory();
   }
 
 private:
@@ -303,7 +304,8 @@ private:
   Hand<Mesh, Broad_phase, Traits> hand_, probe_;
   Surface_finder<Mesh, Broad_phase> finder_;
   Scene_bound<Mesh> scene_;
-  Axis_move<Mesh> axis_move_;
+  Axis_move<Mesh> whole_move_, near_move_; ///< that look at all faces; at some
+  bool are_many_ = false;                  ///< which of them was told to look around last
   Faces_on_the_way<Mesh> on_the_way_;
   std::vector<Face_index> faces_near_probe_; ///< kept to allocate no more
   Coordinates probe_place_{};                ///< where the last probe was left

@@ -28,13 +28,9 @@ public:
   /// Ends, too, where a move would be more motions than may be made: single drags may go on with what is left of these.
   /// \return false where it was cancelled
   bool run() {
-    Vertex_targets<Mesh> targets;
-    targets.reserve(vertices_.size());
-    for (const Moving& v : vertices_)
-      targets.emplace_back(v.vertex, v.target);
-    guarded_.look_around(targets); // no coordinate leaves the interval from where it is to its target
+    look_around(); // no coordinate leaves the interval from where it is to its target
     // Steps that are taken back would use up what few motions there are.
-    const bool takes_steps = parameters_.takes_steps && parameters_.drag_limit / work_of_steps >= vertices_.size();
+    const bool takes_steps = parameters_.drags_singly && parameters_.drag_limit / work_of_steps >= vertices_.size();
     double way = takes_steps ? 0 : 1, step = 1;
     std::size_t before = vertices_.size(); // so many were held back in the step twice as long
     while (way < 1 && goes_on_) {
@@ -54,9 +50,10 @@ public:
       before = held;
     }
     for (double left = sum_left(); goes_on_ && left > 0;) {
+      look_around(); // fewer may be behind
       step_to(1, vertices_.size());
       const double gone = left - sum_left();
-      if (!(gone > least_gain * left))
+      if (!parameters_.drags_singly || !(gone > least_gain * left))
         break;
       left -= gone;
     }
@@ -85,6 +82,15 @@ private:
   std::size_t few() const { return 1 + vertices_.size() / 32; }
 
   Coordinates place(const Moving& v) const { return vertex_coordinates(guarded_.mesh(), v.vertex); }
+
+  void look_around() {
+    Vertex_targets<Mesh> behind;
+    behind.reserve(vertices_.size());
+    for (const Moving& v : vertices_)
+      if (place(v) != v.target)
+        behind.emplace_back(v.vertex, v.target);
+    guarded_.look_around(behind);
+  }
 
   /// Where the vertex is to be along an axis: where it is, unless the point of its way is nearer to the target.
   double aim(const Moving& v, const Coordinates& from, double share, int axis) const {

@@ -31,7 +31,7 @@ inline double distance(const Coordinates& p, const Coordinates& q) {
 /// \throw Unknown_vertex, Out_of_range
 template <class Mesh, class Vertex_range, class Target_of>
 std::vector<Moving_vertex<Mesh>> moving_vertices(const Mesh& mesh, const Vertex_range& vertices,
-                                                 const Target_of& target_of) {
+                                                 Target_of target_of) {
   std::vector<Moving_vertex<Mesh>> moving;
   moving.reserve(static_cast<std::size_t>(std::distance(std::begin(vertices), std::end(vertices))));
   std::vector<bool> is_given(mesh.num_vertices(), false);

@@ -34,9 +34,10 @@ public:
   void run() {
     asked_ = sum_left();
     const Response_scope scope(sculptor_, Response::stop, true);
-    if (parameters_.takes_steps && vertices_.size() >= many)
+    if (!parameters_.drags_singly || (parameters_.takes_steps && vertices_.size() >= many))
       goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_).run();
-    finish();
+    if (parameters_.drags_singly)
+      finish();
   }
 
 private:

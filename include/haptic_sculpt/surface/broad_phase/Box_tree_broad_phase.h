@@ -104,6 +104,17 @@ public:
     are_many ? internal::refit_all(nodes_, level_begin_.data(), levels_) : refit();
   }
 
+  /// As they lie in the tree. \pre all are known
+  void put_in_order(std::vector<Face_index>& faces) const {
+    std::vector<std::pair<std::uint32_t, Face_index>> by_slot;
+    by_slot.reserve(faces.size());
+    for (const Face_index f : faces)
+      by_slot.emplace_back(slot_of_face_[f], f);
+    std::sort(by_slot.begin(), by_slot.end());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      faces[i] = by_slot[i].second;
+  }
+
   /// Reads their corners and neighbours from the mesh; one that is known already keeps its slot.
   template <class Faces>
   void faces_inserted(const Faces& faces) {

@@ -54,10 +54,11 @@ public:
       visit(f);
   }
 
-  /// Appends all faces, near ones side by side. Here they are put in order anew: n log n.
-  void faces_in_order(std::vector<Face_index>& faces) const {
-    for (const auto& f : internal::faces_in_spatial_order(*mesh_, mesh_->faces(), scale_))
-      faces.push_back(Face_index(f.face));
+  /// Puts faces in an order in which near ones are side by side. Here by their places: n log n.
+  void put_in_order(std::vector<Face_index>& faces) const {
+    const auto ordered = internal::faces_in_spatial_order(*mesh_, faces, scale_);
+    for (std::size_t i = 0; i < ordered.size(); ++i)
+      faces[i] = Face_index(ordered[i].face);
   }
 
   /// A query about here may follow soon: its memory may be asked for. Changes no answer. Here nothing is done.

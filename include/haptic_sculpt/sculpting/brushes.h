@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_BRUSHES_H
+#define HAPTIC_SCULPT_SCULPTING_BRUSHES_H
+
+#include <haptic_sculpt/sculpting/brushes/brush_targets.h>
+#include <haptic_sculpt/sculpting/move_vertices.h>
+
+#include <algorithm>
+
+namespace haptic_sculpt {
+
+/// Makes dabs with a brush, all at once: each vertex that is touched goes where the dabs want it, the sum of what they
+/// want if it is touched by several, as far as nothing is in its way. No surface passes through a surface.
+///
+/// \param dabs a range of Dab_3 of the kernel of the mesh's points: one, or one and what mirrored() makes of it
+/// \param mask a readable property map from vertices to how much they take part, from 0 to 1
+/// \param parameters as of move_vertices(). By default whole ways are tried, and what is held back stays there, neither
+/// dragged by itself nor sliding: the next dab brings it on
+/// \return what became of the vertices touched; none are asked where no vertex is within the radius
+///
+/// One step of the history. \throw Out_of_range where a dab wants a vertex out of range, Invalid_parameter where a
+/// radius is not >= 0: nothing has moved; Mesh_changed. Cost: some microseconds for each vertex touched.
+template <class Sculptor, class Dab_range,
+          class Mask_map = boost::static_property_map<double, typename Sculptor::Vertex_index>>
+Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_map& mask = Mask_map(1.0),
+                        const Move_parameters& parameters = Move_parameters().drags(false)) {
+  using Vertex_index = typename Sculptor::Vertex_index;
+  using Point = typename Sculptor::Point;
+  const internal::Rounding_to_nearest rounding;
+  const auto& mesh = sculptor.mesh();
+  std::vector<std::pair<Vertex_index, Point>> wanted;
+  for (const auto& dab : dabs)
+    if (const Vertex_index nearest = sculptor.nearest_vertex(dab.centre, dab.radius); nearest.is_valid())
+      internal::for_each_brush_target(touched_vertices(mesh, dab, nearest), mesh, dab, mask,
+                                      [&](Vertex_index v, const Point& p) { wanted.emplace_back(v, p); });
+  std::stable_sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Vertex_index> vertices;
+  std::vector<Point> targets;
+  for (const auto& [v, p] : wanted)
+    if (!vertices.empty() && vertices.back() == v)
+      targets.back() = targets.back() + (p - mesh.point(v));
+    else
+      vertices.push_back(v), targets.push_back(p);
+  return internal::move_to_targets(
+      sculptor, vertices, [&, k = std::size_t{0}](Vertex_index) mutable { return targets[k++]; }, parameters,
+      CGAL::Emptyset_iterator());
+}
+
+} // namespace haptic_sculpt
+
+#endif

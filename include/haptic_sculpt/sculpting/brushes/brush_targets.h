@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_BRUSH_TARGETS_H
+#define HAPTIC_SCULPT_SCULPTING_BRUSH_TARGETS_H
+
+#include <haptic_sculpt/sculpting/brushes/Dab_3.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <vector>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// The square of how far a point is from the centre of a dab, in its radii.
+template <class Kernel>
+double squared_share(const typename Kernel::Point_3& p, const Dab_3<Kernel>& dab) {
+  const auto d = p - dab.centre;
+  const double x = d.x() / dab.radius, y = d.y() / dab.radius, z = d.z() / dab.radius;
+  return x * x + y * y + z * z;
+}
+
+} // namespace internal
+
+/// The vertices within the radius of a dab that are connected to `nearest`: not those on the other side of a thin wall.
+/// Cost: that of what is touched, and clearing a bit for each vertex of the mesh. \pre nearest is in the mesh
+template <class Mesh, class Kernel>
+std::vector<typename Mesh::Vertex_index> touched_vertices(const Mesh& mesh, const Dab_3<Kernel>& dab,
+                                                          typename Mesh::Vertex_index nearest) {
+  using Vertex_index = typename Mesh::Vertex_index;
+  const internal::Rounding_to_nearest rounding;
+  const auto is_within = [&](Vertex_index v) { return internal::squared_share(mesh.point(v), dab) < 1; };
+  std::vector<Vertex_index> result;
+  std::vector<bool> is_met(mesh.num_vertices(), false);
+  const auto meet = [&](Vertex_index v) {
+    if (!is_met[v] && is_within(v))
+      result.push_back(v);
+    is_met[v] = true;
+  };
+  meet(nearest);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    for (const auto h : mesh.halfedges_around_target(mesh.halfedge(result[i])))
+      meet(mesh.source(h));
+  return result;
+}
+
+namespace internal {
+
+/// Calls `put(v, place)` with each vertex and where a dab wants it.
+template <class Mesh, class Kernel, class Mask_map, class Put>
+void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
+                           const Dab_3<Kernel>& dab, const Mask_map& mask, const Put& put) {
+  using Vector_3 = typename Kernel::Vector_3;
+  const auto weight = [&](typename Mesh::Vertex_index v) {
+    const double square = squared_share(mesh.point(v), dab);
+    return (1 - square) * (1 - square) * get(mask, v);
+  };
+  const bool has_direction = dab.kind != Brush_kind::inflate && dab.kind != Brush_kind::smooth;
+  Vector_3 direction = CGAL::NULL_VECTOR, mean = CGAL::NULL_VECTOR;
+  double sum = 0;
+  for (const auto v : vertices) {
+    if (has_direction && !dab.direction)
+      direction = direction + weight(v) * vertex_normal(mesh, v);
+    mean = mean + weight(v) * (mesh.point(v) - dab.centre);
+    sum += weight(v);
+  }
+  direction = unit_vector(dab.direction.value_or(direction));
+  mean = sum > 0 ? mean / sum : mean;
+  const auto wanted = [&](typename Mesh::Vertex_index v) -> Vector_3 {
+    const Vector_3 from_centre = mesh.point(v) - dab.centre;
+    switch (dab.kind) {
+    case Brush_kind::grab:
+      return direction;
+    case Brush_kind::inflate:
+      return vertex_normal(mesh, v);
+    case Brush_kind::flatten:
+      return -((from_centre - mean) * direction) * direction;
+    case Brush_kind::pinch:
+      return (from_centre * direction) * direction - from_centre;
+    default: {
+      Vector_3 to_mean = CGAL::NULL_VECTOR;
+      for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
+        to_mean = to_mean + (mesh.point(mesh.source(h)) - mesh.point(v)) / mesh.degree(v);
+      return to_mean;
+    }
+    }
+  };
+  for (const auto v : vertices)
+    put(v, mesh.point(v) + dab.strength * weight(v) * wanted(v));
+}
+
+} // namespace internal
+
+/// Where a dab wants the vertices that it touches.
+/// \param targets a writable property map from vertices to points; is written for `vertices` only
+/// \param mask a readable property map from vertices to how much they take part, from 0 to 1
+/// Cost: linear in the edges of `vertices`.
+template <class Mesh, class Kernel, class Target_map, class Mask_map>
+void fill_brush_targets(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
+                        const Dab_3<Kernel>& dab, Target_map targets, const Mask_map& mask) {
+  const internal::Rounding_to_nearest rounding;
+  internal::for_each_brush_target(vertices, mesh, dab, mask,
+                                  [&](auto v, const auto& place) { put(targets, v, place); });
+}
+
+} // namespace haptic_sculpt
+
+#endif

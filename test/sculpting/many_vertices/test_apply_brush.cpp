@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Brushes: what a dab wants by its formula written out again, what is made of it, masks, symmetry and refusals.
+#include "seeds_and_sizes.h"
+#include "sculpting/many_vertices/many_vertices_scene.h"
+
+#include <boost/property_map/function_property_map.hpp>
+
+#include <map>
+#include <random>
+#include <set>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+using Dab = Dab_3<meshes::Kernel>;
+using Dabs = std::vector<Dab>;
+const Brush_kind kinds[] = {Brush_kind::grab, Brush_kind::inflate, Brush_kind::smooth, Brush_kind::flatten,
+                            Brush_kind::pinch};
+
+/// Where a dab wants the vertices that can be reached from the one nearest to its centre.
+std::map<Vertex_index, Point_3> wanted(const Mesh& mesh, const Dab& dab, const std::vector<double>& mask) {
+  const auto share = [&](Vertex_index v) {
+    return CGAL::squared_distance(mesh.point(v), dab.centre) / (dab.radius * dab.radius);
+  };
+  Vertex_index nearest(0);
+  for (const Vertex_index v : mesh.vertices())
+    nearest = share(v) < share(nearest) ? v : nearest;
+  std::set<Vertex_index> reached;
+  if (share(nearest) < 1)
+    reached.insert(nearest);
+  for (std::size_t size = 0; size != reached.size();) {
+    size = reached.size();
+    for (const auto e : mesh.edges())
+      for (const int end : {0, 1})
+        if (reached.count(mesh.vertex(e, end)) != 0 && share(mesh.vertex(e, 1 - end)) < 1)
+          reached.insert(mesh.vertex(e, 1 - end));
+  }
+  const auto weight = [&](Vertex_index v) { return std::pow(1 - share(v), 2) * mask[v]; };
+  Vector_3 direction = CGAL::NULL_VECTOR, mean = CGAL::NULL_VECTOR;
+  double sum = 0;
+  for (const Vertex_index v : reached) {
+    direction += weight(v) * normal(mesh, v);
+    mean += weight(v) * (mesh.point(v) - CGAL::ORIGIN);
+    sum += weight(v);
+  }
+  direction = dab.direction.value_or(direction);
+  direction = direction / std::sqrt(direction.squared_length());
+  const Point_3 middle = CGAL::ORIGIN + mean / sum;
+  std::map<Vertex_index, Point_3> targets;
+  for (const Vertex_index v : reached) {
+    const Point_3 p = mesh.point(v);
+    Vector_3 way = CGAL::NULL_VECTOR;
+    if (dab.kind == Brush_kind::grab)
+      way = direction;
+    else if (dab.kind == Brush_kind::inflate)
+      way = normal(mesh, v);
+    else if (dab.kind == Brush_kind::flatten)
+      way = -(CGAL::scalar_product(p - middle, direction) * direction);
+    else if (dab.kind == Brush_kind::pinch)
+      way = meshes::Kernel::Line_3(dab.centre, direction).projection(p) - p;
+    else {
+      Vector_3 neighbours = CGAL::NULL_VECTOR;
+      std::size_t count = 0;
+      for (const Vertex_index w : mesh.vertices_around_target(mesh.halfedge(v)))
+        neighbours += mesh.point(w) - p, ++count;
+      way = neighbours / static_cast<double>(count);
+    }
+    targets[v] = p + dab.strength * weight(v) * way;
+  }
+  return targets;
+}
+
+double length_between(const Point_3& p, const Point_3& q) {
+  return std::sqrt(CGAL::squared_distance(p, q));
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(a_dab_goes_where_its_formula_says_and_no_farther_from_there) {
+  std::mt19937_64 random(seed_from_environment(3201));
+  const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  const std::size_t dabs = count_from_environment("HAPTIC_SCULPT_DABS", 4);
+  std::size_t arrived = 0, held = 0;
+  for (const Named_mesh& scene : scenes())
+    for (const Brush_kind kind : kinds) {
+      Mesh mesh = scene.mesh;
+      Sculptor<Mesh> sculptor(mesh);
+      const double edge = mean_edge(mesh);
+      for (std::size_t k = 0; k < dabs; ++k) {
+        const Vertex_index centre(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
+        const bool is_length = kind == Brush_kind::grab || kind == Brush_kind::inflate;
+        Dab dab{kind, mesh.point(centre), edge * (1.5 + 6 * uniform()), (is_length ? edge : 1) * (2 * uniform() - 0.5), {}};
+        if (random() % 2 == 0)
+          dab.direction = Vector_3(uniform() - 0.5, uniform() - 0.5, 10 * uniform());
+        std::vector<double> weights(mesh.num_vertices());
+        for (double& weight : weights)
+          weight = random() % 4 == 0 ? 0 : uniform();
+        const auto mask = boost::make_function_property_map<Vertex_index>([&](Vertex_index v) { return weights[v]; });
+        const auto targets = wanted(mesh, dab, weights);
+        const Mesh before = mesh;
+        const Mesh_snapshot before_all = snapshot(sculptor);
+        const Move_report report = apply_brush(sculptor, Dabs{dab}, mask);
+        BOOST_TEST(report.asked == targets.size(), scene.name);
+        std::size_t wrong = 0, reached = 0;
+        for (const Vertex_index v : mesh.vertices()) {
+          const auto found = targets.find(v);
+          if (found == targets.end() || weights[v] == 0) {
+            wrong += mesh.point(v) != before.point(v);
+            continue;
+          }
+          // The formula, and its writing out again, are rounded.
+          const double slack = 1e-9 * (edge + length_between(before.point(v), CGAL::ORIGIN) * 1e-3);
+          wrong += length_between(mesh.point(v), found->second) > length_between(before.point(v), found->second) + slack;
+          reached += length_between(mesh.point(v), found->second) <= slack;
+        }
+        BOOST_TEST(wrong == 0u, scene.name << ", brush " << static_cast<int>(kind));
+        reached += static_cast<std::size_t>(std::count_if(
+            targets.begin(), targets.end(), [&](const auto& target) { return weights[target.first] == 0; }));
+        BOOST_TEST(reached >= report.reached, scene.name);
+        arrived += report.reached;
+        held += report.left();
+        BOOST_TEST(validate(mesh).is_valid(), scene.name);
+        check_undo_and_redo(sculptor, before_all);
+      }
+    }
+  BOOST_TEST_MESSAGE(arrived << " arrived, " << held << " held back");
+  BOOST_TEST(arrived > held);
+  BOOST_TEST(is_enough(held, 0));
+}
+
+BOOST_AUTO_TEST_CASE(both_sides_of_a_plane_go_alike_and_several_dabs_add_up) {
+  // Symmetric about x = 0: a torus of an even number of segments.
+  const Mesh start = meshes::to_mesh(meshes::torus(48, 16));
+  std::map<std::array<double, 3>, Vertex_index> at;
+  const auto key = [](double x, double y, double z) {
+    return std::array<double, 3>{std::round(1e9 * x) + 0.0, std::round(1e9 * y) + 0.0, std::round(1e9 * z) + 0.0};
+  };
+  for (const Vertex_index v : start.vertices())
+    at[key(start.point(v).x(), start.point(v).y(), start.point(v).z())] = v;
+  const meshes::Kernel::Plane_3 plane(Point_3(0, 0, 0), Vector_3(3, 0, 0));
+  for (const Brush_kind kind : kinds) {
+    Mesh mesh = start;
+    Sculptor<Mesh> sculptor(mesh);
+    const double edge = mean_edge(mesh);
+    Vertex_index centre(0);
+    for (const Vertex_index v : mesh.vertices())
+      centre = mesh.point(v).x() > mesh.point(centre).x() ? v : centre;
+    const Dab dab{kind, mesh.point(centre), 4 * edge, kind == Brush_kind::grab || kind == Brush_kind::inflate ? edge / 4 : 0.25, Vector_3(2, 1, 0.5)};
+    const Move_report report = apply_brush(sculptor, Dabs{dab, mirrored(dab, plane)});
+    BOOST_TEST(report.asked > 40u);
+    BOOST_TEST(report.reached == report.asked);
+    // The diagonals of its squares are not symmetric, nor are normals and neighbours.
+    const bool asks_for_diagonals = kind == Brush_kind::inflate || kind == Brush_kind::smooth;
+    double worst = 0;
+    for (const Vertex_index v : mesh.vertices()) {
+      const Point_3 &p = start.point(v), &q = mesh.point(v);
+      const auto other = at.find(key(-p.x(), p.y(), p.z()));
+      BOOST_REQUIRE((other != at.end()));
+      worst = std::fmax(worst, length_between(Point_3(-q.x(), q.y(), q.z()), mesh.point(other->second)));
+    }
+    BOOST_TEST((asks_for_diagonals || worst < 1e-12));
+    BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
+
+    // Twice the same dab is one of twice the strength.
+    Mesh twice = start, stronger = start;
+    Sculptor<Mesh> of_twice(twice), of_stronger(stronger);
+    Dab strong = dab;
+    strong.strength *= 2;
+    apply_brush(of_twice, Dabs{dab, dab});
+    apply_brush(of_stronger, Dabs{strong});
+    double apart = 0;
+    for (const Vertex_index v : start.vertices())
+      apart = std::fmax(apart, length_between(twice.point(v), stronger.point(v)));
+    BOOST_TEST(apart < 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(dabs_that_cannot_be_made_change_nothing) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(2));
+  Sculptor<Mesh> sculptor(mesh);
+  const Mesh_snapshot before = snapshot(sculptor);
+  const Point_3 top(0, 0, 1);
+  BOOST_TEST(apply_brush(sculptor, Dabs{}).asked == 0u);
+  BOOST_TEST(apply_brush(sculptor, Dabs{{Brush_kind::grab, Point_3(9, 9, 9), 1, 1, {}}}).asked == 0u);
+  BOOST_TEST(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 0, 1, {}}}).asked == 0u);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, nan, 1, {}}}), Invalid_parameter);
+  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, -1, 1, {}}}), Invalid_parameter);
+  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, 1e307, {}}}), Out_of_range);
+  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, nan, {}}}), Out_of_range);
+  BOOST_TEST((snapshot(sculptor) == before));
+  BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
+}
