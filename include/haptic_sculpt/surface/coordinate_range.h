@@ -14,7 +14,7 @@ namespace haptic_sculpt {
 /// There is no least one: zero and subnormal numbers are ordinary.
 ///
 /// Differences of coordinates, sums of some of them and their small multiples then stay below 2^1023, so none overflows
-/// on the way to what leaves pairs out (doc/proofs/exact_sweeps.md, "The range of coordinates").
+/// on the way to what leaves pairs out (doc/proofs/sweep_arithmetic.md, "The range of coordinates").
 constexpr double largest_coordinate = 0x1p1000;
 
 /// A coordinate or a length that is larger than `largest_coordinate`, or not a number, was given. Nothing has changed.

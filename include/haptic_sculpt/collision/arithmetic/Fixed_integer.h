@@ -14,7 +14,7 @@ __extension__ typedef unsigned __int128 Double_limb;
 /// A signed integer of `limbs` 64-bit limbs, two's complement, least significant limb first, on the stack.
 ///
 /// The product of two has the limbs of both, so products never overflow. Sums and differences keep the width: whoever
-/// adds must know that there is room (doc/proofs/exact_sweeps.md counts the bits).
+/// adds must know that there is room (doc/proofs/sweep_arithmetic.md counts the bits).
 template <std::size_t limbs>
 struct Fixed_integer {
   std::array<std::uint64_t, limbs> limb{};

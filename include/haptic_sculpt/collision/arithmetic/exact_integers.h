@@ -8,7 +8,7 @@
 /// Signs of determinants do not change when all coordinates are divided by one power of two, so a handful of doubles
 /// becomes a handful of integers. Doubles of like size need one 64-bit limb, doubles up to 2^71 apart two, up to 2^199
 /// apart (0 and what rounding makes of it) four, and anything else GMP, which allocates. See
-/// doc/proofs/exact_sweeps.md, "The integer stages".
+/// doc/proofs/sweep_arithmetic.md, "The integer stages".
 
 #include <haptic_sculpt/collision/arithmetic/Fixed_integer.h>
 

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_COLLISION_FLOATING_POINT_CONTRACT_H
 
 /// \file
-/// What the error bounds of the filters take for granted of the compiler; see doc/proofs/exact_sweeps.md.
+/// What the error bounds of the filters take for granted of the compiler; see doc/proofs/sweep_arithmetic.md.
 ///
 /// Contraction to fused multiply-add and every rounding mode are allowed for. Re-association, finite-only and
 /// reciprocal arithmetic, and evaluation in a wider format are not: they are refused here.

@@ -5,8 +5,8 @@
 /// \file
 /// Exact signs of orientation determinants of doubles: a semi-static filter, then integers.
 ///
-/// The bounds are derived in doc/proofs/exact_sweeps.md, "The floating-point filter". They hold in every rounding mode,
-/// with and without contraction to fused multiply-add.
+/// The bounds are derived in doc/proofs/sweep_arithmetic.md, "The floating-point filter". They hold in every rounding
+/// mode, with and without contraction to fused multiply-add.
 
 #include <haptic_sculpt/collision/Filter_counters.h>
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>

@@ -32,8 +32,8 @@ inline std::optional<Brush_kind> brush_kind(const std::string& name) {
 /// (1 - (distance / radius)^2)^2.
 template <class Kernel>
 struct Dab_3 {
-  Brush_kind kind;
-  typename Kernel::Point_3 centre;
+  Brush_kind kind; ///< what it does
+  typename Kernel::Point_3 centre; ///< on the surface, or near it
   double radius;   ///< > 0, in the unit of the coordinates
   double strength; ///< a length or a share, as the kind says; negative: the other way
   std::optional<typename Kernel::Vector_3> direction = {}; ///< of any length; nothing: the mean normal of what is touched
