@@ -7,6 +7,7 @@
 /// Eigen.
 
 #include <haptic_sculpt/device.h>
+#include <haptic_sculpt/haptic_rendering/Debounced_button.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Hand_path.h>
 #include <haptic_sculpt/haptic_rendering/Haptic_loop.h>
 #include <haptic_sculpt/haptic_rendering/Pose_loop.h>

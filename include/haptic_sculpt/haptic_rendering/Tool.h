@@ -134,6 +134,12 @@ public:
     offset_.setZero(), last_push_ = Eigen::Vector3d::UnitZ();
   }
 
+  /// From here on in another map of the same scene. What is held stays where it is, anchored at the next move().
+  void change_map(const Workspace_map& map) {
+    reach_ *= map.scale() / map_.scale();
+    map_ = map, is_anchored_ = false, offset_.setZero();
+  }
+
   /// What is done from here on is told to it. nullptr: to none
   void keep_journal(Edit_journal* journal) { mesh_edits_.keep_journal(journal); }
 

@@ -43,6 +43,13 @@ public:
                          home);
   }
 
+  /// The map with this rotation and home and another scale under which a place of the device is a place of the scene:
+  /// what a hand that was moved with the clutch open takes up again, and about what it zooms. \throw Error for a scale
+  /// that is not a finite number > 0
+  Workspace_map pinned(const Eigen::Vector3d& device, const Eigen::Vector3d& scene, double scale) const {
+    return Workspace_map(scale, rotation_vector_, scene - scale * (rotation_ * (device - home_)), home_);
+  }
+
   double scale() const { return scale_; }                       ///< units of the scene a metre of the device
   const Eigen::Matrix3d& rotation() const { return rotation_; } ///< R: from axes of the device to those of the scene
   const Eigen::Vector3d& rotation_vector() const { return rotation_vector_; } ///< of R, as given, rad

@@ -60,13 +60,32 @@ public:
   /// After a fault: forces come back slowly, from 0, from where everything is.
   void restart() {
     interaction_.restart(), tool_.let_go();
-    tick_ = Haptic_tick(), failure_[0] = '\0';
+    tick_ = Haptic_tick(), failure_[0] = '\0', has_place_ = false;
   }
+
+  /// \name Clutch and zoom
+  /// Between two ticks, in the thread that calls tick(). What is held stays in hand, where it is, and the spring begins
+  /// again at 0 there: the force goes to 0 as fast as the slew limit lets it. The home of the map stays.
+  ///@{
+
+  /// Open: the handle moves alone, and the button waits. Closed again: the handle goes on from where the tool is.
+  void open_clutch(bool is_open = true) {
+    is_map_due_ = is_map_due_ || is_open || is_clutch_open_;
+    is_clutch_open_ = is_open;
+  }
+  /// Units of the scene a metre of the device, times a factor, from the next tick with a closed clutch on, about where
+  /// the tool is. \throw Error for a factor that makes no scale > 0
+  void zoom(double factor) {
+    map_.pinned(map_.home(), map_.origin(), map_.scale() * zoom_ * factor); // throws here, not in a tick
+    zoom_ *= factor, is_map_due_ = true;
+  }
+  bool is_clutch_open() const { return is_clutch_open_; } ///< the tool does not follow the handle
+  ///@}
 
   /// From here on in another sculpture; forces begin at 0. The old one is let go of, and may be destroyed.
   void enter(Sculptor& sculptor, const Workspace_map& map) {
     tool_.enter(sculptor, map);
-    sculptor_ = &sculptor, map_ = map, held_ = Vertex_index();
+    sculptor_ = &sculptor, map_ = map, held_ = Vertex_index(), zoom_ = 1;
     sculptor.set_work_limit(parameters_.work);
     restart();
   }
@@ -104,6 +123,9 @@ private:
   Haptic_tick tick_;
   Vertex_index held_;
   std::array<char, 256> failure_{};
+  bool is_clutch_open_ = false, is_map_due_ = false, has_place_ = false;
+  double zoom_ = 1;                                 ///< asked for since the map was made
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero(); ///< of the tool in the last tick, in the scene
 
   /// Pairs for each face about what is held, beside Haptic_parameters::work: to decide whether a step of a vertex is
   /// free takes some of each.
@@ -112,8 +134,21 @@ private:
   void run(const Reading& reading) {
     if (!interaction_.follow(reading))
       return;
-    tick_.tool = tool_.move(interaction_.side().position(), reading.button);
+    const Eigen::Vector3d handle = interaction_.side().position();
+    if (is_clutch_open_) {
+      tick_.tool = Tool_step();
+      tick_.tool.target = tick_.tool.proxy = has_place_ ? place_ : map_.to_scene(handle);
+      interaction_.render(Touch());
+      return;
+    }
+    if (is_map_due_) {
+      map_ = map_.pinned(handle, has_place_ ? place_ : map_.to_scene(handle), map_.scale() * zoom_);
+      tool_.change_map(map_);
+      zoom_ = 1, is_map_due_ = false;
+    }
+    tick_.tool = tool_.move(handle, reading.button);
     const Tool_step& tool = tick_.tool;
+    place_ = tool.proxy, has_place_ = true;
     if (tool.event == Tool_event::refused)
       interaction_.refuse(map_.direction_to_device(tool_.last_push()));
     if (tool_.vertex() != held_)
