@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pages of the manual are short, their lines too, and what they refer to exists: check_pages.py ROOT
+
+Counted as `wc -w` counts. Lines in tables and code may be longer. Links of the HTML are checked by check_reference.py.
+"""
+import pathlib
+import re
+import sys
+
+LONGEST_LINE = 100
+MOST_WORDS = {"doc/use": 1200, "doc/concepts": 1200, "doc/proofs": 1600, "doc/results": 1600, "doc": 1300}
+MOST_IN_ALL = 48500
+NOT_PLAIN = r"\bis told\b|\bthe latter\b|\bnone the less\b|\bnonetheless\b|\bof which\b"
+
+
+def anchors(page):
+    """Of its headings, as GitHub makes them."""
+    headings = re.findall(r"^#+ +(.*)$", page.read_text(), re.M)
+    return {re.sub(r"[^\w\- ]", "", re.sub(r"[`*]", "", heading)).strip().lower().replace(" ", "-") for heading in headings}
+
+
+def faults(page, root):
+    text = page.read_text()
+    name = page.relative_to(root)
+    words, most = len(text.split()), MOST_WORDS[str(name.parent)]
+    if words > most:
+        yield f"{name}: {words} words, more than {most}: shorten it, or make two pages of it"
+    is_code = False
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.startswith("```"):
+            is_code = not is_code
+        elif not is_code and not line.startswith("|") and len(line) > LONGEST_LINE and "](" not in line:
+            yield f"{name}:{number}: {len(line)} columns, more than {LONGEST_LINE}"
+        if not is_code and (phrase := re.search(NOT_PLAIN, line)):
+            yield f"{name}:{number}: '{phrase.group()}' is not plain: say who does what"
+        for link in [] if is_code else re.findall(r"\]\(([^)\s]+)\)", line):
+            if re.match(r"[a-z]+:", link):
+                continue
+            path, _, anchor = link.partition("#")
+            target = (page.parent / path).resolve() if path else page
+            if not target.exists():
+                yield f"{name}:{number}: there is no {link}"
+            elif anchor and target.suffix == ".md" and anchor not in anchors(target):
+                yield f"{name}:{number}: {path or name} has no heading '{anchor}'"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    pages = sorted((root / "doc").rglob("*.md"))
+    found = [fault for page in pages for fault in faults(page, root)]
+    words = sum(len(page.read_text().split()) for page in pages)
+    if words > MOST_IN_ALL:
+        found.append(f"{words} words in all pages, more than {MOST_IN_ALL}")
+    for fault in found:
+        print(fault)
+    print(f"pages: {len(pages)}, {words} words, {len(found)} faults")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
