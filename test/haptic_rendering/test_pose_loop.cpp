@@ -107,33 +107,36 @@ BOOST_AUTO_TEST_CASE(places_beyond_all_numbers_are_faults_also_where_no_speed_is
 
 BOOST_AUTO_TEST_CASE(parameters_are_checked_where_they_are_given) {
   const double inf = std::numeric_limits<double>::infinity();
-  const auto refuses = [](const auto& change) {
+  const auto refuses = [](const std::string& member, const auto& change) {
     Pose_loop_parameters parameters(2);
     change(parameters);
-    BOOST_CHECK_THROW(Ball_loop{parameters}, Error);
+    BOOST_CHECK_EXCEPTION(Ball_loop{parameters}, Error, [&](const Error& error) {
+      BOOST_TEST_MESSAGE(error.what());
+      return std::string(error.what()).find(member) != std::string::npos;
+    });
   };
   using P = Pose_loop_parameters;
   for (const double bad : {std::nan(""), inf, -1.0}) {
-    refuses([&](P& p) { p.tick = bad; });
-    refuses([&](P& p) { p.coupling.stiffness = bad; });
-    refuses([&](P& p) { p.coupling.damping = bad; });
-    refuses([&](P& p) { p.limits.slew = bad; });
-    refuses([&](P& p) { p.limits.largest = bad; });
-    refuses([&](P& p) { p.limits.ramp_time = bad; });
-    refuses([&](P& p) { p.limits.fade_time = bad; });
-    refuses([&](P& p) { p.device.mass = bad; });
-    refuses([&](P& p) { p.device.resolution = bad; });
-    refuses([&](P& p) { p.delay = bad; });
-    refuses([&](P& p) { p.stall_time = bad; });
-    refuses([&](P& p) { p.controller_damping = bad; });
-    refuses([&](P& p) { p.reach = bad; });
+    refuses("tick", [&](P& p) { p.tick = bad; });
+    refuses("stiffness", [&](P& p) { p.coupling.stiffness = bad; });
+    refuses("damping", [&](P& p) { p.coupling.damping = bad; });
+    refuses("Force_limits::slew", [&](P& p) { p.limits.slew = bad; });
+    refuses("Force_limits::largest", [&](P& p) { p.limits.largest = bad; });
+    refuses("Force_limits::ramp_time", [&](P& p) { p.limits.ramp_time = bad; });
+    refuses("Force_limits::fade_time", [&](P& p) { p.limits.fade_time = bad; });
+    refuses("Pose_device::mass", [&](P& p) { p.device.mass = bad; });
+    refuses("Pose_device::resolution", [&](P& p) { p.device.resolution = bad; });
+    refuses("delay", [&](P& p) { p.delay = bad; });
+    refuses("Watchdog_limits::stall_time", [&](P& p) { p.stall_time = bad; });
+    refuses("controller_damping", [&](P& p) { p.controller_damping = bad; });
+    refuses("reach", [&](P& p) { p.reach = bad; });
   }
-  refuses([](P& p) { p.tick = 0; });
-  refuses([](P& p) { p.work = 0; });
-  refuses([](P& p) { p.device.friction = -1; });
-  refuses([](P& p) { p.device.friction = NAN; });
-  refuses([](P& p) { p.speed = NAN; });
-  refuses([](P& p) { p.coupling.damping = 2.1; }); // more than the friction
+  refuses("tick", [](P& p) { p.tick = 0; });
+  refuses("work", [](P& p) { p.work = 0; });
+  refuses("Pose_device::friction", [](P& p) { p.device.friction = -1; });
+  refuses("Pose_device::friction", [](P& p) { p.device.friction = NAN; });
+  refuses("Watchdog_limits::joint_rate", [](P& p) { p.speed = NAN; });
+  refuses("damping", [](P& p) { p.coupling.damping = 2.1; }); // more than the friction
   Ball_loop{Pose_loop_parameters(2)};
 }
 

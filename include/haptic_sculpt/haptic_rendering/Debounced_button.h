@@ -17,7 +17,7 @@ public:
   /// \param quiet_time for which the contact has to say the same before the next change, s; 0: all changes count
   /// \throw Error for a time that is not from 0 to 1 s
   explicit Debounced_button(double quiet_time = default_quiet_time) : quiet_time_(quiet_time) {
-    internal::require_number("the quiet time of a button", "s", quiet_time, 0, 1);
+    internal::require_number("the quiet time of a Debounced_button", "s", quiet_time, 0, 1);
   }
 
   /// Once a reading. \param contact as it is \param elapsed since the last call, s; one that is not > 0 counts as 0

@@ -20,12 +20,12 @@ struct Force_limits {
 
   /// \throw Error naming what cannot be used; `infinite` is a bound that there is not
   void check() const {
-    internal::require_number("the largest force", "N", largest, 0, 1e9);
-    internal::require_number("the slew limit", "N/s", slew, 1e-3, 1e12);
-    internal::require_number("cond(J) of the whole force", "", full_condition, 1, 1e12);
-    internal::require_number("cond(J) of no force", "", no_condition, full_condition, 1e12);
-    internal::require_number("the ramp's time", "s", ramp_time, 0, 60);
-    internal::require_number("the time to fade", "s", fade_time, 0, 60);
+    internal::require_number("Force_limits::largest, the largest force,", "N", largest, 0, 1e9);
+    internal::require_number("Force_limits::slew, the slew limit,", "N/s", slew, 1e-3, 1e12);
+    internal::require_number("Force_limits::full_condition, cond(J) of the whole force,", "", full_condition, 1, 1e12);
+    internal::require_number("Force_limits::no_condition, of no force,", "", no_condition, full_condition, 1e12);
+    internal::require_number("Force_limits::ramp_time, the ramp's time,", "s", ramp_time, 0, 60);
+    internal::require_number("Force_limits::fade_time, the time to fade,", "s", fade_time, 0, 60);
   }
 };
 

@@ -47,9 +47,9 @@ struct Pose_loop_parameters {
   /// As all loops have them. \throw Error naming what cannot be used
   Haptic_parameters checked() const {
     if (has_force())
-      internal::require_number("the friction of a pose device", "N s/m", device.friction, 0, 1e5);
-    internal::require_number("the mass of a pose device's handle", "kg", device.mass, 1e-4, 100);
-    internal::require_number("the resolution of a pose device", "m", device.resolution, 0, 0.01);
+      internal::require_number("Pose_device::friction", "N s/m", device.friction, 0, 1e5);
+    internal::require_number("Pose_device::mass, that of the handle,", "kg", device.mass, 1e-4, 100);
+    internal::require_number("Pose_device::resolution", "m", device.resolution, 0, 0.01);
     Haptic_parameters all;
     all.tick = tick, all.delay = delay, all.coupling = coupling, all.limits = limits, all.reach = reach;
     all.work = work, all.controller_damping = controller_damping, all.virtual_mass = virtual_mass;

@@ -46,8 +46,8 @@ struct Virtual_coupling {
 
   /// \throw Error for a number that no coupling has; whether a device can give it, its limits say
   void check() const {
-    internal::require_number("the stiffness of the coupling", "N/m", stiffness, 0, 1e7);
-    internal::require_number("the damping of the coupling", "N s/m", damping, 0, 1e5);
+    internal::require_number("Virtual_coupling::stiffness", "N/m", stiffness, 0, 1e7);
+    internal::require_number("Virtual_coupling::damping", "N s/m", damping, 0, 1e5);
   }
 
   /// The force of the spring on the hand, N, in axes of the device: k R^T (proxy - target) / scale. Exactly 0 where the

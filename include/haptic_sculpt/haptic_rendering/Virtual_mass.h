@@ -18,8 +18,8 @@ struct Virtual_mass_parameters {
 
   /// \throw Error naming what is wrong
   void check() const {
-    internal::require_number("the virtual mass", "kg", mass, 0, 10);
-    internal::require_number("the cutoff of the acceleration", "Hz", cutoff, 1e-3, 1e6);
+    internal::require_number("Virtual_mass_parameters::mass, the virtual mass,", "kg", mass, 0, 10);
+    internal::require_number("Virtual_mass_parameters::cutoff, that of the acceleration,", "Hz", cutoff, 1e-3, 1e6);
   }
 };
 

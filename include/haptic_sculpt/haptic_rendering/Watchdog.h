@@ -43,11 +43,11 @@ struct Watchdog_limits {
   /// \throw Error naming what cannot be used
   void check() const {
     constexpr double none = std::numeric_limits<double>::infinity();
-    internal::require_number("the rate that is a jump", "per s", joint_rate, 1e-3, none);
-    internal::require_number("the time that is a stall", "s", stall_time, 1e-4, 10);
-    internal::require_number("cond(J) that is singular", "", condition, 1, 1e12);
-    internal::require_number("the margin of the torques", "", torque_margin, 1, none);
-    internal::require_number("the mean time of a tick that is late", "ticks", late_ticks, 1, none);
+    internal::require_number("Watchdog_limits::joint_rate, the rate that is a jump,", "per s", joint_rate, 1e-3, none);
+    internal::require_number("Watchdog_limits::stall_time, the time that is a stall,", "s", stall_time, 1e-4, 10);
+    internal::require_number("Watchdog_limits::condition, cond(J) that is singular,", "", condition, 1, 1e12);
+    internal::require_number("Watchdog_limits::torque_margin, the margin of the torques,", "", torque_margin, 1, none);
+    internal::require_number("Watchdog_limits::late_ticks, the mean that is late,", "ticks", late_ticks, 1, none);
   }
 };
 

@@ -54,7 +54,7 @@ private:
     return coupling.stiffness + 2 * 3.14159265358979323846 * Velocity_estimate::default_cutoff * coupling.damping;
   }
   static double checked(double tick) {
-    internal::require_number("the tick", "s", tick, least_tick, most_tick);
+    internal::require_number("the tick of a chain of forces", "s", tick, least_tick, most_tick);
     return tick;
   }
 

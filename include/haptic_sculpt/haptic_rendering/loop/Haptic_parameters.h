@@ -34,13 +34,13 @@ struct Haptic_parameters {
 
   /// \throw Error naming what no device can use
   void check() const {
-    internal::require_number("the tick", "s", tick, Force_chain::least_tick, Force_chain::most_tick);
-    internal::require_number("the delay", "ticks", delay, 0, Torque_delay<double>::most_ticks);
+    internal::require_number("tick, the time of one,", "s", tick, Force_chain::least_tick, Force_chain::most_tick);
+    internal::require_number("delay, to the force,", "ticks", delay, 0, Torque_delay<double>::most_ticks);
     coupling.check(), limits.check(), watchdog.check(), virtual_mass.check();
-    internal::require_number("the damping of the passivity controller", "N s/m", controller_damping.value_or(0), 0,
-                             1e5);
-    internal::require_number("the reach of a grab", "m", reach, 0, 1);
-    internal::require_number("the work of a drag", "pairs", static_cast<double>(work), 1, 1e15);
+    internal::require_number("controller_damping, of the passivity controller,", "N s/m",
+                             controller_damping.value_or(0), 0, 1e5);
+    internal::require_number("reach, of a grab,", "m", reach, 0, 1);
+    internal::require_number("work, of a drag,", "pairs", static_cast<double>(work), 1, 1e15);
   }
 };
 

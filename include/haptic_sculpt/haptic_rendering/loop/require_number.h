@@ -6,13 +6,14 @@
 
 namespace haptic_sculpt::internal {
 
-/// \throw Error naming the number, unless it is from `least` to `most`; NaN never is
+/// Ranges end where a number is far from any device, hand or clock: it is in another unit, or was never set.
+/// \param what the member, and what that is \throw Error naming it, unless it is from `least` to `most`; NaN never is
 inline void require_number(const char* what, const char* unit, double x, double least, double most) {
   if (x >= least && x <= most)
     return;
   const std::string in_unit = *unit == '\0' ? "" : ' ' + std::string(unit);
   throw Error(std::string(what) + " must be from " + number(least) + " to " + number(most) + in_unit + ", not " +
-              number(x));
+              number(x) + "; set it within that");
 }
 
 } // namespace haptic_sculpt::internal
