@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How do I: several objects, constrained vertices, a copy to try on, progress and cancel, a mesh that is refused, float
+// How do I: several objects, constrained vertices, a brush, a copy to try on, progress and cancel, a mesh that is refused, float
 // files.
 #include <haptic_sculpt/sculpting.h>
 #include <haptic_sculpt/sculpting/isotropic_remeshing.h>
@@ -45,6 +45,11 @@ int main(int argc, char** argv) try {
                                                   haptic_sculpt::Move_parameters().progress(progress));
   std::cout << moved.reached << " of " << moved.asked << " arrived; the other object was in the way\n";
   haptic_sculpt::isotropic_remeshing(sculptor, 0.7, params::vertex_is_constrained_map(is_constrained));
+
+  // A brush: what is within 0.8 of the top is inflated by 0.05.
+  const haptic_sculpt::Dab_3<Kernel> dab{haptic_sculpt::Brush_kind::inflate, {0, 0, 1}, 0.8, 0.05};
+  const auto dabbed = haptic_sculpt::apply_brush(sculptor, std::vector<haptic_sculpt::Dab_3<Kernel>>{dab});
+  std::cout << dabbed.reached << " of " << dabbed.asked << " vertices are where the brush wants them\n";
 
   // A copy to try on; or try on the mesh itself, and undo.
   Mesh copy = mesh;
