@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How do I: several objects, constrained vertices, a brush, a copy to try on, progress and cancel, a mesh that is refused, float
-// files.
+// How do I: several objects, constrained vertices, a brush, a copy to try on, progress and cancel, a mesh that is
+// refused, float files.
 #include <haptic_sculpt/sculpting.h>
 #include <haptic_sculpt/sculpting/isotropic_remeshing.h>
 #include <haptic_sculpt/sculpting/move_vertices.h>
