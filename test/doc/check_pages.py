@@ -9,8 +9,8 @@ import re
 import sys
 
 LONGEST_LINE = 100
-MOST_WORDS = {"doc/use": 1200, "doc/concepts": 1200, "doc/proofs": 1600, "doc/results": 1600, "doc": 1300}
-MOST_IN_ALL = 48500
+MOST_WORDS = {"doc/use": 1200, "doc/concepts": 1200, "doc/proofs": 1600, "doc/results": 1800, "doc": 1300}
+MOST_IN_ALL = 49000
 NOT_PLAIN = r"\bis told\b|\bthe latter\b|\bnone the less\b|\bnonetheless\b|\bof which\b"
 
 
