@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only.
+"""check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only, and no example names
+what is internal.
 
 A folder and the one around it may include each other: public names stand at a module's root, what serves them stands below.
 Between all other folders the includes form no cycle. Exit code 1 names each folder of a cycle, with the includes that close it.
@@ -37,6 +38,16 @@ def cycle_among(edges):
         left = kept
 
 
+def internals_in_examples(root):
+    """["file: line", ...]"""
+    found = []
+    for file in sorted([*root.rglob("*.h"), *root.rglob("*.cpp")]):
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            if re.search(r"\binternal::", line):
+                found.append(f"{file.relative_to(root)}:{number}: {line.strip()}")
+    return found
+
+
 def main(source):
     edges = includes_between_folders(pathlib.Path(source) / "include" / "haptic_sculpt")
     if not edges:
@@ -45,7 +56,10 @@ def main(source):
     for a, b in sorted(cycle):
         print(f"{a} includes {b}:", *edges[a, b][:4], sep="\n  ")
     print(f"{len(edges)} pairs of folders, {len(cycle)} of them in a cycle")
-    return 1 if cycle else 0
+    named = internals_in_examples(pathlib.Path(source) / "examples")
+    if named:
+        print("examples name what is internal; make it public, or do without:", *named, sep="\n  ")
+    return 1 if cycle or named else 0
 
 
 if __name__ == "__main__":

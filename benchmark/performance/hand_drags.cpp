@@ -75,10 +75,7 @@ double distance(const Point_3& a, const Point_3& b) { return std::sqrt(CGAL::squ
 class Bench {
 public:
   Bench(const Mesh& mesh, std::size_t work)
-    : mesh_(mesh), sculptor_(mesh_) {
-    if (work != 0)
-      sculptor_.set_work_limit(work);
-  }
+      : mesh_(mesh), sculptor_(mesh_, work != 0 ? parameters::work_limit(work) : Sculptor_parameters()) {}
 
   const Mesh& mesh() const { return mesh_; }
 

@@ -92,7 +92,7 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
       },
       10000, 100000);
   Haptic_parameters parameters;
-  parameters.tick = 1 / options.rate, parameters.work = options.work, parameters.reach = 1e-3 * options.reach;
+  parameters.tick = 1 / options.rate, parameters.work_limit = options.work, parameters.reach = 1e-3 * options.reach;
   const Passivity_limits limits = passivity_limits(device, parameters.limits, scene.map, 1.1 * scene.lower,
                                                    1.1 * scene.upper, 0, parameters.tick, 0);
   const Hand hand{options, home->position};

@@ -39,12 +39,12 @@ public:
 
   /// \param scale units of the scene a metre of the device
   template <class Sculptor>
-  Happenings(const Sculptor& sculptor, double scale) : scale_(scale), part_(sculptor.number_of_names()) {
+  Happenings(const Sculptor& sculptor, double scale) : scale_(scale), part_(sculptor.number_of_ids()) {
     first_.fill(std::numeric_limits<double>::quiet_NaN());
     std::iota(part_.begin(), part_.end(), std::size_t{0});
     const auto& mesh = sculptor.mesh();
     for (const auto e : mesh.edges())
-      part_[root(sculptor.name(mesh.vertex(e, 0)))] = root(sculptor.name(mesh.vertex(e, 1)));
+      part_[root(sculptor.id(mesh.vertex(e, 0)))] = root(sculptor.id(mesh.vertex(e, 1)));
     for (std::size_t name = 0; name < part_.size(); ++name)
       part_[name] = root(name);
   }
@@ -99,9 +99,9 @@ private:
     if (obstacle >= part_.size())
       return false;
     const auto& mesh = sculptor.mesh();
-    std::size_t name = sculptor.name(vertex);
+    std::size_t name = sculptor.id(vertex);
     if (name >= part_.size())
-      name = sculptor.name(mesh.source(mesh.halfedge(vertex)));
+      name = sculptor.id(mesh.source(mesh.halfedge(vertex)));
     return name < part_.size() && part_[name] != part_[obstacle];
   }
 };

@@ -21,14 +21,12 @@ public:
 
   /// Strokes that are open at the end, end.
   void run(const std::vector<Command>& commands) {
-    sculptor_.set_work_limit(std::nullopt);
     for (const Command& command : commands)
       make(command);
     while (sculptor_.apply(Edit::of(Edit_kind::end))) // strokes that are open
       ;
-    sculptor_.set_response(Response::slide);
-    sculptor_.set_default_clearance();
-    if (sculptor_.options().delta_length != 0)
+    sculptor_.set_drag_parameters(Drag_parameters());
+    if (sculptor_.parameters().delta_length != 0)
       sculptor_.set_delta(0);
   }
 
@@ -48,7 +46,7 @@ private:
     sculptor_.release();
     switch (c.kind) {
     case Kind::response:
-      sculptor_.set_response(*response_named(c.word));
+      sculptor_.set_drag_parameters(drag().response(*response_named(c.word)));
       break;
     case Kind::clearance:
       clearance(c);
@@ -67,16 +65,15 @@ private:
     }
   }
 
+  Drag_parameters drag() const { return sculptor_.parameters().drag; }
   void clearance(const Command& c) {
-    if (c.word == "default")
-      return sculptor_.set_default_clearance();
     try {
-      sculptor_.set_clearance(c.length);
+      sculptor_.set_drag_parameters(c.word == "default" ? drag().clearance(std::nullopt) : drag().clearance(c.length));
     } catch (const Invalid_parameter&) { // refused then, too
     }
   }
   void delta(const Command& c) {
-    if (c.length == sculptor_.options().delta_length)
+    if (c.length == sculptor_.parameters().delta_length)
       return;
     try {
       sculptor_.set_delta(c.length);

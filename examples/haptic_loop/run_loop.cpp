@@ -7,6 +7,7 @@
 #include "Trace.h"
 #include "write_run_picture.h"
 
+#include "../common/numbers.h"
 #include "../drawing/surface_mesh_arrays.h"
 
 #include "../sculpt/sha256_of_file.h"
@@ -76,7 +77,7 @@ public:
     parameters.coupling = {settings_.stiffness, settings_.damping};
     parameters.virtual_mass.mass = settings_.virtual_mass;
     parameters.controller_damping = settings_.controller;
-    parameters.reach = settings_.reach, parameters.work = settings_.work;
+    parameters.reach = settings_.reach, parameters.work_limit = settings_.work;
     const Passivity_limits limits = limits_of(parameters, scene);
     const Device_pose<double> start = start_pose();
     check(parameters, limits);
@@ -154,9 +155,9 @@ private:
     result_.largest_controller = limits.largest_controller;
     if (limits.permits(parameters.coupling) && settings_.damping == 0 &&
         settings_.stiffness > limits.recommended_stiffness())
-      writer_.note("the stiffness " + internal::number(settings_.stiffness) +
-                       " N/m is passive, but a handle that nobody holds rings on it; recommended are at most " +
-                       internal::number(limits.recommended_stiffness()) + " N/m, or a damping");
+      writer_.note("the stiffness " + examples::decimal(settings_.stiffness) +
+                   " N/m is passive, but a handle that nobody holds rings on it; recommended are at most " +
+                   examples::decimal(limits.recommended_stiffness()) + " N/m, or a damping");
     return limits;
   }
 
@@ -306,7 +307,7 @@ private:
                    map.home()[1],
                    map.home()[2]};
     Write_options options;
-    for (std::size_t name = 0; name < sculptor.number_of_names(); ++name)
+    for (std::size_t name = 0; name < sculptor.number_of_ids(); ++name)
       if (const auto v = sculptor.vertex(name); v.is_valid())
         options.vertex_order.emplace_back(static_cast<Mesh::size_type>(v));
     result_.is_valid = validate(scene.mesh).is_valid();

@@ -136,11 +136,6 @@ void Log_file::append_tick(const std::vector<Command>& commands, std::size_t tic
 
 void Log_file::begin_pass(const std::string& script, std::size_t after) {
   std::string lines;
-  if (contents_ && !contents_->has_checksums) {
-    if (::lseek(file_, 0, SEEK_SET) != 0)
-      throw Write_error("cannot read " + in_words(path_) + ": " + system_says());
-    lines = writer_.version(read_all());
-  }
   if (contents_)
     lines += writer_.ends(open_strokes(contents_->commands));
   append(lines + writer_.pass(script, after));

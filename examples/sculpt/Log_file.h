@@ -37,7 +37,6 @@ public:
   /// After a failure, at once and for good, nothing is appended: a log ends where the first line is missing.
   ///@{
   /// What follows comes from the script with this hash, from the lines after this one. Strokes that are open end here.
-  /// A log of the first format gets checksums from here on.
   void begin_pass(const std::string& script, std::size_t after);
   void append(const Command& command) { append(writer_.command(command, command.line)); }
   /// What a loop did in a tick, in one write; nothing but the end of the tick where `commands` are none.

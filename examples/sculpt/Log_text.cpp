@@ -89,7 +89,7 @@ public:
       contents_.unfinished = "a shift without its end";
     }
     contents_.whole_size = at_;
-    const std::size_t head = begins_with(text_, version_word) ? 1 + Settings().directives().size() : 1;
+    const std::size_t head = 1 + Settings().directives().size();
     if (contents_.commands.size() < head)
       throw Foreign_log("'" + name_ + "' ends within its head, at line " + std::to_string(number_) +
                         ": no edit is in it, so remove it, or give another name");
@@ -114,27 +114,26 @@ private:
   bool read_line_here() {
     const std::size_t end = text_.find('\n', at_);
     ++number_;
-    if (number_ == 1 && !begins_with(text_, version_word) && !is_mesh_line(text_.substr(0, end)))
+    if (number_ == 1 && !begins_with(text_, version_word))
       throw Foreign_log(
-          "'" + name_ +
-          "' is not a log, for line 1 is not the first line of one; it is left as it is. Give the name of a log, "
-          "or one that is not there yet");
+          "'" + name_ + "' is not a log, for line 1 is not the first line of one; it is left as it is. " +
+          (is_mesh_line(text_.substr(0, end))
+               ? "Its lines are a script: give it as --script, and with --log a name that is not there yet"
+               : "Give the name of a log, or one that is not there yet"));
     if (end == std::string_view::npos)
       return false;
     const std::string_view line = text_.substr(at_, end - at_);
     if (!lines_.is_within_shift())
       shift_at_ = at_, shift_checksum_ = checksum_;
-    if (!contents_.has_checksums && begins_with(line, version_word))
+    if (number_ == 1)
       read_version(line);
-    else if (contents_.has_checksums)
-      read_checked(line);
     else
-      read_command(line, 0);
+      read_checked(line);
     at_ = end + 1;
     return true;
   }
 
-  /// The first line of a log without checksums.
+  /// The first line of a script that a log might be made of.
   bool is_mesh_line(std::string_view line) const {
     try {
       const auto command = read_line(std::string(line), 1, name_);
@@ -145,27 +144,26 @@ private:
   }
 
   void read_version(std::string_view line) {
-    checksum_ = Sha256().add(text_.substr(0, at_)).digest(); // of all before; see Log_writer::version
-    const std::string_view payload = check(line, number_ == 1 ? "" : ", or a line before it");
+    checksum_ = Sha256().digest(); // of nothing
+    const std::string_view payload = check(line);
     if (payload.substr(version_word.size()) != current_version)
       throw Foreign_log("'" + name_ + "' is a log of format " + printable(payload.substr(version_word.size())) +
                         ", which this program is too old for");
-    contents_.has_checksums = true;
   }
 
   /// The line without its checksum. \throw Script_error
-  std::string_view check(std::string_view line, const std::string& or_else) {
+  std::string_view check(std::string_view line) {
     const auto parts = split(line);
     if (!parts || checksum_of(checksum_, parts->payload) != parts->checksum)
-      fail("this line does not agree with its checksum: it" + or_else +
-           " has been changed, or lines before it are gone. Give a copy of "
+      fail("this line does not agree with its checksum: it has been changed, or lines before it are gone. Give a copy "
+           "of "
            "the log that is sound; as a script (--script) it would be read without looking at checksums");
     checksum_ = parts->checksum;
     return parts->payload;
   }
 
   void read_checked(std::string_view line) {
-    const std::string_view payload = check(line, "");
+    const std::string_view payload = check(line);
     if (lines_.is_within_shift() && begins_with(payload, "#"))
       fail("a shift stands here without its end");
     if (begins_with(payload, pass_word)) {
@@ -229,7 +227,7 @@ private:
   /// A process that is killed leaves part of a line. A whole one and a byte more is a line whose end has been changed.
   void check_unfinished() const {
     const std::string_view tail = text_.substr(at_);
-    if (tail.empty() || !contents_.has_checksums)
+    if (tail.empty())
       return;
     const auto parts = split(tail.substr(0, tail.size() - 1));
     if (parts && checksum_of(checksum_, parts->payload) == parts->checksum)
@@ -266,7 +264,8 @@ std::string Log_writer::line(const std::string& payload) {
 }
 
 std::string Log_writer::head(const std::string& mesh, const Settings& settings) {
-  std::string text = version({});
+  checksum_ = Sha256().digest(); // of nothing
+  std::string text = line(std::string(version_word) + std::string(current_version));
   Command hash;
   hash.kind = Kind::mesh;
   hash.word = mesh;
@@ -274,11 +273,6 @@ std::string Log_writer::head(const std::string& mesh, const Settings& settings) 
   for (const Command& setting : settings.directives())
     text += line(text_of(setting));
   return text;
-}
-
-std::string Log_writer::version(std::string_view before) {
-  checksum_ = Sha256().add(before).digest();
-  return line(std::string(version_word) + std::string(current_version));
 }
 
 std::string Log_writer::command(const Command& command, std::size_t script_line) {
@@ -312,15 +306,9 @@ std::string Log_writer::tick(std::size_t number) {
 }
 
 Settings Log_contents::first_settings() const {
-  // The directives that stand between the mesh and the first edit or line of a script; the first of a kind counts: in
-  // the first format, directives of a script may follow those of the options.
-  const auto is_setting = [](const Command& c) {
-    return c.script_line == 0 && (c.kind == Kind::response || c.kind == Kind::clearance || c.kind == Kind::delta);
-  };
   Settings settings;
-  const auto begin = commands.begin() + 1;
-  for (auto after = std::find_if_not(begin, commands.end(), is_setting); after != begin;)
-    settings.follow(*--after);
+  for (std::size_t i = 1; i <= settings.directives().size(); ++i) // of the head, after the mesh
+    settings.follow(commands[i]);
   return settings;
 }
 

@@ -37,9 +37,6 @@ public:
 
   /// What a new log begins with: the version, the hash of the mesh, the settings.
   std::string head(const std::string& mesh, const Settings& settings);
-  /// The first line with a checksum. \param before what stands in the log already: nothing, or lines of the first
-  /// format
-  std::string version(std::string_view before);
   /// An edit or directive, and the line of the script that it comes from.
   std::string command(const Command& command, std::size_t script_line);
   /// Ends the strokes that are left open by a pass that broke off.
@@ -68,7 +65,6 @@ struct Log_contents {
 
   std::vector<Command> commands; ///< `mesh` is the first
   std::vector<Pass> passes;
-  bool has_checksums = false; ///< false: the first format, which had none, nor passes
   std::size_t whole_size = 0; ///< bytes up to the end of the last whole line
   std::string unfinished;     ///< what follows: a killed process may leave part of a line
   /// Where the state of a tick ends.

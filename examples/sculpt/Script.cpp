@@ -86,7 +86,7 @@ public:
       fail("'" + printable(found) + "' is not " + expected + " (a decimal or hexadecimal number)");
     if (!std::isfinite(*value))
       fail("'" + printable(found) + "' is not a finite number");
-    if (!internal::is_in_range(*value))
+    if (!is_in_range(*value))
       fail("'" + printable(found) + "' is out of range: numbers are of at most 2^1000, about 1.07e301");
     return *value;
   }

@@ -59,7 +59,7 @@ private:
   /// Of the vertices that are there.
   std::vector<std::size_t> numbers() const {
     std::vector<std::size_t> all;
-    for (std::size_t name = 0; name < sculptor_.number_of_names(); ++name)
+    for (std::size_t name = 0; name < sculptor_.number_of_ids(); ++name)
       if (sculptor_.vertex(name).is_valid())
         all.push_back(name);
     return all;
@@ -88,7 +88,9 @@ private:
     case Kind::move: move(command); break;
     case Kind::brush: many_vertices(command, [&] { return carry_out_brush(sculptor_, command); }); break;
     case Kind::remesh: many_vertices(command, [&] { return carry_out_remesh(sculptor_, command); }); break;
-    case Kind::response: sculptor_.set_response(*response_named(command.word)); break;
+    case Kind::response:
+      sculptor_.set_drag_parameters(drag().response(*response_named(command.word)));
+      break;
     default: break; // release; mesh was checked before the first edit
     }
   }
@@ -124,14 +126,14 @@ private:
     many_vertices(command,
                   [&] { return carry_out_move(sculptor_, v, point(command.points[0]) - CGAL::ORIGIN, blocking); });
     for (const Vertex_index w : blocking)
-      result_.edits.back().elements.push_back(sculptor_.name(w));
+      result_.edits.back().elements.push_back(sculptor_.id(w));
   }
 
   template <class Elements>
   void refuse(const Command& command, Refusal_reason reason, const Elements& vertices) {
     std::vector<std::size_t> elements;
     for (const Vertex_index v : vertices)
-      elements.push_back(sculptor_.name(v));
+      elements.push_back(sculptor_.id(v));
     const bool names_axis = command.kind == Kind::shift;
     refuse(command, name_of(reason), elements.empty() && !names_axis ? command.indices : elements);
   }
@@ -157,7 +159,7 @@ private:
       record(command, Status::reached, nullptr, {});
       return;
     }
-    const std::size_t name = sculptor_.name(*done.vertex);
+    const std::size_t name = sculptor_.id(*done.vertex);
     const Edit_record::Coordinates p = coordinates(mesh_.point(*done.vertex));
     if (command.kind == Kind::insert_face || command.kind == Kind::insert_edge)
       moved_.insert(name);
@@ -202,13 +204,12 @@ private:
 
   static constexpr const char* clearance_of_no_use = "clearance-of-no-use";
 
+  Drag_parameters drag() const { return sculptor_.parameters().drag; }
+
   void clearance(const Command& command) {
-    if (command.word == "default") {
-      sculptor_.set_default_clearance();
-      return;
-    }
+    const bool is_default = command.word == "default";
     try {
-      sculptor_.set_clearance(command.length);
+      sculptor_.set_drag_parameters(is_default ? drag().clearance(std::nullopt) : drag().clearance(command.length));
     } catch (const Invalid_parameter& error) {
       refuse(command, clearance_of_no_use, {}).detail = error.what();
     }
@@ -221,7 +222,7 @@ private:
 
   void delta(const Command& command) {
     if (command.length ==
-        sculptor_.options().delta_length) // a log begins so; looking at all triangles again finds nothing
+        sculptor_.parameters().delta_length) // a log begins so; looking at all triangles again finds nothing
       return;
     try {
       sculptor_.set_delta(command.length);
@@ -229,7 +230,7 @@ private:
       std::set<std::size_t> corners;
       for (const auto f : error.report().low_faces)
         for (const auto v : mesh_.vertices_around_face(mesh_.halfedge(f)))
-          corners.insert(sculptor_.name(v));
+          corners.insert(sculptor_.id(v));
       refuse(command, "triangle-lower-than-delta", {corners.begin(), corners.end()});
     } catch (const Invalid_parameter& error) {
       refuse(command, clearance_of_no_use, {}).detail = outgrown(error);
@@ -240,8 +241,7 @@ private:
 
   template <class Ids = std::vector<std::size_t>>
   Ids ids(const Contact_3<Mesh>& contact) const {
-    return {sculptor_.name(contact.vertices[0]), sculptor_.name(contact.vertices[1]),
-            sculptor_.name(contact.vertices[2])};
+    return {sculptor_.id(contact.vertices[0]), sculptor_.id(contact.vertices[1]), sculptor_.id(contact.vertices[2])};
   }
 
   bool is_within_clearance(const Result& done, const Edit_record::Coordinates& target) const {

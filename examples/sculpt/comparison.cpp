@@ -43,8 +43,7 @@ void move(Mesh& mesh, const Command& command) {
   const auto& way = command.points[0];
   if (v < mesh.number_of_vertices())
     for (const Vertex_index w : component_of(mesh, Vertex_index(static_cast<Mesh::size_type>(v))))
-      if (const auto p = mesh.point(w) + Kernel::Vector_3(way[0], way[1], way[2]);
-          internal::is_in_range({p.x(), p.y(), p.z()}))
+      if (const auto p = mesh.point(w) + Kernel::Vector_3(way[0], way[1], way[2]); is_in_range({p.x(), p.y(), p.z()}))
         mesh.point(w) = p;
 }
 
@@ -52,7 +51,7 @@ void dab(Mesh& mesh, const Command& command) {
   std::unordered_map<Vertex_index, Kernel::Point_3> targets;
   const auto brush = dab_of(command);
   Vertex_index nearest;
-  const auto distance = [&](Vertex_index v) { return internal::squared_share(mesh.point(v), brush); };
+  const auto distance = [&](Vertex_index v) { return brush.squared_share(mesh.point(v)); };
   for (const Vertex_index v : mesh.vertices())
     if (!nearest.is_valid() || distance(v) < distance(nearest))
       nearest = v;
@@ -61,7 +60,7 @@ void dab(Mesh& mesh, const Command& command) {
                        boost::associative_property_map<decltype(targets)>(targets),
                        boost::static_property_map<double, Vertex_index>(1.0));
   for (const auto& [v, target] : targets)
-    if (internal::is_in_range({target.x(), target.y(), target.z()}))
+    if (is_in_range({target.x(), target.y(), target.z()}))
       mesh.point(v) = target;
 }
 
@@ -91,7 +90,7 @@ drawing::Scene scene_with_pairs(const Mesh& mesh, const Pairs& pairs) {
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
       corners[i++] = static_cast<int>(scene.points.size());
       scene.points.push_back(drawing::to_eigen(mesh.point(v)));
-      scene.point_normals.push_back(drawing::to_eigen(internal::vertex_normal(mesh, v)));
+      scene.point_normals.push_back(drawing::to_eigen(vertex_normal(mesh, v)));
       scene.point_colors.push_back(pairs.is_red[f] ? drawing::colors::red : open[v] * drawing::colors::surface);
     }
     scene.triangles.push_back(corners);

@@ -83,7 +83,7 @@ Mesh read_mesh(const Arguments& arguments, std::vector<std::string>& left_out, V
       refuse("'" + path + "', its faces divided into triangles,", std::move(report));
   }
   found = std::move(report);
-  return internal::mesh_of<Mesh>(soup);
+  return mesh_of<Mesh>(soup);
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -98,14 +98,14 @@ Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& 
 
 /// \throw Usage_error
 void check_lengths(const Arguments& arguments) {
-  if (arguments.clearance && !(*arguments.clearance > 0 && internal::is_in_range(*arguments.clearance)))
+  if (arguments.clearance && !(*arguments.clearance > 0 && is_in_range(*arguments.clearance)))
     throw Usage_error("--clearance must be a length > 0 and at most 2^1000, about 1.07e301");
-  if (arguments.delta && !(*arguments.delta >= 0 && internal::is_in_range(*arguments.delta)))
+  if (arguments.delta && !(*arguments.delta >= 0 && is_in_range(*arguments.delta)))
     throw Usage_error("--delta must be a length >= 0 and at most 2^1000, about 1.07e301");
-  if (arguments.repair.gap && !(*arguments.repair.gap >= 0 && internal::is_in_range(*arguments.repair.gap)))
+  if (arguments.repair.gap && !(*arguments.repair.gap >= 0 && is_in_range(*arguments.repair.gap)))
     throw Usage_error("--repair-gap must be a length >= 0 and at most 2^1000, about 1.07e301");
   for (const double x : arguments.nearest.value_or(std::array<double, 3>{}))
-    if (!internal::is_in_range(x))
+    if (!is_in_range(x))
       throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " +
                         examples::decimal(x) + " is none");
 }

@@ -182,7 +182,7 @@ void Application::print_status() const {
     const Contact_view& c = s.contact[std::size_t(i)];
     Json points = Json::array(), names = Json::array();
     for (int j = 0; j < c.still; ++j)
-      points.push_back(c.points[std::size_t(j)]), names.push_back(c.names[std::size_t(j)]);
+      points.push_back(c.points[std::size_t(j)]), names.push_back(c.ids[std::size_t(j)]);
     contacts.push_back({{"kind", c.kind}, {"names", names}, {"points", points}, {"normal", c.normal}});
   }
   Json json = {{"hold", holds[int(s.hold)]},

@@ -46,7 +46,7 @@ private:
       const Hit hit = hit_of(scene, pointer_);
       if (!hit)
         return refuse("there is nothing to take hold of: point at the surface");
-      centre_ = internal::vector_of(hit->point);
+      centre_ = drawing::to_eigen(hit->point);
       tool.begin_stroke();
       has_begun_ = true;
     }
@@ -80,12 +80,12 @@ private:
       const double least = 1e-3; // of the radius: less is no motion of a hand
       if (way.stableNorm() < least * brush_.radius)
         return;
-      find({Brush_kind::grab, internal::point_of<Kernel::Point_3>(centre_), brush_.radius, way.stableNorm(),
+      find({Brush_kind::grab, Kernel::Point_3(centre_[0], centre_[1], centre_[2]), brush_.radius, way.stableNorm(),
             Kernel::Vector_3(way[0], way[1], way[2])},
            scene);
       centre_ += way;
     } else if (const Hit hit = hit_of(scene, pointer)) {
-      centre_ = internal::vector_of(hit->point);
+      centre_ = drawing::to_eigen(hit->point);
       const double share = brush_.kind == Brush_kind::inflate ? 0.03 * brush_.radius
                            : brush_.kind == Brush_kind::pinch ? 0.25
                                                               : 1.0;

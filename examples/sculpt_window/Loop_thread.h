@@ -142,7 +142,7 @@ private:
     using Hold = Status::Hold;
     status_.hold = tool.holds_vertex() ? Hold::vertex : tool.holds_probe() ? Hold::probe : Hold::nothing;
     const bool pulls = status_.hold != Hold::nothing;
-    status_.vertex = tool.holds_vertex() ? model.sculptor.name(tool.vertex()) : 0;
+    status_.vertex = tool.holds_vertex() ? model.sculptor.id(tool.vertex()) : 0;
     status_.target = place(made.tool.target), status_.proxy = place(made.tool.proxy);
     status_.force = pulls ? place(made.rendered.force) : Place{}; // what fades after that is not felt
     status_.reached = made.tool.reached;
@@ -171,8 +171,8 @@ private:
     view.still = 3 - first;
     for (int i = 0; i < view.still; ++i) {
       const Vertex_index v = contact.vertices[static_cast<std::size_t>(first + i)];
-      view.points[static_cast<std::size_t>(i)] = place(internal::vector_of(model_->mesh.point(v)));
-      view.names[static_cast<std::size_t>(i)] = model_->sculptor.name(v);
+      view.points[static_cast<std::size_t>(i)] = place(drawing::to_eigen(model_->mesh.point(v)));
+      view.ids[static_cast<std::size_t>(i)] = model_->sculptor.id(v);
     }
     view.normal = {contact.normal.x(), contact.normal.y(), contact.normal.z()};
     return view;

@@ -4,6 +4,7 @@
 
 #include "Mouse.h"
 
+#include "../drawing/surface_mesh_arrays.h"
 #include "../haptic_loop/Run_log.h"
 
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>

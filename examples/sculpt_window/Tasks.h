@@ -50,11 +50,11 @@ protected:
       return true;
     refusal = text + name_of(made.refusal->reason);
     for (const Vertex_index v : made.refusal->elements)
-      refusal += ' ' + std::to_string(scene.sculptor.name(v));
+      refusal += ' ' + std::to_string(scene.sculptor.id(v));
     return true;
   }
   static Edit edit_of(Edit_kind kind, const Scene& scene, Vertex_index a, Vertex_index b) {
-    return Edit::of(kind, {scene.sculptor.name(a), scene.sculptor.name(b), 0});
+    return Edit::of(kind, {scene.sculptor.id(a), scene.sculptor.id(b), 0});
   }
 };
 
@@ -89,9 +89,9 @@ private:
     if (!hit)
       return true;
     pointed.feature = name_of(hit->feature);
-    pointed.at = place(internal::vector_of(hit->point));
+    pointed.at = place(drawing::to_eigen(hit->point));
     const auto add = [&](Vertex_index v) {
-      pointed.names[static_cast<std::size_t>(pointed.size++)] = scene.sculptor.name(v);
+      pointed.ids[static_cast<std::size_t>(pointed.size++)] = scene.sculptor.id(v);
     };
     if (hit->feature == Surface_feature::vertex)
       add(hit->vertex);
@@ -135,8 +135,8 @@ private:
         return refuse_unless(made, scene, "no vertex can be created here: ");
     }
     held.hold = Status::Hold::vertex;
-    held.home = place(internal::vector_of(scene.mesh.point(tool.vertex())));
-    held.normal = place(internal::vector_of(internal::vertex_normal(scene.mesh, tool.vertex())));
+    held.home = place(drawing::to_eigen(scene.mesh.point(tool.vertex())));
+    held.normal = place(drawing::to_eigen(vertex_normal(scene.mesh, tool.vertex())));
     return true;
   }
 
@@ -144,7 +144,7 @@ private:
   bool take_probe(Scene& scene, Tool_type& tool, const Hit& hit) {
     if (!hit)
       return refuse("there is nothing to touch: point at the surface");
-    const Eigen::Vector3d aim = internal::vector_of(hit->point), back = vector(pointer_.from) - aim;
+    const Eigen::Vector3d aim = drawing::to_eigen(hit->point), back = vector(pointer_.from) - aim;
     const Eigen::Vector3d front =
         aim + std::fmin(0.1 * static_cast<Model&>(scene).extent(), 0.5 * back.stableNorm()) * back.stableNormalized();
     if (!tool.take_probe(front))
@@ -168,11 +168,11 @@ private:
   static Edit creation(const Scene& scene, const Surface_hit<Mesh>& hit) {
     const Mesh& mesh = scene.mesh;
     const auto h = mesh.halfedge(hit.face);
-    Edit wanted = internal::creation_at(
-        scene.sculptor, {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))}, internal::vector_of(hit.point));
+    Edit wanted = creation_at(scene.sculptor, {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))},
+                              drawing::to_eigen(hit.point));
     if (hit.feature == Surface_feature::edge)
-      wanted.kind = Edit_kind::insert_on_edge, wanted.vertices = {scene.sculptor.name(mesh.vertex(hit.edge, 0)),
-                                                                  scene.sculptor.name(mesh.vertex(hit.edge, 1)), 0};
+      wanted.kind = Edit_kind::insert_on_edge,
+      wanted.vertices = {scene.sculptor.id(mesh.vertex(hit.edge, 0)), scene.sculptor.id(mesh.vertex(hit.edge, 1)), 0};
     return wanted;
   }
 };
@@ -212,11 +212,11 @@ private:
   static Mesh::Halfedge_index nearest_edge(const Mesh& mesh, const Surface_hit<Mesh>& hit) {
     auto h = mesh.halfedge(hit.face), best = h;
     double least = std::numeric_limits<double>::infinity();
-    const Eigen::Vector3d p = internal::vector_of(hit.point);
+    const Eigen::Vector3d p = drawing::to_eigen(hit.point);
     for (int i = 0; i < 3; ++i, h = mesh.next(h)) {
-      const Eigen::Vector3d a = internal::vector_of(mesh.point(mesh.source(h))),
-                            b = internal::vector_of(mesh.point(mesh.target(h))),
-                            c = internal::vector_of(mesh.point(mesh.target(mesh.next(h))));
+      const Eigen::Vector3d a = drawing::to_eigen(mesh.point(mesh.source(h))),
+                            b = drawing::to_eigen(mesh.point(mesh.target(h))),
+                            c = drawing::to_eigen(mesh.point(mesh.target(mesh.next(h))));
       const Eigen::Vector3d along = (b - a).stableNormalized();
       const double height = along.cross(p - a).stableNorm() / along.cross(c - a).stableNorm();
       if (height < least)
@@ -236,7 +236,7 @@ private:
 
   bool work(Scene& scene, Tool_type& tool) override {
     tool.let_go();
-    scene.sculptor.set_response(response_);
+    scene.sculptor.set_drag_parameters(Drag_parameters(scene.sculptor.parameters().drag).response(response_));
     return true;
   }
 };

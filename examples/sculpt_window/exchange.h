@@ -81,7 +81,7 @@ struct Contact_view {
   const char* kind = "";
   int still = 0; ///< so many of `points` are the feature that stands still: 1 a vertex, 2 an edge, 3 a face
   std::array<Place, 3> points{};
-  std::array<std::size_t, 3> names{};
+  std::array<std::size_t, 3> ids{};
   Place normal{};
 };
 
@@ -93,8 +93,8 @@ struct Percentiles {
 struct Pointed {
   const char* feature = ""; ///< vertex, edge or face; empty: nothing
   Place at{};
-  std::array<std::size_t, 3> names{};
-  int size = 0; ///< so many names
+  std::array<std::size_t, 3> ids{};
+  int size = 0; ///< how many ids
 };
 
 /// What there is to see, as of one tick.

@@ -90,7 +90,7 @@ void Application::draw_state() {
       const Contact_view& c = s.contact[std::size_t(i)];
       std::string names;
       for (int j = 0; j < c.still; ++j)
-        names += ' ' + std::to_string(c.names[std::size_t(j)]);
+        names += ' ' + std::to_string(c.ids[std::size_t(j)]);
       ImGui::TextColored({1, 0.45f, 0.8f, 1}, "%s:%s", c.kind, names.c_str());
     }
   } else if (s.hold == Status::Hold::brush) {
@@ -98,7 +98,7 @@ void Application::draw_state() {
   } else if (s.pointed.size > 0) {
     std::string names;
     for (int i = 0; i < s.pointed.size; ++i)
-      names += ' ' + std::to_string(s.pointed.names[std::size_t(i)]);
+      names += ' ' + std::to_string(s.pointed.ids[std::size_t(i)]);
     ImGui::Text("points at %s%s", s.pointed.feature, names.c_str());
   } else {
     ImGui::TextUnformatted("points at nothing");

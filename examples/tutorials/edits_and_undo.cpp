@@ -24,7 +24,7 @@ int main() {
   const auto created = sculptor.insert_on_face(sculptor.face_of(1, 2, 3), Point_3(0.5, 0.5, 0.5));
   if (!created)
     return 1;
-  const std::size_t number = sculptor.name(*created.vertex);
+  const std::size_t number = sculptor.id(*created.vertex);
   std::cout << "created vertex " << number << ", now " << mesh.number_of_faces() << " faces\n";
 
   { // All of a stroke is one step of undo.

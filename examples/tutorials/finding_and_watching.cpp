@@ -44,12 +44,12 @@ bool drag_in_portions(Mesh mesh) {
   const int most = 1000; // portions
   int portions = 1;
 
-  sculptor.set_work_limit(150);
+  const auto portion = Drag_parameters().work_limit(150);
   auto grab = sculptor.grab(v);
-  Drag_result<Mesh> r = grab.drag_to(target); // r.work pairs, r.end == Drag_end::work_limit: call again
+  Drag_result<Mesh> r = grab.drag_to(target, portion); // r.work pairs, r.end == Drag_end::work_limit: call again
 
   for (; r.end == Drag_end::work_limit && portions < most; ++portions)
-    r = grab.drag_to(target);
+    r = grab.drag_to(target, portion);
   std::cout << "there after " << portions << " portions\n";
   return r.reached;
 }

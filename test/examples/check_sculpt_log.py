@@ -262,25 +262,14 @@ def changed_logs(folder, mesh):
             fails(4, [f"line {line}"], run(mesh, "--log", write(changed, b"".join(text))), f"line {i + 1} {what}")
 
 
-def first_format(folder, mesh):
-    """Logs without version, checksums and passes, as earlier versions wrote them."""
-    old = f"mesh {sha256(mesh)}\nresponse stop\nclearance 0x1p-10\ninsert_face 0 1 2 0x1.999999999999ap-3 0x1.999999999999ap-3 0x0p+0\n"
-    script, further = "drag 4 0.2 0.2 -0.5\ndrag 3 0.2 0.2 -1\n", write(f"{folder}/further2.script", "remove 4\n")
-    out, again, log = f"{folder}/old.off", f"{folder}/new.off", f"{folder}/old.log"
-    check(run(mesh, "--script", "/dev/stdin", "-o", out, script=old + script).returncode == 0, "as a script")
-    for tail in ("", "drag 3 0x1"):
-        write(log, old + tail)
-        check(run(mesh, "--log", log).returncode == 0 and bytes_of(log).decode() == old, "a log of the first format is replayed, not changed")
-        write(log, old + tail)
-        done = run(mesh, "--log", log, "--script", "/dev/stdin", "-o", again, script=script)
-        check(done.returncode == 0 and bytes_of(again) == bytes_of(out), f"the first format is resumed: {done.stderr}")
-        check(bytes_of(log).decode().startswith(old + "# haptic_sculpt log 1 # "), "checksums from here on")
-    fails(2, ["--response slide", "response stop"], run(mesh, "--log", log, "--response", "slide"), "an option against the first format")
-    check(run(mesh, "--log", log, "--response", "stop", "-o", again).returncode == 0 and bytes_of(again) == bytes_of(out), "its own option")
-    text = bytes_of(log)
-    fails(4, ["line 5", "before it"], run(mesh, "--log", write(f"{folder}/o.log", text.replace(b"0x1.99", b"0x1.98", 1))), "a change of the old part")
-    check(run(mesh, "--log", log, "--script", further).returncode == 0 and run(mesh, "--log", log).returncode == 0, "and further")
-    fails(4, ["line 2", "zero"], run(mesh, "--log", write(f"{folder}/o.log", old.splitlines()[0] + "\ndrag 4 0 zero 0\nundo\n")), "a spoilt line")
+def without_checksums(folder, mesh):
+    """The lines of a log without version and checksums are a script, and nothing is appended to them."""
+    lines = f"mesh {sha256(mesh)}\nresponse stop\nclearance 0x1p-10\ninsert_face 0 1 2 0x1.999999999999ap-3 0x1.999999999999ap-3 0x0p+0\n"
+    log = write(f"{folder}/old.log", lines)
+    fails(6, ["old.log", "--script"], run(mesh, "--log", log, "--script", "/dev/stdin", script="remove 4\n"), "lines without checksums")
+    check(bytes_of(log).decode() == lines, "lines without checksums are touched")
+    begun = f"{folder}/begun.log"
+    check(run(mesh, "--script", log, "--log", begun).returncode == 0 and b"insert_face 0 1 2" in bytes_of(begun), "what the message says to do")
 
 
 def two_processes(folder, mesh):
@@ -366,7 +355,7 @@ def full_disk(folder, mesh):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
-        for part in (edits_and_log, shifts, settings, rerun, strokes, no_logs, changed_logs, first_format, two_processes, places, full_disk):
+        for part in (edits_and_log, shifts, settings, rerun, strokes, no_logs, changed_logs, without_checksums, two_processes, places, full_disk):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             start = time.monotonic()

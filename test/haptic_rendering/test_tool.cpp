@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_
       if (mesh.is_removed(f))
         continue;
       const auto h = mesh.halfedge(f);
-      const std::size_t a = sculptor.name(mesh.source(h)), b = sculptor.name(mesh.target(h));
+      const std::size_t a = sculptor.id(mesh.source(h)), b = sculptor.id(mesh.target(h));
       switch (random() % 4) {
       case 0:
         done[0] += static_cast<bool>(bench.tool.edit(Edit::of(Edit_kind::flip, {a, b, 0})));
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_
         done[1] += static_cast<bool>(bench.tool.edit(Edit::of(Edit_kind::collapse, {a, b, 0})));
         break;
       case 2: {
-        Edit wanted = internal::creation_at(
+        Edit wanted = creation_at(
             sculptor, {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))},
             (bench.place(mesh.source(h)) + bench.place(mesh.target(h)) + bench.place(mesh.target(mesh.next(h)))) / 3);
         const auto made = bench.tool.create_and_take(wanted);

@@ -54,7 +54,7 @@ Mesh_snapshot snapshot_of(const Mesh& mesh, const Number& number) {
 
 template <class Sculptor>
 Mesh_snapshot snapshot(const Sculptor& sculptor) {
-  return snapshot_of(sculptor.mesh(), [&](typename Sculptor::Vertex_index v) { return sculptor.name(v); });
+  return snapshot_of(sculptor.mesh(), [&](typename Sculptor::Vertex_index v) { return sculptor.id(v); });
 }
 
 } // namespace haptic_sculpt::test

@@ -61,9 +61,9 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_refused_and_change_nothing) {
   BOOST_CHECK_THROW(grab.drag_to(Point_3(infinity, 0, 0)), Non_finite_point);
   BOOST_CHECK_THROW(grab.drag_to(Point_3(0, std::nan(""), 0)), Non_finite_point);
   BOOST_CHECK_THROW(sculptor.set_delta(10), Invalid_surface);
-  BOOST_CHECK_THROW(sculptor.set_clearance(-1), Invalid_parameter);
+  BOOST_CHECK_THROW(sculptor.set_drag_parameters(Drag_parameters().clearance(-1)), Invalid_parameter);
   BOOST_TEST((mesh.point(Vertex_index(0)) == before));
-  BOOST_TEST(sculptor.options().delta_length == 0);
+  BOOST_TEST(sculptor.parameters().delta_length == 0);
   BOOST_TEST(grab.drag_to(before).reached);
 }
 

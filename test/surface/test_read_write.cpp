@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(random_doubles_come_back) {
       do {
         const std::uint64_t pattern = random();
         std::memcpy(&x, &pattern, sizeof x);
-      } while (!haptic_sculpt::internal::is_in_range(x));
+      } while (!haptic_sculpt::is_in_range(x));
       return x;
     };
     mesh.add_vertex({any(), any(), any()});

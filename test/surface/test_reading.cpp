@@ -198,7 +198,7 @@ void check_mode(const Set& set, const Is_set& is_set, const std::function<void()
       do {
         const std::uint64_t pattern = random();
         std::memcpy(&coordinate, &pattern, sizeof coordinate);
-      } while (!haptic_sculpt::internal::is_in_range(coordinate));
+      } while (!haptic_sculpt::is_in_range(coordinate));
     mesh.add_vertex({x[0], x[1], x[2]});
   }
   const Mesh thin = to_mesh(meshes::c_tube(1e-12));

@@ -82,12 +82,12 @@ BOOST_AUTO_TEST_CASE(the_million) {
   const Validity_report report = validate_soup(soup);
   const auto validated = Clock::now();
   BOOST_TEST(report.is_valid());
-  const Mesh mesh = internal::mesh_of<Mesh>(soup);
+  const Mesh mesh = mesh_of<Mesh>(soup);
   const auto built = Clock::now();
   const Temporary_folder folder;
   write_surface(folder / "m.ply", mesh);
   const auto written = Clock::now();
-  BOOST_TEST(identical(internal::mesh_of<Mesh>(read_face_soup(folder / "m.ply")), mesh));
+  BOOST_TEST(identical(mesh_of<Mesh>(read_face_soup(folder / "m.ply")), mesh));
   BOOST_TEST_MESSAGE(soup.number_of_faces()
                      << " triangles: parsed " << seconds(start, parsed) << " s, validated "
                      << seconds(parsed, validated) << " s, made a mesh " << seconds(validated, built) << " s, written "

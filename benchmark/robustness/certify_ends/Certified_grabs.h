@@ -38,7 +38,7 @@ public:
   End_tally run(std::size_t drags) {
     while (tally_.drags < drags)
       grab();
-    tally_.invalid += !validate(mesh_, sculptor_.options().delta_length).is_valid();
+    tally_.invalid += !validate(mesh_, sculptor_.parameters().delta_length).is_valid();
     return tally_;
   }
 
@@ -48,7 +48,7 @@ public:
     scene.mesh = record.mesh;
     Certified_grabs grabs(scene, true, seed, ways, log);
     if (record.clearance > 0)
-      grabs.sculptor_.set_clearance(record.clearance);
+      grabs.sculptor_.set_drag_parameters(Drag_parameters().clearance(record.clearance));
     grabs.sculptor_.set_delta(record.delta);
     grabs.record_ = record;
     grabs.record_.targets.clear();
@@ -99,8 +99,12 @@ private:
       auto probe = sculptor_.probe(place, Probe_start::anywhere);
       if (!probe)
         return;
-      record_ = {mesh_, Vertex_index(), place, {}, sculptor_.options().clearance_length.value_or(0),
-                 sculptor_.options().delta_length};
+      record_ = {mesh_,
+                 Vertex_index(),
+                 place,
+                 {},
+                 sculptor_.parameters().drag.clearance_length.value_or(0),
+                 sculptor_.parameters().delta_length};
       const Point_3 end = drag_some(probe, Vertex_index(), place);
       if (is_kept_)
         place = end;
@@ -121,7 +125,12 @@ private:
         }
       }
     }
-    record_ = {mesh_, v, {}, {}, sculptor_.options().clearance_length.value_or(0), sculptor_.options().delta_length};
+    record_ = {mesh_,
+               v,
+               {},
+               {},
+               sculptor_.parameters().drag.clearance_length.value_or(0),
+               sculptor_.parameters().delta_length};
     {
       auto grab = sculptor_.grab(v);
       drag_some(grab, v, mesh_.point(v));
@@ -162,7 +171,7 @@ private:
     tally_.at_leg_limit += r.end == Drag_end::leg_limit;
     const auto looked = Clock::now();
     const auto found =
-        certifier_.certify(v, r.position, target, way_asked, c, sculptor_.options().delta_length, random_, ways_);
+        certifier_.certify(v, r.position, target, way_asked, c, sculptor_.parameters().delta_length, random_, ways_);
     tally_.certificate_nanoseconds += nanoseconds(looked);
     tally_.ways += found.ways;
     tally_.asked += found.asked;

@@ -20,7 +20,8 @@ struct Pose_loop_parameters {
   Virtual_mass_parameters virtual_mass;     ///< of what is grabbed; off by default
   std::optional<double> controller_damping; ///< N s/m; nothing: half of what may be asked for
   double reach = 0.001;                     ///< of a grab, m in the device
-  std::size_t work = 400; ///< pairs a drag may decide; more where a vertex of high valence is in hand (doc/use/work.md)
+  std::size_t work_limit = 400;             ///< pairs a drag may decide (doc/use/work.md)
+  std::size_t work_of_a_face = 4;           ///< pairs more for each face about the vertex in hand
 
   /// For a device that dissipates so much at its handle, N s/m: with the delay it bounds the stiffness.
   explicit Pose_loop_parameters(double friction) { device.friction = friction; }
@@ -52,7 +53,8 @@ struct Pose_loop_parameters {
     internal::require_number("Pose_device::resolution", "m", device.resolution, 0, 0.01);
     Haptic_parameters all;
     all.tick = tick, all.delay = delay, all.coupling = coupling, all.limits = limits, all.reach = reach;
-    all.work = work, all.controller_damping = controller_damping, all.virtual_mass = virtual_mass;
+    all.work_limit = work_limit, all.work_of_a_face = work_of_a_face, all.controller_damping = controller_damping;
+    all.virtual_mass = virtual_mass;
     all.watchdog.joint_rate = speed, all.watchdog.stall_time = stall_time;
     all.check();
     return all;

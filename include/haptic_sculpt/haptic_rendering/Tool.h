@@ -40,8 +40,8 @@ public:
       , mesh_edits_(sculptor) {}
 
   /// One tick: the button first, then the drag. Allocates nothing but what edits do; its work is that of the drag,
-  /// bounded by the Sculptor. \throw what drags throw
-  Tool_step move(const Eigen::Vector3d& handle, int button) {
+  /// bounded as its parameters say; unset: those of the Sculptor. \throw what drags throw
+  Tool_step move(const Eigen::Vector3d& handle, int button, const std::optional<Drag_parameters>& drag = std::nullopt) {
     const internal::Rounding_to_nearest rounding;
     const Eigen::Vector3d hand = map_.to_scene(handle);
     Tool_step step;
@@ -55,7 +55,7 @@ public:
     if (!grab_ && !probe_)
       return step;
     const Point target = internal::point_of<Point>(step.target);
-    last_drag_ = grab_ ? mesh_edits_.drag(*grab_, target) : probe_->drag_to(target);
+    last_drag_ = grab_ ? mesh_edits_.drag(*grab_, target, drag) : probe_->drag_to(target, drag);
     tell(*last_drag_, step);
     if (step.reached && !grab_ && carries_probe_)
       offset_ *= offset_share_;
@@ -219,7 +219,7 @@ private:
       step.span.add(map_.direction_to_device(normal));
       last_push_ = normal;
       if (grab_)
-        step.obstacle = sculptor_->name(contact.vertices[2]);
+        step.obstacle = sculptor_->id(contact.vertices[2]);
       if (!grab_ && contact.kind == Contact_kind::vertex_face)
         touched_ = contact.vertices;
     }
@@ -254,7 +254,7 @@ private:
     }
     if (!touched_ || !*probe_)
       return Tool_event::refused;
-    const Edit wanted = internal::creation_at(*sculptor_, *touched_, aim(hand));
+    const Edit wanted = creation_at(*sculptor_, *touched_, aim(hand));
     const auto made = mesh_edits_.make_in_stroke(wanted);
     if (!made)
       return Tool_event::refused;
@@ -272,7 +272,7 @@ private:
 
   Tool_event release(const Eigen::Vector3d& hand) {
     const Vertex_index v = grab_->vertex();
-    const Eigen::Vector3d place = place_of(v), away = internal::vector_of(internal::vertex_normal(sculptor_->mesh(), v));
+    const Eigen::Vector3d place = place_of(v), away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
     grab_.reset();
     mesh_edits_.end_stroke();
     put_probe_near(place, away, hand);
@@ -311,10 +311,10 @@ private:
     const Vertex_index v = grab_ ? grab_->vertex() : internal::nearest_vertex(*sculptor_, aim(hand), reach_);
     if (!v.is_valid())
       return Tool_event::refused;
-    const Eigen::Vector3d place = place_of(v), away = internal::vector_of(internal::vertex_normal(sculptor_->mesh(), v));
+    const Eigen::Vector3d place = place_of(v), away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
     const bool was_held = grab_.has_value();
     grab_.reset();
-    const auto made = mesh_edits_.make(Edit::of(Edit_kind::remove, {sculptor_->name(v), 0, 0}));
+    const auto made = mesh_edits_.make(Edit::of(Edit_kind::remove, {sculptor_->id(v), 0, 0}));
     mesh_edits_.end_stroke();
     if (was_held)
       put_probe_near(place, away, hand);

@@ -32,24 +32,26 @@ typename Sculptor::Vertex_index nearest_vertex(Sculptor& sculptor, const Eigen::
 /// leave a sliver.
 constexpr double edge_share = 0.05;
 
-/// A creation at p on the face of three corners, or on an edge of it that is near.
+} // namespace internal
+
+/// The creation at p on the face of three corners, or on an edge of it that is nearer than a 20th of the altitude.
 template <class Sculptor>
 Edit creation_at(const Sculptor& sculptor, const std::array<typename Sculptor::Vertex_index, 3>& face,
                           const Eigen::Vector3d& p) {
-  Edit wanted = Edit::of(Edit_kind::insert_on_face,
-                         {sculptor.name(face[0]), sculptor.name(face[1]), sculptor.name(face[2])}, {p[0], p[1], p[2]});
-  const auto place_of = [&](int i) { return vector_of(sculptor.mesh().point(face[i])); };
+  Edit wanted = Edit::of(Edit_kind::insert_on_face, {sculptor.id(face[0]), sculptor.id(face[1]), sculptor.id(face[2])},
+                         {p[0], p[1], p[2]});
+  const auto place_of = [&](int i) { return internal::vector_of(sculptor.mesh().point(face[i])); };
   const Eigen::Vector3d corners[3] = {place_of(0), place_of(1), place_of(2)};
   // Products of four lengths: in a unit of the face's own.
-  const double unit = unit_of(std::fmax((corners[1] - corners[0]).template lpNorm<Eigen::Infinity>(),
-                                        (corners[2] - corners[0]).template lpNorm<Eigen::Infinity>()));
+  const double unit = internal::unit_of(std::fmax((corners[1] - corners[0]).template lpNorm<Eigen::Infinity>(),
+                                                  (corners[2] - corners[0]).template lpNorm<Eigen::Infinity>()));
   const auto way = [unit](const Eigen::Vector3d& from, const Eigen::Vector3d& to) -> Eigen::Vector3d {
     return unit * (to - from);
   };
   const Eigen::Vector3d normal = way(corners[0], corners[1]).cross(way(corners[0], corners[2]));
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
-    if (way(a, b).cross(way(a, p)).dot(normal) < edge_share * normal.squaredNorm()) {
+    if (way(a, b).cross(way(a, p)).dot(normal) < internal::edge_share * normal.squaredNorm()) {
       wanted.kind = Edit_kind::insert_on_edge;
       wanted.vertices = {wanted.vertices[(i + 1) % 3], wanted.vertices[(i + 2) % 3], 0};
       break;
@@ -58,7 +60,6 @@ Edit creation_at(const Sculptor& sculptor, const std::array<typename Sculptor::V
   return wanted;
 }
 
-} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

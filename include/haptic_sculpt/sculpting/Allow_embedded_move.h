@@ -32,7 +32,7 @@ public:
   /// By value: CGAL passes a reference to the point in the mesh, which is put back here.
   bool operator()(Vertex_index v, Point source, Point target) const {
     mesh_->point(v) = source;
-    const bool is_free = internal::is_in_range(internal::coordinates(target)) && sculptor_->move_if_free(v, target);
+    const bool is_free = is_in_range(internal::coordinates(target)) && sculptor_->move_if_free(v, target);
     *refused_ += !is_free;
     return is_free;
   }

@@ -47,7 +47,7 @@ public:
     case Edit_kind::remove: {
       Done result = done(edit, sculptor.remove(sculptor.vertex(v[0])));
       if (result)
-        result.edit = Edit::of(Edit_kind::collapse, {v[0], sculptor.name(*result.vertex), 0});
+        result.edit = Edit::of(Edit_kind::collapse, {v[0], sculptor.id(*result.vertex), 0});
       return result;
     }
     case Edit_kind::collapse:
@@ -96,7 +96,7 @@ private:
     Done result;
     result.vertex = v;
     const auto drag_to = [&](const std::array<double, 3>& p) {
-      result.drag = Sculptor_access::guarded(sculptor).drag(v, point(p), &path_);
+      result.drag = Sculptor_access::guarded(sculptor).drag(v, point(p), &path_, std::nullopt);
       for (std::size_t k = 1; k < path_.size(); ++k)
         if (path_[k] != path_[k - 1]) // +0 and -0 are one place
           result.edit.legs.push_back({path_[k].x(), path_[k].y(), path_[k].z()});
@@ -118,8 +118,8 @@ private:
   static Done shift(Sculptor& sculptor, const Edit& edit) {
     std::vector<std::pair<typename Mesh::Vertex_index, double>> ways;
     ways.reserve(edit.ways.size());
-    for (const auto& [name, end] : edit.ways) {
-      ways.emplace_back(sculptor.vertex(name), end);
+    for (const auto& [id, end] : edit.ways) {
+      ways.emplace_back(sculptor.vertex(id), end);
       if (!ways.back().first.is_valid())
         return done(edit, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
     }

@@ -41,7 +41,7 @@ namespace haptic_sculpt {
 struct Default_edit_visitor {
   template <class Vertex_index>
   void vertex_moved(Vertex_index) {} ///< after the move, with the vertex at its new place
-  /// With the number that lasts, `Sculptor::name()`.
+  /// With the number that lasts, `Sculptor::id()`.
   template <class Vertex_index>
   void vertex_dies(Vertex_index, std::size_t /*number*/) {}
   template <class Edge_index>

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_GRAB_H
 #define HAPTIC_SCULPT_SCULPTING_GRAB_H
 
+#include <haptic_sculpt/sculpting/Drag_parameters.h>
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 
@@ -34,7 +35,7 @@ public:
   ~Grab() { let_go(); }
 
   /// The vertex; the null descriptor while the Grab is stale. A vertex that was revived may have another descriptor.
-  Vertex_index vertex() const { return sculptor_ != nullptr ? sculptor_->vertex(name_) : Vertex_index(); }
+  Vertex_index vertex() const { return sculptor_ != nullptr ? sculptor_->vertex(id_) : Vertex_index(); }
 
   /// Drags the vertex towards `target` in a straight line, until it is there or something would be touched.
   ///
@@ -44,16 +45,18 @@ public:
   /// Allocates nothing once it is warm: no list longer than any before, no more contacts than
   /// Drag_result::usual_contacts, at most Edit_history::room moves since the grab, and no delta rule so nearly broken
   /// that it takes rational numbers to decide.
-  Drag_result<Mesh> drag_to(const Point& target) {
-    return drag(target, nullptr);
+  /// \param parameters unset: those of the Sculptor
+  Drag_result<Mesh> drag_to(const Point& target, const std::optional<Drag_parameters>& parameters = std::nullopt) {
+    return drag(target, nullptr, parameters);
   }
 
   /// The same, and says on which way: where the vertex was, and where it was after each of the `legs` of the result,
   /// each a straight motion that was proven free; `position` is the last point. Of a stale Grab none. \param path is
   /// written anew
-  Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path) {
+  Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path,
+                            const std::optional<Drag_parameters>& parameters = std::nullopt) {
     path.clear();
-    return drag(target, &path);
+    return drag(target, &path, parameters);
   }
 
   /// Lets go. The next drag takes the vertex again, without contacts.
@@ -66,11 +69,11 @@ private:
   friend Sculptor;
 
   Sculptor* sculptor_ = nullptr; ///< whose hand this is; none once it is another's
-  std::size_t name_ = 0;         ///< a number that lasts: the mesh's own indices are recycled
+  std::size_t id_ = 0;           ///< a number that lasts: the mesh's own indices are recycled
   Point place_;                  ///< where the vertex was at the grab, after the last drag, or when the hand was lost
 
-  Grab(Sculptor& sculptor, std::size_t name)
-    : sculptor_(&sculptor), name_(name), place_(sculptor.mesh().point(sculptor.vertex(name))) {
+  Grab(Sculptor& sculptor, std::size_t id)
+      : sculptor_(&sculptor), id_(id), place_(sculptor.mesh().point(sculptor.vertex(id))) {
     sculptor_->set_hand(this);
   }
 
@@ -80,21 +83,22 @@ private:
       place_ = sculptor_->mesh().point(v);
   }
 
-  Drag_result<Mesh> drag(const Point& target, std::vector<Point>* path) {
+  Drag_result<Mesh> drag(const Point& target, std::vector<Point>* path,
+                         const std::optional<Drag_parameters>& parameters) {
     const Vertex_index v = vertex();
     if (!v.is_valid()) {
       const internal::Rounding_to_nearest rounding;
       internal::check_point("the target", target);
       return Drag_result<Mesh>::stale_at(place_);
     }
-    Drag_result<Mesh> result = sculptor_->drag(v, target, path);
+    Drag_result<Mesh> result = sculptor_->drag(v, target, path, parameters);
     place_ = result.position;
     return result;
   }
 
   void take_over(Grab& other) noexcept {
     sculptor_ = std::exchange(other.sculptor_, nullptr);
-    name_ = other.name_;
+    id_ = other.id_;
     place_ = other.place_;
     if (sculptor_ != nullptr)
       sculptor_->set_hand(this);

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_PROBE_H
 #define HAPTIC_SCULPT_SCULPTING_PROBE_H
 
+#include <haptic_sculpt/sculpting/Drag_parameters.h>
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
@@ -37,13 +38,16 @@ public:
 
   /// Drags it as Grab::drag_to drags a vertex; contacts are carried on. Of a probe that was refused `end` is
   /// Drag_end::refused, and a contact names the face that is too near; of one that has ended it is Drag_end::stale.
-  /// \throw Out_of_range, Invalid_parameter, Mesh_changed
-  Drag_result<Mesh> drag_to(const Point& target) { return drag(target, nullptr); }
+  /// \throw Out_of_range, Invalid_parameter, Mesh_changed \param parameters unset: those of the Sculptor
+  Drag_result<Mesh> drag_to(const Point& target, const std::optional<Drag_parameters>& parameters = std::nullopt) {
+    return drag(target, nullptr, parameters);
+  }
   /// The same, and says on which way, as Grab::drag_to does. Of one that cannot be dragged none. \param path is written
   /// anew
-  Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path) {
+  Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path,
+                            const std::optional<Drag_parameters>& parameters = std::nullopt) {
     path.clear();
-    return drag(target, &path);
+    return drag(target, &path, parameters);
   }
 
 private:
@@ -57,9 +61,10 @@ private:
   Probe(Sculptor& sculptor, const Point& p, std::optional<Refusal<Mesh>> refusal)
       : sculptor_(&sculptor), position_(p), refusal_(std::move(refusal)), changes_(sculptor.guarded_.changes()) {}
 
-  Drag_result<Mesh> drag(const Point& target, std::vector<Point>* path) {
+  Drag_result<Mesh> drag(const Point& target, std::vector<Point>* path,
+                         const std::optional<Drag_parameters>& parameters) {
     if (*this) {
-      Drag_result<Mesh> result = sculptor_->guarded_.drag_probe(position_, target, path);
+      Drag_result<Mesh> result = sculptor_->guarded_.drag_probe(position_, target, path, parameters);
       position_ = result.position;
       return result;
     }

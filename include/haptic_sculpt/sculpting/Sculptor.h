@@ -31,8 +31,8 @@ namespace haptic_sculpt {
 /// component is guarded like any other.
 ///
 /// An exception leaves everything as it was, std::bad_alloc included, or the change complete where it came from the
-/// visitor. Where it could not, every later call throws Unfinished_change but those that only tell: mesh(), options(),
-/// visitor(), filter_counters(), history(), memory() (doc/use/edits.md, "Memory that runs out").
+/// visitor. Where it could not, every later call throws Unfinished_change but those that only tell: mesh(),
+/// parameters(), visitor(), filter_counters(), history(), memory() (doc/use/edits.md, "Memory that runs out").
 ///
 /// One Sculptor, and the mesh it guards, belong to one thread at a time; different Sculptors on different meshes are
 /// independent. There is no global state.
@@ -45,7 +45,7 @@ public:
   using Visitor = Visitor_;                                  ///< is told of what edits do
   using Traits = Traits_;                                    ///< decides what a motion meets
   using Point = typename Mesh_type::Point;                   ///< with double coordinates
-  using Vertex_index = typename Mesh_type::Vertex_index;     ///< used again by the mesh; name() lasts
+  using Vertex_index = typename Mesh_type::Vertex_index;     ///< used again by the mesh; id() lasts
   using Face_index = typename Mesh_type::Face_index;         ///< used again by the mesh
   using Grab_type = Grab<Sculptor>;                          ///< what grab() gives
   using Probe_type = Probe<Sculptor>;                        ///< what probe() gives
@@ -81,7 +81,8 @@ public:
   Sculptor& operator=(const Sculptor&) = delete;
 
   const Mesh_type& mesh() const { return guarded_.mesh(); }                  ///< the one that is guarded, as it is now
-  const Sculptor_parameters& options() const { return guarded_.parameters; } ///< those given, with what was set since
+  /// Those given, with what was set since.
+  const Sculptor_parameters& parameters() const { return guarded_.parameters; }
 
   /// The Sculptor's own copy.
   Visitor& visitor() { return guarded_.editor().visitor(); }
@@ -93,22 +94,22 @@ public:
   Grab_type grab(Vertex_index v) {
     const internal::Rounding_to_nearest rounding;
     release();
-    guarded_.hold(v);
-    return Grab_type(*this, name(v));
+    guarded_.hold(v, false);
+    return Grab_type(*this, id(v));
   }
 
-  /// Whether vertices are dragged once each: then a drag looks up what is near for itself alone, and only the points of
-  /// the star are compared with where they were left. Off at first. No result depends on it.
-  void expect_single_drags(bool on) { guarded_.expect_single_drags(on); }
-  /// What expect_single_drags() was told last
-  bool expects_single_drags() const {
-    return guarded_.expects_single_drags();
+  /// Drags v as Grab::drag_to() does, without a Grab. Takes v in hand, and contacts that were carried along are
+  /// forgotten if that is another vertex. \param drag unset: parameters().drag \throw Unknown_vertex, and as there
+  Result drag(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
+    return guarded_.drag(v, target, nullptr, drag);
   }
 
   /// Moves v straight to `target` if nothing is touched on the way and the delta rule is kept; else it stays where it
-  /// is. A step of the history. Returns whether it is at the target. \throw Unknown_vertex, Out_of_range, Mesh_changed.
-  /// Cost: that of a drag.
-  bool move_if_free(Vertex_index v, const Point& target) { return guarded_.move_if_free(v, target); }
+  /// is. A step of the history. Returns whether it is at the target. \param drag unset: parameters().drag; of no effect
+  /// are its response and clearance \throw Unknown_vertex, Out_of_range, Mesh_changed. Cost: that of a drag.
+  bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
+    return guarded_.move_if_free(v, target, drag);
+  }
 
   /// What v would touch first on its straight way to `target`, as the free function first_impact() tells, at the cost
   /// of a drag. Moves nothing; takes v in hand, and contacts that were carried along are forgotten if that is another
@@ -141,7 +142,7 @@ public:
   /// \name Edits
   /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand; a Grab stays
   /// usable. What dies is said at each; Surface_mesh may use its descriptors again, within the edit too, all others
-  /// stay, and `name()` gives a vertex a number that lasts. The visitor is told. Cost: the valence times the candidates
+  /// stay, and `id()` gives a vertex a number that lasts. The visitor is told. Cost: the valence times the candidates
   /// near the star, and the broad phase; undo and redo: the valence and the broad phase. \throw Mesh_changed
   ///@{
 
@@ -210,7 +211,7 @@ public:
 
   /// All drags and edits until what is returned ends are one step of the history, whatever their number; in it the
   /// moves of a vertex between two other edits are kept as one.
-  Stroke_type stroke() { return Stroke_type(*this, guarded_.whole_editor().history().begin_stroke(number_of_names())); }
+  Stroke_type stroke() { return Stroke_type(*this, guarded_.whole_editor().history().begin_stroke(number_of_ids())); }
 
   /// Bounds the history, in steps or bytes (`history().bytes()`), or turns it off; without limit at first. The oldest
   /// steps are forgotten; a stroke that alone is larger is not kept, nor is anything before it.
@@ -229,7 +230,7 @@ public:
   /// or faces of the mesh \param carry `value carry(const Property_origin<value>&)`: Copy_property,
   /// Interpolate_property, or your own What the functions of the map and `carry` throw goes on to the caller of the
   /// edit, which stands; where a value cannot be copied before the edit, the edit is not made. Cost: while a map is
-  /// kept, an edit looks up its names, n log n in the valence; the history keeps the values of what dies, which
+  /// kept, an edit looks up its ids, n log n in the valence; the history keeps the values of what dies, which
   /// `history().bytes()` does not count.
   template <class Map, class Carry = Copy_property>
   void keep(Map map, Carry carry = Carry()) {
@@ -242,13 +243,11 @@ public:
   ///@{
 
   /// The number of v. \pre v is in the mesh
-  std::size_t name(Vertex_index v) const {
-    return guarded_.whole_editor().names().name(v);
-  }
+  std::size_t id(Vertex_index v) const { return guarded_.whole_editor().ids().id(v); }
   /// The null index where the vertex is dead, or the number was never given.
-  Vertex_index vertex(std::size_t name) const { return guarded_.whole_editor().names().vertex(name); }
+  Vertex_index vertex(std::size_t id) const { return guarded_.whole_editor().ids().vertex(id); }
   /// One more than the largest number given.
-  std::size_t number_of_names() const { return guarded_.whole_editor().names().size(); }
+  std::size_t number_of_ids() const { return guarded_.whole_editor().ids().size(); }
   /// The face of three corners, by number and in any order; the null index where there is none.
   Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const {
     return guarded_.whole_editor().face_of(a, b, c);
@@ -274,23 +273,19 @@ public:
   /// set, or the default.
   double clearance(const Point& p) const {
     const internal::Rounding_to_nearest rounding;
-    return internal::Clearance_rule(options().clearance_length)
+    return internal::Clearance_rule(parameters().drag.clearance_length)
         .at(internal::largest_magnitude(internal::coordinates(p)));
   }
 
-  /// \throw Out_of_range; Invalid_parameter where the length does not serve the scene (Sculptor_parameters). Cost:
-  /// reads every point.
-  void set_clearance(double length) {
+  /// Of drags from here on that are given none. \throw Out_of_range; Invalid_parameter where the clearance does not
+  /// serve the scene. Cost: reads every point where a clearance is given.
+  void set_drag_parameters(const Drag_parameters& drag) {
     const internal::Rounding_to_nearest rounding;
     guarded_.check_is_whole();
-    const Sculptor_parameters changed = Sculptor_parameters(options()).clearance(length);
-    internal::check_parameters(changed);
-    internal::check_clearance(mesh(), changed);
-    guarded_.parameters = changed;
+    internal::check_length(drag.clearance_length);
+    internal::check_clearance(mesh(), drag.clearance_length);
+    guarded_.parameters.drag = drag;
   }
-
-  /// From here on the default of each contact.
-  void set_default_clearance() { guarded_.settings().clearance_length.reset(); }
 
   /// Of drags and edits from here on; undo and redo restore what was, and altitudes that are lower then may only grow
   /// (doc/proofs/stop.md). \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude
@@ -298,19 +293,10 @@ public:
   void set_delta(double length) {
     const internal::Rounding_to_nearest rounding;
     release();
-    const Sculptor_parameters changed = Sculptor_parameters(options()).delta(length);
+    const Sculptor_parameters changed = Sculptor_parameters(parameters()).delta(length);
     internal::checked_scene(mesh(), changed);
     guarded_.parameters = changed;
   }
-
-  /// What a vertex does from here on when its way is blocked. Lets go of the vertex in hand.
-  void set_response(Response rule) {
-    release();
-    guarded_.parameters.response(rule);
-  }
-
-  /// Of each drag from here on; nothing: a drag takes what it takes.
-  void set_work_limit(std::optional<std::size_t> pairs) { guarded_.settings().work_bound = pairs; }
 
   /// \throw Mesh_changed if anything was changed by others, points or connectivity. Cost: reads all of the mesh.
   void check_unchanged() const { guarded_.check_unchanged(); }
@@ -330,7 +316,7 @@ private:
   Grab_type* holder_ = nullptr; ///< the Grab that has the hand
   internal::Edit_applier<Sculptor, Mesh_type> applier_;
 
-  double delta() const { return options().delta_length; }
+  double delta() const { return parameters().delta_length; }
 
   /// \throw Unfinished_change
   template <class Index>
@@ -370,8 +356,9 @@ private:
     guarded_.let_go();
     set_hand(nullptr);
   }
-  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path = nullptr) {
-    return guarded_.drag(v, target, path);
+  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path,
+              const std::optional<Drag_parameters>& drag) {
+    return guarded_.drag(v, target, path, drag);
   }
 };
 

@@ -2,24 +2,19 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_SCULPTOR_PARAMETERS_H
 #define HAPTIC_SCULPT_SCULPTING_SCULPTOR_PARAMETERS_H
 
-#include <haptic_sculpt/sculpting/Drag_result.h>
-
-#include <optional>
+#include <haptic_sculpt/sculpting/Drag_parameters.h>
 
 namespace haptic_sculpt {
 
 /// The options of a Sculptor, named and chained: `parameters::clearance(1e-9).delta(1e-3)`.
 struct Sculptor_parameters {
-  std::optional<double> clearance_length; ///< unset: default_clearance() at each contact
-  double delta_length = 0;                ///< 0: only exactly degenerate triangles are refused
-  Response response_rule = Response::slide; ///< see response()
-  std::optional<std::size_t> work_bound;  ///< unset: a drag takes what it takes
-  bool is_known_valid = false;            ///< whether the mesh has been validated by the caller
+  Drag_parameters drag;        ///< of drags that are given none
+  double delta_length = 0;     ///< 0: only exactly degenerate triangles are refused
+  bool is_known_valid = false; ///< whether the mesh has been validated by the caller
 
-  /// The distance normal to a contact plane that a stop keeps, in the unit of the coordinates. Of use is what is at
-  /// least an ulp of the scene's largest coordinate, and at most 1/128 of its extent.
+  /// \copydoc Drag_parameters::clearance
   Sculptor_parameters& clearance(double length) {
-    clearance_length = length;
+    drag.clearance(length);
     return *this;
   }
   /// No triangle may have an altitude below this length; >= 0 and in range.
@@ -27,15 +22,14 @@ struct Sculptor_parameters {
     delta_length = length;
     return *this;
   }
-  /// What a dragged vertex does when its way is blocked; it slides on by default.
+  /// \copydoc Drag_parameters::response
   Sculptor_parameters& response(Response rule) {
-    response_rule = rule;
+    drag.response(rule);
     return *this;
   }
-  /// Bounds the work of a drag, for a loop that has to be in time: so many pairs decided and candidates looked up, and
-  /// it ends as Drag_end::work_limit where it is (doc/use/work.md).
+  /// \copydoc Drag_parameters::work_limit
   Sculptor_parameters& work_limit(std::size_t pairs) {
-    work_bound = pairs;
+    drag.work_limit(pairs);
     return *this;
   }
   /// Takes the caller's word that the mesh is valid, e.g. because read_surface() has just read it: it is not validated

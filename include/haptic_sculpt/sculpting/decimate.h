@@ -6,6 +6,7 @@
 #include <haptic_sculpt/no_fast_math.h>
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/many_vertices/Collapse_queue.h>
+#include <haptic_sculpt/sculpting/named_parameters.h>
 
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_profile.h>
@@ -51,9 +52,9 @@ template <class Sculptor, class Should_stop, class Named_parameters = CGAL::para
 Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
                            const Named_parameters& np = CGAL::parameters::default_values()) {
   namespace SMS = CGAL::Surface_mesh_simplification;
-  namespace names = CGAL::internal_np;
-  using CGAL::parameters::choose_parameter;
-  using CGAL::parameters::get_parameter;
+  namespace names = internal::named;
+  using internal::choose_parameter;
+  using internal::get_parameter;
   using Mesh = typename Sculptor::Mesh_type;
   using Edge_index = typename Mesh::Edge_index;
   using Halfedge_index = typename Mesh::Halfedge_index;

@@ -4,7 +4,6 @@
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/geometry/stop.h>
-#include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <boost/property_map/property_map.hpp>
@@ -77,7 +76,7 @@ private:
     internal::check_vertex(sculptor_->mesh(), v);
     ++counts_->puts;
     const internal::Coordinates target = internal::coordinates(p);
-    if (!internal::is_in_range(target)) {
+    if (!is_in_range(target)) {
       ++counts_->refused;
       ++counts_->out_of_range;
       return;
@@ -92,14 +91,15 @@ private:
 
   void move(key_type v, const internal::Coordinates& source, const internal::Coordinates& target) const {
     const bool slides = policy_ == Guard_policy::slide;
-    const internal::Response_scope<Sculptor> scope(*sculptor_, slides ? Response::slide : Response::stop, !slides);
+    Drag_parameters drag = sculptor_->parameters().drag;
+    drag.response(slides ? Response::slide : Response::stop).once(!slides);
     if (slides || policy_ == Guard_policy::stop) {
-      sculptor_->grab(v).drag_to({target[0], target[1], target[2]});
+      sculptor_->drag(v, {target[0], target[1], target[2]}, drag);
       return;
     }
     for (const double share : shares) {
       const internal::Coordinates p = share == 1 ? target : internal::point_of_path(source, target, share);
-      if (sculptor_->move_if_free(v, {p[0], p[1], p[2]}) || policy_ == Guard_policy::whole)
+      if (sculptor_->move_if_free(v, {p[0], p[1], p[2]}, drag) || policy_ == Guard_policy::whole)
         return;
     }
   }

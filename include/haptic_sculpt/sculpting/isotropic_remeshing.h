@@ -36,9 +36,9 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
                                      const Named_parameters& np = CGAL::parameters::default_values(),
                                      const Remeshing_parameters& parameters = Remeshing_parameters()) {
   using Mesh = typename Sculptor::Mesh_type;
-  using CGAL::parameters::choose_parameter;
-  using CGAL::parameters::get_parameter;
-  namespace names = CGAL::internal_np;
+  using internal::choose_parameter;
+  using internal::get_parameter;
+  namespace names = internal::named;
   using No_edges = CGAL::Static_boolean_property_map<typename Mesh::Edge_index, false>;
   using No_vertices = CGAL::Static_boolean_property_map<typename Mesh::Vertex_index, false>;
   internal::check_named_parameters<Named_parameters>();
@@ -64,8 +64,7 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
   options.do_split = choose_parameter(get_parameter(np, names::do_split), true);
   options.do_collapse = choose_parameter(get_parameter(np, names::do_collapse), true);
   options.do_flip = choose_parameter(get_parameter(np, names::do_flip), true);
-  constexpr bool has_functor =
-    !CGAL::parameters::is_default_parameter<Named_parameters, names::projection_functor_t>::value;
+  constexpr bool has_functor = !internal::is_not_given<Named_parameters, names::projection_functor_t>;
   const bool projects = choose_parameter(get_parameter(np, names::do_project), true);
   const double infinity = std::numeric_limits<double>::infinity();
   const double distance = parameters.most_distance.value_or(has_functor && projects ? infinity : target_edge_length);

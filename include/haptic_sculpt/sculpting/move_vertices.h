@@ -44,7 +44,7 @@ template <class Sculptor, class Vertex_range, class Target_of, class Output_iter
 Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Target_of target_of,
                             const Move_parameters& parameters, Output_iterator left_behind) {
   const auto asked = moving_vertices(sculptor.mesh(), vertices, target_of);
-  check_clearance_at_targets(asked, sculptor.options().clearance_length);
+  check_clearance_at_targets(asked, sculptor.parameters().drag.clearance_length);
   Move_report report;
   report.asked = asked.size();
   measure_distances(sculptor.mesh(), asked, report.asked_l2, report.asked_max);

@@ -23,13 +23,14 @@ public:
   using Error::Error; ///< takes the message that `what()` gives
 };
 
-namespace internal {
-
-/// False for what is not a number, too.
+/// Whether a coordinate or a length may be given: false for what is not a number, too.
 inline bool is_in_range(double x) { return std::abs(x) <= largest_coordinate; }
+/// The same of three coordinates.
 inline bool is_in_range(const std::array<double, 3>& p) {
   return is_in_range(p[0]) && is_in_range(p[1]) && is_in_range(p[2]);
 }
+
+namespace internal {
 
 /// \throw Out_of_range always. \param what names the point, e.g. "the target"
 [[noreturn]] inline void throw_out_of_range(const std::string& what, const std::array<double, 3>& p) {

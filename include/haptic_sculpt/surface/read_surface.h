@@ -64,6 +64,8 @@ inline Face_soup parse(std::string_view bytes, Mesh_file_format format) {
   return parse_stl(bytes);
 }
 
+} // namespace internal
+
 /// The surface as a mesh; vertices and faces keep their indices, and faces their first corners (STL numbers vertices by
 /// first appearance, so writing has to begin faces where reading did). \pre it is closed, 2-manifold and oriented
 template <class Mesh>
@@ -86,6 +88,8 @@ Mesh mesh_of(const Face_soup& soup) {
   }
   return mesh;
 }
+
+namespace internal {
 
 template <class Mesh>
 struct Is_mesh_of_doubles : std::false_type {};
@@ -114,7 +118,7 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
     for (std::size_t v = 0; v < soup.points.size(); ++v) {
       const auto& p = soup.points[v];
       const std::array<double, 3> coordinates = {p.x(), p.y(), p.z()};
-      if (soup.is_finite(v) && !internal::is_in_range(coordinates)) // what is not finite is named by validate_soup()
+      if (soup.is_finite(v) && !is_in_range(coordinates)) // what is not finite is named by validate_soup()
         internal::throw_out_of_range(
             "cannot read " + internal::quoted_path(path) + ": vertex " + std::to_string(v) + " at", coordinates);
     }
@@ -155,7 +159,7 @@ Mesh read_surface(const std::filesystem::path& path, double delta = 0, std::vect
   if (found != nullptr)
     *found = std::move(report);
   if constexpr (internal::Is_mesh_of_doubles<Mesh>::value) // else one message is enough
-    return internal::mesh_of<Mesh>(soup);
+    return mesh_of<Mesh>(soup);
 }
 
 /// The mesh of a valid list of faces, e.g. of one that repair() has repaired. Vertices and faces keep their numbers.
@@ -169,7 +173,7 @@ Mesh make_surface(const Face_soup& soup, double delta = 0) {
   Validity_report report = validate_soup(soup, delta);
   if (!report.is_valid())
     throw Invalid_surface("the list of faces", std::move(report));
-  return internal::mesh_of<Mesh>(soup);
+  return mesh_of<Mesh>(soup);
 }
 
 } // namespace haptic_sculpt

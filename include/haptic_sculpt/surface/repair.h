@@ -88,7 +88,7 @@ Repair_report repair(Mesh& mesh, const Repair_parameters& parameters = {}) {
   }
   Repair_report report = internal::repaired(face_soup(mesh.has_garbage() ? copy : mesh), parameters, result);
   if (report.is_repaired() && !report.steps.empty())
-    mesh = internal::mesh_of<Mesh>(result);
+    mesh = mesh_of<Mesh>(result);
   return report;
 }
 

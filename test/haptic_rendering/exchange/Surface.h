@@ -40,12 +40,12 @@ template <class Sculptor>
 Surface surface_of(const Mesh& mesh, const Sculptor& sculptor) {
   Surface surface;
   for (const auto v : mesh.vertices())
-    surface.points[sculptor.name(v)] = {mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()};
+    surface.points[sculptor.id(v)] = {mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()};
   for (const auto f : mesh.faces()) {
     std::array<std::uint64_t, 3> face{};
     int i = 0;
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
-      face[i++] = sculptor.name(v);
+      face[i++] = sculptor.id(v);
     surface.add_face(face);
   }
   std::sort(surface.faces.begin(), surface.faces.end());
@@ -55,12 +55,12 @@ inline Surface surface_of(const Scene& scene) { return surface_of(scene.mesh, sc
 
 inline Surface surface_of(const Scene_copy& copy) {
   Surface surface;
-  for (std::size_t v = 0; v < copy.names.size(); ++v)
-    if (copy.names[v] != Scene_copy::absent)
-      surface.points[copy.names[v]] = copy.points[v];
+  for (std::size_t v = 0; v < copy.ids.size(); ++v)
+    if (copy.ids[v] != Scene_copy::absent)
+      surface.points[copy.ids[v]] = copy.points[v];
   for (const auto& f : copy.faces)
     if (f[0] != Scene_copy::no_corner)
-      surface.add_face({copy.names[f[0]], copy.names[f[1]], copy.names[f[2]]});
+      surface.add_face({copy.ids[f[0]], copy.ids[f[1]], copy.ids[f[2]]});
   std::sort(surface.faces.begin(), surface.faces.end());
   return surface;
 }

@@ -46,14 +46,14 @@ public:
     if ((edit.kind == Kind::flip || edit.kind == Kind::collapse) && shown) {
       const auto& f = shown->faces[random_() % 200];
       if (f[0] != Scene_copy::no_corner)
-        edit.vertices = {shown->names[f[0]], shown->names[f[1]], 0};
+        edit.vertices = {shown->ids[f[0]], shown->ids[f[1]], 0};
     }
     if (edit.kind == Kind::insert_on_face && shown) { // on a face that is seen; maybe it is gone by then
       const auto& f = shown->faces[random_() % 200];
       if (f[0] == Scene_copy::no_corner)
         return;
       for (int i = 0; i < 3; ++i) {
-        edit.vertices[i] = shown->names[f[i]];
+        edit.vertices[i] = shown->ids[f[i]];
         for (int k = 0; k < 3; ++k)
           edit.point[k] += shown->points[f[i]][k] / 3;
       }

@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(a_removal_where_a_probe_stands_is_told_as_the_collapse_that
     Mesh alone = mesh;
     Sculptor<Mesh> sculptor(alone);
     const auto made = sculptor.remove(sculptor.vertex(entries[0].vertices[0]));
-    BOOST_TEST((made && sculptor.name(*made.vertex) == entries[0].vertices[1])); // a probe is in nobody's way
+    BOOST_TEST((made && sculptor.id(*made.vertex) == entries[0].vertices[1])); // a probe is in nobody's way
     BOOST_TEST((made_again(mesh, entries) == surface_of(scene)));
   }
   BOOST_TEST_MESSAGE(removed << " removals, after which a probe went on " << kept << " times");

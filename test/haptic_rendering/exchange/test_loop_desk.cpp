@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(what_throws_is_answered_with_its_reason_and_the_desk_and_th
       command.kind = Command::Kind::edit, command.ticket = 5, command.edit = Edit::of(kind, {}, {x, 0, 0});
       int i = 0;
       for (const auto v : d.scene->mesh.vertices_around_face(d.scene->mesh.halfedge(face)))
-        command.edit.vertices[static_cast<std::size_t>(i++)] = d.scene->sculptor.name(v);
+        command.edit.vertices[static_cast<std::size_t>(i++)] = d.scene->sculptor.id(v);
       BOOST_TEST(d.desk.ask(command));
       const Haptic_tick& made = d.session.tick(reading_at(0));
       BOOST_TEST((d.answers() == Tickets{5}));

@@ -18,7 +18,7 @@ Edit random_value(const Sculptor<Mesh>& sculptor, Random& random) {
   std::uniform_real_distribution<double> number(-1, 1);
   const Mesh& mesh = sculptor.mesh();
   const auto h = pick(mesh.halfedges(), mesh.number_of_halfedges(), random);
-  const auto name = [&](Vertex_index v) { return random() % 20 == 0 ? random() % 300 : sculptor.name(v); };
+  const auto name = [&](Vertex_index v) { return random() % 20 == 0 ? random() % 300 : sculptor.id(v); };
   const Vertex_index a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h));
   const Point_3 p = mesh.point(a), inside = in_face(mesh, mesh.face(h), 0.3, 0.4),
                 middle = CGAL::midpoint(p, mesh.point(b));

@@ -54,7 +54,7 @@ void check_counts(const Counts& before, const Mesh& mesh, int step) {
 std::vector<std::size_t> link_of(const Sculptor<Mesh>& sculptor, Vertex_index v) {
   std::vector<std::size_t> link;
   for (const Vertex_index w : sculptor.mesh().vertices_around_target(sculptor.mesh().halfedge(v)))
-    link.push_back(sculptor.name(w));
+    link.push_back(sculptor.id(w));
   return link;
 }
 
@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(inverse_pairs_and_counts) {
       BOOST_TEST(is_begin());
       BOOST_REQUIRE(sculptor.redo());
       BOOST_TEST((snapshot(sculptor) == after));
-      BOOST_REQUIRE(sculptor.remove(sculptor.vertex(sculptor.number_of_names() - 1)));
+      BOOST_REQUIRE(sculptor.remove(sculptor.vertex(sculptor.number_of_ids() - 1)));
       BOOST_TEST(is_begin());
     }
 
@@ -246,19 +246,19 @@ BOOST_AUTO_TEST_CASE(inverse_pairs_and_counts) {
         if (mesh.is_removed(v) || mesh.degree(v) > 4)
           continue;
         const Mesh_snapshot before = snapshot(sculptor);
-        const std::size_t old_number = sculptor.name(v);
+        const std::size_t old_number = sculptor.id(v);
         const Point_3 p = mesh.point(v);
         const auto link = link_of(sculptor, v);
         const auto gone = sculptor.remove(v);
         if (!gone)
           continue;
-        const std::size_t apex = sculptor.name(*gone.vertex);
+        const std::size_t apex = sculptor.id(*gone.vertex);
         const std::size_t across =
             link.size() == 4 ? link[(std::find(link.begin(), link.end(), apex) - link.begin() + 2) % 4] : 0;
         const auto made = link.size() == 3 ? sculptor.insert_on_face(sculptor.face_of(link[0], link[1], link[2]), p)
                                            : sculptor.insert_on_edge(sculptor.edge_of(apex, across), p);
         BOOST_REQUIRE(made);
-        BOOST_TEST((renamed(snapshot(sculptor), sculptor.name(*made.vertex), old_number) == before.faces));
+        BOOST_TEST((renamed(snapshot(sculptor), sculptor.id(*made.vertex), old_number) == before.faces));
         ++(link.size() == 3 ? refilled_faces : refilled_edges);
         BOOST_REQUIRE(sculptor.undo());
         BOOST_REQUIRE(sculptor.undo());

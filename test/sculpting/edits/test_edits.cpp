@@ -118,12 +118,12 @@ BOOST_AUTO_TEST_CASE(refusals_name_the_rule) {
     // A new vertex takes the next number; a removed one's stays dead.
     const auto made = sculptor.insert_on_face(f, in_face(mesh, f, 0.3, 0.3));
     BOOST_REQUIRE(made);
-    BOOST_TEST(sculptor.name(*made.vertex) == 4u);
+    BOOST_TEST(sculptor.id(*made.vertex) == 4u);
     BOOST_REQUIRE(sculptor.remove(*made.vertex));
     BOOST_TEST(!sculptor.vertex(4).is_valid());
     const auto again = sculptor.insert_on_face(*mesh.faces().begin(), in_face(mesh, *mesh.faces().begin(), 0.2, 0.3));
     BOOST_REQUIRE(again);
-    BOOST_TEST(sculptor.name(*again.vertex) == 5u);
+    BOOST_TEST(sculptor.id(*again.vertex) == 5u);
   }
   { // a vertex pulled up over a ball that lies above the face would jump over it
     meshes::Triangle_list list = meshes::cube();

@@ -22,7 +22,7 @@ using Names = std::array<std::size_t, 3>;
 template <class Sculptor, class Get>
 std::map<std::pair<int, Names>, int> all_values(const Sculptor& sculptor, const Get& value_of) {
   const Mesh& mesh = sculptor.mesh();
-  const auto name = [&](Vertex_index v) { return sculptor.name(v); };
+  const auto name = [&](Vertex_index v) { return sculptor.id(v); };
   std::map<std::pair<int, Names>, int> values;
   for (const auto v : mesh.vertices())
     values[{0, {name(v), 0, 0}}] = value_of(v);
@@ -125,20 +125,20 @@ BOOST_AUTO_TEST_CASE(kept_values_are_back_after_undo_and_redo) {
         if (const auto old = values_before.find(names); old != values_before.end())
           BOOST_REQUIRE_EQUAL(value, old->second); // what stays keeps its value
       for (const auto v : numbered.mesh.vertices())
-        if (values_before.count({0, {sculptor.name(v), 0, 0}}) == 0)
+        if (values_before.count({0, {sculptor.id(v), 0, 0}}) == 0)
           numbered.of_vertices[v] = numbered.next++;
       for (const auto f : numbered.mesh.faces()) {
         Names corners{};
         std::size_t i = 0;
         for (const auto v : numbered.mesh.vertices_around_face(numbered.mesh.halfedge(f)))
-          corners[i++] = sculptor.name(v);
+          corners[i++] = sculptor.id(v);
         std::sort(corners.begin(), corners.end());
         if (values_before.count({3, corners}) == 0)
           numbered.of_faces[f] = numbered.next++;
       }
       for (const auto h : numbered.mesh.halfedges())
-        if (values_before.count(
-                {1, {sculptor.name(numbered.mesh.source(h)), sculptor.name(numbered.mesh.target(h)), 0}}) == 0)
+        if (values_before.count({1, {sculptor.id(numbered.mesh.source(h)), sculptor.id(numbered.mesh.target(h)), 0}}) ==
+            0)
           numbered.of_halfedges[h] = numbered.of_edges[numbered.mesh.edge(h)] = numbered.next++;
       states.resize(++at);
       states.push_back(all_values(sculptor, numbered));

@@ -254,7 +254,8 @@ BOOST_AUTO_TEST_CASE(any_change_of_the_mesh_ends_a_probe) {
   BOOST_TEST(!sculptor.move_if_free(v, out(-3)));
   BOOST_TEST(!sculptor.redo());
   sculptor.nearest_vertex(low, 5), sculptor.first_hit(start, target), sculptor.first_impact(v, out(2));
-  sculptor.set_clearance(1e-9), sculptor.set_default_clearance(), sculptor.set_response(Response::stop);
+  sculptor.set_drag_parameters(Drag_parameters().clearance(1e-9));
+  sculptor.set_drag_parameters(Drag_parameters().response(Response::stop));
   { const auto stroke = sculptor.stroke(); }
   BOOST_TEST(bool(probe));
   BOOST_TEST((probe.drag_to(target).end == Drag_end::held));

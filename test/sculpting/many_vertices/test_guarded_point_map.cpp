@@ -126,7 +126,6 @@ BOOST_AUTO_TEST_CASE(policies_at_a_wall) {
     BOOST_TEST(map.counts().puts == 1u);
     BOOST_TEST((get(map, v) == mesh.point(v)));
     BOOST_TEST(validate(mesh).is_valid());
-    BOOST_TEST((sculptor.options().response_rule == Response::slide));
     return Point_3(mesh.point(v));
   };
   const auto left = [&](const Point_3& p) { return CGAL::squared_distance(p, through); };

@@ -67,8 +67,6 @@ Move_report checked_run(const std::string& name, Mesh mesh,
     BOOST_TEST(std::abs(report.left_max - static_cast<double>(left_max)) <= 1e-12 * report.asked_max);
     BOOST_TEST(sculptor.history().number_of_undo_steps() <= 1u);
     BOOST_TEST((sculptor.history().number_of_undo_steps() == 1u || snapshot(sculptor) == before));
-    BOOST_TEST((sculptor.options().response_rule == Response::slide));
-    BOOST_TEST(!sculptor.expects_single_drags());
     check_undo_and_redo(sculptor, before);
     BOOST_TEST_MESSAGE(name << ": reached " << report.reached << " of " << report.asked << " in " << report.drags
                             << " drags, " << 100 * (1 - report.left_l2 / report.asked_l2) << " % of the way");
@@ -179,7 +177,7 @@ BOOST_AUTO_TEST_CASE(nothing_moves_where_a_target_cannot_be_used) {
   BOOST_CHECK_THROW(move_vertices(sculptor, vertices, map), Unknown_vertex);
   vertices.back() = Vertex_index();
   BOOST_CHECK_THROW(move_vertices(sculptor, vertices, map), Unknown_vertex);
-  sculptor.set_clearance(1e-9);
+  sculptor.set_drag_parameters(Drag_parameters().clearance(1e-9));
   map[last] = Point_3(1e9, 0, 0); // where an ulp is more than the clearance
   BOOST_CHECK_THROW(move_vertices(sculptor, mesh.vertices(), map), Invalid_parameter);
   BOOST_TEST((snapshot(sculptor) == before));
@@ -220,8 +218,6 @@ BOOST_AUTO_TEST_CASE(cancelled_bounded_and_thrown_out_of) {
     BOOST_CHECK_THROW(move_vertices(sculptor, mesh.vertices(), map, Move_parameters().progress(throwing)), Thrown);
     BOOST_TEST(validate(mesh).is_valid());
     BOOST_TEST(!sculptor.history().is_in_stroke());
-    BOOST_TEST((sculptor.options().response_rule == Response::slide));
-    BOOST_TEST(!sculptor.expects_single_drags());
     check_undo_and_redo(sculptor, before);
     if (after != 0)
       sculptor.undo();
@@ -290,14 +286,14 @@ BOOST_AUTO_TEST_CASE(few_none_and_repeated) {
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 2u);
 }
 
-BOOST_AUTO_TEST_CASE(expecting_single_drags_changes_no_result) {
+BOOST_AUTO_TEST_CASE(a_drag_made_once_changes_no_result) {
   std::mt19937 random(11);
   BOOST_TEST_MESSAGE("seed 11");
   for (const auto& [name, scene] : scenes()) {
     Mesh usual = scene, single = scene;
     Sculptor<Mesh> one(usual, parameters::response(Response::stop)),
         other(single, parameters::response(Response::stop));
-    other.expect_single_drags(true);
+    const auto once = Drag_parameters().response(Response::stop).once();
     std::size_t free = 0, tries = 1500, wrong = 0;
     for (std::size_t i = 0; i < tries; ++i) {
       const Vertex_index v(static_cast<Mesh::size_type>(random() % usual.num_vertices()));
@@ -313,7 +309,7 @@ BOOST_AUTO_TEST_CASE(expecting_single_drags_changes_no_result) {
       const Point_3 target = p + size * way;
       const bool reached = one.grab(v).drag_to(target).reached;
       // Whether the whole way is free, by the sweeps alone and by the cheaper proof.
-      wrong += other.grab(v).drag_to(target).reached != reached || usual.point(v) != single.point(v);
+      wrong += other.drag(v, target, once).reached != reached || usual.point(v) != single.point(v);
       free += reached;
     }
     BOOST_TEST(wrong == 0u, name);

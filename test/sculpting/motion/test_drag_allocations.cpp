@@ -98,7 +98,7 @@ void check(const char* name, const meshes::Triangle_list& list, double edge, con
       with_contacts += round.with_contacts, many += round.with_many_contacts, legs += round.legs;
     }
   }
-  BOOST_TEST_MESSAGE(name << ", " << name_of(options.response_rule) << ": " << drags << " drags, " << blocked
+  BOOST_TEST_MESSAGE(name << ", " << name_of(options.drag.response_rule) << ": " << drags << " drags, " << blocked
                           << " blocked, " << with_contacts << " with contacts (" << many << " with very many), " << legs
                           << " legs, " << warm << " allocations, " << warm_gmp << " of GMP");
   BOOST_TEST(warm == 0u);

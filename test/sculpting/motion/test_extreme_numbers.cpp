@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(what_is_out_of_range_is_refused_and_nothing_moves) {
     BOOST_CHECK_THROW(sculptor.probe({0, 0, x}), Out_of_range);
     BOOST_CHECK_THROW(sculptor.insert_on_face(*mesh.faces().begin(), {0, 0, x}), Out_of_range);
     BOOST_CHECK_THROW(sculptor.insert_on_edge(*mesh.edges().begin(), {x, 0, 0}), Out_of_range);
-    BOOST_CHECK_THROW(sculptor.set_clearance(x), Out_of_range);
+    BOOST_CHECK_THROW(sculptor.set_drag_parameters(Drag_parameters().clearance(x)), Out_of_range);
     BOOST_CHECK_THROW(sculptor.set_delta(x), Out_of_range);
     BOOST_CHECK_THROW(first_impacts(mesh, Vertex_index(0), {x, 0, 0}), Out_of_range);
   }
@@ -122,7 +122,8 @@ BOOST_AUTO_TEST_CASE(targets_of_any_size_keep_the_mesh_embedded_and_lead_no_fart
             }
           if (random() % 4 == 0)
             try {
-              sculptor.set_clearance(std::abs(any_double(random)));
+              sculptor.set_drag_parameters(
+                  Drag_parameters(sculptor.parameters().drag).clearance(std::abs(any_double(random))));
             } catch (const Error&) { // of no use to the scene
             }
           const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
@@ -206,10 +207,11 @@ BOOST_AUTO_TEST_CASE(clearances_that_do_not_serve_are_refused_with_the_range_tha
   const auto says_range = [](const Invalid_parameter& e) {
     return std::string(e.what()).find("give ") != std::string::npos;
   };
-  BOOST_CHECK_EXCEPTION(sculptor.set_clearance(ulp / 2), Invalid_parameter, says_range);
-  BOOST_CHECK_EXCEPTION(sculptor.set_clearance(1), Invalid_parameter, says_range);
+  BOOST_CHECK_EXCEPTION(sculptor.set_drag_parameters(Drag_parameters().clearance(ulp / 2)), Invalid_parameter,
+                        says_range);
+  BOOST_CHECK_EXCEPTION(sculptor.set_drag_parameters(Drag_parameters().clearance(1)), Invalid_parameter, says_range);
   BOOST_CHECK_EXCEPTION(Sculptor<Mesh>(mesh, parameters::clearance(1)), Invalid_parameter, says_range);
-  sculptor.set_clearance(4 * ulp);
+  sculptor.set_drag_parameters(Drag_parameters().clearance(4 * ulp));
   const Point_3 start = mesh.point(Vertex_index(0));
   BOOST_REQUIRE(sculptor.grab(Vertex_index(0)).drag_to({-1e9, 1e9, -1e9}).reached);
   const Point_3 there = mesh.point(Vertex_index(0));

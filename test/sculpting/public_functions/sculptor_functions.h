@@ -11,12 +11,12 @@ inline std::vector<Public_function> sculptor_functions() {
   std::vector<Public_function> all;
   for (const Response response : {Response::slide, Response::stop, Response::paper})
     for (const double share : {1.25, 0.25, -1.75})
-      all.push_back({"Sculptor::Sculptor Sculptor::grab Sculptor::mesh Sculptor::set_response Grab::drag_to "
+      all.push_back({"Sculptor::Sculptor Sculptor::grab Sculptor::mesh Sculptor::set_drag_parameters Grab::drag_to "
                      "Grab::vertex Grab::release",
                      [=](double unit, Outcome& outcome) {
                        Scaled_scene scene(unit);
                        Sculptor<Mesh> sculptor(scene.mesh);
-                       sculptor.set_response(response);
+                       sculptor.set_drag_parameters(Drag_parameters().response(response));
                        for (std::size_t i = 0; i < Scaled_scene::ball_size; i += 4) {
                          const Vertex_index v = Scaled_scene::vertex(i);
                          auto grab = sculptor.grab(v);
@@ -30,20 +30,19 @@ inline std::vector<Public_function> sculptor_functions() {
                        }
                        outcome.mesh(sculptor.mesh());
                      }});
-  all.push_back({"Sculptor::expect_single_drags Sculptor::expects_single_drags Sculptor::move_if_free Sculptor::release",
-       [](double unit, Outcome& outcome) {
-         Scaled_scene scene(unit);
-         Sculptor<Mesh> sculptor(scene.mesh);
-         sculptor.expect_single_drags(true);
-         outcome.number(sculptor.expects_single_drags());
-         for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i) {
-           const Vertex_index v = Scaled_scene::vertex(i);
-           for (const double share : {1.5, 0.75, -2.0})
-             outcome.number(sculptor.move_if_free(v, scene.beyond(v, share)));
-         }
-         sculptor.release();
-         outcome.mesh(scene.mesh);
-       }});
+  all.push_back({"Sculptor::move_if_free Sculptor::drag Sculptor::release", [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   const auto once = Drag_parameters().response(Response::stop).once();
+                   for (std::size_t i = 0; i < Scaled_scene::ball_size; ++i) {
+                     const Vertex_index v = Scaled_scene::vertex(i);
+                     for (const double share : {1.5, 0.75, -2.0})
+                       outcome.number(sculptor.move_if_free(v, scene.beyond(v, share), once));
+                     outcome.drag(sculptor.drag(v, scene.beyond(v, 0.5), once));
+                   }
+                   sculptor.release();
+                   outcome.mesh(scene.mesh);
+                 }});
   all.push_back({"Sculptor::first_impact", [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);
@@ -159,26 +158,24 @@ inline std::vector<Public_function> sculptor_functions() {
                    outcome.edit(sculptor.undo());
                    outcome.mesh(scene.mesh);
                  }});
-  all.push_back({"Sculptor::set_delta Sculptor::set_clearance Sculptor::set_default_clearance Sculptor::clearance "
-                 "Sculptor::options "
-                 "Sculptor::set_work_limit",
-                 [](double unit, Outcome& outcome) {
+  all.push_back({"Sculptor::set_delta Sculptor::clearance Sculptor::parameters", [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh, parameters::response(Response::stop));
                    sculptor.set_delta(scene.length(0.015625));
-                   outcome.length(sculptor.options().delta_length);
-                   sculptor.set_work_limit(300);
+                   outcome.length(sculptor.parameters().delta_length);
+                   auto drag = Drag_parameters(sculptor.parameters().drag).work_limit(300);
                    const auto drags = [&](double share) {
                      for (std::size_t i = 1; i < Scaled_scene::ball_size; i += 5)
                        outcome.drag(sculptor.grab(Scaled_scene::vertex(i))
-                                        .drag_to(scene.beyond(Scaled_scene::vertex(i), share)));
+                                        .drag_to(scene.beyond(Scaled_scene::vertex(i), share), drag));
                    };
                    drags(-1);
-                   sculptor.set_clearance(scene.length(0x1p-12));
+                   drag.clearance(scene.length(0x1p-12));
+                   sculptor.set_drag_parameters(drag);
                    outcome.length(sculptor.clearance(scene.at(1, 0, 0)));
-                   sculptor.set_response(Response::slide);
+                   drag.response(Response::slide);
                    drags(-0.5);
-                   sculptor.set_default_clearance();
+                   sculptor.set_drag_parameters(drag.clearance(std::nullopt));
                    outcome.length(sculptor.clearance(scene.at(1, 0.5, 0)));
                    drags(1.25);
                    bool is_refused = false;
@@ -192,7 +189,7 @@ inline std::vector<Public_function> sculptor_functions() {
                  }});
   all.push_back({"Sculptor::stroke Sculptor::history Sculptor::set_history_limit Sculptor::check_unchanged Stroke::end "
                  "Stroke::is_open "
-                 "Sculptor::name Sculptor::vertex Sculptor::number_of_names Sculptor::face_of Sculptor::edge_of "
+                 "Sculptor::id Sculptor::vertex Sculptor::number_of_ids Sculptor::face_of Sculptor::edge_of "
                  "Sculptor::visitor "
                  "Sculptor::filter_counters Sculptor::memory",
                  [](double unit, Outcome& outcome) {
@@ -206,7 +203,7 @@ inline std::vector<Public_function> sculptor_functions() {
                    stroke.end();
                    outcome.number(stroke.is_open());
                    outcome.number(static_cast<double>(sculptor.history().number_of_undo_steps()));
-                   outcome.number(static_cast<double>(sculptor.name(sculptor.vertex(5)) + sculptor.number_of_names()));
+                   outcome.number(static_cast<double>(sculptor.id(sculptor.vertex(5)) + sculptor.number_of_ids()));
                    outcome.index(sculptor.edge_of(0, 1)), outcome.index(sculptor.face_of(0, 1, 2));
                    sculptor.visitor().vertex_moved(Scaled_scene::vertex(0));
                    outcome.number(sculptor.memory() > 0);

@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(a_slot_that_closes_by_less_than_a_clearance_is_gone_through
     End_certifier certifier(mesh);
     auto probe = sculptor.probe(Point_3(-3, -4, 0.5 * gap));
     BOOST_REQUIRE(bool(probe));
-    sculptor.set_clearance(c); // with which it could not begin here
+    sculptor.set_drag_parameters(Drag_parameters().clearance(c)); // with which it could not begin here
     for (int i = 0; i < 6; ++i) {
       const Point_3 source = probe.position();
       const Point_3 target(source.x() + between(0.2, 1), -4 + number(random),

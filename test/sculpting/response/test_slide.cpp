@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(pushes_end_at_the_unique_optimum) {
         const Mesh& mesh = grab.mesh;
         auto& sculptor = grab.sculptor;
         if (!is_default)
-          sculptor.set_clearance(length);
+          sculptor.set_drag_parameters(Drag_parameters(sculptor.parameters().drag).clearance(length));
         Drag_history history{mesh.point(scene.moved), {}};
         for (std::size_t i = 0; i < pushes_per_grab; ++i, ++done) {
           const Point_3 source = mesh.point(scene.moved), target = scene.target(random, source);
@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(probes_end_at_the_unique_optimum) {
         Mesh mesh = without_probes(scene.mesh);
         Sculptor<Mesh> sculptor(mesh, parameters::response(response_under_test()));
         if (length != default_length)
-          sculptor.set_clearance(length);
+          sculptor.set_drag_parameters(Drag_parameters(sculptor.parameters().drag).clearance(length));
         const Point_3 source = scene.mesh.point(scene.moved);
         for (int i = 0; i < 10; ++i, ++done) { // each without contacts
           const Point_3 target = scene.target(random, source);

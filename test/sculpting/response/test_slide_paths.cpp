@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
       const Mesh& mesh = grab.mesh;
       auto& sculptor = grab.sculptor;
       if (random() % 2 == 0)
-        sculptor.set_clearance(1e-9);
+        sculptor.set_drag_parameters(Drag_parameters().clearance(1e-9));
       Point_3 hand = mesh.point(scene.moved), next = scene.target(random, hand);
       // Over a rim, which the planes do not know: from there on they are not what holds it.
       bool has_left = false;
@@ -202,8 +202,8 @@ BOOST_AUTO_TEST_CASE(seams_between_coplanar_triangles_are_not_felt) {
         Mover_hand on_whole(meshes[0], on_plate, parameters::response(response_under_test()));
         Mover_hand on_cut(meshes[1], v, parameters::response(response_under_test()));
         if (length > 0) {
-          on_whole.sculptor.set_clearance(length);
-          on_cut.sculptor.set_clearance(length);
+          on_whole.sculptor.set_drag_parameters(Drag_parameters(on_whole.sculptor.parameters().drag).clearance(length));
+          on_cut.sculptor.set_drag_parameters(Drag_parameters(on_cut.sculptor.parameters().drag).clearance(length));
         }
         for (std::size_t i = 0; i < drags; ++i) {
           // Also to and along grid lines and vertices.
@@ -246,7 +246,7 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
       const Mesh& mesh = grab.mesh;
       auto& sculptor = grab.sculptor;
       if (length > 0)
-        sculptor.set_clearance(length);
+        sculptor.set_drag_parameters(Drag_parameters(sculptor.parameters().drag).clearance(length));
       Point_3 target;
       std::vector<std::size_t> active;
       double c = 0;

@@ -59,8 +59,8 @@ public:
   }
 
   /// A drag of a vertex of the surface; its legs are told. \throw what drags throw
-  Result drag(Grab_type& grab, const Point& target) {
-    const auto result = grab.drag_to(target, legs_);
+  Result drag(Grab_type& grab, const Point& target, const std::optional<Drag_parameters>& parameters) {
+    const auto result = grab.drag_to(target, legs_, parameters);
     for (std::size_t k = 1; k < legs_.size(); ++k)
       if (legs_[k] != legs_[k - 1])
         add_move(grab.vertex(), legs_[k]);
@@ -103,7 +103,7 @@ private:
   };
 
   void add_move(Vertex_index v, const Point& to) {
-    add(Edit::of(Edit_kind::move, {sculptor_->name(v), 0, 0}, {to.x(), to.y(), to.z()}));
+    add(Edit::of(Edit_kind::move, {sculptor_->id(v), 0, 0}, {to.x(), to.y(), to.z()}));
   }
   /// A slide as its legs, each a move of its own, all one step; of what has changed nothing, nothing.
   void tell(const Edit& made) {

@@ -52,7 +52,7 @@ struct Loop_answer {
   Refusal_reason reason{};                   ///< where an edit was refused
   /// Where something was thrown, what it says, cut at some hundred letters; empty else.
   std::array<char, 192> failure{};
-  std::uint64_t vertex = 0;                  ///< of an edit: the vertex that it says, `Sculptor::name()`
+  std::uint64_t vertex = 0;                  ///< of an edit: the vertex that it says, `Sculptor::id()`
   Loop_task<Scene>* task = nullptr;          ///< the asking thread's again
   Scene* left = nullptr;                     ///< the asking thread's again, to be destroyed there
 };

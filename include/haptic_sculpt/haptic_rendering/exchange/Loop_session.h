@@ -170,7 +170,7 @@ private:
     const auto made = loop_->tool().edit(command.edit);
     answer.done = static_cast<bool>(made);
     if (made)
-      answer.vertex = made.vertex && made.vertex->is_valid() ? scene_->sculptor.name(*made.vertex) : 0;
+      answer.vertex = made.vertex && made.vertex->is_valid() ? scene_->sculptor.id(*made.vertex) : 0;
     else
       answer.reason = made.refusal->reason;
   }
@@ -184,7 +184,7 @@ private:
     view.reached = made.tool.reached, view.starved = made.tool.starved, view.contacts = made.tool.contacts;
     view.event = made.tool.event, view.fault = made.fault;
     view.holds_vertex = loop_->tool().holds_vertex();
-    view.vertex = view.holds_vertex ? scene_->sculptor.name(loop_->tool().vertex()) : 0;
+    view.vertex = view.holds_vertex ? scene_->sculptor.id(loop_->tool().vertex()) : 0;
     return view;
   }
 };

@@ -15,15 +15,15 @@ namespace haptic_sculpt {
 /// one copy: the next one needs another, for what is beyond the mesh is not cleared.
 class Scene_copy {
 public:
-  static constexpr std::uint64_t absent = std::numeric_limits<std::uint64_t>::max();    ///< the name of no vertex
+  static constexpr std::uint64_t absent = std::numeric_limits<std::uint64_t>::max();    ///< the id of no vertex
   static constexpr std::uint32_t no_corner = std::numeric_limits<std::uint32_t>::max(); ///< the corner of no face
 
   /// Room for a mesh with so many descriptors (`number_of_vertices() + number_of_removed_vertices()`, and faces).
   Scene_copy(std::size_t vertices, std::size_t faces)
-      : points(vertices), names(vertices, std::uint64_t(absent)), faces(faces, {no_corner, 0, 0}) {}
+      : points(vertices), ids(vertices, std::uint64_t(absent)), faces(faces, {no_corner, 0, 0}) {}
 
   std::vector<std::array<double, 3>> points;       ///< by index of vertex
-  std::vector<std::uint64_t> names;                ///< by index of vertex, its number that lasts; or `absent`
+  std::vector<std::uint64_t> ids;                  ///< by index of vertex, its number that lasts; or `absent`
   std::vector<std::array<std::uint32_t, 3>> faces; ///< by index of face, the corners; or `no_corner` first
   std::uint64_t number = 0; ///< the last Scene_change in it: a viewer makes those with larger numbers on it
   /// How many vertices there should have been room for: where there is less, the copy is of no use; ask with a new one.
@@ -43,13 +43,13 @@ public:
       return;
     switch (change.kind) {
     case Kind::vertex_created:
-      names[change.index] = change.name;
+      ids[change.index] = change.id;
       [[fallthrough]];
     case Kind::vertex_moved:
       points[change.index] = change.point;
       break;
     case Kind::vertex_dies:
-      names[change.index] = absent;
+      ids[change.index] = absent;
       break;
     case Kind::face_created:
       faces[change.index] = change.corners;
@@ -75,7 +75,7 @@ public:
     const std::size_t vertices = std::min(all_vertices, points.size()), known_faces = std::min(all_faces, faces.size());
     for (; elements > 0 && next_vertex_ < vertices; --elements, ++next_vertex_) {
       const typename Sculptor::Vertex_index v(static_cast<std::uint32_t>(next_vertex_));
-      names[next_vertex_] = mesh.is_removed(v) ? std::uint64_t(absent) : sculptor.name(v);
+      ids[next_vertex_] = mesh.is_removed(v) ? std::uint64_t(absent) : sculptor.id(v);
       const auto& p = mesh.point(v);
       points[next_vertex_] = {p.x(), p.y(), p.z()};
     }
@@ -92,11 +92,11 @@ public:
   template <class Mesh>
   Mesh mesh() const {
     std::vector<std::uint32_t> order;
-    for (std::uint32_t v = 0; v < names.size(); ++v)
-      if (names[v] != absent)
+    for (std::uint32_t v = 0; v < ids.size(); ++v)
+      if (ids[v] != absent)
         order.push_back(v);
-    std::sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) { return names[a] < names[b]; });
-    std::vector<typename Mesh::Vertex_index> vertex(names.size());
+    std::sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) { return ids[a] < ids[b]; });
+    std::vector<typename Mesh::Vertex_index> vertex(ids.size());
     Mesh mesh;
     for (const std::uint32_t v : order)
       vertex[v] = mesh.add_vertex({points[v][0], points[v][1], points[v][2]});

@@ -28,7 +28,7 @@ struct Scene_change {
   std::uint32_t index = 0;                ///< of the vertex or face
   std::array<std::uint32_t, 3> corners{}; ///< of a face, counterclockwise from outside
   std::array<double, 3> point{};          ///< of a vertex that was moved or created
-  std::uint64_t name = 0;                 ///< of a vertex that was created: its number that lasts
+  std::uint64_t id = 0;                   ///< of a vertex that was created: its number that lasts
   std::uint64_t number = 0;               ///< of the change, from 1; those that were lost count
 };
 

@@ -38,7 +38,7 @@ public:
       moves_->emplace_back(v, mesh_->point(v));
   }
   /// Tells its point and the number that lasts.
-  void vertex_created(Vertex_index v, std::size_t name) { tell(Kind::vertex_created, v, name); }
+  void vertex_created(Vertex_index v, std::size_t id) { tell(Kind::vertex_created, v, id); }
   void vertex_dies(Vertex_index v, std::size_t) { tell(Kind::vertex_dies, v); } ///< tells its index
   /// Tells the indices of its corners.
   void face_created(Face_index f) { tell(Kind::face_created, f, Scene_copy::corners_of(*mesh_, f)); }
@@ -51,11 +51,11 @@ private:
   Scene_copy* copy_ = nullptr;
   Moves* moves_ = nullptr;
 
-  void tell(Kind kind, Vertex_index v, std::size_t name = 0) {
+  void tell(Kind kind, Vertex_index v, std::size_t id = 0) {
     if (feed_ == nullptr && copy_ == nullptr)
       return;
     Scene_change change;
-    change.kind = kind, change.index = static_cast<std::uint32_t>(v), change.name = name;
+    change.kind = kind, change.index = static_cast<std::uint32_t>(v), change.id = id;
     const auto& p = mesh_->point(v);
     change.point = {p.x(), p.y(), p.z()};
     pass(change);

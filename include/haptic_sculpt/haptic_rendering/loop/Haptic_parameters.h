@@ -25,7 +25,8 @@ struct Haptic_parameters {
   /// it was loaded. false: for measuring what a coupling that is not passive does.
   bool follows_pose = true;
   double reach = 0.001;   ///< of a grab, m in the device
-  std::size_t work = 400; ///< pairs a drag may decide; more where a vertex of high valence is in hand (doc/use/work.md)
+  std::size_t work_limit = 400;   ///< pairs a drag may decide (doc/use/work.md)
+  std::size_t work_of_a_face = 4; ///< pairs more for each face about the vertex in hand
 
   /// That the coupling needs at the handle to be passive, N s/m.
   double needed_friction() const {
@@ -40,7 +41,8 @@ struct Haptic_parameters {
     internal::require_number("controller_damping, of the passivity controller,", "N s/m",
                              controller_damping.value_or(0), 0, 1e5);
     internal::require_number("reach, of a grab,", "m", reach, 0, 1);
-    internal::require_number("work, of a drag,", "pairs", static_cast<double>(work), 1, 1e15);
+    internal::require_number("work_limit, of a drag,", "pairs", static_cast<double>(work_limit), 1, 1e15);
+    internal::require_number("work_of_a_face, of a drag,", "pairs", static_cast<double>(work_of_a_face), 0, 1e6);
   }
 };
 

@@ -85,8 +85,7 @@ public:
   /// From here on in another sculpture; forces begin at 0. The old one is let go of, and may be destroyed.
   void enter(Sculptor& sculptor, const Workspace_map& map) {
     tool_.enter(sculptor, map);
-    sculptor_ = &sculptor, map_ = map, held_ = Vertex_index(), zoom_ = 1;
-    sculptor.set_work_limit(parameters_.work);
+    sculptor_ = &sculptor, map_ = map, zoom_ = 1;
     restart();
   }
 
@@ -111,7 +110,6 @@ protected:
       , interaction_(side, parameters, parameters.controller_damping.value_or(controller))
       , tool_(sculptor, map, parameters.reach, parameters.tick) {
     parameters_.controller_damping = parameters.controller_damping.value_or(controller);
-    sculptor.set_work_limit(parameters.work);
   }
 
 private:
@@ -121,15 +119,10 @@ private:
   Interaction<Side> interaction_;
   Tool<Sculptor> tool_;
   Haptic_tick tick_;
-  Vertex_index held_;
   std::array<char, 256> failure_{};
   bool is_clutch_open_ = false, is_map_due_ = false, has_place_ = false;
   double zoom_ = 1;                                 ///< asked for since the map was made
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero(); ///< of the tool in the last tick, in the scene
-
-  /// Pairs for each face about what is held, beside Haptic_parameters::work: to decide whether a step of a vertex is
-  /// free takes some of each.
-  static constexpr std::size_t work_of_a_face = 4;
 
   void run(const Reading& reading) {
     if (!interaction_.follow(reading))
@@ -146,24 +139,22 @@ private:
       tool_.change_map(map_);
       zoom_ = 1, is_map_due_ = false;
     }
-    tick_.tool = tool_.move(handle, reading.button);
+    tick_.tool = tool_.move(handle, reading.button, Drag_parameters(sculptor_->parameters().drag).work_limit(work()));
     const Tool_step& tool = tick_.tool;
     place_ = tool.proxy, has_place_ = true;
     if (tool.event == Tool_event::refused)
       interaction_.refuse(map_.direction_to_device(tool_.last_push()));
-    if (tool_.vertex() != held_)
-      bound_work(held_ = tool_.vertex());
     Touch touch;
     touch.way = map_.way_to_device(tool.proxy - tool.target), touch.span = tool.span;
     touch.is_free = tool.reached, touch.is_starved = tool.starved, touch.holds = tool_.holds_vertex();
     interaction_.render(touch);
   }
 
-  void bound_work(Vertex_index v) {
-    std::size_t work = parameters_.work;
-    if (tool_.holds_vertex() && v.is_valid())
-      work += work_of_a_face * sculptor_->mesh().degree(v);
-    sculptor_->set_work_limit(work);
+  /// Of the drag of a tick: to decide whether a step of a vertex is free takes some of each face about it. One that
+  /// takes another vertex in hand does not move it.
+  std::size_t work() const {
+    const Vertex_index v = tool_.vertex();
+    return parameters_.work_limit + (v.is_valid() ? parameters_.work_of_a_face * sculptor_->mesh().degree(v) : 0);
   }
 
   /// The one place where exceptions end: each becomes a fault.

@@ -37,6 +37,13 @@ struct Dab_3 {
   double radius;   ///< > 0, in the unit of the coordinates
   double strength; ///< a length or a share, as the kind says; negative: the other way
   std::optional<typename Kernel::Vector_3> direction = {}; ///< of any length; nothing: the mean normal of what is touched
+
+  /// The square of how far a point is from the centre, in radii.
+  double squared_share(const typename Kernel::Point_3& p) const {
+    const auto d = p - centre;
+    const double x = d.x() / radius, y = d.y() / radius, z = d.z() / radius;
+    return x * x + y * y + z * z;
+  }
 };
 
 /// The same dab on the other side of a plane.

@@ -9,18 +9,6 @@
 #include <vector>
 
 namespace haptic_sculpt {
-namespace internal {
-
-/// The square of how far a point is from the centre of a dab, in its radii.
-template <class Kernel>
-double squared_share(const typename Kernel::Point_3& p, const Dab_3<Kernel>& dab) {
-  const auto d = p - dab.centre;
-  const double x = d.x() / dab.radius, y = d.y() / dab.radius, z = d.z() / dab.radius;
-  return x * x + y * y + z * z;
-}
-
-} // namespace internal
-
 /// The vertices within the radius of a dab that are connected to `nearest`: not those on the other side of a thin wall.
 /// Cost: that of what is touched, and clearing a bit for each vertex of the mesh. \pre nearest is in the mesh
 template <class Mesh, class Kernel>
@@ -28,7 +16,7 @@ std::vector<typename Mesh::Vertex_index> touched_vertices(const Mesh& mesh, cons
                                                           typename Mesh::Vertex_index nearest) {
   using Vertex_index = typename Mesh::Vertex_index;
   const internal::Rounding_to_nearest rounding;
-  const auto is_within = [&](Vertex_index v) { return internal::squared_share(mesh.point(v), dab) < 1; };
+  const auto is_within = [&](Vertex_index v) { return dab.squared_share(mesh.point(v)) < 1; };
   std::vector<Vertex_index> result;
   std::vector<bool> is_met(mesh.num_vertices(), false);
   const auto meet = [&](Vertex_index v) {
@@ -51,7 +39,7 @@ void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& verti
                            const Dab_3<Kernel>& dab, const Mask_map& mask, const Put& put) {
   using Vector_3 = typename Kernel::Vector_3;
   const auto weight = [&](typename Mesh::Vertex_index v) {
-    const double square = squared_share(mesh.point(v), dab);
+    const double square = dab.squared_share(mesh.point(v));
     return (1 - square) * (1 - square) * get(mask, v);
   };
   const bool has_direction = dab.kind != Brush_kind::inflate && dab.kind != Brush_kind::smooth;

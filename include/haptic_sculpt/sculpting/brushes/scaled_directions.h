@@ -34,23 +34,24 @@ Vector_3 unit_vector(const Vector_3& v) {
   return length > 0 ? direction / length : v;
 }
 
+} // namespace internal
+
 /// The normal of a vertex, of length 1: the sum of those of its faces by their areas. The same at all scales, which
 /// that of CGAL is not: its squares leave the range of doubles. \pre v has faces
 template <class Mesh>
 auto vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
   double size = 0; // of the star; all its edges are multiplied alike
   for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
-    size = std::fmax(size, largest_coordinate(mesh.point(mesh.source(h)) - mesh.point(v)));
-  const int exponent = exponent_to_one(size);
+    size = std::fmax(size, internal::largest_coordinate(mesh.point(mesh.source(h)) - mesh.point(v)));
+  const int exponent = internal::exponent_to_one(size);
   auto sum = mesh.point(v) - mesh.point(v);
   for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
     sum = sum - CGAL::cross_product(
-                    times_power_of_two(mesh.point(mesh.source(h)) - mesh.point(v), exponent),
-                    times_power_of_two(mesh.point(mesh.target(mesh.next(h))) - mesh.point(v), exponent));
-  return unit_vector(sum);
+                    internal::times_power_of_two(mesh.point(mesh.source(h)) - mesh.point(v), exponent),
+                    internal::times_power_of_two(mesh.point(mesh.target(mesh.next(h))) - mesh.point(v), exponent));
+  return internal::unit_vector(sum);
 }
 
-} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

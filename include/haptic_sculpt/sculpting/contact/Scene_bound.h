@@ -12,7 +12,10 @@ namespace internal {
 template <class Mesh>
 class Scene_bound {
 public:
-  explicit Scene_bound(const Mesh& mesh) : mesh_(&mesh) { include(Scene_extent(mesh).largest); }
+  /// \param clearance has been checked already
+  Scene_bound(const Mesh& mesh, const std::optional<double>& clearance) : mesh_(&mesh), checked_(clearance) {
+    include(Scene_extent(mesh).largest);
+  }
 
   double largest_coordinate() const { return largest_; }
 
@@ -21,17 +24,25 @@ public:
   /// Vertices may be again where any has been.
   void include_the_past() { largest_ = largest_ever_; }
 
-  /// \throw Invalid_parameter where the scene has outgrown the clearance set.
-  void check_clearance_serves(const Sculptor_parameters& parameters) {
-    if (!parameters.clearance_length || *parameters.clearance_length >= unit_in_the_last_place(largest_))
+  /// \throw Out_of_range; Invalid_parameter where the clearance does not serve the scene, or the scene has outgrown it.
+  void check_clearance_serves(const std::optional<double>& clearance) {
+    if (!clearance)
+      return;
+    if (clearance != checked_) {
+      check_length(clearance);
+      check_clearance(*mesh_, clearance);
+      checked_ = clearance;
+    }
+    if (*clearance >= unit_in_the_last_place(largest_))
       return;
     largest_ = Scene_extent(*mesh_).largest; // what was far may be back
-    if (!(*parameters.clearance_length >= unit_in_the_last_place(largest_)))
-      check_clearance(*mesh_, parameters);
+    if (!(*clearance >= unit_in_the_last_place(largest_)))
+      check_clearance(*mesh_, clearance);
   }
 
 private:
   const Mesh* mesh_;
+  std::optional<double> checked_; ///< a clearance that served the scene when it was first used
   double largest_ = 0;      ///< magnitude of a coordinate
   double largest_ever_ = 0; ///< the same, with those that vertices have had
 

@@ -16,12 +16,17 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// \throw Out_of_range; Invalid_parameter where a length would be refused in every scene.
+inline void check_length(const std::optional<double>& clearance) {
+  if (!clearance)
+    return;
+  check_range("the clearance", *clearance);
+  if (!(*clearance > 0))
+    throw Invalid_parameter("the clearance must be a length > 0, not " + number(*clearance));
+}
+/// The same of all.
 inline void check_parameters(const Sculptor_parameters& parameters) {
-  if (parameters.clearance_length)
-    check_range("the clearance", *parameters.clearance_length);
+  check_length(parameters.drag.clearance_length);
   check_range("delta", parameters.delta_length);
-  if (parameters.clearance_length && !(*parameters.clearance_length > 0))
-    throw Invalid_parameter("the clearance must be a length > 0, not " + number(*parameters.clearance_length));
   if (!(parameters.delta_length >= 0))
     throw Invalid_parameter("delta must be a length >= 0, not " + number(parameters.delta_length));
 }
@@ -44,18 +49,18 @@ struct Scene_extent {
 /// \throw Invalid_parameter unless a clearance that is set serves the scene: what is less than an ulp cannot be kept,
 /// and the longest way that a slide goes back to keep it from several planes should not be longer than the scene.
 template <class Mesh>
-void check_clearance(const Mesh& mesh, const Sculptor_parameters& parameters) {
-  if (!parameters.clearance_length)
+void check_clearance(const Mesh& mesh, const std::optional<double>& clearance) {
+  if (!clearance)
     return;
   const Scene_extent extent(mesh);
   double widest = 0;
   for (int i = 0; i < 3; ++i)
     widest = std::fmax(widest, extent.box.upper[i] - extent.box.lower[i]);
   const double least = unit_in_the_last_place(extent.largest), most = widest / Slide_lengths::clearances_of_retreat;
-  if (!(*parameters.clearance_length >= least && *parameters.clearance_length <= most))
-    throw Invalid_parameter(
-        "the clearance " + number(*parameters.clearance_length) + " does not serve this scene: give " + number(least) +
-        " (an ulp of its largest coordinate) to " + number(most) + " (1/128 of its extent), or none");
+  if (!(*clearance >= least && *clearance <= most))
+    throw Invalid_parameter("the clearance " + number(*clearance) + " does not serve this scene: give " +
+                            number(least) + " (an ulp of its largest coordinate) to " + number(most) +
+                            " (1/128 of its extent), or none");
 }
 
 /// Returns the mesh. \throw Invalid_surface, Invalid_parameter, Out_of_range unless a Sculptor can guard it. Cost: that
@@ -74,7 +79,7 @@ const Mesh& checked_scene(const Mesh& mesh, const Sculptor_parameters& parameter
     if (!report.is_valid())
       throw Invalid_surface("the mesh", std::move(report));
   }
-  check_clearance(mesh, parameters);
+  check_clearance(mesh, parameters.drag.clearance_length);
   return mesh;
 }
 

@@ -36,14 +36,20 @@ public:
 
   Change_maker(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Mesh_watch<Mesh>& watch,
                Write_state& writing, Visitor visitor)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_of_(&corners), writing_(&writing)
-    , names_(mesh), room_(mesh, broad_phase, corners, watch, names_), kept_(mesh), visitor_(std::move(visitor)) {
+      : mesh_(&mesh)
+      , broad_phase_(&broad_phase)
+      , corners_of_(&corners)
+      , writing_(&writing)
+      , ids_(mesh)
+      , room_(mesh, broad_phase, corners, watch, ids_)
+      , kept_(mesh)
+      , visitor_(std::move(visitor)) {
     kept_.tell_lineage(visitor_);
   }
   Change_maker(const Change_maker&) = delete; // its parts refer to each other
   Change_maker& operator=(const Change_maker&) = delete;
 
-  const Vertex_names<Mesh>& names() const { return names_; }
+  const Vertex_ids<Mesh>& ids() const { return ids_; }
   Visitor& visitor() { return visitor_; }
   Kept_properties<Mesh>& kept() { return kept_; }
   using Place = typename Kept_properties<Mesh>::Place;
@@ -116,7 +122,7 @@ private:
   Broad_phase* broad_phase_;
   Face_corners<Mesh>* corners_of_;
   Write_state* writing_;
-  Vertex_names<Mesh> names_;
+  Vertex_ids<Mesh> ids_;
   Element_room<Mesh, Broad_phase> room_;
   Kept_properties<Mesh> kept_;
   Visitor visitor_;
@@ -127,7 +133,7 @@ private:
   Round_marks is_taken_; ///< faces
   bool is_ready_ = false;
 
-  Vertex_index vertex(std::size_t name) const { return names_.vertex(name); }
+  Vertex_index vertex(std::size_t id) const { return ids_.vertex(id); }
   void begin(const Change& edit, bool is_back, const Place& place) {
     if (edit.kind != Edit_kind::move && edit.kind != Edit_kind::shift)
       kept_.begin(edit, is_back, place);
@@ -144,8 +150,8 @@ private:
   }
 
   template <class Noted>
-  Vertex_index put(std::size_t name, const Coordinates& p, const Noted& noted) {
-    const Vertex_index v = vertex(name);
+  Vertex_index put(std::size_t id, const Coordinates& p, const Noted& noted) {
+    const Vertex_index v = vertex(id);
     star_.collect(*mesh_, v);
     is_ready_ = true;
     writing_->begin();
@@ -161,7 +167,7 @@ private:
   template <class Noted>
   Vertex_index put_all(const Change& edit, int end, const Noted& noted) {
     // All that allocates comes before the first point is written.
-    collect_faces_around(*mesh_, names_, edit.around, is_taken_, faces_);
+    collect_faces_around(*mesh_, ids_, edit.around, is_taken_, faces_);
     is_ready_ = true;
     writing_->begin();
     for (std::size_t k = 0; k < edit.around.size(); ++k) {
@@ -174,8 +180,8 @@ private:
     noted(Vertex_index());
     writing_->end();
     if constexpr (has_visitor)
-      for (const std::size_t name : edit.around)
-        visitor_.vertex_moved(vertex(name));
+      for (const std::size_t id : edit.around)
+        visitor_.vertex_moved(vertex(id));
     return edit.around.empty() ? Vertex_index() : vertex(edit.around.back());
   }
 
@@ -201,8 +207,8 @@ private:
   template <class Noted>
   Vertex_index star_instead_of_fan(const Change& edit, const Noted& noted) {
     link_.clear();
-    for (const std::size_t name : edit.around)
-      link_.push_back(vertex(name));
+    for (const std::size_t id : edit.around)
+      link_.push_back(vertex(id));
     const std::size_t n = link_.size();
     find_fan(*mesh_, halfedge(link_[1], link_[0]), n - 2, fan_);
     make_room_for_star(edit, n, {1, n, n - 1}, {0, n - 3, n - 3});
@@ -220,7 +226,7 @@ private:
     faces_.reserve(n - 2);
     room_.make({0, n - 3, n - 3}, {1, n, n - 1}, n - 2);
     star_dies(v);
-    names_.take(edit.vertex);
+    ids_.take(edit.vertex);
     fill_with_fan(*mesh_, remove_star(*mesh_, v), apex, fan_);
     fan_created(noted);
     return apex;
@@ -233,7 +239,7 @@ private:
     faces_.assign(1, mesh_->face(h));
     faces_.push_back(mesh_->face(mesh_->opposite(h)));
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
-    kept_.die(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
+    kept_.die(ids_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
     is_ready_ = true;
     if constexpr (has_visitor) {
       for (const Face_index f : faces_)
@@ -246,7 +252,7 @@ private:
     broad_phase_->faces_moved(faces_); // they keep their descriptors
     noted(Vertex_index());
     writing_->end();
-    kept_.create(names_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
+    kept_.create(ids_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
     if constexpr (has_visitor) {
       visitor_.edge_created(mesh_->edge(h));
       for (const Face_index f : faces_)
@@ -269,12 +275,12 @@ private:
     collect_fan_faces();
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
     star_.reserve(valence);
-    names_.make_room_for(edit.vertex);
+    ids_.make_room_for(edit.vertex);
     room_.make(born, dead, valence);
   }
 
   void fan_dies() {
-    kept_.die(names_, Vertex_index(), faces_, inside_of_fan());
+    kept_.die(ids_, Vertex_index(), faces_, inside_of_fan());
     is_ready_ = true;
     if constexpr (has_visitor) {
       for (const Face_index f : faces_)
@@ -294,7 +300,7 @@ private:
     broad_phase_->faces_inserted(faces_);
     noted(Vertex_index());
     writing_->end();
-    kept_.create(names_, Vertex_index(), faces_, inside_of_fan());
+    kept_.create(ids_, Vertex_index(), faces_, inside_of_fan());
     if constexpr (has_visitor) {
       for (std::size_t i = 1; i < fan_.size(); ++i)
         visitor_.edge_created(mesh_->edge(fan_[i]));
@@ -304,14 +310,14 @@ private:
   }
 
   void star_dies(Vertex_index v) {
-    kept_.die(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
+    kept_.die(ids_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
     is_ready_ = true;
     if constexpr (has_visitor) {
       for (const Face_index f : star_.faces)
         visitor_.face_dies(f);
       for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))
         visitor_.edge_dies(mesh_->edge(h));
-      visitor_.vertex_dies(v, names_.name(v));
+      visitor_.vertex_dies(v, ids_.id(v));
     }
     writing_->begin();
     broad_phase_->faces_removed(star_.faces);
@@ -320,13 +326,13 @@ private:
 
   template <class Noted>
   Vertex_index star_created(Vertex_index v, const Change& edit, const Noted& noted) {
-    names_.give(edit.vertex, v);
+    ids_.give(edit.vertex, v);
     star_.collect(*mesh_, v);
     corners_of_->update(star_.faces);
     broad_phase_->faces_inserted(star_.faces);
     noted(v);
     writing_->end();
-    kept_.create(names_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
+    kept_.create(ids_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
     if constexpr (has_visitor) {
       visitor_.vertex_created(v, edit.vertex);
       for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))

@@ -26,12 +26,12 @@ public:
   void make_room() { reserve_records(0, is_off() ? 0 : room); }
 
   /// So many edits, of which each has up to eight vertices around in the mean, and so many moves allocate nothing.
-  /// \param names how many numbers of vertices there are then
-  void reserve(std::size_t edits, std::size_t moves, std::size_t names) {
+  /// \param ids how many numbers of vertices there are then
+  void reserve(std::size_t edits, std::size_t moves, std::size_t ids) {
     if (is_off())
       return;
     reserve_records(edits, moves);
-    latest_.resize(std::max(latest_.size(), names), no_move); // or the first stroke would fill it
+    latest_.resize(std::max(latest_.size(), ids), no_move); // or the first stroke would fill it
     current_.around.reserve(usual_around * usual_around);
   }
 
@@ -48,11 +48,11 @@ public:
 
   /// \name Strokes
   ///@{
-  /// Begins a stroke, or joins the one under way. \return its number \param names how many numbers of vertices there
+  /// Begins a stroke, or joins the one under way. \return its number \param ids how many numbers of vertices there
   /// are
-  std::size_t begin_stroke(std::size_t names) {
-    if (!is_off() && latest_.size() < names)
-      latest_.resize(names, no_move);
+  std::size_t begin_stroke(std::size_t ids) {
+    if (!is_off() && latest_.size() < ids)
+      latest_.resize(ids, no_move);
     if (open_++ == 0) {
       ++stroke_;
       has_step_ = is_lost_ = false;
@@ -72,14 +72,14 @@ public:
   ///@}
 
   /// Room for the record of a change: to be called before it is made, so that push() allocates nothing.
-  /// \param names how many numbers of vertices there are \throw std::bad_alloc, and no record has changed
-  void make_room_for_move(std::size_t names) {
+  /// \param ids how many numbers of vertices there are \throw std::bad_alloc, and no record has changed
+  void make_room_for_move(std::size_t ids) {
     if (is_off())
       return;
     moves_.reserve(1);
     steps_.reserve(1);
-    if (is_in_stroke() && latest_.size() < names)
-      latest_.resize(names, no_move);
+    if (is_in_stroke() && latest_.size() < ids)
+      latest_.resize(ids, no_move);
   }
   void make_room_for(const Change& edit) {
     if (edit.kind == Edit_kind::move)
@@ -115,8 +115,8 @@ public:
     const auto& point = edit.kind == Edit_kind::collapse ? edit.before : edit.after;
     edits_.push_back(
         {edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(words_of(edit)), edit.kind});
-    for (const std::size_t name : edit.around)
-      around_.push_back(name);
+    for (const std::size_t id : edit.around)
+      around_.push_back(id);
     if (edit.kind == Edit_kind::shift)
       for (const auto& way : edit.ways)
         for (const double x : way)

@@ -37,7 +37,7 @@ public:
       , collapse_(mesh, broad_phase, corners, counters)
       , flip_(mesh, broad_phase, corners, counters) {}
 
-  const Vertex_names<Mesh>& names() const { return changes_.names(); }
+  const Vertex_ids<Mesh>& ids() const { return changes_.ids(); }
   Visitor& visitor() { return changes_.visitor(); }
   Kept_properties<Mesh>& kept() { return changes_.kept(); }
   Edit_history& history() { return history_; }
@@ -48,7 +48,7 @@ public:
 
   /// So many edits and moves follow: what they need is allocated now, for stars and surroundings of usual size.
   void reserve(std::size_t edits, std::size_t moves) {
-    history_.reserve(edits, moves, names().size() + edits);
+    history_.reserve(edits, moves, ids().size() + edits);
     changes_.reserve(edits, usual_valence);
     creation_.reserve(usual_candidates);
     collapse_.reserve(usual_valence, usual_candidates);
@@ -58,10 +58,10 @@ public:
   }
 
   /// Room to note a drag, to be made before it is. \throw std::bad_alloc
-  void make_room_for_move() { history_.make_room_for_move(names().size()); }
+  void make_room_for_move() { history_.make_room_for_move(ids().size()); }
   /// A drag that has been made. Allocates nothing.
   void note_move(Vertex_index v, const Coordinates& before, const Coordinates& after) {
-    history_.push_move(names().name(v), before, after);
+    history_.push_move(ids().id(v), before, after);
   }
   /// The visitor is told of it.
   void tell_moved(Vertex_index v) { changes_.tell_moved(v); }
@@ -70,7 +70,7 @@ public:
     const Halfedge_index h = mesh_->halfedge(f);
     if (auto refusal = creation_.refuse({h}, p, delta))
       return {std::nullopt, std::move(refusal)};
-    describe(Edit_kind::insert_on_face, names().size(), p,
+    describe(Edit_kind::insert_on_face, ids().size(), p,
              {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))});
     return make();
   }
@@ -78,7 +78,7 @@ public:
   Result insert_on_edge(Halfedge_index h, const Coordinates& p, double delta) {
     if (auto refusal = creation_.refuse({h, mesh_->opposite(h)}, p, delta))
       return {std::nullopt, std::move(refusal)};
-    describe(Edit_kind::insert_on_edge, names().size(), p, {mesh_->source(h), mesh_->target(h)});
+    describe(Edit_kind::insert_on_edge, ids().size(), p, {mesh_->source(h), mesh_->target(h)});
     return make();
   }
 
@@ -113,7 +113,7 @@ public:
     if (auto refusal = flip_.refuse(h, delta))
       return {std::nullopt, std::move(refusal)};
     const auto& [a, b, c, d] = flip_.corners();
-    describe(Edit_kind::flip, names().name(a), {}, {a, b, c, d});
+    describe(Edit_kind::flip, ids().id(a), {}, {a, b, c, d});
     return make();
   }
 
@@ -126,7 +126,7 @@ public:
     edit.around.reserve(ways.size());
     edit.ways.reserve(ways.size());
     for (const auto& [v, end] : ways) {
-      edit.around.push_back(names().name(v));
+      edit.around.push_back(ids().id(v));
       edit.ways.push_back({vertex_coordinates(*mesh_, v)[axis], end});
     }
     history_.make_room_for(edit);
@@ -150,7 +150,7 @@ public:
   /// The face with these three corners, by number and in any order; the null index where there is none.
   Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const {
     const Halfedge_index h = halfedge_of(a, b);
-    const Vertex_index third = names().vertex(c);
+    const Vertex_index third = ids().vertex(c);
     if (!h.is_valid() || !third.is_valid())
       return Face_index();
     for (const Halfedge_index g : {h, mesh_->opposite(h)})
@@ -161,7 +161,7 @@ public:
 
   /// The halfedge from a to b, by number; the null index where there is none.
   Halfedge_index halfedge_of(std::size_t a, std::size_t b) const {
-    const Vertex_index v = names().vertex(a), w = names().vertex(b);
+    const Vertex_index v = ids().vertex(a), w = ids().vertex(b);
     if (!v.is_valid() || !w.is_valid() || v == w)
       return Halfedge_index();
     return mesh_->halfedge(v, w);
@@ -244,14 +244,14 @@ private:
     edit_.before = edit_.after = p;
     edit_.around.clear();
     for (const Vertex_index v : around)
-      edit_.around.push_back(names().name(v));
+      edit_.around.push_back(ids().id(v));
   }
 
   Result collapse_into(std::size_t pivot) {
     const Star<Mesh>& star = collapse_.star();
-    describe(Edit_kind::collapse, names().name(star.centre), collapse_.centre(), {});
+    describe(Edit_kind::collapse, ids().id(star.centre), collapse_.centre(), {});
     for (std::size_t i = 0; i < star.valence(); ++i)
-      edit_.around.push_back(names().name(star.link[(pivot + i) % star.valence()]));
+      edit_.around.push_back(ids().id(star.link[(pivot + i) % star.valence()]));
     return make();
   }
 
@@ -267,8 +267,8 @@ private:
   void watch(Vertex_index changed, const Change& edit) {
     watch(changed);
     if (edit.kind == Edit_kind::shift)
-      for (const std::size_t name : edit.around)
-        watch_->remember(names().vertex(name));
+      for (const std::size_t id : edit.around)
+        watch_->remember(ids().vertex(id));
   }
   void watch(Vertex_index changed) {
     watch_->remember_counts();

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_ELEMENT_ROOM_H
 
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
-#include <haptic_sculpt/sculpting/edits/Vertex_names.h>
+#include <haptic_sculpt/sculpting/edits/Vertex_ids.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -22,9 +22,14 @@ public:
   };
 
   Element_room(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Mesh_watch<Mesh>& watch,
-               Vertex_names<Mesh>& names)
-    : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), watch_(&watch), names_(&names)
-    , room_{mesh.num_vertices(), mesh.num_edges(), mesh.num_faces()}, points_(points()) {}
+               Vertex_ids<Mesh>& ids)
+      : mesh_(&mesh)
+      , broad_phase_(&broad_phase)
+      , corners_(&corners)
+      , watch_(&watch)
+      , ids_(&ids)
+      , room_{mesh.num_vertices(), mesh.num_edges(), mesh.num_faces()}
+      , points_(points()) {}
 
   /// Room for an edit that makes `born` after `dead` have died, and tells the broad phase of so many insertions.
   /// \throw std::bad_alloc, and nothing has changed but room
@@ -51,7 +56,7 @@ public:
   /// Room for so many edits of usual size.
   void reserve(std::size_t edits) {
     reserve({mesh_->num_vertices() + edits, mesh_->num_edges() + 3 * edits, mesh_->num_faces() + 2 * edits});
-    names_->reserve(edits);
+    ids_->reserve(edits);
     reserve_insertions(4 * edits);
   }
 
@@ -62,7 +67,7 @@ private:
   Broad_phase* broad_phase_;
   Face_corners<Mesh>* corners_;
   Mesh_watch<Mesh>* watch_;
-  Vertex_names<Mesh>* names_;
+  Vertex_ids<Mesh>* ids_;
   Elements room_;              ///< for so many the arrays have been reserved
   std::size_t insertions_ = 0; ///< for so many more the broad phase has
   const void* points_;         ///< the array of points then: another one has the room that others gave it
@@ -74,7 +79,7 @@ private:
     mesh_->reserve(static_cast<Size>(room.vertices), static_cast<Size>(room.edges), static_cast<Size>(room.faces));
     corners_->reserve(room.faces);
     watch_->reserve(room.vertices);
-    names_->reserve_slots(room.vertices);
+    ids_->reserve_slots(room.vertices);
     broad_phase_->reserve(room.faces, 0);
     room_ = room;
     points_ = points();

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_KEPT_MAP_H
 
 #include <haptic_sculpt/sculpting/Property_origin.h>
-#include <haptic_sculpt/sculpting/edits/Element_names.h>
+#include <haptic_sculpt/sculpting/edits/Element_ids.h>
 
 #include <boost/container/small_vector.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -28,25 +28,25 @@ class Kept_map {
 public:
   virtual ~Kept_map() = default;
 
-  using Names = Vertex_names<Mesh>;
+  using Ids = Vertex_ids<Mesh>;
 
   /// \name In this order, for each edit; one that is not made ends with the next begin()
   ///@{
   virtual void begin() noexcept = 0;
   /// Each element that will die, while it is in the mesh.
-  virtual void dies(typename Mesh::Vertex_index, const Element_names&) {}
-  virtual void dies(typename Mesh::Halfedge_index, const Element_names&) {}
-  virtual void dies(typename Mesh::Edge_index, const Element_names&) {}
-  virtual void dies(typename Mesh::Face_index, const Element_names&) {}
+  virtual void dies(typename Mesh::Vertex_index, const Element_ids&) {}
+  virtual void dies(typename Mesh::Halfedge_index, const Element_ids&) {}
+  virtual void dies(typename Mesh::Edge_index, const Element_ids&) {}
+  virtual void dies(typename Mesh::Face_index, const Element_ids&) {}
   /// The mesh is about to change: what is to be allocated for the record is allocated here.
-  /// \param first, number of the oldest edit in the history, and of this one; `no_name` where it is not recorded
+  /// \param first, number of the oldest edit in the history, and of this one; `no_id` where it is not recorded
   /// \param is_new whether it is made for the first time
   virtual void prepare(std::size_t first, std::size_t number, bool is_new) = 0;
   /// Each element that has been created, when the mesh is complete again.
-  virtual void created(typename Mesh::Vertex_index, const Element_names&, const Edit_under_way&, const Names&) {}
-  virtual void created(typename Mesh::Halfedge_index, const Element_names&, const Edit_under_way&, const Names&) {}
-  virtual void created(typename Mesh::Edge_index, const Element_names&, const Edit_under_way&, const Names&) {}
-  virtual void created(typename Mesh::Face_index, const Element_names&, const Edit_under_way&, const Names&) {}
+  virtual void created(typename Mesh::Vertex_index, const Element_ids&, const Edit_under_way&, const Ids&) {}
+  virtual void created(typename Mesh::Halfedge_index, const Element_ids&, const Edit_under_way&, const Ids&) {}
+  virtual void created(typename Mesh::Edge_index, const Element_ids&, const Edit_under_way&, const Ids&) {}
+  virtual void created(typename Mesh::Face_index, const Element_ids&, const Edit_under_way&, const Ids&) {}
   virtual void end() noexcept = 0;
   ///@}
 };
@@ -63,11 +63,11 @@ class Kept_map_of : public Kept_map<Mesh> {
 public:
   Kept_map_of(Map map, Carry carry) : map_(map), carry_(std::move(carry)) {}
 
-  void dies(Key key, const Element_names& names) override { dead_.push_back({names, get(map_, key)}); }
+  void dies(Key key, const Element_ids& ids) override { dead_.push_back({ids, get(map_, key)}); }
 
   void prepare(std::size_t first, std::size_t number, bool is_new) override {
-    std::sort(dead_.begin(), dead_.end(), [](const Entry& a, const Entry& b) { return a.names < b.names; });
-    if (!is_recorded || number == no_name)
+    std::sort(dead_.begin(), dead_.end(), [](const Entry& a, const Entry& b) { return a.ids < b.ids; });
+    if (!is_recorded || number == no_id)
       return;
     store_.erase(store_.begin(), store_.lower_bound(first));
     if (is_new)
@@ -75,9 +75,9 @@ public:
     alive_again_ = &store_[number];
   }
 
-  void created(Key key, const Element_names& names, const Edit_under_way& under_way,
-               const Vertex_names<Mesh>& vertices) override {
-    if (const Entry* saved = alive_again_ ? find(*alive_again_, names) : nullptr) {
+  void created(Key key, const Element_ids& ids, const Edit_under_way& under_way,
+               const Vertex_ids<Mesh>& vertices) override {
+    if (const Entry* saved = alive_again_ ? find(*alive_again_, ids) : nullptr) {
       put(map_, key, saved->value);
       return;
     }
@@ -93,12 +93,12 @@ public:
         origin.add(around[k], under_way.weights[k]);
     } else {
       const Edit_lineage lineage(*under_way.edit, under_way.is_back, is_directed);
-      if (const auto same = lineage.only_origin(names)) {
+      if (const auto same = lineage.only_origin(ids)) {
         if (const Entry* old = find(dead_, *same))
           origin.add(old->value, 1);
       } else {
         for (const Entry& old : dead_)
-          if (origin.size < origin.values.size() && lineage.comes_from(names, old.names))
+          if (origin.size < origin.values.size() && lineage.comes_from(ids, old.ids))
             origin.add(old.value, 1);
       }
       for (std::size_t k = 0; k < origin.size; ++k)
@@ -120,7 +120,7 @@ public:
 
 private:
   struct Entry {
-    Element_names names;
+    Element_ids ids;
     Value value;
   };
   using Entries = std::vector<Entry>;
@@ -132,10 +132,10 @@ private:
       store_;                      ///< by number of edit: what it killed, or, while it is taken back, what it had made
   Entries* alive_again_ = nullptr; ///< that of the edit under way
 
-  static const Entry* find(const Entries& entries, const Element_names& names) {
-    const auto at = std::lower_bound(entries.begin(), entries.end(), names,
-                                     [](const Entry& entry, const Element_names& n) { return entry.names < n; });
-    return at != entries.end() && at->names == names ? &*at : nullptr;
+  static const Entry* find(const Entries& entries, const Element_ids& ids) {
+    const auto at = std::lower_bound(entries.begin(), entries.end(), ids,
+                                     [](const Entry& entry, const Element_ids& n) { return entry.ids < n; });
+    return at != entries.end() && at->ids == ids ? &*at : nullptr;
   }
 };
 

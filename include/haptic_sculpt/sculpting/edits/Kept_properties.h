@@ -42,7 +42,7 @@ public:
           Lineage_teller<Visitor, Edge_index>{&visitor}, Copy_property()));
   }
 
-  /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_name` where
+  /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_id` where
   /// it is not recorded; whether it is made for the first time.
   struct Place {
     std::size_t first, number;
@@ -59,23 +59,23 @@ public:
   }
   /// \param v the null index where no vertex dies
   template <class Faces, class Halfedges>
-  void die(const Vertex_names<Mesh>& names, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
+  void die(const Vertex_ids<Mesh>& ids, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
     if (maps_.empty())
       return;
-    for_each_element(names, v, faces, halfedges,
-                     [](auto& map, auto element, const Element_names& of) { map.dies(element, of); });
+    for_each_element(ids, v, faces, halfedges,
+                     [](auto& map, auto element, const Element_ids& of) { map.dies(element, of); });
     for (const auto& map : maps_)
       map->prepare(place_.first, place_.number, place_.is_new);
   }
   /// \param v the null index where no vertex was created
   template <class Faces, class Halfedges>
-  void create(const Vertex_names<Mesh>& names, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
+  void create(const Vertex_ids<Mesh>& ids, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
     if (maps_.empty())
       return;
     if (v.is_valid() && !under_way_.is_back)
-      under_way_.weights = weights(names, vertex_coordinates(*mesh_, v));
-    for_each_element(names, v, faces, halfedges, [&](auto& map, auto element, const Element_names& of) {
-      map.created(element, of, under_way_, names);
+      under_way_.weights = weights(ids, vertex_coordinates(*mesh_, v));
+    for_each_element(ids, v, faces, halfedges, [&](auto& map, auto element, const Element_ids& of) {
+      map.created(element, of, under_way_, ids);
     });
     for (const auto& map : maps_)
       map->end();
@@ -86,13 +86,13 @@ private:
   const Mesh* mesh_;
   std::vector<std::unique_ptr<Kept_map<Mesh>>> maps_;
   Edit_under_way under_way_{nullptr, false, {}};
-  Place place_{0, no_name, true};
+  Place place_{0, no_id, true};
 
   template <class Faces, class Halfedges, class Function>
-  void for_each_element(const Vertex_names<Mesh>& names, Vertex_index v, const Faces& faces, const Halfedges& halfedges,
+  void for_each_element(const Vertex_ids<Mesh>& ids, Vertex_index v, const Faces& faces, const Halfedges& halfedges,
                         const Function& function) {
     const auto tell = [&](auto element) {
-      const Element_names of = names_of(*mesh_, names, element);
+      const Element_ids of = ids_of(*mesh_, ids, element);
       for (const auto& map : maps_)
         function(*map, element, of);
     };
@@ -108,13 +108,13 @@ private:
   }
 
   /// How near p is to each of the vertices around it: shares of the length of an edge, of the area of a face. Rounded.
-  std::array<double, 3> weights(const Vertex_names<Mesh>& names, const Coordinates& p) const {
+  std::array<double, 3> weights(const Vertex_ids<Mesh>& ids, const Coordinates& p) const {
     const std::vector<std::size_t>& around = under_way_.edit->around;
     const std::size_t n = under_way_.edit->kind == Edit_kind::insert_on_face ? 3 : 2;
     std::array<Vector, 3> way{}; // in units of the longest, lest squares leave the range
     double largest = 0;
     for (std::size_t k = 0; k < n; ++k) {
-      way[k] = minus(vertex_coordinates(*mesh_, names.vertex(around[k])), p);
+      way[k] = minus(vertex_coordinates(*mesh_, ids.vertex(around[k])), p);
       largest = std::fmax(largest, largest_magnitude(way[k]));
     }
     for (Vector& w : way)

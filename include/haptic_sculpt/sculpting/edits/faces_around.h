@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_FACES_AROUND_H
 #define HAPTIC_SCULPT_SCULPTING_FACES_AROUND_H
 
-#include <haptic_sculpt/sculpting/edits/Vertex_names.h>
+#include <haptic_sculpt/sculpting/edits/Vertex_ids.h>
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/Round_marks.h>
 
@@ -13,12 +13,12 @@ namespace internal {
 /// \pre all of the vertices are in the mesh
 /// Cost: linear in the faces collected.
 template <class Mesh>
-void collect_faces_around(const Mesh& mesh, const Vertex_names<Mesh>& names, const std::vector<std::size_t>& numbers,
+void collect_faces_around(const Mesh& mesh, const Vertex_ids<Mesh>& ids, const std::vector<std::size_t>& numbers,
                           Round_marks& is_taken, std::vector<typename Mesh::Face_index>& faces) {
   faces.clear();
   is_taken.begin(mesh.num_faces());
   for (const std::size_t number : numbers)
-    for (const auto f : mesh.faces_around_target(mesh.halfedge(names.vertex(number))))
+    for (const auto f : mesh.faces_around_target(mesh.halfedge(ids.vertex(number))))
       if (is_taken.mark(static_cast<std::size_t>(f)))
         faces.push_back(f);
 }

@@ -34,11 +34,18 @@ public:
   template <class Make_traits>
   Guarded_mesh(Mesh& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Make_traits& make_traits,
                const Rounding_to_nearest& /*rounding*/)
-    : parameters(parameters), mesh_(&mesh), watch_(mesh), broad_phase_(checked_scene(mesh, parameters)), corners_(mesh)
-    , editor_(mesh, broad_phase_, corners_, counters_, watch_, writing_, std::move(visitor))
-    , hand_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
-    , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
-    , finder_(mesh, broad_phase_, corners_, counters_), scene_(mesh), whole_move_(mesh, counters_), near_move_(mesh, counters_) {}
+      : parameters(parameters)
+      , mesh_(&mesh)
+      , watch_(mesh)
+      , broad_phase_(checked_scene(mesh, parameters))
+      , corners_(mesh)
+      , editor_(mesh, broad_phase_, corners_, counters_, watch_, writing_, std::move(visitor))
+      , hand_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
+      , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
+      , finder_(mesh, broad_phase_, corners_, counters_)
+      , scene_(mesh, parameters.drag.clearance_length)
+      , whole_move_(mesh, counters_)
+      , near_move_(mesh, counters_) {}
   Guarded_mesh(const Guarded_mesh&) = delete; // its parts refer to each other
   Guarded_mesh& operator=(const Guarded_mesh&) = delete;
 
@@ -75,49 +82,44 @@ public:
   void let_go() noexcept { hand_.let_go(); }
 
   /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed
-  void hold(Vertex_index v) {
+  void hold(Vertex_index v, bool once) {
     check_is_whole();
     check_vertex(*mesh_, v);
-    if (!hand_.holds(v))
-      hand_.take(v, [this] { editor_.prepare_for_moves(); });
+    if (!hand_.holds(v, once))
+      hand_.take(v, once, [this] { editor_.prepare_for_moves(); });
   }
 
-  bool expects_single_drags() const { return hand_.expects_single_drags(); }
-  void expect_single_drags(bool on) {
-    const Rounding_to_nearest rounding;
-    check_is_whole();
-    hand_.expect_single_drags(on);
-  }
-
-  /// \pre v is in the mesh
-  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path) {
+  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path,
+              const std::optional<Drag_parameters>& given) {
     const Rounding_to_nearest rounding;
     check_is_whole();
     check_point("the target", target);
-    scene_.check_clearance_serves(parameters);
-    hold(v);
+    const Drag_parameters& drag = given ? *given : parameters.drag;
+    scene_.check_clearance_serves(drag.clearance_length);
+    hold(v, drag.is_once);
     editor_.make_room_for_move();
     const Coordinates s = vertex_coordinates(*mesh_, v), t = coordinates(target);
     Result result;
     settle_result(s, t, t, result); // where there is no way to go
-    const Coordinates end = s == t ? t : hand_.move(s, t, parameters, result);
+    const Coordinates end = s == t ? t : hand_.move(s, t, drag, parameters.delta_length, result);
     if (path != nullptr)
-      hand_.write_path(parameters.response_rule, s, end, *path);
+      hand_.write_path(s, end, *path);
     hand_.check_candidates();
     if (end != s)
       put(v, s, end);
     return result;
   }
 
-  bool move_if_free(Vertex_index v, const Point& target) {
+  bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& given) {
     const Rounding_to_nearest rounding;
     check_point("the target", target);
-    hold(v);
+    const Drag_parameters& drag = given ? *given : parameters.drag;
+    hold(v, drag.is_once);
     editor_.make_room_for_move();
     const Coordinates s = vertex_coordinates(*mesh_, v), t = coordinates(target);
     if (s == t)
       return true;
-    const bool is_free = hand_.is_free(s, t, parameters);
+    const bool is_free = hand_.is_free(s, t, drag, parameters.delta_length);
     hand_.check_candidates();
     if (is_free)
       put(v, s, t);
@@ -127,7 +129,7 @@ public:
   auto first_impact(Vertex_index v, const Point& target) {
     const Rounding_to_nearest rounding;
     check_point("the target", target);
-    hold(v);
+    hold(v, false);
     const auto first = hand_.first_impact(vertex_coordinates(*mesh_, v), coordinates(target));
     hand_.check_candidates();
     return first;
@@ -141,9 +143,10 @@ public:
     const Rounding_to_nearest rounding;
     check_point("the place of the probe", p);
     look_at_surface();
-    scene_.check_clearance_serves(parameters);
+    const std::optional<double>& clearance = parameters.drag.clearance_length;
+    scene_.check_clearance_serves(clearance);
     const Coordinates at = coordinates(p);
-    if (const Face_index f = find_face_within(*mesh_, broad_phase_, at, Clearance_rule(parameters.clearance_length),
+    if (const Face_index f = find_face_within(*mesh_, broad_phase_, at, Clearance_rule(clearance),
                                               scene_.largest_coordinate(), faces_near_probe_);
         f.is_valid()) {
       const auto corners = corners_of_face(*mesh_, f);
@@ -156,22 +159,24 @@ public:
 
   /// Sweeps a point. What was looked up, and the contacts, are carried on where the last one ended here and the mesh is
   /// the same.
-  Result drag_probe(const Point& source, const Point& target, std::vector<Point>* path) {
+  Result drag_probe(const Point& source, const Point& target, std::vector<Point>* path,
+                    const std::optional<Drag_parameters>& given) {
     const Rounding_to_nearest rounding;
     check_point("the target", target);
     check_is_whole();
     watch_.check_counts();
     hand_.tell_where_it_is();
-    scene_.check_clearance_serves(parameters);
+    const Drag_parameters& drag = given ? *given : parameters.drag;
+    scene_.check_clearance_serves(drag.clearance_length);
     const Coordinates s = coordinates(source), t = coordinates(target);
     if (!probe_.is_ready() || probe_place_ != s || probe_changes_ != changes())
       probe_.take_point();
     Result result;
     settle_result(s, t, t, result); // where there is no way to go
-    probe_place_ = s == t ? t : probe_.move(s, t, parameters, result);
+    probe_place_ = s == t ? t : probe_.move(s, t, drag, parameters.delta_length, result);
     probe_changes_ = changes();
     if (path != nullptr)
-      probe_.write_path(parameters.response_rule, s, probe_place_, *path);
+      probe_.write_path(s, probe_place_, *path);
     probe_.check_candidates();
     return result;
   }
@@ -289,8 +294,8 @@ public:
     watch_.check_all(corners_);
   }
   std::size_t memory() const {
-    return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.names().memory() +
-           whole_move_.memory() + near_move_.memory() + on_the_way_.memory();
+    return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.ids().memory() + whole_move_.memory() +
+           near_move_.memory() + on_the_way_.memory();
   }
 
 private:

@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_HAND_H
 #define HAPTIC_SCULPT_SCULPTING_HAND_H
 
-#include <haptic_sculpt/sculpting/Sculptor_parameters.h>
+#include <haptic_sculpt/sculpting/Drag_parameters.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Responses.h>
 #include <haptic_sculpt/sculpting/motion/Guarded_star.h>
@@ -22,20 +22,13 @@ public:
     : mesh_(&mesh), broad_phase_(&broad_phase), corners_(&corners), watch_(&watch)
     , guard_(mesh, broad_phase, corners, traits, Fetch_watched{&watch}) {}
 
-  /// Whether vertices are dragged once each: see Sculptor.
-  void expect_single_drags(bool on) {
-    release();
-    guard_.expect_one_motion(on);
-    expects_single_drags_ = on;
-  }
-  bool expects_single_drags() const { return expects_single_drags_; }
-
   void reserve(std::size_t valence, std::size_t faces) { guard_.reserve(valence, faces); }
 
   /// Whether v is held and ready to be dragged on; its place is compared then. \throw Mesh_changed
-  bool holds(Vertex_index v) const {
+  /// \param once see Drag_parameters
+  bool holds(Vertex_index v, bool once) const {
     watch_->check_counts();
-    if (held_ != v || !is_ready_)
+    if (held_ != v || !is_ready_ || (is_held_once_ && !once))
       return false;
     watch_->check(v);
     return true;
@@ -44,11 +37,12 @@ public:
   /// Takes another vertex, having let go of the last. \param meanwhile is called while memory is waited for \throw
   /// Mesh_changed
   template <class Meanwhile>
-  void take(Vertex_index v, const Meanwhile& meanwhile) {
+  void take(Vertex_index v, bool once, const Meanwhile& meanwhile) {
     prefetch(&mesh_->point(v), sizeof(typename Mesh::Point));
     watch_->prefetch(v);
     release();
-    if (!expects_single_drags_) {
+    expect_one_motion(once);
+    if (!once) {
       meanwhile();
       watch_->check_some();
     }
@@ -63,6 +57,7 @@ public:
   /// Takes a point that is no vertex.
   void take_point() {
     release();
+    expect_one_motion(false);
     guard_.star().clear();
     guard_.invalidate();
     is_ready_ = true;
@@ -89,10 +84,12 @@ public:
   }
 
   /// Goes from source towards target as the response tells; the mesh is not written. \pre source != target
-  Coordinates move(const Coordinates& source, const Coordinates& target, const Sculptor_parameters& parameters,
-                   Drag_result<Mesh>& result) {
+  Coordinates move(const Coordinates& source, const Coordinates& target, const Drag_parameters& parameters,
+                   double delta, Drag_result<Mesh>& result) {
+    if (std::exchange(last_response_, parameters.response_rule) != parameters.response_rule)
+      responses_.forget();
     begin_to_decide(parameters.work_bound);
-    const Drag_rules rules = {Clearance_rule(parameters.clearance_length), parameters.delta_length};
+    const Drag_rules rules = {Clearance_rule(parameters.clearance_length), delta};
     const Coordinates end = responses_.move(parameters.response_rule, guard_, *mesh_, source, target, rules, result);
     result.work = guard_.work().done();
     return end;
@@ -100,19 +97,18 @@ public:
 
   /// Writes where the last move was after each leg, the start first.
   template <class Point>
-  void write_path(Response response, const Coordinates& source, const Coordinates& end,
-                  std::vector<Point>& path) const {
+  void write_path(const Coordinates& source, const Coordinates& end, std::vector<Point>& path) const {
     path.clear();
     if (source == end)
       path.emplace_back(source[0], source[1], source[2]);
     else
-      responses_.append_path(response, source, end, path);
+      responses_.append_path(last_response_, source, end, path);
   }
 
   /// Whether the straight way is free, and that has been decided within the bound on the work.
-  bool is_free(const Coordinates& source, const Coordinates& target, const Sculptor_parameters& parameters) {
+  bool is_free(const Coordinates& source, const Coordinates& target, const Drag_parameters& parameters, double delta) {
     begin_to_decide(parameters.work_bound);
-    return guard_.is_free(source, target, parameters.delta_length);
+    return guard_.is_free(source, target, delta);
   }
 
   auto first_impact(const Coordinates& source, const Coordinates& target) {
@@ -144,7 +140,8 @@ private:
   Guarded_star<Mesh, Broad_phase, Traits, Fetch_watched> guard_;
   Responses<Mesh> responses_;
   Vertex_index held_;      ///< whose star guard_ has; invalid when none
-  bool expects_single_drags_ = false;
+  bool is_held_once_ = false; ///< taken for one drag
+  Response last_response_ = Response::slide;
   /// Whether what was looked up about the held vertex is whole: not while a motion is decided, nor where an exception
   /// has ended that.
   bool is_ready_ = false;
@@ -154,13 +151,18 @@ private:
   /// So many candidates are compared at every drag; a list that holds for long is seen whole soon.
   static constexpr std::size_t candidates_per_drag = 4;
 
+  void expect_one_motion(bool on) {
+    guard_.expect_one_motion(on);
+    is_held_once_ = on;
+  }
+
   void begin_to_decide(const std::optional<std::size_t>& work_bound) {
     guard_.work().begin(work_bound.value_or(Work::unbounded));
     is_ready_ = false;
   }
 
   void compare_candidates() {
-    if (expects_single_drags_) // whatever is near is the vertex or a neighbour at another drag
+    if (is_held_once_) // whatever is near is the vertex or a neighbour at another drag
       return;
     const auto& candidates = guard_.candidate_list().vertices();
     if (compared_look_ != guard_.looks()) {

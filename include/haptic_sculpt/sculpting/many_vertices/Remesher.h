@@ -5,7 +5,6 @@
 #include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/many_vertices/Edge_collapser.h>
 #include <haptic_sculpt/sculpting/many_vertices/Edge_splitter.h>
-#include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/sculpting/many_vertices/projections.h>
 
 #include <cstdlib>
@@ -32,10 +31,10 @@ public:
       : state_(sculptor, points, marks, project, options, parameters)
       , mesh_(sculptor.mesh())
       , marks_(marks)
-      , options_(options) {}
+      , options_(options)
+      , drag_(Drag_parameters(sculptor.parameters().drag).once()) {}
 
   Remeshing_report run() {
-    const Response_scope<Sculptor> scope(state_.sculptor, state_.sculptor.options().response_rule, true);
     using Phase = Remeshing_progress::Phase;
     while (state_.report.iterations < options_.iterations) {
       if (options_.do_split && !in(Phase::split, [this] { Edge_splitter<State>(state_).run(); }))
@@ -64,6 +63,7 @@ private:
   const Mesh& mesh_;
   Marks& marks_;
   const Remeshing_options& options_;
+  const Drag_parameters drag_;
   std::vector<int> valence_;
 
   template <class Work>
@@ -227,7 +227,7 @@ private:
     for (const double share : shares) {
       const Coordinates p = share == 1 ? target : point_of_path(from, target, share);
       if (is_in_range(state_.points.in_mesh(p)) && shape_after_move(star, from, p) >= 0 && is_smooth(p) &&
-          state_.keeps_near(p) && state_.sculptor.move_if_free(v, state_.point(p))) {
+          state_.keeps_near(p) && state_.sculptor.move_if_free(v, state_.point(p), drag_)) {
         state_.samples.put(mesh_, star.faces, [&](std::size_t i) { return star.faces[i]; });
         state_.report.shortened += share != 1;
         return true;

@@ -5,7 +5,6 @@
 #include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/many_vertices/Axis_walk.h>
 #include <haptic_sculpt/sculpting/many_vertices/Drag_budget.h>
-#include <haptic_sculpt/sculpting/many_vertices/Response_scope.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
@@ -28,12 +27,13 @@ public:
       , parameters_(parameters)
       , report_(&report)
       , budget_(parameters, report)
-      , bound_(sculptor.options().work_bound) {}
+      , drag_(sculptor.parameters().drag)
+      , bound_(drag_.work_bound) {}
 
   /// Fills in what the report tells of drags, `cancelled` and `out_of_work`.
   void run() {
     asked_ = sum_left();
-    const Response_scope scope(sculptor_, Response::stop, true);
+    drag_.response(Response::stop).once();
     if (!parameters_.drags_singly || (parameters_.takes_steps && vertices_.size() >= many))
       goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_).run();
     if (parameters_.drags_singly)
@@ -59,7 +59,8 @@ private:
   const Move_parameters& parameters_;
   Move_report* report_;
   Drag_budget budget_;
-  std::optional<std::size_t> bound_; ///< on the work of a drag, as it was before
+  Drag_parameters drag_;             ///< of the drags at hand
+  std::optional<std::size_t> bound_; ///< on the work of a drag, as the Sculptor has it
   bool goes_on_ = true; ///< neither cancelled nor out of work
   std::size_t behind_ = 0;
   double asked_ = 0; ///< a sum of distances
@@ -80,14 +81,13 @@ private:
     ++report_->drags;
     const auto v = vertices_[k].vertex;
     const typename Mesh::Point target(p[0], p[1], p[2]);
-    if (sculptor_.options().response_rule == Response::slide) {
-      sculptor_.set_work_limit(budget_.work_of_slide(bound_));
-      const auto result = sculptor_.grab(v).drag_to(target);
+    if (drag_.response_rule == Response::slide) {
+      const auto result = sculptor_.drag(v, target, drag_.work_limit(budget_.work_of_slide(bound_)));
       budget_.count_slide(result.work);
       return result.reached;
     }
     budget_.count_drag();
-    return sculptor_.grab(v).drag_to(target).reached;
+    return sculptor_.drag(v, target, drag_).reached;
   }
 
   /// Whether another drag may be made; asks the progress function in its turn.
@@ -131,7 +131,7 @@ private:
     passes_to_the_end(std::numeric_limits<int>::max());
     if (!parameters_.slides)
       return;
-    const Response_scope scope(sculptor_, Response::slide, false);
+    drag_.response(Response::slide).once(false);
     passes_to_the_end(all_behind().size() <= few(vertices_.size()) ? slide_passes_of_few
                                                                    : std::numeric_limits<int>::max());
   }

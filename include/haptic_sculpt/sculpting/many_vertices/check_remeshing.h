@@ -4,8 +4,7 @@
 
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_state.h>
-
-#include <CGAL/Named_function_parameters.h>
+#include <haptic_sculpt/sculpting/named_parameters.h>
 
 namespace haptic_sculpt {
 namespace internal {
@@ -13,15 +12,13 @@ namespace internal {
 /// Refuses what CGAL documents for its isotropic_remeshing(), and ours does not serve.
 template <class Named_parameters>
 constexpr void check_named_parameters() {
-  namespace names = CGAL::internal_np;
-  using CGAL::parameters::is_default_parameter;
-  static_assert(is_default_parameter<Named_parameters, names::vertex_point_t>::value,
+  static_assert(is_not_given<Named_parameters, named::vertex_point_t>,
                 "isotropic_remeshing: vertex_point_map is not served: the points are those of the Sculptor's mesh");
-  static_assert(is_default_parameter<Named_parameters, names::geom_traits_t>::value,
+  static_assert(is_not_given<Named_parameters, named::geom_traits_t>,
                 "isotropic_remeshing: geom_traits is not served: what is decided is decided by the Sculptor's traits");
-  static_assert(is_default_parameter<Named_parameters, names::face_index_t>::value,
+  static_assert(is_not_given<Named_parameters, named::face_index_t>,
                 "isotropic_remeshing: face_index_map is not served: faces have the indices of the mesh");
-  static_assert(is_default_parameter<Named_parameters, names::allow_move_functor_t>::value,
+  static_assert(is_not_given<Named_parameters, named::allow_move_functor_t>,
                 "isotropic_remeshing: allow_move_functor is not served: constrain vertices, or use the visitor");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_VERTEX_NAMES_H
-#define HAPTIC_SCULPT_SCULPTING_VERTEX_NAMES_H
+#ifndef HAPTIC_SCULPT_SCULPTING_VERTEX_IDS_H
+#define HAPTIC_SCULPT_SCULPTING_VERTEX_IDS_H
 
 #include <haptic_sculpt/surface/make_room.h>
 
@@ -14,15 +14,15 @@ namespace internal {
 ///
 /// At the beginning the number of a vertex is its index.
 template <class Mesh>
-class Vertex_names {
+class Vertex_ids {
 public:
   using Vertex_index = typename Mesh::Vertex_index;
 
-  explicit Vertex_names(const Mesh& mesh) {
+  explicit Vertex_ids(const Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.num_vertices(); ++i) {
       const Vertex_index v(static_cast<typename Vertex_index::size_type>(i));
       vertices_.push_back(mesh.is_removed(v) ? Vertex_index() : v);
-      names_.push_back(i);
+      ids_.push_back(i);
     }
   }
 
@@ -30,40 +30,40 @@ public:
   std::size_t size() const { return vertices_.size(); }
 
   /// The vertex of that number, or the null index where it is dead or was never given.
-  Vertex_index vertex(std::size_t name) const { return name < vertices_.size() ? vertices_[name] : Vertex_index(); }
+  Vertex_index vertex(std::size_t id) const { return id < vertices_.size() ? vertices_[id] : Vertex_index(); }
 
   /// \pre v is in the mesh
-  std::size_t name(Vertex_index v) const { return names_[static_cast<std::size_t>(v)]; }
+  std::size_t id(Vertex_index v) const { return ids_[static_cast<std::size_t>(v)]; }
 
-  /// Gives v a number: the next never used, which is size(), or a dead one. \pre name <= size(), and no vertex has it
-  void give(std::size_t name, Vertex_index v) {
+  /// Gives v a number: the next never used, which is size(), or a dead one. \pre id <= size(), and no vertex has it
+  void give(std::size_t id, Vertex_index v) {
     const auto index = static_cast<std::size_t>(v);
-    if (name == vertices_.size())
+    if (id == vertices_.size())
       vertices_.push_back(v);
     else
-      vertices_[name] = v;
-    if (index >= names_.size())
-      names_.resize(index + 1);
-    names_[index] = name;
+      vertices_[id] = v;
+    if (index >= ids_.size())
+      ids_.resize(index + 1);
+    ids_[index] = id;
   }
 
-  void take(std::size_t name) { vertices_[name] = Vertex_index(); }
+  void take(std::size_t id) { vertices_[id] = Vertex_index(); }
 
   /// Room to give this number: where it is the next never used, it is one more.
-  void make_room_for(std::size_t name) { make_room(vertices_, name + 1); }
+  void make_room_for(std::size_t id) { make_room(vertices_, id + 1); }
   /// Room for so many numbers more.
   void reserve(std::size_t numbers) { vertices_.reserve(vertices_.size() + numbers); }
   /// Room for the numbers of so many slots of vertices in the mesh, in all.
-  void reserve_slots(std::size_t slots) { names_.reserve(slots); }
+  void reserve_slots(std::size_t slots) { ids_.reserve(slots); }
 
   /// Bytes held, capacity included.
   std::size_t memory() const {
-    return vertices_.capacity() * sizeof(Vertex_index) + names_.capacity() * sizeof(std::size_t);
+    return vertices_.capacity() * sizeof(Vertex_index) + ids_.capacity() * sizeof(std::size_t);
   }
 
 private:
   std::vector<Vertex_index> vertices_;
-  std::vector<std::size_t> names_;
+  std::vector<std::size_t> ids_;
 };
 
 } // namespace internal

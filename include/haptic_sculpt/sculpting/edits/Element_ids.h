@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_ELEMENT_NAMES_H
-#define HAPTIC_SCULPT_SCULPTING_ELEMENT_NAMES_H
+#ifndef HAPTIC_SCULPT_SCULPTING_ELEMENT_IDS_H
+#define HAPTIC_SCULPT_SCULPTING_ELEMENT_IDS_H
 
 #include <haptic_sculpt/sculpting/edits/Change.h>
-#include <haptic_sculpt/sculpting/edits/Vertex_names.h>
+#include <haptic_sculpt/sculpting/edits/Vertex_ids.h>
 
 #include <algorithm>
 #include <array>
@@ -14,34 +14,34 @@ namespace internal {
 
 /// An element by the numbers of its vertices, which last: of a face and an edge in ascending order, of a halfedge its
 /// source first.
-using Element_names = std::array<std::size_t, 3>;
+using Element_ids = std::array<std::size_t, 3>;
 
-inline constexpr std::size_t no_name = static_cast<std::size_t>(-1);
+inline constexpr std::size_t no_id = static_cast<std::size_t>(-1);
 
-inline Element_names sorted(Element_names names) {
-  std::sort(names.begin(), names.end());
-  return names;
+inline Element_ids sorted(Element_ids ids) {
+  std::sort(ids.begin(), ids.end());
+  return ids;
 }
 
 template <class Mesh>
-Element_names names_of(const Mesh&, const Vertex_names<Mesh>& names, typename Mesh::Vertex_index v) {
-  return {names.name(v), no_name, no_name};
+Element_ids ids_of(const Mesh&, const Vertex_ids<Mesh>& ids, typename Mesh::Vertex_index v) {
+  return {ids.id(v), no_id, no_id};
 }
 template <class Mesh>
-Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typename Mesh::Halfedge_index h) {
-  return {names.name(mesh.source(h)), names.name(mesh.target(h)), no_name};
+Element_ids ids_of(const Mesh& mesh, const Vertex_ids<Mesh>& ids, typename Mesh::Halfedge_index h) {
+  return {ids.id(mesh.source(h)), ids.id(mesh.target(h)), no_id};
 }
 template <class Mesh>
-Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typename Mesh::Edge_index e) {
-  return sorted(names_of(mesh, names, mesh.halfedge(e)));
+Element_ids ids_of(const Mesh& mesh, const Vertex_ids<Mesh>& ids, typename Mesh::Edge_index e) {
+  return sorted(ids_of(mesh, ids, mesh.halfedge(e)));
 }
 template <class Mesh>
-Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typename Mesh::Face_index f) {
+Element_ids ids_of(const Mesh& mesh, const Vertex_ids<Mesh>& ids, typename Mesh::Face_index f) {
   const auto h = mesh.halfedge(f);
-  return sorted({names.name(mesh.source(h)), names.name(mesh.target(h)), names.name(mesh.target(mesh.next(h)))});
+  return sorted({ids.id(mesh.source(h)), ids.id(mesh.target(h)), ids.id(mesh.target(mesh.next(h)))});
 }
 
-/// Which of the elements that an edit takes away one of those it makes comes from, by names. What comes from none is
+/// Which of the elements that an edit takes away one of those it makes comes from, by ids. What comes from none is
 /// not in the table.
 ///
 /// | edit | new | comes from |
@@ -54,12 +54,12 @@ Element_names names_of(const Mesh& mesh, const Vertex_names<Mesh>& names, typena
 /// Of an edit that is taken back the columns change places.
 class Edit_lineage {
 public:
-  /// \param is_directed whether the names are those of halfedges
+  /// \param is_directed whether the ids are those of halfedges
   Edit_lineage(const Change& edit, bool is_back, bool is_directed)
       : edit_(&edit), is_back_(is_back), is_directed_(is_directed) {}
 
   /// Of a collapse, what `created` comes from, if there was one such; of other edits none is said.
-  std::optional<Element_names> only_origin(Element_names created) const {
+  std::optional<Element_ids> only_origin(Element_ids created) const {
     if (edit_->kind != Edit_kind::collapse)
       return std::nullopt;
     const std::size_t v = edit_->vertex, p = edit_->around[0];
@@ -68,7 +68,7 @@ public:
   }
 
   /// Whether `created` comes from `dead`. \pre both are of one kind
-  bool comes_from(const Element_names& created, const Element_names& dead) const {
+  bool comes_from(const Element_ids& created, const Element_ids& dead) const {
     return is_back_ ? is_of(dead, created) : is_of(created, dead);
   }
 
@@ -77,7 +77,7 @@ private:
   bool is_back_, is_directed_;
 
   /// As the edit is made.
-  bool is_of(const Element_names& made, const Element_names& old) const {
+  bool is_of(const Element_ids& made, const Element_ids& old) const {
     switch (edit_->kind) {
     case Edit_kind::insert_on_face:
       return true; // no edge dies
@@ -90,9 +90,9 @@ private:
     }
   }
   /// Whether all vertices of `made` but the new one are those of `old`.
-  bool is_part(const Element_names& made, const Element_names& old) const {
-    return std::all_of(made.begin(), made.end(), [&](std::size_t name) {
-      return name == edit_->vertex || std::find(old.begin(), old.end(), name) != old.end();
+  bool is_part(const Element_ids& made, const Element_ids& old) const {
+    return std::all_of(made.begin(), made.end(), [&](std::size_t id) {
+      return id == edit_->vertex || std::find(old.begin(), old.end(), id) != old.end();
     });
   }
 };
