@@ -13,7 +13,7 @@
 namespace haptic_sculpt::benchmark {
 
 /// The verdict put together from CGAL's own predicates: what one does without this library.
-/// Degenerate hulls, which `do_intersect` does not take, are told apart first.
+/// Degenerate hulls, which `do_intersect` does not take, are distinguished first.
 class Cgal_sweep {
 public:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

@@ -11,8 +11,8 @@
 
 namespace haptic_sculpt::examples {
 
-/// Writes the results of a run, one after the other: what cannot be written is told and does not keep the others from
-/// being written, as the work is done. To write the report last gives it what there is to say of the others.
+/// Writes the results of a run, one after the other: what cannot be written is reported and does not keep the others
+/// from being written, as the work is done. To write the report last gives it what there is to say of the others.
 class Result_writer {
 public:
   /// \param program whose name messages begin with
@@ -26,7 +26,7 @@ public:
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// \param path empty: it was not asked for \param write(path) writes, and returns what of an old file could not be
-  /// kept; what it throws is told
+  /// kept; what it throws is reported
   template <class Write>
   void write(const std::string& path, const Write& write) {
     if (path.empty())

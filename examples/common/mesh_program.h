@@ -17,7 +17,7 @@
 
 namespace haptic_sculpt::examples {
 
-/// What people are told of an exception: of a surface that is not valid, advice for those who do not program.
+/// What people hear of an exception: of a surface that is not valid, advice for those who do not program.
 inline std::string message_of(const std::exception& error) {
   const auto* const refused = dynamic_cast<const Invalid_surface*>(&error);
   if (refused == nullptr)
@@ -54,7 +54,7 @@ inline int exit_code_of(const std::exception& error) {
   return is_a<Error>(error) ? usage : failed; // options, and parameters that do not serve
 }
 
-/// Of what was kept to be told later, as far as it is a std::exception.
+/// Of what was kept to be reported later, as far as it is a std::exception.
 inline int exit_code_of(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);

@@ -34,7 +34,7 @@ inline bool are_one_file(const std::filesystem::path& a, const std::filesystem::
     return true;
   // Made absolute first: weakly_canonical leaves the name of a file that is not there yet as it is, but not ./name.
   const auto full = [](const std::filesystem::path& path) {
-    std::error_code ignored; // a name that leads nowhere is told by check_target()
+    std::error_code ignored; // check_target() reports a name that leads nowhere
     try {
       return std::filesystem::weakly_canonical(std::filesystem::absolute(follow_links(path), ignored), ignored);
     } catch (const Write_error&) { // links in a circle, told there, too

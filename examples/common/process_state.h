@@ -19,7 +19,7 @@
 namespace haptic_sculpt::examples {
 
 /// Puts something in the place of closed standard streams: else the next file that is opened, such as a log, would be
-/// one, and get what is printed. What is printed then goes nowhere; what reads a closed standard input is told of a
+/// one, and get what is printed. What is printed then goes nowhere; what reads a closed standard input hears of a
 /// folder there, as an empty input would pass for an empty script.
 inline void open_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -81,7 +81,7 @@ inline void announce_crashes(const char* program) {
   }
 }
 
-/// Everything a main has to do first. A file that may not grow (SIGXFSZ) is told like a full disk; a reader who has
+/// Everything a main has to do first. A file that may not grow (SIGXFSZ) is reported like a full disk; a reader who has
 /// gone (SIGPIPE) and a terminal that was closed (SIGHUP) cost what they would have been told, and no result.
 inline void put_process_in_order(const char* program) {
   open_closed_streams();

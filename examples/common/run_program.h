@@ -25,7 +25,7 @@ struct Usage_error : Error {
 /// What every main does: puts the process into order (see process_state.h), says on standard error what was thrown, and
 /// gives the exit code. Messages are written by a Printable_stream.
 /// \param body returns the exit code \param exit_code_of that of an exception; `failed`: it was not foreseen
-/// \param message_of what people are told of an exception, without the program's name
+/// \param message_of what people hear of an exception, without the program's name
 template <class Body, class Exit_code_of, class Message_of>
 int run_program(const char* name, const Body& body, const Exit_code_of& exit_code_of, const Message_of& message_of) {
   put_process_in_order(name);

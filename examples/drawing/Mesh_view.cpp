@@ -127,9 +127,9 @@ void Mesh_view::draw_mesh(const Camera& camera, const Color& background, Faces f
   use(program_, camera);
   glUniform1f(glGetUniformLocation(program_, "opacity"), 1);
   glUniform1i(glGetUniformLocation(program_, "with_edges"), 1);
-  // Faces in contact are nearer to each other than depths can be told apart, and what is seen would change from pixel
-  // to pixel. One of the two is seen from inside, wherever the surface is closed and faces outwards: it is put behind
-  // the other.
+  // Faces in contact are nearer to each other than depths can be distinguished, and what is seen would change from
+  // pixel to pixel. One of the two is seen from inside, wherever the surface is closed and faces outwards: it is put
+  // behind the other.
   glCullFace(GL_FRONT);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2, 32);

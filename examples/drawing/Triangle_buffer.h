@@ -17,8 +17,8 @@ public:
 
   /// Replaces all. \throw Picture_error if there is no memory, or more than can be drawn at once
   void set(const std::vector<Corner>& corners) { allocate(corners.data(), corners.size(), corners.size()); }
-  /// Room for so many triangles; those that are there stay, new ones have no area. Cost: that of copying what is there
-  /// within the card. \throw as set()
+  /// Room for this many triangles; those that are there stay, new ones have no area. Cost: that of copying what is
+  /// there within the card. \throw as set()
   void resize(std::size_t triangles);
   /// Replaces triangles from `first` on. \pre they are there
   void write(std::size_t first, const Corner* corners, std::size_t triangles);

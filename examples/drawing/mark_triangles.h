@@ -116,7 +116,7 @@ private:
       }
   }
 
-  // Marks keep so many pixels away from the picture's border.
+  // Marks keep this many pixels away from the picture's border.
   static constexpr double margin = 12;
 
   bool is_within_frame(const Eigen::Vector3d& p, double radius) const {

@@ -8,7 +8,7 @@
 
 namespace haptic_sculpt::loop_program {
 
-/// The JSON report. \param notes what people were told
+/// The JSON report. \param notes what people were shown
 std::string report_of(const Run_result& result, const Settings& settings, const std::vector<std::string>& notes);
 
 /// The same, short, for people.

@@ -11,8 +11,8 @@
 
 namespace haptic_sculpt::loop_program {
 
-/// A file, device or pipe that rows go to as they come. What cannot be written is told in the end: a run does not end
-/// for a reader who has gone.
+/// A file, device or pipe that rows go to as they come. What cannot be written is reported in the end: a run does not
+/// end for a reader who has gone.
 class Row_file {
 public:
   Row_file() = default;

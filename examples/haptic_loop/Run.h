@@ -52,7 +52,7 @@ struct Run_result {
   std::exception_ptr failure; ///< what ended the run by an exception: the results are those so far
 };
 
-/// Reads the mesh, runs, and writes sculpted mesh, picture and rows. \param writer is told what people should know
+/// Reads the mesh, runs, and writes sculpted mesh, picture and rows. \param writer gets what people should know
 /// \param is_interrupted ends the run in order
 /// \throw before the first tick what reading meshes and opening files throws; Unstable_coupling; Foreign_recording;
 /// Usage_error; Foreign_log, Script_error

@@ -69,7 +69,7 @@ struct Log_contents {
   std::string unfinished;     ///< what follows: a killed process may leave part of a line
   /// Where the state of a tick ends.
   struct Tick {
-    std::size_t number, size, commands; ///< size: in bytes, commands: so many stand before it
+    std::size_t number, size, commands; ///< size: in bytes, commands: this many stand before it
     std::string checksum;               ///< of its line
   };
   std::optional<Tick> last_tick; ///< of the last pass, if that was a loop's

@@ -10,7 +10,7 @@
 
 namespace haptic_sculpt::sculpt_program {
 
-/// Says on standard error how far a long run is. Nothing in the first two seconds; then a terminal is told twice a
+/// Says on standard error how far a long run is. Nothing in the first two seconds; then a terminal reads it twice a
 /// second in one line, and a file at 2, 4, 8, ... seconds, so that the log of a night's run stays short.
 class Progress {
 public:

@@ -15,7 +15,7 @@
 namespace haptic_sculpt::window_program {
 
 /// A thousand ticks a second of a Loop_session, and what it tells the window: changed faces through a bounded ring,
-/// where what finds no room stays dirty and is told later, as it is then; of the Status the newest counts.
+/// where what finds no room stays dirty and is passed on later, as it is then; of the Status the newest counts.
 class Loop_thread {
 public:
   /// \name For the window's thread

@@ -9,7 +9,7 @@ namespace haptic_sculpt::window_program {
 
 namespace {
 
-constexpr std::size_t edits = 1000, moves = 100000; // room that is made for so many
+constexpr std::size_t edits = 1000, moves = 100000; // room that is made for this many
 
 } // namespace
 

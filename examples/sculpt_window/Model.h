@@ -20,7 +20,7 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex_index = Mesh::Vertex_index;
 using Face_index = Mesh::Face_index;
 
-/// Which faces have changed since the window was told, each once, in the order in which they changed first.
+/// Which faces have changed since the window heard, each once, in the order in which they changed first.
 class Dirty_faces {
 public:
   void mark(std::size_t face) {

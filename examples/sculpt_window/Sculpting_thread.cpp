@@ -31,7 +31,7 @@ struct Sculpting_thread::Parts {
   Brush_task* brush = nullptr;                  ///< in the hand
   const Press* pressing = nullptr;              ///< asked for, and the button still down
   std::size_t vertices = 0, faces = 0;          ///< slots of the model entered last
-  std::uint64_t failures = 0;                   ///< that were told
+  std::uint64_t failures = 0;                   ///< that were reported
   std::vector<Model*> models;                   ///< the loop's, in the order in which they are entered
 
   bool ask(Command::Kind kind, Edit_kind edit = Edit_kind::none) {

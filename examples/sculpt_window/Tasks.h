@@ -16,7 +16,7 @@ namespace haptic_sculpt::window_program {
 
 using Hit = std::optional<Surface_hit<Mesh>>;
 
-/// A task of which people are told if it was refused.
+/// A task whose refusal people hear of.
 class Window_task : public Loop_task<Scene> {
 public:
   std::string refusal; ///< why nothing was done; empty: it was

@@ -79,7 +79,7 @@ struct Face_change {
 
 struct Contact_view {
   const char* kind = "";
-  int still = 0; ///< so many of `points` are the feature that stands still: 1 a vertex, 2 an edge, 3 a face
+  int still = 0; ///< this many of `points` are the feature that stands still: 1 a vertex, 2 an edge, 3 a face
   std::array<Place, 3> points{};
   std::array<std::size_t, 3> ids{};
   Place normal{};

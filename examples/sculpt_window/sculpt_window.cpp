@@ -121,7 +121,7 @@ private:
     GLFWwindow* const window = glfwCreateWindow(1, 1, "", nullptr, nullptr);
     glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
     if (window == nullptr)
-      return false; // what is missing is told of the window proper
+      return false; // what is missing is said of the window proper
     glfwMakeContextCurrent(window);
     const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     glfwDestroyWindow(window);

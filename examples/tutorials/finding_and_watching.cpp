@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is near, what a ray meets; a visitor that is told of every edit; drags whose work is bounded.
+// What is near, what a ray meets; a visitor that hears of every edit; drags whose work is bounded.
 #include <haptic_sculpt/sculpting.h>
 #include <haptic_sculpt/surface.h>
 

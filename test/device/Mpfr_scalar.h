@@ -12,8 +12,8 @@
 /// through at every operator, which takes the compiler more time than all the rest.
 namespace device_populations {
 
-/// MPFR arithmetic of so many bits, rounded to nearest. The significand lives in the object: no allocation. What makes
-/// a number is not inlined: a call more is little beside MPFR's own, and much less to compile.
+/// MPFR arithmetic of this many bits, rounded to nearest. The significand lives in the object: no allocation. What
+/// makes a number is not inlined: a call more is little beside MPFR's own, and much less to compile.
 template <int bits>
 class Mpfr_scalar {
 public:
@@ -118,7 +118,7 @@ private:
   mp_limb_t limbs_[(bits + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS];
 };
 
-/// The number of at least so many decimal digits.
+/// The number of at least this many decimal digits.
 template <int digits>
 using Mpfr = Mpfr_scalar<digits * 1000 / 301 + 2>;
 

@@ -116,7 +116,8 @@ BOOST_AUTO_TEST_CASE(size_and_place_of_the_mesh_do_not_matter) {
   BOOST_TEST(difference(draw(far, small_view()), draw(icosahedron(), small_view())) < 0.003);
 }
 
-// A slab whose two sides are nearer to each other than depths can be told apart, cut into triangles that do not match.
+// A slab whose two sides are nearer to each other than depths can be distinguished, cut into triangles that do not
+// match.
 BOOST_AUTO_TEST_CASE(faces_in_contact_do_not_flicker) {
   Scene scene;
   const double thin = 1e-14;

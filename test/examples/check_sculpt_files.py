@@ -13,7 +13,7 @@ from program_runs import SCULPT, TETRAHEDRON, bytes_of, check, end, fails, run, 
 
 
 def bad_targets(folder, mesh):
-    """What cannot be written is told, before the work where it can be known, and costs nothing else."""
+    """What cannot be written is reported, before the work where it can be known, and costs nothing else."""
     kept = f"{folder}/kept.off"
     with open(kept, "w") as file:
         file.write("kept")

@@ -77,7 +77,7 @@ def shifts(folder, mesh):
     check(points(whole) == [(0, 0, -1), (1.25, 0, -0.5), (0, 1.5, -0.5), (0.5, 0.1, 2)], f"where they went: {points(whole)}")
     told = [(e["op"], e["status"], e["reason"], e["line"]) for e in json.load(open(report))["edits"]]
     check([t for t in told if t[0] == "shift"] == [("shift", "reached", None, 2), ("shift", "reached", None, 8), ("shift", "refused", "blocked", 13),
-          ("shift", "reached", None, 18), ("shift", "refused", "unknown-element", 20)], f"what is told: {told}")
+          ("shift", "reached", None, 18), ("shift", "refused", "unknown-element", 20)], f"what is reported: {told}")
     complete, expected = bytes_of(log), bytes_of(whole)
     check(run(mesh, "--script", log, "-o", again).returncode == 0 and bytes_of(again) == expected, "a log with shifts is a script")
     lines = complete.splitlines(keepends=True)

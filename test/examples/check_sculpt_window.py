@@ -330,7 +330,7 @@ asked, unasked = read_png(at("asks.png"))[1], read_png(at("asks_not.png"))[1]
 changed = [(x, y) for y in range(900) for x in range(0, 3600, 3) if asked[y][x:x + 3] != unasked[y][x:x + 3]]
 check(len(changed) > 5000 and all(300 < x / 3 < 900 and 300 < y < 600 for x, y in changed), "unsaved work is asked about, in the middle")
 
-# A log that the disk does not take whole is told of; what there is of it is good.
+# A log that the disk does not take whole is reported; what there is of it is good.
 lines, err = window(BALL, "--log", at("full.log"), "--samples", 0, "--size", 300, 225, code=5, what="a full disk", disk=2500, script="""
 settle
 drag 150 110 170 90 60
@@ -387,7 +387,7 @@ for action in ("move", "press", "release", "click", "drag", "scroll", "key", "vi
                "screenshot", "save", "open", "record", "print", "where", "close", "quit"):
     check(f"`{action}" in described and f" {action}" in help_text, f"the action {action} is described")
 
-# No file of the run is written over another one, by an option or a line of a script; a line that is refused is told by the exit code.
+# No file of the run is written over another one, by an option or a line of a script; a line that is refused is known by the exit code.
 precious = write(at("precious.off"), box(3))
 kept = bytes_of(precious)
 for options, parts in ((["--record", precious], ["--record", "MESH"]), (["--report", precious], ["--report", "MESH"]), (["--log", precious], ["the log", "MESH"]),

@@ -66,7 +66,7 @@ def title():
 
 
 def log_has(count, word, what):
-    """So many lines of the log begin with the word."""
+    """This many lines of the log begin with the word."""
     eventually(lambda: sum(line.split()[0] == word for line in lines_of(log) if line) == count, f"{what}: {lines_of(log)[4:]}")
 
 

@@ -97,7 +97,7 @@ class Hand:
         return found
 
     def move(self, x, y, steps=1):
-        """From where it is, in so many motions. Pixels of the screen."""
+        """From where it is, in this many motions. Pixels of the screen."""
         from_x, from_y = self.at
         for i in range(1, steps + 1):
             self.at = round(from_x + (x - from_x) * i / steps), round(from_y + (y - from_y) * i / steps)

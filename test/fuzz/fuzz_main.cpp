@@ -125,7 +125,7 @@ int usage(const char* program, int code) {
                "usage: %s [--files N] [--seed S] [--first I] [--write-seeds FOLDER]\n"
                "Damages good inputs at random and runs them. Ends with an abort at the first broken promise, and says\n"
                "how to repeat it.\n"
-               "  --files N              so many inputs (100000)\n"
+               "  --files N              this many inputs (100000)\n"
                "  --seed S               other draws (1)\n"
                "  --first I              begin with input I (0)\n"
                "  --write-seeds FOLDER   only write the good inputs, for libFuzzer\n",

@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(a_clock_that_says_no_time_and_ticks_that_are_late_are_fault
   }
 }
 
-/// Two cones over one ring of so many vertices; the upper tip is (0, 0, 1), the first vertex.
+/// Two cones over one ring of this many vertices; the upper tip is (0, 0, 1), the first vertex.
 Mesh double_cone(int valence) {
   Mesh mesh;
   std::vector<Mesh::Vertex_index> ring;

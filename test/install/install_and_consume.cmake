@@ -41,7 +41,7 @@ run(${CMAKE_COMMAND} -S ${SOURCE_FOLDER} -B ${WORK_FOLDER}/device_build -G ${GEN
 run(${CMAKE_COMMAND} --install ${WORK_FOLDER}/device_build --prefix ${device_only})
 configure(device_consumer ${device_only} ${no_cgal})
 build_and_run(device_consumer)
-# Who asks such an installation for more is told what is missing.
+# Who asks such an installation for more reads what is missing.
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK_FOLDER}/sculpt_consumer -B ${WORK_FOLDER}/refused -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${device_only} RESULT_VARIABLE result ERROR_VARIABLE message OUTPUT_QUIET)
 string(REGEX REPLACE "[ \n]+" " " message "${message}")

@@ -29,7 +29,7 @@ inline std::array<Rational_point, 4> points_at(const Axis_query& query, const mp
 }
 
 /// Every time in [0, 1] at which the order of two points, the side of a line or the side of a plane can change, with
-/// both ends and a time between any two of these: all that can be told apart happens at one of them.
+/// both ends and a time between any two of these: all that can be distinguished happens at one of them.
 ///
 /// Which of these functions are constant is not asked: each is affine in time, as one coordinate is, and its root
 /// follows from its two end values.

@@ -6,7 +6,7 @@
 /// The point nearest to a target among those that keep a clearance from some planes, in GMP rationals.
 ///
 /// Shares nothing with the response: no facets, no regions, no sweeps, nothing of CGAL. The problem is convex, so its
-/// optimum is unique, and it is told from all other points by the conditions of Karush, Kuhn and Tucker.
+/// optimum is unique, and it is distinguished from all other points by the conditions of Karush, Kuhn and Tucker.
 
 #include <algorithm>
 #include <array>

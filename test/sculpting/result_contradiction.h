@@ -11,8 +11,8 @@
 
 namespace haptic_sculpt::test {
 
-/// What is wrong with the result of a drag from `source` to `target`, or null. \param path where it was told, else null
-/// \param limit of the work
+/// What is wrong with the result of a drag from `source` to `target`, or null. \param path where it was reported, else
+/// null \param limit of the work
 template <class Mesh, class Point = typename Mesh::Point>
 const char* contradiction(const Drag_result<Mesh>& r, const Point& source, const Point& target,
                           const std::vector<Point>* path = nullptr,

@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(refusals_name_the_first_pairs) {
   BOOST_TEST_MESSAGE("8,000 crossing triangles refused in " << seconds << " s");
   BOOST_TEST(report.intersecting_faces.size() == Validity_report::default_most_intersections);
   BOOST_TEST(report.has_more_intersections);
-  BOOST_TEST(report.boundary_edges.size() == 24000u); // the other kinds are told in full
+  BOOST_TEST(report.boundary_edges.size() == 24000u); // the other kinds are reported in full
   BOOST_TEST(report.message().find("\nat least 1000 pair(s) of intersecting faces: ") != std::string::npos);
   BOOST_TEST(std::is_sorted(report.intersecting_faces.begin(), report.intersecting_faces.end()));
   BOOST_TEST((validate_soup(soup).intersecting_faces == report.intersecting_faces));

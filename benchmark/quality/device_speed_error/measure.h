@@ -17,7 +17,7 @@ struct Population {
 
 /// Times and errors of one number type on one population; errors are divided by the condition number.
 ///
-/// \param checked so many configurations are compared with the reference \param repetitions passes, of which the
+/// \param checked this many configurations are compared with the reference \param repetitions passes, of which the
 /// fastest counts \param rows where the results go, beside standard output
 template <class S>
 void measure(const char* scalar, const Population& population, int checked, int repetitions, nlohmann::json& rows);

@@ -37,7 +37,7 @@ struct Drag_counts {
   std::vector<double> nanoseconds;   ///< of each drag
 };
 
-/// Names of all scripts, and one of them with so many drags.
+/// Names of all scripts, and one of them with this many drags.
 const std::vector<std::string>& drag_script_names();
 Drag_script drag_script(const std::string& name, std::size_t drags, std::uint64_t seed);
 

@@ -137,7 +137,8 @@ int main(int argc, char** argv) {
   options.shard.add_option(app, "scene");
   app.add_option("--dump", options.dump,
                  "Folder for what ends too early: NAME.off and NAME.script, for --replay or `sculpt`");
-  app.add_option("--dump-most", options.dumped_per_family, "So many of each family are written")->capture_default_str();
+  app.add_option("--dump-most", options.dumped_per_family, "This many of each family are written")
+      ->capture_default_str();
   app.add_flag("--verbose", options.is_verbose, "Tell of every end that is too early");
   app.add_option("--json", options.json, "Where the report goes");
   auto* replayed =

@@ -12,7 +12,7 @@
 
 namespace haptic_sculpt::robustness {
 
-/// Hills after so many random slides: full of contacts, slivers and folds, none of them drawn by hand.
+/// Hills after this many random slides: full of contacts, slivers and folds, none of them drawn by hand.
 inline Mesh crumpled(std::size_t slides, std::uint64_t seed) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.2, 0.02, 5));
   Sculptor<Mesh> sculptor(mesh, parameters::response(Response::slide));

@@ -133,8 +133,8 @@ template <class S> S least_residual(const Platform_closure<S>& closure, Link_ang
   return largest_magnitude(f);
 }
 
-/// The mode nearest to a seed. Two modes about a fold that are closer to each other than to the seed cannot be told
-/// apart by it: then the one on the home sheet is meant.
+/// The mode nearest to a seed. Two modes about a fold that are closer to each other than to the seed cannot be
+/// distinguished by it: then the one on the home sheet is meant.
 template <class S>
 bool nearest_mode(const Platform_closure<S>& closure, const Assembly_modes<S>& modes, const Link_angles<S>& seed,
                   Link_angles<S>& x) {

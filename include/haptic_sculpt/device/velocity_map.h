@@ -8,7 +8,7 @@
 /// \file
 /// The linear equations that tie the platform's velocity to what the legs do, factored once a pose.
 ///
-/// Rows `u_i.[v + w x (B_i - p)] = link_i` and `Q t_i.[v + w x (B_i - p)] = axis_i` (the latter in the general form
+/// Rows `u_i.[v + w x (B_i - p)] = link_i` and `Q t_i.[v + w x (B_i - p)] = axis_i` (the second in the general form
 /// only). In the platform's axes and units of l2 the axis rows read `t_i.v + x_i w_z - z_i e_i.w = axis_i` with x_i =
 /// r/l2 + cos phi_i, z_i = sin phi_i. Because sum t_i t_i^T = 3/2 I and sum t_i = 0, two combinations of them give v's
 /// horizontal part without a division and the third is free of v: four equations in (v_z, w) are left, and only those

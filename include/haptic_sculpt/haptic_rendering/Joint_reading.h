@@ -6,8 +6,7 @@
 
 namespace haptic_sculpt {
 
-/// What a device says at a tick. A device is whatever has `Joint_reading read()` and `void write(const Eigen::Vector3d&
-/// torque)`, N m, neither of which waits.
+/// What a device of joints (JointDevice) says at a tick.
 struct Joint_reading {
   Eigen::Vector3d theta = Eigen::Vector3d::Zero();  ///< joint angles as the encoders tell, rad
   Eigen::Vector3d torque = Eigen::Vector3d::Zero(); ///< of the motors, N m, where they are measured; else 0

@@ -6,11 +6,7 @@
 
 namespace haptic_sculpt {
 
-/// What a device of pose and force says at a tick.
-///
-/// The concept PoseDevice: `Pose_reading read_pose()` and `void write_force(const Eigen::Vector3d& force)`, N on the
-/// hand, neither of which waits. A driver that has its own kinematics models it, and so does a mouse, whose
-/// `write_force` does nothing. A device that has joints instead models JointDevice (Joint_reading.h).
+/// What a device of pose and force (PoseDevice) says at a tick.
 struct Pose_reading {
   Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< of the handle, m, in axes of the device
   int button = 0;                                     ///< 0: none, 1: grab or create, 2: remove

@@ -140,7 +140,7 @@ public:
     map_ = map, is_anchored_ = false, offset_.setZero();
   }
 
-  /// What is done from here on is told to it. nullptr: to none
+  /// What is done from here on goes to it. nullptr: to none
   void keep_journal(Edit_journal* journal) { mesh_edits_.keep_journal(journal); }
 
   bool holds_vertex() const { return grab_.has_value(); }          ///< the probe does not count

@@ -10,7 +10,7 @@
 
 namespace haptic_sculpt {
 
-/// How heavy what is grabbed feels. Off by default: it follows an acceleration that is told by second differences, and
+/// How heavy what is grabbed feels. Off by default: it follows an acceleration that is known by second differences, and
 /// is outside of what the passive limit promises.
 struct Virtual_mass_parameters {
   double mass = 0;                                       ///< kg, of what is grabbed

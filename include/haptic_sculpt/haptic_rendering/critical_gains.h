@@ -6,7 +6,7 @@
 #include <haptic_sculpt/haptic_rendering/Velocity_estimate.h>
 
 /// \file
-/// Where a free mass that is told its own acceleration, velocity or place begins to swing by itself
+/// Where a free mass that is given its own acceleration, velocity or place begins to swing by itself
 /// (doc/proofs/haptic_stability.md, "What a free mass carries").
 
 namespace haptic_sculpt {

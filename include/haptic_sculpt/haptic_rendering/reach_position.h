@@ -54,7 +54,7 @@ inline Outcome<Device_pose<double>> reach_position(const Device_parameters<doubl
 inline double workspace_radius(const Device_parameters<double>& parameters, const Device_pose<double>& home,
                                double most_condition = 10) {
   constexpr int directions = 200;
-  constexpr double step = 1e-3;                           // metres: how finely the radius is told
+  constexpr double step = 1e-3;                        // metres: how finely the radius is found
   constexpr double golden_angle = 2.39996322972865332; // radians: spreads directions evenly over the sphere
   double radius = std::numeric_limits<double>::infinity();
   for (int k = 0; k < directions; ++k) {

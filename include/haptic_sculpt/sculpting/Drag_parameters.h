@@ -29,8 +29,8 @@ struct Drag_parameters {
     clearance_length = length;
     return *this;
   }
-  /// Bounds the work, for a loop that has to be in time: after so many pairs decided and candidates looked up the drag
-  /// ends as Drag_end::work_limit where it is (doc/use/work.md).
+  /// Bounds the work, for a loop that has to be in time: after this many pairs decided and candidates looked up the
+  /// drag ends as Drag_end::work_limit where it is (doc/use/work.md).
   Drag_parameters& work_limit(std::optional<std::size_t> pairs) {
     work_bound = pairs;
     return *this;

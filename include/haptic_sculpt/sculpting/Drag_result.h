@@ -32,7 +32,7 @@ inline const char* name_of(Drag_end end) {
 /// The outcome of `Grab::drag_to`. A blocked drag is a result like any other.
 template <class Mesh>
 struct Drag_result {
-  /// So many contacts are held without an allocation: all that a slide carries. A stop reports all that come exactly
+  /// This many contacts are held without an allocation: all that a slide carries. A stop reports all that come exactly
   /// first; they are more only where as many features meet in one point.
   static constexpr std::size_t usual_contacts = 16;
   /// Like a std::vector.

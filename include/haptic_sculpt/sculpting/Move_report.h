@@ -41,7 +41,7 @@ struct Move_progress {
 struct Move_parameters {
   std::size_t drag_limit = std::numeric_limits<std::size_t>::max(); ///< most_drags(); at first without limit
 
-  /// A slide counts as one drag for each so many pairs that it decides, or part of them: as many as a drag that is
+  /// A slide counts as one drag for this many pairs that it decides, or part of them: as many as a drag that is
   /// stopped at its first impact decides, or a little more (doc/use/many_vertices.md).
   static constexpr std::size_t pairs_a_drag = 64;
   std::function<bool(const Move_progress&)> progress_function;      ///< progress(); at first none
@@ -49,8 +49,8 @@ struct Move_parameters {
       drags_singly = true, ///< drags()
       slides = true;       ///< slide()
 
-  /// So many drags are made at most, a slide counting by its work (pairs_a_drag); then the call ends as it would if it
-  /// had been cancelled: where many stand in each other's way, with all of them on their ways. The report tells what
+  /// This many drags are made at most, a slide counting by its work (pairs_a_drag); then the call ends as it would if
+  /// it had been cancelled: where many stand in each other's way, with all of them on their ways. The report tells what
   /// was left. No clock is asked: the same call does the same again, with any broad phase.
   Move_parameters& most_drags(std::size_t n) {
     drag_limit = n;

@@ -38,7 +38,8 @@ public:
 
   /// Drags it as Grab::drag_to drags a vertex; contacts are carried on. Of a probe that was refused `end` is
   /// Drag_end::refused, and a contact names the face that is too near; of one that has ended it is Drag_end::stale.
-  /// \throw Out_of_range, Invalid_parameter, Mesh_changed \param parameters unset: those of the Sculptor
+  /// \param parameters unset: those of the Sculptor
+  /// \throw Out_of_range, Invalid_parameter, Mesh_changed
   Drag_result<Mesh> drag_to(const Point& target, const std::optional<Drag_parameters>& parameters = std::nullopt) {
     return drag(target, nullptr, parameters);
   }

@@ -42,7 +42,7 @@ class Sculptor {
 public:
   using Mesh_type = Mesh_;                                   ///< the mesh that is guarded
   using Broad_phase = Broad_phase_;                          ///< finds what is near
-  using Visitor = Visitor_;                                  ///< is told of what edits do
+  using Visitor = Visitor_;                                  ///< hears of what edits do
   using Traits = Traits_;                                    ///< decides what a motion meets
   using Point = typename Mesh_type::Point;                   ///< with double coordinates
   using Vertex_index = typename Mesh_type::Vertex_index;     ///< used again by the mesh; id() lasts
@@ -142,7 +142,7 @@ public:
   /// \name Edits
   /// Each is done, proven, or refused with a reason and nothing has changed. They end the grab at hand; a Grab stays
   /// usable. What dies is said at each; Surface_mesh may use its descriptors again, within the edit too, all others
-  /// stay, and `id()` gives a vertex a number that lasts. The visitor is told. Cost: the valence times the candidates
+  /// stay, and `id()` gives a vertex a number that lasts. The visitor hears. Cost: the valence times the candidates
   /// near the star, and the broad phase; undo and redo: the valence and the broad phase. \throw Mesh_changed
   ///@{
 
@@ -217,7 +217,7 @@ public:
   /// steps are forgotten; a stroke that alone is larger is not kept, nor is anything before it.
   void set_history_limit(const History_limit& limit) { guarded_.whole_editor().history().set_limit(limit); }
 
-  /// Makes room, in the mesh too: after it so many edits (flips, collapses, creations, removals) and so many moves
+  /// Makes room, in the mesh too: after it this many edits (flips, collapses, creations, removals) and this many moves
   /// allocate nothing, nor do undo and redo, as long as no vertex has more than 28 neighbours, no star more than 512
   /// faces about it, and no decision takes rational numbers; with the Box_tree_broad_phase. A slide's lists are warm
   /// after a few drags. Cost: linear in the mesh.

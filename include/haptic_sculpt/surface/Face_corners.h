@@ -45,7 +45,7 @@ public:
       corners_[f] = {};
   }
 
-  /// Makes room for so many faces in all, so that update() allocates nothing.
+  /// Makes room for this many faces in all, so that update() allocates nothing.
   void reserve(std::size_t faces) { corners_.reserve(faces); }
 
   /// Whether the face is in the mesh as it was when it was made: with the same corners in the same orientation.

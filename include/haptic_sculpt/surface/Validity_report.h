@@ -26,8 +26,8 @@ struct Validity_report {
   using Vertex_pair = std::pair<Vertex_index, Vertex_index>;     ///< the lower index first
   using Face_pair = std::pair<Face_index, Face_index>;           ///< the lower index first
 
-  /// So many pairs of intersecting faces are named where nothing else is asked for. A surface that crosses itself badly
-  /// has as many as the square of its faces.
+  /// This many pairs of intersecting faces are named where nothing else is asked for. A surface that crosses itself
+  /// badly has as many as the square of its faces.
   static constexpr std::size_t default_most_intersections = 1000;
   /// Asks for all of them.
   static constexpr std::size_t all_intersections = static_cast<std::size_t>(-1);
@@ -76,7 +76,7 @@ struct Validity_report {
   /// Whether the surface is closed, 2-manifold, triangular, not degenerate, embedded, and obeys the delta rule.
   bool is_valid() const { return number_of_faults() == 0; }
 
-  /// Number of offending elements of all kinds; at least so many if `has_more_intersections`.
+  /// Number of offending elements of all kinds; at least this many if `has_more_intersections`.
   std::size_t number_of_faults() const {
     return inconsistent_halfedges.size() + non_finite_vertices.size() + non_triangular_faces.size() +
            degenerate_faces.size() + low_faces.size() + boundary_edges.size() + non_manifold_edges.size() +

@@ -99,7 +99,7 @@ struct Is_mesh_of_doubles<CGAL::Surface_mesh<Point>>
 
 } // namespace internal
 
-/// The points and faces of an OFF, PLY, OBJ or STL file, whatever they form. The format is told by the extension.
+/// The points and faces of an OFF, PLY, OBJ or STL file, whatever they form. The extension says which format.
 ///
 /// The files are not read through CGAL::IO, because its readers (5.5) allocate what a header asks for, follow the
 /// global locale (a comma for a point changes coordinates), do not see data after the last face, and let an OBJ index

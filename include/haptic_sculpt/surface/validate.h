@@ -74,7 +74,7 @@ inline void find_coincident_vertices(const Face_soup& soup, Validity_report& rep
 } // namespace internal
 
 /// Says everything that is wrong with a list of faces; see `validate(mesh)`.
-/// \param most_intersections stop after so many pairs of intersecting faces, at least one
+/// \param most_intersections stop after this many pairs of intersecting faces, at least one
 /// \param face_name the index under which each face is reported; empty: its place in the soup
 /// \param vertex_exists false for points that belong to nothing (removed vertices); empty: all exist
 /// \pre every corner is the index of a point

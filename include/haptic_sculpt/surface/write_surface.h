@@ -165,7 +165,7 @@ inline std::string file_contents(const Face_soup& soup, Mesh_file_format format,
 
 /// Writes a mesh without loss and atomically: the file is there whole, or what was there before is as it was.
 ///
-/// The format is told by the extension: .off, .ply, .obj or .stl. Coordinates come back bit for bit through
+/// The extension says which format: .off, .ply, .obj or .stl. Coordinates come back bit for bit through
 /// `read_surface()` from every format but binary STL, which holds floats: there it is refused unless the coordinates
 /// are floats anyway, or `allow_rounding` is set and the rounded surface validates. ASCII STL holds 17 digits and is
 /// lossless, but numbers vertices anew, in order of first appearance. Removed elements are left out; vertices close up

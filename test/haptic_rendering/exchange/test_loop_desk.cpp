@@ -15,7 +15,7 @@ namespace {
 
 using Command = Loop_command<Scene>;
 
-/// Is done after so many calls.
+/// Is done after this many calls.
 struct Counting : Loop_task<Scene> {
   int calls = 0, most;
   Scene* seen = nullptr;

@@ -33,7 +33,7 @@ Ways shear(const Mesh& mesh, int axis, int other, double share) {
   return ways;
 }
 
-/// Notes how the mesh stands whenever it is told of a move.
+/// Notes how the mesh stands whenever it hears of a move.
 struct Looking_visitor : Default_edit_visitor {
   const Mesh* mesh = nullptr;
   std::vector<Points> seen;

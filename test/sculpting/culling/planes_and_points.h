@@ -59,7 +59,7 @@ struct Faces_and_points {
   Box_3 box;
   internal::Outcodes outcodes; ///< of the points
 
-  /// \param most of so many faces \param may_be_whole whether those may be the whole star
+  /// \param most of this many faces \param may_be_whole whether those may be the whole star
   Faces_and_points(Random& random, std::size_t valence, int exponent, std::size_t most, bool may_be_whole)
     : drawn(random, valence, exponent, draw_offset(random)), first(0), last(valence) {
     if (!may_be_whole || valence > most ||

@@ -188,7 +188,7 @@ struct Session {
         });
   }
 
-  /// A part of the way is looked at first: what comes first in it is told.
+  /// A part of the way is looked at first: what comes first in it is reported.
   void check_part(const All_pairs& all, const Coordinates& source, const Coordinates& target,
                   double until) {
     Swept_star_3 part = all.star.swept(source, target);

@@ -9,7 +9,7 @@
 
 namespace haptic_sculpt::test {
 
-/// A copy of a mesh kept by what a visitor is told, and nothing else. Counts what cannot be right: an element that dies
+/// A copy of a mesh kept by what a visitor hears, and nothing else. Counts what cannot be right: an element that dies
 /// without having lived or is not what it was when it was created, or one that is created where one lives.
 struct Mirror_visitor : Default_edit_visitor {
   using Face_index = Mesh::Face_index;

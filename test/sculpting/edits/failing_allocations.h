@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_TEST_FAILING_ALLOCATIONS_H
 
 /// \file
-/// Memory that runs out when it is told to: replaces the global operator new. To be included by one source file of a
+/// Memory that runs out when asked to: replaces the global operator new. To be included by one source file of a
 /// program.
 
 #include <cstdlib>

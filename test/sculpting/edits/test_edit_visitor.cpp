@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the visitor is told suffices to keep a copy of the mesh, and nothing is told of what did not happen.
+// What the visitor hears suffices to keep a copy of the mesh, and it hears nothing of what did not happen.
 #include "sculpting/edits/Mirror_visitor.h"
 #include "sculpting/edits/random_edits.h"
 

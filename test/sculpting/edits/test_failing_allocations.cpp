@@ -21,7 +21,7 @@ namespace {
 
 using Vector_3 = meshes::Kernel::Vector_3;
 
-/// A broad phase as users write one: it allocates in whatever it is told, and has no room made for it.
+/// A broad phase as users write one: it allocates in whatever it hears of, and has no room made for it.
 template <class Mesh_>
 class Allocating_broad_phase : public Brute_force_broad_phase<Mesh_> {
 public:

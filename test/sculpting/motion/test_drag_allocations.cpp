@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(warm_drags_of_high_valence_allocate_nothing) {
   }
 }
 
-// The room for undo is made when a vertex is taken: what is told of it there holds.
+// The room for undo is made when a vertex is taken: what is said of it there holds.
 BOOST_AUTO_TEST_CASE(room_for_undo_is_made_at_the_grab) {
   Mesh mesh = meshes::to_mesh(meshes::torus(40, 20));
   Sculptor<Mesh> sculptor(mesh);

@@ -34,7 +34,7 @@ struct Scaled_scene {
     const internal::Rounding_to_nearest rounding;
     return CGAL::midpoint(mesh.point(v), mesh.point(w));
   }
-  /// Where a vertex of the ball would be, so many times as far from the origin, and so many units along x.
+  /// Where a vertex of the ball would be, this many times as far from the origin, and this many units along x.
   Point_3 beyond(Vertex_index v, double share, double along = 0) const {
     const internal::Rounding_to_nearest rounding;
     const Point_3& p = mesh.point(v);

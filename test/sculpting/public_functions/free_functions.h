@@ -162,7 +162,7 @@ inline std::vector<Public_function> free_functions() {
                            kind, scene.at(0.5, 0.25, 0.5), scene.length(0.75), is_length ? scene.length(0.125) : 0.5, {}};
                        if (has_direction)
                          dab.direction = meshes::Kernel::Vector_3(scene.length(1), scene.length(0.5), scene.length(0.25));
-                       // A plane is told by a direction, of any length, and a place.
+                       // A plane is given by a direction, of any length, and a place.
                        const auto plane = [&] {
                          const internal::Rounding_to_nearest rounding; // its constructor multiplies
                          return meshes::Kernel::Plane_3(scene.at(0.25, 0, 0), meshes::Kernel::Vector_3(1, 0.5, 0.25));

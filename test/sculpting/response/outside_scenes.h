@@ -190,7 +190,7 @@ inline std::vector<Outside_scene> outside_scenes(Random& random) {
   return scenes;
 }
 
-/// The valid meshes of a folder with at most so many faces, in order of their names; which vertex is dragged is left
+/// The valid meshes of a folder with at most this many faces, in order of their names; which vertex is dragged is left
 /// open.
 inline std::vector<Outside_scene> shared_scenes(const std::filesystem::path& folder, std::size_t most_faces) {
   std::vector<std::filesystem::path> files;

@@ -230,7 +230,7 @@ inline std::vector<std::array<std::size_t, 3>> triangles_of(const Grid_polygon& 
 
 } // namespace internal_shapes
 
-/// The polygon drawn out along z in so many layers, each of height 2.
+/// The polygon drawn out along z in this many layers, each of height 2.
 inline meshes::Triangle_list extruded(const Grid_polygon& polygon, int layers, Random& random) {
   meshes::Triangle_list list;
   std::size_t on_rings = 0;

@@ -21,7 +21,7 @@ struct Frame {
   }
 };
 
-/// A mesh that changes, and broad phases that are told.
+/// A mesh that changes, and broad phases that hear of it.
 struct Changing_mesh {
   Mesh mesh;
   Frame frame;

@@ -49,7 +49,7 @@ public:
   bool has_overrun() const { return has_overrun_; } ///< nothing more is taken: the run should end
   /// Entries that were not taken: all since the journal has overrun.
   std::uint64_t lost() const { return lost_; }
-  /// So many entries more find room: who would rather wait than overrun asks before a tick.
+  /// This many entries more find room: who would rather wait than overrun asks before a tick.
   std::size_t room() const { return queue_.write_available(); }
   /// Ticks with entries that are not written yet.
   std::uint64_t waiting() const { return ended_ - taken_.load(std::memory_order_acquire); }
@@ -67,7 +67,7 @@ public:
   /// Takes the next entry. \return false where there is none yet. The entries of the last tick may be followed by none:
   /// they wait for its end.
   bool take(Edit& edit) { return queue_.pop(edit); }
-  /// So many more ticks are written, or cannot be.
+  /// This many more ticks are written, or cannot be.
   void wrote(std::uint64_t ticks) { taken_.fetch_add(ticks, std::memory_order_release); }
   ///@}
 

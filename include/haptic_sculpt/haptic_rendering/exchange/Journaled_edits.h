@@ -58,7 +58,7 @@ public:
     return made;
   }
 
-  /// A drag of a vertex of the surface; its legs are told. \throw what drags throw
+  /// A drag of a vertex of the surface; its legs are reported. \throw what drags throw
   Result drag(Grab_type& grab, const Point& target, const std::optional<Drag_parameters>& parameters) {
     const auto result = grab.drag_to(target, legs_, parameters);
     for (std::size_t k = 1; k < legs_.size(); ++k)
@@ -68,7 +68,7 @@ public:
   }
 
   /// Moves many as near to their targets as straight ways lead. The Sculptor's visitor has to be a Scene_teller.
-  /// \throw what move_vertices() throws; what has been moved is told
+  /// \throw what move_vertices() throws; what has been moved is reported
   template <class Vertex_range, class Target_map>
   Move_report move_many(const Vertex_range& vertices, const Target_map& targets) {
     const Telling_moves telling(*this);
@@ -85,7 +85,7 @@ private:
   std::vector<Point> legs_; ///< of the last drag
   Moves moves_;             ///< of the last move_many()
 
-  /// Each move that the Sculptor makes as long as this lives is told at its end, also where something was thrown.
+  /// Each move that the Sculptor makes as long as this lives is reported at its end, also where something was thrown.
   struct Telling_moves {
     Journaled_edits& edits;
 

@@ -61,7 +61,7 @@ struct Loop_answer {
 template <class Scene>
 class Loop_desk {
 public:
-  /// \param room for so many commands whose answers have not been taken
+  /// \param room for this many commands whose answers have not been taken
   explicit Loop_desk(std::size_t room = 256) : commands_(room), answers_(2 * room), room_(room) {}
 
   /// \name The asking thread

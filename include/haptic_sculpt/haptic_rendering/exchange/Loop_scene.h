@@ -14,7 +14,7 @@ namespace haptic_sculpt {
 /// A mesh, its Sculptor, and where it is for the hand: what a loop sculpts. Made by any thread, then given
 /// to the loop's.
 ///
-/// \tparam Visitor_ a Scene_teller, or derived from one and made from the same: what else is to be told of edits
+/// \tparam Visitor_ a Scene_teller, or derived from one and made from the same: what else is to hear of edits
 template <class Mesh_, class Visitor_ = Scene_teller<Mesh_>>
 struct Loop_scene {
   using Mesh = Mesh_; ///< a `CGAL::Surface_mesh`
@@ -28,7 +28,7 @@ struct Loop_scene {
   Workspace_map map;      ///< between the device and the scene
 
   /// \param map_of_box what gives a Workspace_map for the mesh's box: `(lower, upper)`
-  /// \param edits, moves room that is made for so many (Sculptor::reserve)
+  /// \param edits, moves room that is made for this many (Sculptor::reserve)
   /// \throw Invalid_surface and what else the Sculptor throws. Cost: that of validate()
   template <class Map_of_box>
   Loop_scene(Mesh given, const Map_of_box& map_of_box, std::size_t edits = 1000, std::size_t moves = 100000,

@@ -18,7 +18,7 @@ template <class Loop, class Scene>
 class Loop_session {
 public:
   using Kind = typename Loop_command<Scene>::Kind; ///< of commands
-  /// Tasks under way at once; while there are so many no other command is taken.
+  /// Tasks under way at once; while there are this many no other command is taken.
   static constexpr std::size_t most_tasks = 16;
 
   /// All must outlive this; desk, feed and journal may be null.

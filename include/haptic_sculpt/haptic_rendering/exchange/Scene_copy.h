@@ -18,7 +18,7 @@ public:
   static constexpr std::uint64_t absent = std::numeric_limits<std::uint64_t>::max();    ///< the id of no vertex
   static constexpr std::uint32_t no_corner = std::numeric_limits<std::uint32_t>::max(); ///< the corner of no face
 
-  /// Room for a mesh with so many descriptors (`number_of_vertices() + number_of_removed_vertices()`, and faces).
+  /// Room for a mesh with this many descriptors (`number_of_vertices() + number_of_removed_vertices()`, and faces).
   Scene_copy(std::size_t vertices, std::size_t faces)
       : points(vertices), ids(vertices, std::uint64_t(absent)), faces(faces, {no_corner, 0, 0}) {}
 
@@ -66,7 +66,7 @@ public:
   ///@{
 
   void begin() { next_vertex_ = next_face_ = 0; } ///< from the first element again; what was needed is kept
-  /// Copies up to so many elements more. \return whether all are copied. Allocates nothing.
+  /// Copies up to this many elements more. \return whether all are copied. Allocates nothing.
   template <class Sculptor>
   bool copy_some(const Sculptor& sculptor, std::size_t elements) {
     const auto& mesh = sculptor.mesh();

@@ -51,7 +51,7 @@ struct Tick_view {
 /// counted. Who sees that `lost_changes()` has grown asks for a new copy of the scene (Copy_task).
 class Scene_feed {
 public:
-  /// \param changes, ticks room for so many that have not been taken; allocated here
+  /// \param changes, ticks room for this many that have not been taken; allocated here
   explicit Scene_feed(std::size_t changes = std::size_t{1} << 16, std::size_t ticks = 4096)
       : changes_(changes), ticks_(ticks) {}
 

@@ -25,8 +25,8 @@ public:
   void tell_to(Scene_copy* copy) { copy_ = copy; } ///< beside the feed; to none: nullptr
   void tell_to(Moves* moves) { moves_ = moves; }   ///< moves are listed there, too; nowhere: nullptr
 
-  const Scene_feed* feed() const { return feed_; } ///< that is told; none: nullptr
-  const Scene_copy* copy() const { return copy_; } ///< that is told; none: nullptr
+  const Scene_feed* feed() const { return feed_; } ///< that hears of changes; none: nullptr
+  const Scene_copy* copy() const { return copy_; } ///< that hears of changes; none: nullptr
 
   /// \name What the Sculptor calls
   ///@{

@@ -16,7 +16,7 @@ namespace haptic_sculpt {
 /// to the next mass, the last stage's to that place. The first mass moves with the handle, and may be 0. The hand
 /// carries its own weight.
 struct Simulated_hand {
-  static constexpr int most_stages = 3; ///< room for so many
+  static constexpr int most_stages = 3; ///< room for this many
   /// A mass, and what ties it to the next.
   struct Stage {
     double mass = 0;      ///< kg; 0 for the first stage only

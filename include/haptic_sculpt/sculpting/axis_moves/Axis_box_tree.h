@@ -19,7 +19,7 @@ namespace internal {
 /// about.
 class Axis_box_tree {
 public:
-  /// For so many slots, all empty.
+  /// For this many slots, all empty.
   void resize(std::size_t slots) {
     levels_.clear();
     for (std::size_t size = slots; size > 1 || levels_.empty();) {

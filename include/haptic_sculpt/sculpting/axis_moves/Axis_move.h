@@ -109,7 +109,7 @@ public:
     }
     return true;
   }
-  /// So many vertices are held back by now.
+  /// This many vertices are held back by now.
   std::size_t held() const { return held_; }
 
   /// Whether all of the mesh is looked at.

@@ -59,7 +59,7 @@ public:
   /// Of the features that stand still.
   double largest_coordinate() const { return reach_; }
 
-  /// Whether J has lifted off by so many clearances, or has gone round the facet to its other side (whose sign is
+  /// Whether J has lifted off by this many clearances, or has gone round the facet to its other side (whose sign is
   /// exact).
   bool is_over(double clearances) const {
     return height_ > clearances * clearance_ || (height_ < 0 && !contact_.is_flat);

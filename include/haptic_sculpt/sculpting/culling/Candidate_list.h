@@ -48,7 +48,7 @@ public:
     return result.include(vertices_[face.vertices[1]].point).include(vertices_[face.vertices[2]].point);
   }
 
-  /// Makes room for so many candidates about a star: none that are fewer allocate.
+  /// Makes room for this many candidates about a star: none that are fewer allocate.
   void reserve(std::size_t valence, std::size_t faces) {
     vertices_.reserve(valence + 3 * faces);
     edges_.reserve(3 * faces);
@@ -68,9 +68,9 @@ public:
 
   /// Takes the candidate faces that are not incident to the star's centre; `region` is where the centre may be.
   /// \param corners_of gives a face's corners in the orientation of the mesh: Face_corners, or corners_in(mesh)
-  /// \param is_known is told each vertex as soon as it is known, before its point is read: to ask for memory ahead
-  /// \pre the link names no vertex twice, as on any mesh without doubled edges
-  /// Cost: linear in the number of candidates.
+  /// \param is_known is called with each vertex as soon as it is known, before its point is read: to ask for memory
+  /// ahead \pre the link names no vertex twice, as on any mesh without doubled edges Cost: linear in the number of
+  /// candidates.
   template <class Corners_of, class Is_known>
   void assign(const Mesh& mesh, const Corners_of& corners_of, const Star<Mesh>& star,
               const std::vector<Face_index>& candidates, const Box_3& region, const Is_known& is_known) {

@@ -23,7 +23,7 @@ public:
       bits_.assign(n * words_, 0);
   }
 
-  /// Makes room for so many insertions, whatever the numbers.
+  /// Makes room for this many insertions, whatever the numbers.
   void reserve(std::size_t most) {
     bits_.reserve(most_numbers * (most_numbers / 64));
     others_.prepare(most);

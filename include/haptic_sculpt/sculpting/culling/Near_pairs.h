@@ -118,7 +118,7 @@ private:
   /// one motion that takes its pairs bounds more of them: at 0.75 the slowest motion in a thousand takes 1.7 times as
   /// long, the mean is the same.
   static constexpr double widest = 0.35;
-  /// The centre is so many radii ahead, for a hand goes on in its direction; motions longer than `longest` radii are
+  /// The centre is this many radii ahead, for a hand goes on in its direction; motions longer than `longest` radii are
   /// not worth it.
   static constexpr double ahead = 0.3, longest = 0.5;
   /// With more pairs than this (the surroundings are much finer than the star), to sweep by boxes costs less.

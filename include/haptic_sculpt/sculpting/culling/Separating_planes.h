@@ -13,7 +13,7 @@ namespace internal {
 
 /// Planes about some consecutive faces of a star, which part many pairs of a moving and a still feature at once.
 ///
-/// For each plane it is told of every still point on which side of what moves it certainly lies, if on any: 64 sides of
+/// For each plane it says of every still point on which side of what moves it certainly lies, if on any: 64 sides of
 /// a point are one number. A still edge or face all of whose corners lie on one side of a plane, beyond what a moving
 /// feature sweeps over, is apart from that, which is one comparison of numbers. Whatever direction a plane has, that
 /// holds: what is swept over is measured along it, and roundings are taken off. (doc/proofs/culling.md)
@@ -25,7 +25,7 @@ public:
   /// Which sides of planes: two bits a plane.
   using Outcode = Outcodes::Outcode;
 
-  /// So many faces, with as many spokes or one more, and the box have sides that fit in a number.
+  /// This many faces, with as many spokes or one more, and the box have sides that fit in a number.
   static constexpr std::size_t most_faces = 14;
 
   /// \param way from the start of the motion to its end \param spokes ends of the spokes \param first,last the faces

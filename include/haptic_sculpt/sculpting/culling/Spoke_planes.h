@@ -22,7 +22,7 @@ class Spoke_planes {
 public:
   using Outcode = Outcodes::Outcode;
 
-  /// So many faces have one spoke more, each with a bit in each quarter of a number.
+  /// This many faces have one spoke more, each with a bit in each quarter of a number.
   static constexpr std::size_t most_faces = 15;
 
   /// Like Swept_fan's. \pre last - first <= most_faces, and that is less than the number of spokes

@@ -175,9 +175,9 @@ private:
   /// twice as many motions.
   static constexpr int most_patience = 64;
 
-  /// So many faces are looked at at once. Of a long way that passes over more, first a part is looked at, about as long
-  /// as the star is wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many are
-  /// soon stopped.
+  /// This many faces are looked at at once. Of a long way that passes over more, first a part is looked at, about as
+  /// long as the star is wide, then sixteen times as much, up to a quarter of it: most long pushes that pass over many
+  /// are soon stopped.
   static constexpr std::size_t few_faces = 192;
   static constexpr double least_part = 0x1p-10;
 

@@ -37,10 +37,10 @@ public:
     return divide(scene, 0, valence, 0, visit);
   }
 
-  /// Stars of up to so many faces are not divided.
+  /// Stars of up to this many faces are not divided.
   static constexpr std::size_t most_undivided = 2 * Separating_planes::most_faces;
 
-  /// Makes room for such a star and so many candidates.
+  /// Makes room for such a star and this many candidates.
   void reserve(std::size_t vertices, std::size_t edges) {
     Near_candidates& all = levels_[0].near;
     all.edges.reserve(edges);
@@ -80,9 +80,9 @@ private:
 
   /// Of a run.
   static constexpr std::size_t most_faces = std::min(Separating_planes::most_faces, Spoke_planes::most_faces);
-  /// A large star is divided into so many parts at least: hardly anything is apart from a third of a star.
+  /// A large star is divided into this many parts at least: hardly anything is apart from a third of a star.
   static constexpr std::size_t least_parts = 4;
-  /// Into so many where there are more runs than parts can be: more take more planes, fewer more divisions.
+  /// Into this many where there are more runs than parts can be: more take more planes, fewer more divisions.
   static constexpr std::size_t usual_parts = 8;
 
   /// Faces of a star that is not large, or on a long way.

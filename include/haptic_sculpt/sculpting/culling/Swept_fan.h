@@ -51,7 +51,7 @@ public:
     }
   }
 
-  /// So many fans have sides that fit in a number: one bit of each quarter a fan.
+  /// This many fans have sides that fit in a number: one bit of each quarter a fan.
   static constexpr std::size_t most_fans = 16;
 
   /// Adds to the sides of the points on the far side of which planes they certainly lie. All points of a set on the far

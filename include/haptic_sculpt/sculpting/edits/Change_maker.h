@@ -102,10 +102,10 @@ public:
   bool was_ready() const { return is_ready_; }
   void expect_change() { is_ready_ = false; }
 
-  /// The visitor is told of a move that was made elsewhere.
+  /// The visitor hears of a move that was made elsewhere.
   void tell_moved(Vertex_index v) { visitor_.vertex_moved(v); }
 
-  /// Room for so many edits.
+  /// Room for this many edits.
   void reserve(std::size_t edits, std::size_t usual_valence) {
     room_.reserve(edits);
     star_.reserve(usual_valence);
@@ -163,7 +163,7 @@ private:
     return v;
   }
 
-  /// All at once: the visitor is told when all stand. \param end 0: as before, 1: as after
+  /// All at once: the visitor hears when all stand. \param end 0: as before, 1: as after
   template <class Noted>
   Vertex_index put_all(const Change& edit, int end, const Noted& noted) {
     // All that allocates comes before the first point is written.

@@ -18,14 +18,14 @@ namespace internal {
 /// last. Bytes: a move 56, another edit 56 and 8 for each vertex around it, 24 for each that a shift moves, a step 16.
 class Edit_history {
 public:
-  /// So many drags follow a `make_room()` without an allocation: a quarter of a minute of a hand that drags a thousand
-  /// times a second. Of drags beyond, one in so many allocates. 1.2 MB.
+  /// This many drags follow a `make_room()` without an allocation: a quarter of a minute of a hand that drags a
+  /// thousand times a second. Of drags beyond, one in as many allocates. 1.2 MB.
   static constexpr std::size_t room = std::size_t{1} << 14;
 
   /// To be called where time does not matter: before a drag begins.
   void make_room() { reserve_records(0, is_off() ? 0 : room); }
 
-  /// So many edits, of which each has up to eight vertices around in the mean, and so many moves allocate nothing.
+  /// This many edits, of which each has up to eight vertices around in the mean, and this many moves allocate nothing.
   /// \param ids how many numbers of vertices there are then
   void reserve(std::size_t edits, std::size_t moves, std::size_t ids) {
     if (is_off())
@@ -127,7 +127,7 @@ public:
   }
 
   /// \name Going back and forth, change by change
-  /// What is told here is good until something is told again.
+  /// What is given here is good until something is given again.
   ///@{
   /// The change that was made last and not taken back; nullptr where there is none.
   const Change* to_undo() {
@@ -203,7 +203,7 @@ private:
   Record_queue<Place, room> steps_; ///< the end of each
   Place first_{0, 0};                         ///< the begin of the first step
   std::size_t moves_done_ = 0, edits_done_ = 0, steps_done_ = 0;
-  Change current_; ///< what was told last
+  Change current_; ///< what was given last
   History_limit limit_;
 
   std::size_t open_ = 0;                    ///< how many began the stroke under way and have not ended it

@@ -86,8 +86,8 @@ public:
     const Vertex_index apex = star.link[pivot];
     const Coordinates& target = star.link_points[pivot];
     const auto& vertices = list.vertices();
-    // The least that the first spoke or face in the way meets, so that what is told does not depend on the order of the
-    // list.
+    // The least that the first spoke or face in the way meets, so that what is reported does not depend on the order of
+    // the list.
     const auto note = [&](Elements found) {
       if (in_the_way.empty() || found < in_the_way)
         in_the_way = std::move(found);
@@ -131,7 +131,7 @@ public:
            });
   }
 
-  /// Makes room for so many candidates of a collapse.
+  /// Makes room for this many candidates of a collapse.
   void reserve(std::size_t vertices, std::size_t edges) { runs_.reserve(vertices, edges); }
 
 private:

@@ -26,7 +26,7 @@ public:
   using Point = typename Mesh::Point;
   using Result = Edit_result<Mesh>;
 
-  /// \param watch is told of what has changed \param writing while anything is written
+  /// \param watch hears of what has changed \param writing while anything is written
   Editor(Mesh& mesh, Broad_phase& broad_phase, Face_corners<Mesh>& corners, Filter_counters& counters,
          Mesh_watch<Mesh>& watch, Write_state& writing, Visitor visitor = Visitor())
       : mesh_(&mesh)
@@ -46,7 +46,7 @@ public:
   /// Many drags may follow: what they need for undo is allocated now.
   void prepare_for_moves() { history_.make_room(); }
 
-  /// So many edits and moves follow: what they need is allocated now, for stars and surroundings of usual size.
+  /// This many edits and moves follow: what they need is allocated now, for stars and surroundings of usual size.
   void reserve(std::size_t edits, std::size_t moves) {
     history_.reserve(edits, moves, ids().size() + edits);
     changes_.reserve(edits, usual_valence);
@@ -63,7 +63,7 @@ public:
   void note_move(Vertex_index v, const Coordinates& before, const Coordinates& after) {
     history_.push_move(ids().id(v), before, after);
   }
-  /// The visitor is told of it.
+  /// The visitor hears of it.
   void tell_moved(Vertex_index v) { changes_.tell_moved(v); }
 
   Result insert_on_face(Face_index f, const Coordinates& p, double delta) {
@@ -167,7 +167,7 @@ public:
     return mesh_->halfedge(v, w);
   }
 
-  /// reserve() makes room for stars of so many faces, and for so many faces about them.
+  /// reserve() makes room for stars of this many faces, and for this many faces about them.
   static constexpr std::size_t usual_valence = Star_runs<Mesh>::most_undivided, usual_candidates = 512;
 
 private:
@@ -203,7 +203,7 @@ private:
     }
   }
 
-  /// Makes so many changes undone that were taken back or made again last.
+  /// Makes this many changes undone that were taken back or made again last.
   void reverse(std::size_t changes, bool is_back) {
     try {
       while (changes-- != 0) {

@@ -31,7 +31,7 @@ public:
       , room_{mesh.num_vertices(), mesh.num_edges(), mesh.num_faces()}
       , points_(points()) {}
 
-  /// Room for an edit that makes `born` after `dead` have died, and tells the broad phase of so many insertions.
+  /// Room for an edit that makes `born` after `dead` have died, and tells the broad phase of this many insertions.
   /// \throw std::bad_alloc, and nothing has changed but room
   void make(const Elements& born, const Elements& dead, std::size_t insertions) {
     Elements free; // slots of elements that are no more
@@ -53,7 +53,7 @@ public:
     insertions_ -= insertions;
   }
 
-  /// Room for so many edits of usual size.
+  /// Room for this many edits of usual size.
   void reserve(std::size_t edits) {
     reserve({mesh_->num_vertices() + edits, mesh_->num_edges() + 3 * edits, mesh_->num_faces() + 2 * edits});
     ids_->reserve(edits);
@@ -68,8 +68,8 @@ private:
   Face_corners<Mesh>* corners_;
   Mesh_watch<Mesh>* watch_;
   Vertex_ids<Mesh>* ids_;
-  Elements room_;              ///< for so many the arrays have been reserved
-  std::size_t insertions_ = 0; ///< for so many more the broad phase has
+  Elements room_;              ///< for this many the arrays have been reserved
+  std::size_t insertions_ = 0; ///< for this many more the broad phase has
   const void* points_;         ///< the array of points then: another one has the room that others gave it
 
   const void* points() const { return mesh_->num_vertices() != 0 ? mesh_->points().data() : nullptr; }

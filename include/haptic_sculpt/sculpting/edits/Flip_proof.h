@@ -98,7 +98,7 @@ private:
       box.include(p);
     candidates_.clear();
     broad_phase_->query(box, candidates_);
-    std::sort(candidates_.begin(), candidates_.end()); // what is told does not depend on the broad phase
+    std::sort(candidates_.begin(), candidates_.end()); // what is reported does not depend on the broad phase
     numbers_.prepare(4 + 3 * candidates_.size());
     sides_.clear();
     for (unsigned i = 0; i < 4; ++i) {

@@ -30,7 +30,7 @@ public:
                   "Sculptor::keep: the keys of the map must be vertices, halfedges, edges or faces of the mesh");
     maps_.push_back(std::make_unique<Kept_map_of<Mesh, Map, Carry>>(map, std::move(carry)));
   }
-  /// The visitor hears of what comes from what, if it has the functions for that. \param visitor is told as long as
+  /// The visitor hears of what comes from what, if it has the functions for that. \param visitor is called as long as
   /// this lives
   template <class Visitor>
   void tell_lineage(Visitor& visitor) {

@@ -76,7 +76,7 @@ public:
       check_face(corners, f);
   }
 
-  /// Makes room for so many vertices in all.
+  /// Makes room for this many vertices in all.
   void reserve(std::size_t vertices) { points_.reserve(vertices); }
 
   /// Asks for the memory that check(v) will read.

@@ -48,7 +48,7 @@ public:
     base_ += empty * block_size;
   }
 
-  /// So many additions allocate nothing. \throw std::bad_alloc, and no record has changed
+  /// This many additions allocate nothing. \throw std::bad_alloc, and no record has changed
   void reserve(std::size_t additions) {
     const std::size_t blocks = (end_ - base_ + additions + block_size - 1) / block_size;
     while (blocks_.size() < blocks) {

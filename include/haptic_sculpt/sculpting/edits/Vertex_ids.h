@@ -51,9 +51,9 @@ public:
 
   /// Room to give this number: where it is the next never used, it is one more.
   void make_room_for(std::size_t id) { make_room(vertices_, id + 1); }
-  /// Room for so many numbers more.
+  /// Room for this many numbers more.
   void reserve(std::size_t numbers) { vertices_.reserve(vertices_.size() + numbers); }
-  /// Room for the numbers of so many slots of vertices in the mesh, in all.
+  /// Room for the numbers of this many slots of vertices in the mesh, in all.
   void reserve_slots(std::size_t slots) { ids_.reserve(slots); }
 
   /// Bytes held, capacity included.

@@ -49,8 +49,8 @@ typename Mesh::Halfedge_index remove_star(Mesh& mesh, typename Mesh::Vertex_inde
   return CGAL::Euler::remove_center_vertex(mesh.halfedge(v), mesh);
 }
 
-/// A fan is told by the halfedges into its apex, one in each of its faces: the first on the polygon around the fan, the
-/// others within.
+/// A fan is given by the halfedges into its apex, one in each of its faces: the first on the polygon around the fan,
+/// the others within.
 template <class Mesh>
 using Fan = std::vector<typename Mesh::Halfedge_index>;
 
@@ -66,7 +66,7 @@ void fill_with_fan(Mesh& mesh, typename Mesh::Halfedge_index h, typename Mesh::V
   }
 }
 
-/// Finds the fan of so many faces that begins with the halfedge `first` into its apex, in the order of Star::link,
+/// Finds the fan of this many faces that begins with the halfedge `first` into its apex, in the order of Star::link,
 /// which runs against the orientation of the faces. Cost: its size.
 template <class Mesh>
 void find_fan(const Mesh& mesh, typename Mesh::Halfedge_index first, std::size_t faces, Fan<Mesh>& fan) {

@@ -74,7 +74,7 @@ public:
   void check_is_whole() const { writing_.check(); }
 
   void release() {
-    const Rounding_to_nearest rounding; // the broad phase is told where a vertex is
+    const Rounding_to_nearest rounding; // the broad phase learns where a vertex is
     check_is_whole();
     hand_.release();
     probe_.let_go();
@@ -310,7 +310,7 @@ private:
   Surface_finder<Mesh, Broad_phase> finder_;
   Scene_bound<Mesh> scene_;
   Axis_move<Mesh> whole_move_, near_move_; ///< that look at all faces; at some
-  bool are_many_ = false;                  ///< which of them was told to look around last
+  bool are_many_ = false;                  ///< which of them looked around last
   Faces_on_the_way<Mesh> on_the_way_;
   std::vector<Face_index> faces_near_probe_; ///< kept to allocate no more
   Coordinates probe_place_{};                ///< where the last probe was left

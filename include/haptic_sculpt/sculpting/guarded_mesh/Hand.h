@@ -148,7 +148,7 @@ private:
   bool has_moved_ = false; ///< the broad phase has not been told yet where the held star is
   std::size_t compared_look_ = 0, next_compared_ = 0;
 
-  /// So many candidates are compared at every drag; a list that holds for long is seen whole soon.
+  /// This many candidates are compared at every drag; a list that holds for long is seen whole soon.
   static constexpr std::size_t candidates_per_drag = 4;
 
   void expect_one_motion(bool on) {

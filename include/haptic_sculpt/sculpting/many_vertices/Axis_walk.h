@@ -32,7 +32,7 @@ public:
     // Steps that are taken back would use up what few motions there are.
     const bool takes_steps = parameters_.drags_singly && parameters_.drag_limit / work_of_steps >= vertices_.size();
     double way = takes_steps ? 0 : 1, step = 1;
-    std::size_t before = vertices_.size(); // so many were held back in the step twice as long
+    std::size_t before = vertices_.size(); // this many were held back in the step twice as long
     while (way < 1 && goes_on_) {
       const double next = std::fmin(1, way + step);
       const std::size_t held = step_to(next, vertices_.size() / 4);
@@ -64,7 +64,7 @@ private:
   /// Steps of this share of the way are tried whatever comes of it; shorter ones, to the least, only while half as long
   /// a step at least halves the number held back: that is so in twists, and not in noise.
   static constexpr double worth_trying = 1.0 / 16, least_step = 1.0 / 256;
-  /// Steps are tried where so many motions a vertex may be made.
+  /// Steps are tried where this many motions a vertex may be made.
   static constexpr std::size_t work_of_steps = 16;
   /// Another pass to the end is made while the last has gained more than this share of what was left.
   static constexpr double least_gain = 0.01;
@@ -78,7 +78,7 @@ private:
   std::vector<std::pair<int, Ways>> made_; ///< by the step under way: the axis, and where all were before
   bool goes_on_ = true;                    ///< neither cancelled nor without room for another move
 
-  /// So many may be held back in a step.
+  /// This many may be held back in a step.
   std::size_t few() const { return 1 + vertices_.size() / 32; }
 
   Coordinates place(const Moving& v) const { return vertex_coordinates(guarded_.mesh(), v.vertex); }
@@ -99,8 +99,8 @@ private:
     return std::abs(p - target) < std::abs(from[axis] - target) ? p : from[axis];
   }
 
-  /// Along all axes, with at most so many held back by each move. \return how many are held back, in all at the end, or
-  /// all where a move was given up
+  /// Along all axes, with at most this many held back by each move. \return how many are held back, in all at the end,
+  /// or all where a move was given up
   std::size_t step_to(double share, std::size_t most) {
     made_.clear();
     for (int axis = 0; axis < 3; ++axis) {

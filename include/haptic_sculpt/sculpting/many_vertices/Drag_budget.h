@@ -13,8 +13,8 @@ namespace internal {
 /// How many drags may still be made, a slide counting by its work (doc/use/many_vertices.md, "Limits of time").
 class Drag_budget {
 public:
-  /// A slide decides at most so many pairs: few need more, where parts lie close about each other, and these would take
-  /// most of the time.
+  /// A slide decides at most this many pairs: few need more, where parts lie close about each other, and these would
+  /// take most of the time.
   static constexpr std::size_t slide_work = 10000;
 
   /// \param report where `counted` and `out_of_work` are written

@@ -34,7 +34,7 @@ public:
   };
   /// What a split of an edge hands on.
   struct Split {
-    Vertex_index ends[2], corners[2]; ///< the latter opposite to the edge
+    Vertex_index ends[2], corners[2]; ///< `corners` lie opposite to the edge
     Patch patches[2];                 ///< on the sides of the corners
     Constraint constraint;
   };

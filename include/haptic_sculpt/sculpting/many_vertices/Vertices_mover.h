@@ -43,9 +43,9 @@ public:
 private:
   using Position = std::uint32_t; ///< in vertices_
   using Positions = std::vector<Position>;
-  /// From so many on all go at once along one axis after the other.
+  /// From this many on all go at once along one axis after the other.
   static constexpr std::size_t many = 8;
-  /// So many passes of slides are made when few are left.
+  /// This many passes of slides are made when few are left.
   static constexpr int slide_passes_of_few = 3;
   /// Another pass is made at the end while the last has gained more than this share of what was left, as a sum of
   /// distances, and more than this share of what was asked is left: to the origin there is no end of coming nearer.

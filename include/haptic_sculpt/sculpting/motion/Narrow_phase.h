@@ -65,7 +65,7 @@ public:
   Star_runs<Mesh>& runs() { return runs_; }
 
   /// Each pair that is swept counts. Once the bound is passed nothing more is decided: no way is free then, and no
-  /// impacts are told of.
+  /// impacts are reported.
   Work& work() { return work_; }
   const Work& work() const { return work_; }
 
@@ -89,7 +89,7 @@ private:
   };
 
   /// What is done with a pair, `hit(sweep, vertices, s, t, a, b, c)`: it asks the sweep, and tells up to what fraction
-  /// of the way hits are of interest from then on (later ones may be told or not), or that it has enough.
+  /// of the way hits are of interest from then on (later ones may be reported or not), or that it has enough.
   static constexpr double enough = -1, whole_way = 1;
 
   struct Any {
@@ -195,7 +195,7 @@ private:
     const auto &a = vertices[edge[0]], &b = vertices[edge[1]];
     if (!do_meet(scene.list.box(edge), Box_3(scene.motion.path()).include(far_point)))
       return true;
-    // The smaller name first, whatever the list's order: what is told does not depend on the broad phase.
+    // The smaller name first, whatever the list's order: what is reported does not depend on the broad phase.
     const auto &low = a.index < b.index ? a : b, &high = a.index < b.index ? b : a;
     return goes_on(scene, hit, edge_edge_, Vertices{far_end, low.index, high.index}, far_point, low.point, high.point);
   }

@@ -72,7 +72,7 @@ public:
       remove(f);
   }
 
-  /// Makes room for so many faces in all: insertions allocate nothing then. Moves, removals and queries of few faces
+  /// Makes room for this many faces in all: insertions allocate nothing then. Moves, removals and queries of few faces
   /// never do.
   void reserve(std::size_t faces, std::size_t /*insertions*/) {
     boxes_.reserve(faces);

@@ -19,7 +19,7 @@ class Free_ways {
 public:
   using Walk = Slide_walk<Mesh>;
 
-  /// A walk that follows such a way makes at most so many legs.
+  /// A walk that follows such a way makes at most this many legs.
   static constexpr int trial_legs = 8;
 
   /// Something has changed: where none was found there may be one now.

@@ -58,8 +58,8 @@ public:
     return place;
   }
 
-  /// Where the contacts let J go from x, when it wants to go by `pull`, keeping so many clearances from each; in a gap
-  /// too narrow for that, or too acute, a half or a quarter of it, and at last coming no nearer to any than it is.
+  /// Where the contacts let J go from x, when it wants to go by `pull`, keeping this many clearances from each; in a
+  /// gap too narrow for that, or too acute, a half or a quarter of it, and at last coming no nearer to any than it is.
   Nearest_permitted nearest(const Vector& pull, double clearances) const {
     const double distance = length(pull);
     Nearest_permitted found;

@@ -13,7 +13,7 @@ namespace internal {
 /// The legs a vertex has made in one drag: a polyline, each segment of which is proven free. Plain data.
 class Slide_path {
 public:
-  /// One drag makes at most so many legs. Rough terrain leaves 0.6 % of drags unfinished with 16.
+  /// One drag makes at most this many legs. Rough terrain leaves 0.6 % of drags unfinished with 16.
   static constexpr int most_legs = 32;
 
   explicit Slide_path(const Vector& source = {}) { points_[0] = source; }

@@ -18,17 +18,17 @@ namespace internal {
 template <class Mesh>
 class Slide_response {
 public:
-  /// A walk makes at most so many legs.
+  /// A walk makes at most this many legs.
   static constexpr int most_legs = Slide_path::most_legs;
   /// When the drag has ended, straight ways are tried where it has made more legs than `few_legs`, bent ones too where
-  /// more than `many_legs` are left: one step of a hand shall make no more than so many, and a slide over a plane cut
+  /// more than `many_legs` are left: one step of a hand shall make no more than this many, and a slide over a plane cut
   /// into triangles no more than three beside the first (doc/proofs/slide.md, "The path made shorter").
   static constexpr int few_legs = 4, many_legs = 8;
   /// What bending has left may be bent again, so often.
   static constexpr int most_bendings = 4;
   /// So often a path that has come to as many is made anew with fewer.
   static constexpr int most_shortenings = 8;
-  /// A walk that has made so many legs begins to leap, every few legs.
+  /// A walk that has made this many legs begins to leap, every few legs.
   static constexpr int legs_before_leaps = 6, legs_between_leaps = 2;
   /// Steps shorter than this part of the distance from the target turn round a corner; to repeat them leads nowhere.
   static constexpr double least_step = 0x1p-16;

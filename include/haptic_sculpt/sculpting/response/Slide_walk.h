@@ -51,12 +51,12 @@ public:
   /// So often contacts are forgotten, because J is past them, where it rests or comes no nearer: what is met again
   /// after that is kept, for it is met on the way to the target, far from where J is.
   static constexpr int most_rests = 2;
-  /// So many times in a row an approach in a narrow gap may bring less than half as near as the one before: a gap that
-  /// closes.
+  /// This many times in a row an approach in a narrow gap may bring less than half as near as the one before: a gap
+  /// that closes.
   static constexpr int most_shrinking = 6;
 
-  /// After so many legs none is made that is short and only takes J off a contact just met: the next one, farther, does
-  /// that as well.
+  /// After this many legs none is made that is short and only takes J off a contact just met: the next one, farther,
+  /// does that as well.
   static constexpr int legs_before_thrift = 8;
 
   Slide_path path; ///< made so far, ends at x

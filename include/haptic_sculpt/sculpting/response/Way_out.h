@@ -14,9 +14,9 @@ class Way_out {
 public:
   using Walk = Slide_walk<Mesh>;
 
-  /// So many legs are tried to show that a way out of a mixed corner is one.
+  /// This many legs are tried to show that a way out of a mixed corner is one.
   static constexpr int trial_legs = 4;
-  /// At most so many ways out of one place are tried.
+  /// At most this many ways out of one place are tried.
   static constexpr int most_trials = 64;
 
   /// Something has changed: where none was found there may be one now.

@@ -155,7 +155,7 @@ public:
     refit();
   }
 
-  /// Makes room for so many faces in all, and so many insertions: none allocates. Moves and removals never do.
+  /// Makes room for this many faces in all, and this many insertions: none allocates. Moves and removals never do.
   void reserve(std::size_t faces, std::size_t insertions) {
     slot_of_face_.reserve(faces);
     if (insertions != 0)
@@ -186,8 +186,8 @@ private:
   /// most_ahead nothing is fetched: what was guessed is much too large.
   static constexpr std::uint32_t nodes_in_cache = 1024, most_ahead = 64;
 
-  static constexpr std::size_t usual_queue = 8192;  ///< room is made for so many
-  static constexpr std::size_t most_touched = 256;  ///< before they are refitted: there is room for so many
+  static constexpr std::size_t usual_queue = 8192; ///< room is made for this many
+  static constexpr std::size_t most_touched = 256; ///< before they are refitted: there is room for this many
 
   using Base::mesh;
   using Base::scale;

@@ -65,7 +65,7 @@ public:
   void fetch_ahead(const Box_3& /*box*/) {}
   /// Called now and then until that query: goes on with asking. Here nothing is done.
   void fetch_on() {}
-  /// Makes room for so many faces in all and so many insertions, so that they allocate nothing; asked before edits,
+  /// Makes room for this many faces in all and this many insertions, so that they allocate nothing; asked before edits,
   /// again and again. Here nothing is done: right where what comes and moves allocates nothing.
   void reserve(std::size_t /*faces*/, std::size_t /*insertions*/) {}
 

@@ -17,7 +17,7 @@ namespace internal {
 /// nodes.
 ///
 /// Every box is an item, a number, at a place: node * 8 + child. A full node met on the way down is halved, so that
-/// there is always room for one more child above; that moves items, and `put(item, place)` is told.
+/// there is always room for one more child above; that moves items, and `put(item, place)` is called.
 class Growing_box_tree {
 public:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -114,7 +114,7 @@ public:
     return limit;
   }
 
-  /// Makes room for so many insertions, whatever is removed meanwhile. Removals never need any.
+  /// Makes room for this many insertions, whatever is removed meanwhile. Removals never need any.
   ///
   /// Nodes come by halving alone, and by a new root. A full node is halved at once, another only after at least four
   /// more children have come: of n insertions n / 4 halve leaves, n / 16 the nodes above, ... together n / 3, besides
@@ -150,7 +150,7 @@ private:
 
   std::size_t height() { return root_ == none ? 0 : node(root_).height; }
 
-  /// Makes room for so many new nodes, and to keep the numbers of all that may be freed.
+  /// Makes room for this many new nodes, and to keep the numbers of all that may be freed.
   void reserve_nodes(std::size_t nodes) {
     while (blocks_.size() * block_size - used_ + free_nodes_.size() < nodes) {
       make_room(free_nodes_, (blocks_.size() + 1) * block_size);

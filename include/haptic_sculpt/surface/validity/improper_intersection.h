@@ -18,9 +18,9 @@ namespace internal {
 
 /// Whether two closed triangles of a soup meet elsewhere than in the vertices and the edge they share; exact.
 ///
-/// Which vertices are shared is told by their indices, not by their coordinates: two vertices at one point are a touch.
-/// `CGAL::Polygon_mesh_processing::self_intersections` decides the same for triangles that are not degenerate, with
-/// shared edges found through the half-edges; here nothing but the list of corners is used.
+/// Which vertices are shared follows from their indices, not by their coordinates: two vertices at one point are a
+/// touch. `CGAL::Polygon_mesh_processing::self_intersections` decides the same for triangles that are not degenerate,
+/// with shared edges found through the half-edges; here nothing but the list of corners is used.
 class Meet_improperly {
   using Index = Face_soup::Index;
   using Point_3 = Decision_kernel::Point_3;
