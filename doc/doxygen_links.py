@@ -4,6 +4,8 @@
 
 - Headings get the names that they have on the web (`page.md#a-heading`), and links lead to them.
 - The text of a link stands on one line, without code: else Doxygen 1.9 prints what follows as it stands.
+- Titles are without code, which the tree of pages would print as it stands.
+- The pages that the manual links to stand below it in the tree.
 - Pictures are named as Doxygen copies them, tutorials as its pages of examples (tutorials.dox); links to what is no page are text.
 """
 import os
@@ -19,6 +21,7 @@ def of_page(path):
 
 
 page = of_page(os.path.basename(sys.argv[1]))
+below = set()  # the manual
 
 
 def name_of(heading):
@@ -37,6 +40,10 @@ def heading(match):
 def link(match):
     is_picture, text, target = match.groups()
     lines = text.count("\n")
+    if page.endswith("manual") and target.endswith(".md") and target not in below:
+        below.add(target)
+        number_of_page = re.sub(r"\W", "_", os.path.splitext(os.path.relpath(os.path.join(folder, target)))[0])
+        return f'@subpage md_{number_of_page} "{" ".join(text.replace("`", "").split())}"' + "\n" * lines
     text = " ".join(text.replace("`", "").split())
     path, _, name = target.partition("#")
     if is_picture:
@@ -55,6 +62,7 @@ with open(sys.argv[1]) as file:
     parts = re.split(r"(^```.*?^```$)", file.read(), flags=re.M | re.S)
 for part in parts:
     if not part.startswith("```"):
+        part = re.sub(r"^# .*$", lambda title: title[0].replace("`", ""), part, flags=re.M)
         part = re.sub(r"^(##+) (.*)$", heading, part, flags=re.M)
         part = re.sub(r"(!?)\[([^\[\]]+)\]\(([^\s()]+)\)", link, part)
     sys.stdout.write(part)
