@@ -84,7 +84,7 @@ def included(header):
 
 listed = set()
 for file in (root / "test/sculpting/public_functions").glob("*.h"):
-    for names in re.findall(r'all\.push_back\(\{((?:\s*"[^"]*")+)', file.read_text()):
+    for names in re.findall(r'all\.push_back\(\s*\{((?:\s*"[^"]*")+)', file.read_text()):
         listed |= set(" ".join(re.findall(r'"([^"]*)"', names)).split())
 
 wanted = members("haptic_sculpt/sculpting/Sculptor.h", "Sculptor")

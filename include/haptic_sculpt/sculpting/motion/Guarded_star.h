@@ -185,7 +185,8 @@ private:
     for (const Contact_3<Mesh>& contact : result.contacts)
       if (!contact.is_flat)
         normal = std::fmin(normal, std::abs(height_over_plane(contact, end)));
-    result.stop_error = std::isfinite(normal) ? normal : result.stop_error_along_path;
+    // The stop is proven free: below 0 is what rounding has left of a distance.
+    result.stop_error = std::isfinite(normal) ? std::fmax(0.0, normal) : result.stop_error_along_path;
   }
 };
 

@@ -26,6 +26,10 @@ public:
   /// One unit in the last place of a unit vector, and how much alike two normals are that differ by rounding alone.
   static constexpr double rounding_of_normals = 0x1p-52, alike = 2 * rounding_of_normals;
 
+  /// Two faces form a convex edge, round which a way may lead, where one falls off from the other's plane by more than
+  /// this: a smaller angle, of 1e-12 radians, is none that a clearance or a rounded normal can tell from a seam.
+  static constexpr double least_slope = 0x1p-40;
+
   using Facets = boost::container::static_vector<Facet<Mesh>, most_facets>;
   using Half_spaces = boost::container::static_vector<Half_space, most_facets>;
 
@@ -97,6 +101,14 @@ public:
     for (const auto& facet : facets)
       sum = plus(sum, facet.normal());
     return normalized(sum);
+  }
+
+  /// Whether the facet goes over to another one there that is known, rising or flat: no way leads round that border.
+  bool is_closed(const Facet<Mesh>& facet, int border) const {
+    return std::any_of(facets.begin(), facets.end(), [&](const Facet<Mesh>& other) {
+      return &other != &facet && facet.shares_border(border, other) &&
+             dot(other.normal(), facet.outward(border)) < least_slope;
+    });
   }
 
   bool knows(const Contact_3<Mesh>& contact) const {

@@ -3,9 +3,9 @@
 #define HAPTIC_SCULPT_SCULPTING_SLIDE_RESPONSE_H
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
-#include <haptic_sculpt/sculpting/response/Free_ways.h>
-#include <haptic_sculpt/sculpting/response/Unmet_planes.h>
-#include <haptic_sculpt/sculpting/response/Way_out.h>
+#include <haptic_sculpt/sculpting/response/Straight_way_search.h>
+#include <haptic_sculpt/sculpting/response/Near_plane_search.h>
+#include <haptic_sculpt/sculpting/response/Corner_search.h>
 #include <haptic_sculpt/sculpting/response/is_farther.h>
 
 namespace haptic_sculpt {
@@ -28,17 +28,13 @@ public:
   static constexpr int most_bendings = 4;
   /// So often a path that has come to as many is made anew with fewer.
   static constexpr int most_shortenings = 8;
-  /// A walk that has made this many legs begins to leap, every few legs.
-  static constexpr int legs_before_leaps = 6, legs_between_leaps = 2;
-  /// Steps shorter than this part of the distance from the target turn round a corner; to repeat them leads nowhere.
-  static constexpr double least_step = 0x1p-16;
 
   /// The contacts no longer hold: the vertex was let go, or something else moved it.
   void forget() {
     walk_.facets.clear();
-    way_out_.forget();
-    free_ways_.forget();
-    unmet_planes_.forget();
+    corner_search_.forget();
+    straight_way_search_.forget();
+    near_plane_search_.forget();
     part_ = 1;
   }
 
@@ -51,57 +47,40 @@ public:
       forget();
     const Vector aim = part_ < 1 ? advanced(source, part_, minus(target, source)) : target;
     walk_.begin(source, rules);
-    unmet_planes_.begin();
+    near_plane_search_.begin();
     Walk_end end;
     const auto is_free = [&](const Vector& a, const Vector& b) { return guard.is_free(a, b, rules.delta); };
-    Vector before = source, at_last_shortening = source;
-    int until = legs_before_leaps, shortenings = 0;
+    Vector at_last_shortening = source;
+    int shortenings = 0;
     for (;;) {
-      end = walk_.go(guard, aim, std::min(until, most_legs));
-      if (guard.is_spent())
-        break;
+      end = walk_.go(guard, aim, most_legs);
       // A target that is beyond reach brings forth legs each longer than the last, far from all that is to be seen: no
       // search for ways that are better there.
-      const bool is_beyond_reach = walk_.is_beyond_reach(aim);
-      if (end == Walk_end::reached || (is_beyond_reach && (end != Walk_end::limit || walk_.legs() >= most_legs)))
+      if (guard.is_spent() || end == Walk_end::reached || walk_.is_beyond_reach(aim))
         break;
-      if (is_beyond_reach) {
-        until = most_legs;
-        continue;
-      }
       bool creeps = false;
-      if (walk_.legs() + Way_out<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
+      if (walk_.legs() + Corner_search<Mesh>::trial_legs > most_legs && shortenings < most_shortenings) {
         ++shortenings;
         walk_.path.shorten(aim, is_free, Ways::straight_and_bent);
-        if (leap_far(guard, at_last_shortening, aim))
-          until = 0;
-        else
-          creeps = end == Walk_end::limit &&
-                   nearer_by(aim, at_last_shortening, walk_.x) < walk_.lengths().lifted();
+        creeps = end == Walk_end::limit && nearer_by(aim, at_last_shortening, walk_.x) < walk_.lengths().lifted();
         at_last_shortening = walk_.x;
       }
       if (walk_.legs() >= most_legs)
         break;
-      if (creeps) {
+      if (creeps)
         end = Walk_end::stuck;
-        if (!way_out_.take(walk_, guard, aim, most_legs))
-          break;
-      } else if (end == Walk_end::limit) {
-        if (until > legs_before_leaps)
-          leap(guard, before, aim);
-        before = walk_.x;
-        until = walk_.legs() + legs_between_leaps;
-      } else if (!unmet_planes_.take(walk_, guard, aim) &&
-                 !way_out_.take(walk_, guard, aim, most_legs))
+      else if (end == Walk_end::limit || near_plane_search_.take(walk_, guard, aim))
+        continue;
+      if (!corner_search_.take(walk_, guard, aim, most_legs))
         break;
     }
     if (end != Walk_end::reached && !walk_.is_beyond_reach(aim) && !guard.is_spent()) {
-      if (walk_.legs() + Free_ways<Mesh>::trial_legs > most_legs)
+      if (walk_.legs() + Straight_way_search<Mesh>::trial_legs > most_legs)
         walk_.path.shorten(aim, is_free, Ways::straight_and_bent);
-      free_ways_.take(walk_, guard, aim, most_legs);
-      end = walk_.x == aim         ? Walk_end::reached
-            : free_ways_.is_settled() ? Walk_end::settled
-                                      : Walk_end::stuck;
+      straight_way_search_.take(walk_, guard, aim, most_legs);
+      end = walk_.x == aim                      ? Walk_end::reached
+            : straight_way_search_.is_settled() ? Walk_end::settled
+                                                : Walk_end::stuck;
     }
     if (is_cut_short(guard, end, aim, target))
       end = Walk_end::spent;
@@ -126,10 +105,10 @@ private:
   using Walk = Slide_walk<Mesh>;
   using Ways = Slide_path::Ways;
 
-  Walk walk_, trial_;
-  Unmet_planes<Mesh> unmet_planes_;
-  Way_out<Mesh> way_out_;
-  Free_ways<Mesh> free_ways_;
+  Walk walk_;
+  Near_plane_search<Mesh> near_plane_search_;
+  Corner_search<Mesh> corner_search_;
+  Straight_way_search<Mesh> straight_way_search_;
   double part_ = 1;        ///< of the way to the target, so much is asked for
   Vector searched_for_{}; ///< the aim of the drag in which the search was begun
 
@@ -165,58 +144,6 @@ private:
     result.legs = walk_.legs();
     result.end = guard.is_spent() ? Drag_end::work_limit : Drag_end::stuck;
     return end;
-  }
-
-  /// Where finely cut surfaces cost a leg for each facet: tries to go on in free flight as the last legs went, many
-  /// times as far, and takes it if that, when J has come down, has brought it nearer than these did.
-  template <class Guard>
-  void leap(Guard& guard, const Vector& before, const Vector& target) {
-    const Vector way = minus(walk_.x, before);
-    const double step = length(way), distance = length(minus(target, walk_.x)),
-                 gained = nearer_by(target, before, walk_.x);
-    if (step < least_step * distance)
-      return;
-    const Vector up = walk_.mean_normal();
-    for (const double times : {64.0, 16.0, 4.0})
-      for (const double slope : {0.25, 0.0625, 0.0}) {
-        if (times * step > distance || walk_.legs() + 1 >= most_legs)
-          break;
-        const Vector end = advanced(advanced(walk_.x, times, way), slope * times * step, up);
-        if (!guard.is_free(walk_.x, end, walk_.delta()))
-          continue;
-        trial_ = walk_;
-        trial_.forget_progress();
-        trial_.facets.clear();
-        trial_.step_to(end);
-        if (trial_.go_instead_of(walk_, guard, target, std::min(trial_.legs() + legs_between_leaps - 1, most_legs),
-                                 std::fmax(gained, walk_.lengths().lifted())))
-          return;
-      }
-  }
-
-  /// Where not even short leaps have led on: tries flights as far as the target is, and shorter, along the tangent and
-  /// as J went, rising more or less, each ended by what it hits, and takes what brings J nearest. Returns whether any
-  /// did by more than clearances feign.
-  template <class Guard>
-  bool leap_far(Guard& guard, const Vector& before, const Vector& target) {
-    using namespace internal;
-    const Vector pull = walk_.pull_to(target), up = walk_.mean_normal();
-    const double distance = length(pull);
-    const Walk start = walk_;
-    const double least = walk_.lengths().lifted();
-    for (const Vector& way : {advanced(pull, -dot(pull, up), up), minus(start.x, before)})
-      for (const double part : {1.0, 0x1p-2, 0x1p-4, 0x1p-6, 0x1p-8})
-        for (const double slope : {1.0, 0x1p-2, 0x1p-4, 0.0}) {
-          if (start.legs() + 2 > most_legs || guard.is_spent())
-            return false;
-          trial_.begin_at(start);
-          trial_.forget_progress();
-          trial_.go(guard, advanced(advanced(start.x, part * distance, normalized(way)), slope * part * distance, up),
-                    trial_.legs() + 1);
-          trial_.forget_progress();
-          trial_.go_instead_of(walk_, guard, target, trial_.legs() + 1, walk_.x == start.x ? least : 0);
-        }
-    return walk_.x != start.x;
   }
 
   /// The drag has ended: fewer legs lead to the same place. Ways round nothing but seams are straight.

@@ -33,6 +33,7 @@ public:
   using Base::forget;
   using Base::forget_what_was_left;
   using Base::is_beyond_reach;
+  using Base::is_closed;
   using Base::leave_what_is_past;
   using Base::meet_first;
   using Base::most_facets;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_UNMET_PLANES_H
-#define HAPTIC_SCULPT_SCULPTING_UNMET_PLANES_H
+#ifndef HAPTIC_SCULPT_SCULPTING_NEAR_PLANE_SEARCH_H
+#define HAPTIC_SCULPT_SCULPTING_NEAR_PLANE_SEARCH_H
 
+#include <haptic_sculpt/sculpting/response/Search_memory.h>
 #include <haptic_sculpt/sculpting/response/Slide_walk.h>
 
 namespace haptic_sculpt {
@@ -10,7 +11,7 @@ namespace internal {
 /// Where a walk has settled, planes may be nearer than a clearance that were never in its way. Looks for them, so that
 /// the clearance is kept from those too (doc/proofs/slide.md, "The walk").
 template <class Mesh>
-class Unmet_planes {
+class Near_plane_search {
 public:
   using Walk = Slide_walk<Mesh>;
 
@@ -18,7 +19,7 @@ public:
   static constexpr int most_looks = 3;
 
   /// Something has changed: there may be others now.
-  void forget() { looked_ = false; }
+  void forget() { memory_.forget(); }
   /// A new drag begins.
   void begin() { looks_ = times_let_go_ = 0; }
 
@@ -45,9 +46,9 @@ public:
           step[i] = way * lengths.clearance;
           any = (guard.work().is_due() && meet_towards(walk, guard, step)) || any;
         }
-      looked_ = !guard.is_spent();
-      looked_from_ = walk.x;
-      looked_for_ = target;
+      memory_.forget();
+      if (!guard.is_spent())
+        memory_.note(walk.x, target);
     }
     if (times_let_go_ < most_looks && walk.let_go()) {
       ++times_let_go_;
@@ -62,12 +63,11 @@ private:
   /// Along an axis a plane rises by 1 in sqrt(3) at least for one of the six ways.
   static constexpr double reach = 4;
 
-  bool looked_ = false;
+  Search_memory memory_;
   int looks_ = 0, times_let_go_ = 0; ///< in this drag
-  Vector looked_from_{}, looked_for_{};
 
   bool has_looked(const Vector& x, const Vector& target, bool is_near, const Slide_lengths& lengths) const {
-    return looked_ && length(minus(x, looked_from_)) <= lengths.settled() && (!is_near || target == looked_for_);
+    return memory_.is_at(x, lengths) && (!is_near || target == memory_.target());
   }
 
   template <class Guard>

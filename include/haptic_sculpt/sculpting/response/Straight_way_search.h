@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_FREE_WAYS_H
-#define HAPTIC_SCULPT_SCULPTING_FREE_WAYS_H
+#ifndef HAPTIC_SCULPT_SCULPTING_STRAIGHT_WAY_SEARCH_H
+#define HAPTIC_SCULPT_SCULPTING_STRAIGHT_WAY_SEARCH_H
 
+#include <haptic_sculpt/sculpting/response/Search_memory.h>
 #include <haptic_sculpt/sculpting/response/Slide_walk.h>
 
 namespace haptic_sculpt {
@@ -15,7 +16,7 @@ namespace internal {
 /// seen along one of these planes, or a line in which two of them meet. So these are tried, and what is in the way
 /// tells of further planes.
 template <class Mesh>
-class Free_ways {
+class Straight_way_search {
 public:
   using Walk = Slide_walk<Mesh>;
 
@@ -23,7 +24,7 @@ public:
   static constexpr int trial_legs = 8;
 
   /// Something has changed: where none was found there may be one now.
-  void forget() { sought_ = false; }
+  void forget() { memory_.forget(); }
 
   /// Whether the last look has found nothing, or there was no need for one: as far as is known J is at a nearest point.
   bool is_settled() const { return is_settled_; }
@@ -34,16 +35,14 @@ public:
     bool any = false;
     is_settled_ = false;
     for (int times = 0; times < most_times && walk.legs() < most_legs && !is_settled_; ++times) {
-      is_settled_ = walk.x == target || is_certain(walk, target) || was_sought(walk, target);
+      is_settled_ = walk.x == target || is_certain(walk, target) || memory_.holds(walk.x, target, walk.lengths());
       if (is_settled_)
         break;
       if (!look(walk, guard, target)) {
         if (guard.is_spent())
           break;
         is_settled_ = true;
-        sought_ = true;
-        sought_at_ = walk.x;
-        sought_for_ = target;
+        memory_.note(walk.x, target);
         if (walk.facets.empty())
           take_contacts(walk);
         break;
@@ -68,8 +67,6 @@ private:
   static constexpr double next_length = 0.25;
   /// As the cosine of an angle: a way that is stopped by a plane which it follows is stopped by rounding.
   static constexpr double parallel = 0x1p-30;
-  /// Two faces form a convex edge where one falls off from the other's plane by more than this.
-  static constexpr double least_slope = 0x1p-40;
 
   Walk trial_;
   Vector x_{}, pull_{}, best_{};
@@ -79,13 +76,8 @@ private:
   boost::container::static_vector<Vector, most_planes> normals_;
   boost::container::static_vector<Vector, 4> curved_;        ///< of the delta rule's surfaces
   boost::container::static_vector<Contact_3<Mesh>, 16> met_; ///< near J
-  bool sought_ = false, is_settled_ = false;
-  Vector sought_at_{}, sought_for_{}; ///< where no way was found, and to which target
-
-  bool was_sought(const Walk& walk, const Vector& target) const {
-    return sought_ && length(minus(walk.x, sought_at_)) <= walk.lengths().settled() &&
-           length(minus(target, sought_for_)) <= 4 * walk.lengths().clearance;
-  }
+  Search_memory memory_;
+  bool is_settled_ = false;
 
   /// Whether what holds J are facets with J so far inside of them, or at borders over which another one goes on as
   /// high, that no way leads round them. Not where its clearances alone hold it, so that it could go far if it kept
@@ -99,7 +91,7 @@ private:
       if (facet.contact().is_flat || facet.is_over(Slide_lengths::clearances_of_lift))
         return false;
       for (int k = 0; k < facet.borders(); ++k)
-        if (facet.beyond_border(k, walk.x) > -near * lengths.clearance && !is_closed(walk, facet, k))
+        if (facet.beyond_border(k, walk.x) > -near * lengths.clearance && !walk.is_closed(facet, k))
           return false;
       return true;
     };
@@ -111,13 +103,6 @@ private:
         return false;
     }
     return true;
-  }
-
-  static bool is_closed(const Walk& walk, const Facet<Mesh>& facet, int border) {
-    return std::any_of(walk.facets.begin(), walk.facets.end(), [&](const Facet<Mesh>& other) {
-      return &other != &facet && facet.shares_border(border, other) &&
-             dot(other.normal(), facet.outward(border)) < least_slope;
-    });
   }
 
   template <class Guard>

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_CORNER_SEARCH_H
+#define HAPTIC_SCULPT_SCULPTING_CORNER_SEARCH_H
+
+#include <haptic_sculpt/sculpting/response/Search_memory.h>
+#include <haptic_sculpt/sculpting/response/Slide_walk.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Half-spaces forbid more than facets do: at a corner that is neither convex nor concave there may be a way on
+/// although the planes meet. Looks for one where a walk has settled (doc/proofs/slide.md, "The way out").
+template <class Mesh>
+class Corner_search {
+public:
+  using Walk = Slide_walk<Mesh>;
+
+  /// This many legs are tried to show that a way out of a mixed corner is one.
+  static constexpr int trial_legs = 4;
+  /// At most this many ways out of one place are tried.
+  static constexpr int most_trials = 64;
+
+  /// Something has changed: where none was found there may be one now.
+  void forget() { memory_.forget(); }
+
+  /// Takes a way if it brings the vertex nearer by more than what clearances can feign. Returns whether there was one.
+  template <class Guard>
+  bool take(Walk& walk, Guard& guard, const Vector& target, int most_legs) {
+    walk_ = &walk;
+    most_legs_ = most_legs;
+    const Slide_lengths lengths = walk_->lengths(); // trials may change those of the walk
+    const Vector pull = walk_->pull_to(target);
+    if (walk_->facets.empty() || length(pull) <= lengths.shortest_pull())
+      return false;
+    if (memory_.holds(walk_->x, target, lengths) || !may_lead_on())
+      return false;
+    const auto without_clearance = walk_->nearest(pull, 0);
+    const double gain =
+        std::fmax(8 * lengths.clearance, without_clearance.exists ? 4 * length(without_clearance.displacement) : 0);
+    int trials = 0;
+    guard.work().search_at(walk_->x);
+    if (!guard.work().is_resumed())
+      seen_ = walk_->facets;
+    const auto brings_nearer = [&](const Vector& first_aim) {
+      ++trials;
+      trial_.forget_progress();
+      if (first_aim != target) {
+        trial_.go(guard, first_aim,
+                  std::min(trial_.legs() + 1, most_legs_)); // one leg: on from there it must not climb
+        trial_.forget_progress();
+      }
+      const bool is_nearer =
+          trial_.go_instead_of(*walk_, guard, target, std::min(walk_->legs() + trial_legs, most_legs_), gain);
+      for (const auto& facet : trial_.facets)
+        remember(facet);
+      return is_nearer;
+    };
+    const bool all_legs_were_left = walk_->legs() + trial_legs <= most_legs;
+    memory_.forget();
+    if (follow_features(guard, pull, target, trials, brings_nearer))
+      return true;
+    if (all_legs_were_left && !guard.is_spent())
+      memory_.note(walk_->x, target);
+    return false;
+  }
+
+private:
+  Walk* walk_ = nullptr; ///< set in take()
+  int most_legs_ = 0;
+  Walk trial_;
+  typename Walk::Facets seen_; ///< all that was met meanwhile
+  Search_memory memory_;
+
+  /// Whether there may be a way past a border of some contact. Where all contacts near one are faces and each goes over
+  /// to another of them, rising or flat, there is none: a concave edge or corner, all of which is known.
+  bool may_lead_on() const {
+    for (const auto& facet : walk_->facets) {
+      if (facet.is_wall())
+        return true;
+      for (int k = 0; k < facet.borders(); ++k)
+        if (facet.beyond_border(k, walk_->x) > -walk_->lengths().border() && !walk_->is_closed(facet, k))
+          return true;
+    }
+    return false;
+  }
+
+  /// The paper's vertex rule (3.2.2 c): from a little off, tries every face and every edge that was met here.
+  template <class Guard, class Brings_nearer>
+  bool follow_features(Guard& guard, const Vector& pull, const Vector& target, const int& trials,
+                       const Brings_nearer& brings_nearer) {
+    const Slide_lengths lengths = walk_->lengths();
+    const Vector lifted = off_the_contacts(guard);
+    const double beside = lengths.border() / 4;
+    const auto start = [&] {
+      trial_.begin_at(*walk_);
+      if (lifted != walk_->x && trial_.legs() < most_legs_)
+        trial_.step_to(lifted);
+    };
+    // seen_ grows on the way.
+    for (std::size_t i = 0; i < seen_.size() && trials < most_trials; ++i) {
+      if (guard.work().is_due()) {
+        start();
+        trial_.facets.push_back(seen_[i]);
+        trial_.place(trial_.x);
+        if (brings_nearer(target))
+          return true;
+      }
+      for (int k = 0; k < seen_[i].borders() && trials < most_trials; ++k) {
+        if (seen_[i].beyond_border(k, walk_->x) < -lengths.border() || !guard.work().is_due())
+          continue;
+        // Past the border, where it may be only a clearance to free space.
+        start();
+        const Vector past = advanced(trial_.x, beside, seen_[i].outward(k));
+        if (trial_.legs() < most_legs_ && guard.is_free(trial_.x, past, walk_->delta())) {
+          trial_.step_to(past);
+          if (brings_nearer(target))
+            return true;
+        }
+        const Vector along = seen_[i].along_border(k);
+        start();
+        if (brings_nearer(advanced(trial_.x, dot(pull, along), along)))
+          return true;
+      }
+      for (std::size_t j = 0; j < i && trials < most_trials; ++j) {
+        if (!guard.work().is_due())
+          continue;
+        start();
+        trial_.facets.push_back(seen_[i]);
+        trial_.facets.push_back(seen_[j]);
+        trial_.place(trial_.x);
+        if (brings_nearer(target))
+          return true;
+      }
+    }
+    return false;
+  }
+
+  /// A free point a few clearances from the vertex along the mean normal of its contacts, or where it is.
+  template <class Guard>
+  Vector off_the_contacts(Guard& guard) const {
+    const Vector up = walk_->mean_normal();
+    for (const double height : {4.0, 1.0}) {
+      const Vector off = advanced(walk_->x, height * walk_->lengths().clearance, up);
+      if (off != walk_->x && guard.is_free(walk_->x, off, walk_->delta()))
+        return off;
+    }
+    return walk_->x;
+  }
+
+  void remember(const Facet<Mesh>& facet) {
+    for (const auto& other : seen_)
+      if (facet.is_wall() || other.is_of(facet.contact()))
+        return;
+    if (seen_.size() < seen_.capacity())
+      seen_.push_back(facet);
+  }
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SCULPTING_SEARCH_MEMORY_H
+#define HAPTIC_SCULPT_SCULPTING_SEARCH_MEMORY_H
+
+#include <haptic_sculpt/sculpting/geometry/Slide_lengths.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Where a search has found nothing, and for which target.
+///
+/// A target is nearer by as much as it has moved at most: below what clearances can feign the answer is the same.
+class Search_memory {
+public:
+  /// Something has changed: where nothing was found there may be something now.
+  void forget() { is_known_ = false; }
+  void note(const Vector& place, const Vector& target) {
+    is_known_ = true;
+    place_ = place;
+    target_ = target;
+  }
+
+  bool is_at(const Vector& place, const Slide_lengths& lengths) const {
+    return is_known_ && length(minus(place, place_)) <= lengths.settled();
+  }
+  bool holds(const Vector& place, const Vector& target, const Slide_lengths& lengths) const {
+    return is_at(place, lengths) && length(minus(target, target_)) <= 4 * lengths.clearance;
+  }
+  const Vector& target() const { return target_; } ///< that was noted last
+
+private:
+  bool is_known_ = false;
+  Vector place_{}, target_{};
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
