@@ -156,8 +156,7 @@ private:
     const auto parts = split(line);
     if (!parts || checksum_of(checksum_, parts->payload) != parts->checksum)
       fail("this line does not agree with its checksum: it has been changed, or lines before it are gone. Give a copy "
-           "of "
-           "the log that is sound; as a script (--script) it would be read without looking at checksums");
+           "of the log that is sound; as a script (--script) it would be read without looking at checksums");
     checksum_ = parts->checksum;
     return parts->payload;
   }

@@ -277,13 +277,15 @@ public:
         .at(internal::largest_magnitude(internal::coordinates(p)));
   }
 
-  /// Of drags from here on that are given none. \throw Out_of_range; Invalid_parameter where the clearance does not
-  /// serve the scene. Cost: reads every point where a clearance is given.
+  /// Of drags from here on that are given none. \throw Out_of_range; Invalid_parameter where the clearance is another
+  /// one than before and does not serve the scene. Cost: reads every point where it is another one.
   void set_drag_parameters(const Drag_parameters& drag) {
     const internal::Rounding_to_nearest rounding;
     guarded_.check_is_whole();
-    internal::check_length(drag.clearance_length);
-    internal::check_clearance(mesh(), drag.clearance_length);
+    if (drag.clearance_length != parameters().drag.clearance_length) { // else drags find what it has been outgrown by
+      internal::check_length(drag.clearance_length);
+      internal::check_clearance(mesh(), drag.clearance_length);
+    }
     guarded_.parameters.drag = drag;
   }
 

@@ -56,6 +56,34 @@ bool is_obstacle(const Axis_scene& scene, const Axis_obstacle& obstacle) {
   return obstacle.kind == Axis_obstacle::Kind::flat_face ? axis_face_degenerates(query) : axis_features_meet(query);
 }
 
+/// Two tetrahedra on the two sides of a plane along the axis, with an edge each in it, one farther along the axis: they
+/// can meet in that plane only.
+meshes::Triangle_list parts_at_a_vertical_plane(Random& random, int axis) {
+  const auto side = static_cast<std::size_t>((axis + 1 + static_cast<int>(random() % 2)) % 3);
+  const auto up = static_cast<std::size_t>(axis), along = 3 - up - side;
+  for (;;) {
+    meshes::Triangle_list list;
+    for (const int part : {0, 1}) {
+      std::array<std::array<double, 3>, 4> p{};
+      for (std::size_t k = 0; k < 4; ++k) {
+        p[k][side] = k < 2 ? 0 : (part == 0 ? -1 : 1) * static_cast<double>(1 + random() % 3);
+        p[k][along] = static_cast<double>(random() % 5);
+        p[k][up] = static_cast<double>(6 * part) + static_cast<double>(random() % 5);
+      }
+      std::array<std::size_t, 4> v{};
+      for (std::size_t k = 0; k < 4; ++k)
+        v[k] = list.add_point(p[k][0], p[k][1], p[k][2]);
+      const auto& q = list.points;
+      if (CGAL::orientation(q[v[0]], q[v[1]], q[v[2]], q[v[3]]) != CGAL::POSITIVE)
+        std::swap(v[0], v[1]);
+      list.add_face(v[0], v[2], v[1]), list.add_face(v[0], v[1], v[3]);
+      list.add_face(v[0], v[3], v[2]), list.add_face(v[1], v[2], v[3]);
+    }
+    if (validate(meshes::to_mesh(list)).is_valid())
+      return list;
+  }
+}
+
 struct Small_motion {
   meshes::Triangle_list list;
   Axis_scene scene;
@@ -64,9 +92,16 @@ struct Small_motion {
 Small_motion random_motion(Random& random) {
   const int size = 1 + static_cast<int>(random() % 4);
   Small_motion motion;
-  motion.list = random_small_list(random, size + (size == 1));
-  motion.scene = {to_oracle(motion.list), static_cast<int>(random() % 3), {}};
-  motion.scene.ends = random_ends(random, motion.scene.mesh, motion.scene.axis, size);
+  const int axis = static_cast<int>(random() % 3);
+  const bool is_vertical = random() % 6 == 0;
+  motion.list = is_vertical ? parts_at_a_vertical_plane(random, axis) : random_small_list(random, size + (size == 1));
+  motion.scene = {to_oracle(motion.list), axis, {}};
+  motion.scene.ends = random_ends(random, motion.scene.mesh, axis, size);
+  if (is_vertical) { // the lower one goes up as a whole, or nearly so
+    const double way = static_cast<double>(random() % 16);
+    for (std::size_t i = 0; i < 8; ++i)
+      motion.scene.ends[i] = motion.scene.mesh.points[i][axis] + (i < 4 ? way + static_cast<double>(random() % 2) : 0);
+  }
   return motion;
 }
 

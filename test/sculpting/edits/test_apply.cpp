@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(what_apply_says) {
   const auto removed = sculptor.apply(Edit::of(Edit_kind::remove, {5, 0, 0}));
   BOOST_REQUIRE((into && removed));
   BOOST_TEST((removed.edit.kind == Edit_kind::collapse));
-  BOOST_TEST((removed.edit.vertices == std::array<std::size_t, 3>{5, by_functions.name(*into.vertex), 0}));
+  BOOST_TEST((removed.edit.vertices == std::array<std::size_t, 3>{5, by_functions.id(*into.vertex), 0}));
   BOOST_TEST((snapshot(sculptor) == snapshot(by_functions)));
   const Point_3 p = mesh.point(Vertex_index(7));
   const auto still = sculptor.apply(Edit::of(Edit_kind::move, {7, 0, 0}, {p.x(), p.y(), p.z()}));

@@ -86,7 +86,9 @@ BOOST_AUTO_TEST_CASE(few_ends_on_near_degenerate_solids_are_too_early) {
   const End_counts ends = drag_in_all_families(Response::slide, first_near_degenerate_family, part_families().size(),
                                                count_from_environment("HAPTIC_SCULPT_CERTIFIED", 200), random);
   BOOST_TEST(is_enough(ends.certified, 250));
-  BOOST_TEST(ends.missed <= chance() + ends.drags / 50);
+  // 1.6 % of 19,200 drags with 24 seeds (doc/results/slide.md), and four standard deviations of a number as small.
+  const double expected = 0.016 * static_cast<double>(ends.drags);
+  BOOST_TEST(static_cast<double>(ends.missed) <= expected + 4 * std::sqrt(expected));
 }
 
 BOOST_AUTO_TEST_CASE(the_certificate_knows_an_end_that_is_too_early) {

@@ -43,7 +43,7 @@ void drag_and_check(const Outside_scene& scene, double clearance, std::size_t dr
   const Mesh& mesh = grab.mesh;
   auto& sculptor = grab.sculptor;
   if (clearance > 0)
-    sculptor.set_drag_parameters(Drag_parameters().clearance(clearance));
+    sculptor.set_drag_parameters(Drag_parameters().response(response).clearance(clearance));
   const Surroundings around(mesh, scene.moved);
   Containment_check containment(scene);
   Ends& ends = found.by_scene[scene.name];

@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
       const Mesh& mesh = grab.mesh;
       auto& sculptor = grab.sculptor;
       if (random() % 2 == 0)
-        sculptor.set_drag_parameters(Drag_parameters().clearance(1e-9));
+        sculptor.set_drag_parameters(Drag_parameters().response(response_under_test()).clearance(1e-9));
       Point_3 hand = mesh.point(scene.moved), next = scene.target(random, hand);
       // Over a rim, which the planes do not know: from there on they are not what holds it.
       bool has_left = false;
