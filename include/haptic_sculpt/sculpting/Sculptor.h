@@ -188,10 +188,11 @@ public:
   /// Moves many vertices at once along one coordinate axis, each to a coordinate of its own, the last given of one
   /// given again. Done where the surface stays embedded, and the delta rule kept, at every time; decided exactly,
   /// whatever the traits (doc/use/axis_moves.md). Else refused, with the vertices of a place that is in the way. One
-  /// change of the history. \param axis 0 to 2 \post Nothing has died. \throw Unknown_vertex, Out_of_range. Cost: n log
-  /// n in what moves and is near
+  /// change of the history. \tparam Concurrency_tag as of move_vertices() \param axis 0 to 2 \post Nothing has died.
+  /// \throw Unknown_vertex, Out_of_range. Cost: n log n in what moves and is near
+  template <class Concurrency_tag = CGAL::Sequential_tag>
   Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
-    return internal::shift_all(guarded_, axis, ways);
+    return internal::shift_all(guarded_, axis, ways, internal::Part_runner::by<Concurrency_tag>());
   }
 
   /// Does an edit given by value, and gives it back as it can be done again. Strokes begun by one are ended by another;

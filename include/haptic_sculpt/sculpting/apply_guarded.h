@@ -28,6 +28,7 @@ void check_same_connectivity(const Mesh& copy, const Mesh& mesh) {
 /// Runs a function that moves points, on a copy of the mesh, and brings the vertices as near to what came of it as axis
 /// moves and drags do: `apply_guarded(sculptor, [&](auto& mesh, auto map) { ... })`.
 ///
+/// \tparam Concurrency_tag as of move_vertices()
 /// \param function `function(mesh, map)`: the copy, whose elements have the descriptors of those of the guarded mesh,
 /// and its vertex point map. It may do with them what it likes but change connectivity. Where it returns a `bool` that
 /// is false, as CGAL::Polygon_mesh_processing::fair() does when it fails, nothing moves. \param left_behind an output
@@ -38,7 +39,8 @@ void check_same_connectivity(const Mesh& copy, const Mesh& mesh) {
 /// \throw Invalid_parameter where connectivity has changed; Out_of_range where a point is not finite or too large:
 /// nothing has moved; Mesh_changed; and what the function throws. Cost: the function, a copy of the mesh, and
 /// move_vertices().
-template <class Sculptor, class Function, class Output_iterator = CGAL::Emptyset_iterator>
+template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Function,
+          class Output_iterator = CGAL::Emptyset_iterator>
 Move_report apply_guarded(Sculptor& sculptor, Function&& function,
                           const Move_parameters& parameters = Move_parameters(),
                           Output_iterator left_behind = Output_iterator()) {
@@ -58,7 +60,7 @@ Move_report apply_guarded(Sculptor& sculptor, Function&& function,
   for (const auto v : mesh.vertices())
     if (vertex_coordinates(copy, v) != vertex_coordinates(mesh, v))
       moved.push_back(v);
-  return move_vertices(sculptor, moved, map, parameters, left_behind);
+  return move_vertices<Concurrency_tag>(sculptor, moved, map, parameters, left_behind);
 }
 
 } // namespace haptic_sculpt

@@ -12,6 +12,7 @@ namespace haptic_sculpt {
 /// Moves vertices, an object of the scene as a rule, by a translation or by a rotation of less than half a turn, as far
 /// as that is free, and no farther: it does not slide.
 ///
+/// \tparam Concurrency_tag as of move_vertices()
 /// \param vertices a range of vertices; one that is given again counts once
 /// \param transformation of the kernel of the mesh's points. Where all of the way is gone, each vertex is at what
 /// `transformation.transform()` makes of its point, to the bit
@@ -22,7 +23,7 @@ namespace haptic_sculpt {
 /// the history. \throw Invalid_parameter where the transformation is something else, Unknown_vertex, Out_of_range:
 /// nothing has moved; Mesh_changed. Cost: some microseconds a vertex where the way is free; where it is blocked, some
 /// twenty times that.
-template <class Sculptor, class Vertex_range>
+template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Vertex_range>
 Rigid_move_report<typename Sculptor::Mesh_type> move_rigidly(
     Sculptor& sculptor, const Vertex_range& vertices,
     const CGAL::Aff_transformation_3<typename CGAL::Kernel_traits<typename Sculptor::Point>::Kernel>& transformation) {
@@ -40,7 +41,7 @@ Rigid_move_report<typename Sculptor::Mesh_type> move_rigidly(
   Rigid_move_report<typename Sculptor::Mesh_type> report;
   report.asked = moving.size();
   const auto stroke = sculptor.stroke();
-  internal::Rigid_mover<Sculptor>(sculptor, moving, way).run(report);
+  internal::Rigid_mover<Sculptor>(sculptor, moving, way, internal::Part_runner::by<Concurrency_tag>()).run(report);
   return report;
 }
 

@@ -39,10 +39,12 @@ void measure_distances(const Mesh& mesh, const std::vector<Moving_vertex<Mesh>>&
   l2 = largest * std::sqrt(sum);
 }
 
-/// As move_vertices(). \param target_of `target_of(v)`, asked of each vertex once, in their order
+/// As move_vertices(). \param target_of `target_of(v)`, asked of each vertex once, in their order \param run who shares
+/// the work of axis moves
 template <class Sculptor, class Vertex_range, class Target_of, class Output_iterator>
 Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Target_of target_of,
-                            const Move_parameters& parameters, Output_iterator left_behind) {
+                            const Move_parameters& parameters, Output_iterator left_behind,
+                            const Part_runner& run = Part_runner()) {
   const auto asked = moving_vertices(sculptor.mesh(), vertices, target_of);
   check_clearance_at_targets(asked, sculptor.parameters().drag.clearance_length);
   Move_report report;
@@ -50,7 +52,7 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
   measure_distances(sculptor.mesh(), asked, report.asked_l2, report.asked_max);
   {
     const auto stroke = sculptor.stroke();
-    Vertices_mover<Sculptor>(sculptor, asked, parameters, report).run();
+    Vertices_mover<Sculptor>(sculptor, asked, parameters, report, run).run();
   }
   measure_distances(sculptor.mesh(), asked, report.left_l2, report.left_max);
   // Each distance is exactly no longer than it was; its root may be rounded up.
@@ -69,6 +71,8 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
 /// Moves vertices as near to their targets as axis moves and drags bring them, each proven: no surface passes through a
 /// surface on the way, and no vertex ends farther from its target than it was.
 ///
+/// \tparam Concurrency_tag `CGAL::Sequential_tag` (the default), `CGAL::Parallel_tag` or
+/// `CGAL::Parallel_if_available_tag`: whether oneTBB's threads share the work of axis moves; the same bits either way
 /// \param vertices a range of vertices; one that is given again counts once
 /// \param target_map a model of `ReadablePropertyMap` from vertices to points
 /// \param left_behind an output iterator, told the vertices that are not at their targets at the end, in the order
@@ -80,13 +84,15 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
 /// others, and may end far from their targets although these are free. \throw Unknown_vertex, Out_of_range,
 /// Invalid_parameter: nothing has moved; Mesh_changed, and what the progress function throws Cost: some microseconds a
 /// vertex where the targets are free; about a millisecond for one that has to slide.
-template <class Sculptor, class Vertex_range, class Target_map, class Output_iterator = CGAL::Emptyset_iterator>
+template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Vertex_range, class Target_map,
+          class Output_iterator = CGAL::Emptyset_iterator>
 Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, const Target_map& target_map,
                           const Move_parameters& parameters = Move_parameters(),
                           Output_iterator left_behind = Output_iterator()) {
   const internal::Rounding_to_nearest rounding;
   return internal::move_to_targets(
-      sculptor, vertices, [&](auto v) -> decltype(auto) { return get(target_map, v); }, parameters, left_behind);
+      sculptor, vertices, [&](auto v) -> decltype(auto) { return get(target_map, v); }, parameters, left_behind,
+      internal::Part_runner::by<Concurrency_tag>());
 }
 
 } // namespace haptic_sculpt

@@ -74,14 +74,15 @@ inline void find_coincident_vertices(const Face_soup& soup, Validity_report& rep
 } // namespace internal
 
 /// Says everything that is wrong with a list of faces; see `validate(mesh)`.
+/// \tparam Concurrency_tag as of `validate(mesh)`
 /// \param most_intersections stop after this many pairs of intersecting faces, at least one
 /// \param face_name the index under which each face is reported; empty: its place in the soup
 /// \param vertex_exists false for points that belong to nothing (removed vertices); empty: all exist
 /// \pre every corner is the index of a point
-inline Validity_report validate_soup(const Face_soup& soup, double delta = 0,
-                                     std::size_t most_intersections = Validity_report::default_most_intersections,
-                                     std::vector<Face_soup::Index> face_name = {},
-                                     std::vector<bool> vertex_exists = {}) {
+template <class Concurrency_tag = CGAL::Sequential_tag>
+Validity_report validate_soup(const Face_soup& soup, double delta = 0,
+                              std::size_t most_intersections = Validity_report::default_most_intersections,
+                              std::vector<Face_soup::Index> face_name = {}, std::vector<bool> vertex_exists = {}) {
   const internal::Rounding_to_nearest rounding;
   using Index = Face_soup::Index;
   if (!(delta >= 0) || !std::isfinite(delta))
@@ -115,8 +116,8 @@ inline Validity_report validate_soup(const Face_soup& soup, double delta = 0,
     else if (delta > 0 && !satisfies_delta_rule(soup.points[corner[0]], soup.points[corner[1]], soup.points[corner[2]]))
       report.low_faces.emplace_back(face_name[f]);
   }
-  const auto intersections =
-      internal::improper_intersections(soup, triangles, flat, std::max<std::size_t>(most_intersections, 1));
+  const auto intersections = internal::improper_intersections<Concurrency_tag>(
+      soup, triangles, flat, std::max<std::size_t>(most_intersections, 1));
   report.has_more_intersections = intersections.has_more;
   for (const auto& [f, g] : intersections.pairs)
     report.intersecting_faces.emplace_back(Validity_report::Face_index(face_name[f]),
@@ -167,14 +168,15 @@ Face_soup face_soup(const Mesh& mesh, std::vector<Face_soup::Index>* face_name =
 /// - A mesh without faces is valid.
 /// - Faces that are no finite triangles are named, and left out of the search for intersections.
 ///
-/// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
-/// \param delta the delta rule's length (paper, section 3.1), >= 0; 0: only exact degeneracy counts
-/// \param most_intersections pairs of intersecting faces to name, at least one; `Validity_report::all_intersections`:
-/// all \throw Error if delta is negative or not finite Complexity: O(n log^3 n + pairs of faces with meeting boxes) up
-/// to the last pair named, components included (doc/use/validity.md); 1.6 s for a million triangles. Memory: about 80
-/// bytes a triangle beside the mesh. Thread-safe as far as reading the mesh is; whatever rounding mode the caller has
-/// set.
-template <class Mesh>
+/// \tparam Concurrency_tag `CGAL::Sequential_tag` (the default), `CGAL::Parallel_tag` or
+/// `CGAL::Parallel_if_available_tag`: whether oneTBB's threads share the search for intersections; the report is the
+/// same \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double` \param delta the delta rule's length
+/// (paper, section 3.1), >= 0; 0: only exact degeneracy counts \param most_intersections pairs of intersecting faces to
+/// name, at least one; `Validity_report::all_intersections`: all \throw Error if delta is negative or not finite
+/// Complexity: O(n log^3 n + pairs of faces with meeting boxes) up to the last pair named, components included
+/// (doc/use/validity.md); 1.6 s for a million triangles. Memory: about 80 bytes a triangle beside the mesh. Thread-safe
+/// as far as reading the mesh is; whatever rounding mode the caller has set.
+template <class Concurrency_tag = CGAL::Sequential_tag, class Mesh>
 Validity_report validate(const Mesh& mesh, double delta = 0,
                          std::size_t most_intersections = Validity_report::default_most_intersections) {
   using Kernel = typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel;
@@ -192,7 +194,8 @@ Validity_report validate(const Mesh& mesh, double delta = 0,
   std::vector<bool> vertex_exists(soup.points.size(), false);
   for (const auto v : mesh.vertices())
     vertex_exists[v] = true;
-  return validate_soup(soup, delta, most_intersections, std::move(face_name), std::move(vertex_exists));
+  return validate_soup<Concurrency_tag>(soup, delta, most_intersections, std::move(face_name),
+                                        std::move(vertex_exists));
 }
 
 } // namespace haptic_sculpt

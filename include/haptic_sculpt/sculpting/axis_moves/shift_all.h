@@ -24,7 +24,7 @@ struct Sculptor_access {
 
 /// Whole ways or none. \throw Invalid_parameter, Unknown_vertex, Out_of_range, Mesh_changed
 template <class Guarded, class Mesh = std::decay_t<decltype(std::declval<Guarded&>().mesh())>>
-Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways) {
+Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways, const Part_runner& run) {
   using Vertex_index = typename Mesh::Vertex_index;
   const Rounding_to_nearest rounding;
   if (axis < 0 || axis > 2)
@@ -43,9 +43,9 @@ Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways) {
     targets.back().second[axis] = end;
   }
   guarded.look_around(targets);
-  if (!guarded.shift(axis, ways, 0)) {
+  if (!guarded.shift(axis, ways, 0, run)) {
     // The least of all, not the first that was found: that depends on the order of the broad phase.
-    Axis_obstacle first = guarded.obstacles_to(axis, ways).front().in_order();
+    Axis_obstacle first = guarded.obstacles_to(axis, ways, run).front().in_order();
     for (const Axis_obstacle& other : guarded.axis_move().obstacles())
       if (const Axis_obstacle ordered = other.in_order(); ordered.vertices < first.vertices)
         first = ordered;

@@ -58,15 +58,17 @@ public:
   /// \param noted called as `noted(v)` when the change is made and the visitor has not been told yet; v has moved or is
   /// new, or is the null index. May not throw: room for what it writes has to be there \return the vertex moved or
   /// created; of a removal, the neighbour it went into; of a flip, an end of the new edge \throw Mesh_changed where the
-  /// faces to be replaced are not those known; std::bad_alloc; and nothing has changed
+  /// faces to be replaced are not those known; std::bad_alloc; and nothing has changed \param run who may share the
+  /// work of a shift
   template <class Noted>
-  Vertex_index make(const Change& edit, const Place& place, const Noted& noted) {
+  Vertex_index make(const Change& edit, const Place& place, const Noted& noted,
+                    const Part_runner& run = Part_runner()) {
     begin(edit, false, place);
     switch (edit.kind) {
     case Edit_kind::move:
       return put(edit.vertex, edit.after, noted);
     case Edit_kind::shift:
-      return put_all(edit, 1, noted);
+      return put_all(edit, 1, noted, run);
     case Edit_kind::insert_on_face:
       return create_on_face(edit, noted);
     case Edit_kind::insert_on_edge:
@@ -87,7 +89,7 @@ public:
     case Edit_kind::move:
       return put(edit.vertex, edit.before, noted);
     case Edit_kind::shift:
-      return put_all(edit, 0, noted);
+      return put_all(edit, 0, noted, Part_runner());
     case Edit_kind::collapse:
       return star_instead_of_fan(edit, noted);
     case Edit_kind::flip:
@@ -165,7 +167,7 @@ private:
 
   /// All at once: the visitor hears when all stand. \param end 0: as before, 1: as after
   template <class Noted>
-  Vertex_index put_all(const Change& edit, int end, const Noted& noted) {
+  Vertex_index put_all(const Change& edit, int end, const Noted& noted, const Part_runner& run) {
     // All that allocates comes before the first point is written.
     collect_faces_around(*mesh_, ids_, edit.around, is_taken_, faces_);
     is_ready_ = true;
@@ -176,7 +178,7 @@ private:
       p[edit.vertex] = edit.ways[k][end];
       mesh_->point(v) = to_point(p);
     }
-    broad_phase_->faces_moved(faces_);
+    broad_phase_->many_faces_moved(faces_, run);
     noted(Vertex_index());
     writing_->end();
     if constexpr (has_visitor)

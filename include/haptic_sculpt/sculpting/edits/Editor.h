@@ -119,7 +119,8 @@ public:
 
   /// Moves many vertices along one axis, a motion that has been proven free; one change. \param ways where each is to
   /// be
-  void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
+  void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways,
+             const Part_runner& run = Part_runner()) {
     Change edit; // not kept: there may be millions
     edit.kind = Edit_kind::shift;
     edit.vertex = static_cast<std::size_t>(axis);
@@ -130,10 +131,11 @@ public:
       edit.ways.push_back({vertex_coordinates(*mesh_, v)[axis], end});
     }
     history_.make_room_for(edit);
-    changes_.make(edit, place(history_.number_of_next(), true), [&](Vertex_index changed) {
+    const auto noted = [&](Vertex_index changed) {
       watch(changed, edit);
       history_.push(edit);
-    });
+    };
+    changes_.make(edit, place(history_.number_of_next(), true), noted, run);
   }
 
   /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. What

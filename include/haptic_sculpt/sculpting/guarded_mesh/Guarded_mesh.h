@@ -243,9 +243,9 @@ public:
 
   /// Moves vertices at once along one axis as far as that is free, as one change; each vertex is given once.
   /// \pre they have been told to look_around(), and nothing else has moved since
-  /// \return false where more than `most_held` would be held back: then nothing has changed, and axis_move() knows why
-  /// \throw Mesh_changed
-  bool shift(int axis, const Axis_ways<Mesh>& ways, std::size_t most_held) {
+  /// \param run who shares the work \return false where more than `most_held` would be held back: then nothing has
+  /// changed, and axis_move() knows why \throw Mesh_changed
+  bool shift(int axis, const Axis_ways<Mesh>& ways, std::size_t most_held, const Part_runner& run) {
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
@@ -257,7 +257,7 @@ public:
       for (const Axis_item& item : move.items())
         for (const std::uint32_t v : item.corners)
           watch_.check(Vertex_index(v));
-    move.begin(axis, ways, parameters.delta_length, most_held);
+    move.begin(axis, ways, parameters.delta_length, run, most_held);
     if (!move.hold_back())
       return false;
     Axis_ways<Mesh> made;
@@ -268,15 +268,15 @@ public:
         scene_.include(p);
       }
     if (!made.empty())
-      editor_.shift(axis, made);
+      editor_.shift(axis, made, run);
     return true;
   }
   /// The last one.
   Axis_move<Mesh>& axis_move() { return are_many_ ? whole_move_ : near_move_; }
   /// All that is in the way of a motion, not only what was found until it was given up. \pre as of shift()
-  const std::vector<Axis_obstacle>& obstacles_to(int axis, const Axis_ways<Mesh>& ways) {
+  const std::vector<Axis_obstacle>& obstacles_to(int axis, const Axis_ways<Mesh>& ways, const Part_runner& run) {
     const Rounding_to_nearest rounding;
-    axis_move().begin(axis, ways, parameters.delta_length);
+    axis_move().begin(axis, ways, parameters.delta_length, run);
     return axis_move().obstacles();
   }
 

@@ -21,9 +21,14 @@ public:
   using Moving = Moving_vertex<Mesh>;
 
   /// \param report counts a motion for each vertex of a move along one axis
+  /// \param run who shares the work of a move
   Axis_walk(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
-            Move_report& report)
-      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), parameters_(parameters), report_(report) {}
+            Move_report& report, const Part_runner& run)
+      : guarded_(Sculptor_access::guarded(sculptor))
+      , vertices_(vertices)
+      , parameters_(parameters)
+      , report_(report)
+      , run_(run) {}
 
   /// Ends, too, where a move would be more motions than may be made: single drags may go on with what is left of these.
   /// \return false where it was cancelled
@@ -75,6 +80,7 @@ private:
   const std::vector<Moving>& vertices_;
   const Move_parameters& parameters_;
   Move_report& report_;
+  Part_runner run_;
   std::vector<std::pair<int, Ways>> made_; ///< by the step under way: the axis, and where all were before
   bool goes_on_ = true;                    ///< neither cancelled nor without room for another move
 
@@ -116,7 +122,7 @@ private:
         continue;
       if (!may_move(ways.size(), share))
         return vertices_.size();
-      if (!guarded_.shift(axis, ways, most))
+      if (!guarded_.shift(axis, ways, most, run_))
         return vertices_.size();
       made_.emplace_back(axis, std::move(before));
     }
@@ -131,7 +137,7 @@ private:
   /// The step that was made: the same motions back are free.
   void take_back() {
     for (; !made_.empty(); made_.pop_back())
-      if (!guarded_.shift(made_.back().first, made_.back().second, 0))
+      if (!guarded_.shift(made_.back().first, made_.back().second, 0, run_))
         throw Mesh_changed("a motion that was free is not when it is taken back");
   }
 

@@ -18,8 +18,9 @@ public:
   using Mesh = typename Sculptor::Mesh_type;
   using Moving = Moving_vertex<Mesh>;
 
-  Rigid_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Rigid_way& way)
-      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), way_(way) {}
+  /// \param run who shares the work of a step
+  Rigid_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Rigid_way& way, const Part_runner& run)
+      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), way_(way), run_(run) {}
 
   /// Step after step, half as long after one that is blocked and twice as long after one that is not.
   void run(Rigid_move_report<Mesh>& report) {
@@ -43,6 +44,7 @@ private:
   std::decay_t<decltype(Sculptor_access::guarded(std::declval<Sculptor&>()))>& guarded_;
   const std::vector<Moving>& vertices_;
   const Rigid_way& way_;
+  Part_runner run_;
 
   Coordinates place(const Moving& v, double share) const {
     return share == 1 ? v.target : plus(v.source, way_.at(share, minus(v.target, v.source)));
@@ -68,7 +70,7 @@ private:
         }
       if (ways.empty())
         continue;
-      if (!guarded_.shift(axis, ways, 0)) {
+      if (!guarded_.shift(axis, ways, 0, run_)) {
         if (contacts != nullptr)
           name_contacts(axis, ways, *contacts);
         take_back(made);
@@ -81,12 +83,12 @@ private:
 
   void take_back(std::vector<std::pair<int, Ways>>& made) {
     for (; !made.empty(); made.pop_back())
-      if (!guarded_.shift(made.back().first, made.back().second, 0))
+      if (!guarded_.shift(made.back().first, made.back().second, 0, run_))
         throw Mesh_changed("a motion that was free is not when it is taken back");
   }
 
   void name_contacts(int axis, const Ways& ways, std::vector<Blocking_pair<Mesh>>& contacts) {
-    for (const Axis_obstacle& obstacle : guarded_.obstacles_to(axis, ways)) {
+    for (const Axis_obstacle& obstacle : guarded_.obstacles_to(axis, ways, run_)) {
       Blocking_pair<Mesh> pair{static_cast<Blocking_kind>(obstacle.kind), {}};
       for (int k = 0; k < obstacle.size(); ++k)
         pair.vertices[k] = typename Mesh::Vertex_index(obstacle.vertices[k]);

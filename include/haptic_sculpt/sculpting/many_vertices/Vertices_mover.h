@@ -21,11 +21,12 @@ public:
 
   /// \param vertices all targets are in range \param report filled in by run()
   Vertices_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
-                 Move_report& report)
+                 Move_report& report, const Part_runner& run)
       : sculptor_(sculptor)
       , vertices_(vertices)
       , parameters_(parameters)
       , report_(&report)
+      , run_(run)
       , budget_(parameters, report)
       , drag_(sculptor.parameters().drag)
       , bound_(drag_.work_bound) {}
@@ -35,7 +36,7 @@ public:
     asked_ = sum_left();
     drag_.response(Response::stop).once();
     if (!parameters_.drags_singly || (parameters_.takes_steps && vertices_.size() >= many))
-      goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_).run();
+      goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_, run_).run();
     if (parameters_.drags_singly)
       finish();
   }
@@ -58,6 +59,7 @@ private:
   const std::vector<Moving>& vertices_;
   const Move_parameters& parameters_;
   Move_report* report_;
+  Part_runner run_; ///< who shares the work of axis moves
   Drag_budget budget_;
   Drag_parameters drag_;             ///< of the drags at hand
   std::optional<std::size_t> bound_; ///< on the work of a drag, as the Sculptor has it

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_BOX_NODE_H
 #define HAPTIC_SCULPT_SURFACE_BOX_NODE_H
 
+#include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/surface/broad_phase/bits.h>
 #include <haptic_sculpt/surface/broad_phase/outward_float.h>
 #include <haptic_sculpt/surface/broad_phase/prefetch.h>
@@ -79,13 +80,16 @@ struct alignas(64) Box_node {
 /// Brings all nodes of an implicit tree up to date with those of its lowest level.
 /// \param level_begin where each level begins among the nodes, the lowest first: it is the last of them
 template <class Allocator>
-void refit_all(std::vector<Box_node, Allocator>& nodes, const std::uint32_t* level_begin, int levels) {
+void refit_all(std::vector<Box_node, Allocator>& nodes, const std::uint32_t* level_begin, int levels,
+               const Part_runner& run = Part_runner()) {
+  constexpr std::size_t nodes_a_part = 1024;
   for (int level = 1; level < levels; ++level) {
-    const std::size_t first = level_begin[level - 1], end = level > 1 ? level_begin[level - 2] : nodes.size();
-    for (std::size_t k = 0; first + k < end; ++k) {
-      const auto j = static_cast<unsigned>(k % Box_node::width);
-      nodes[level_begin[level] + k / Box_node::width].set(j, nodes[first + k].all());
-    }
+    const std::size_t begin = level_begin[level], below = level_begin[level - 1];
+    const std::size_t below_end = level > 1 ? level_begin[level - 2] : nodes.size();
+    run.in_ranges(below - begin, nodes_a_part, [&](std::size_t first, std::size_t end) {
+      for (std::size_t k = first * Box_node::width; k < end * Box_node::width && below + k < below_end; ++k)
+        nodes[begin + k / Box_node::width].set(k % Box_node::width, nodes[below + k].all());
+    });
   }
 }
 

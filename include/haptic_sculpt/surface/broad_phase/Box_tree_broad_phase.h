@@ -103,6 +103,22 @@ public:
     }
     are_many ? internal::refit_all(nodes_, level_begin_.data(), levels_) : refit();
   }
+  /// The same by several threads, where most of all faces have moved: then the boxes of all are made anew.
+  template <class Faces>
+  void many_faces_moved(const Faces& faces, const internal::Part_runner& run) {
+    if (2 * faces.size() < slot_of_face_.size())
+      return faces_moved(faces);
+    run.in_ranges(face_of_slot_.size(), slots_a_part, [this](std::size_t first, std::size_t end) {
+      for (std::size_t slot = first; slot < end; ++slot)
+        if (face_of_slot_[slot] != no_face)
+          nodes_[level_begin_[0] + slot / width].set(slot % width,
+                                                     scale().around(face_box(mesh(), Face_index(face_of_slot_[slot]))));
+    });
+    for (const Face_index f : faces)
+      if (const std::uint32_t slot = slot_of_face_[f]; is_in_overflow(slot))
+        overflow_.set(slot - first_overflow, scale().around(face_box(mesh(), f)));
+    internal::refit_all(nodes_, level_begin_.data(), levels_, run);
+  }
 
   /// As they lie in the tree. \pre all are known
   void put_in_order(std::vector<Face_index>& faces) const {
@@ -187,6 +203,7 @@ private:
   static constexpr std::uint32_t nodes_in_cache = 1024, most_ahead = 64;
 
   static constexpr std::size_t usual_queue = 8192; ///< room is made for this many
+  static constexpr std::size_t slots_a_part = 1024 * width; ///< that threads work on; no two share a node
   static constexpr std::size_t most_touched = 256; ///< before they are refitted: there is room for this many
 
   using Base::mesh;

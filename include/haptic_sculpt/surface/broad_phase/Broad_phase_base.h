@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_BROAD_PHASE_BASE_H
 #define HAPTIC_SCULPT_SURFACE_BROAD_PHASE_BASE_H
 
+#include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/surface/broad_phase/Star_filter.h>
 #include <haptic_sculpt/surface/broad_phase/face_box.h>
 #include <haptic_sculpt/surface/broad_phase/spatial_order.h>
@@ -59,6 +60,13 @@ public:
     const auto ordered = internal::faces_in_spatial_order(*mesh_, faces, scale_);
     for (std::size_t i = 0; i < ordered.size(); ++i)
       faces[i] = Face_index(ordered[i].face);
+  }
+
+  /// As `faces_moved(faces)`, after a change that moves many at once; threads of `run` may share the work. Here one
+  /// does all of it.
+  template <class Faces>
+  void many_faces_moved(const Faces& faces, const internal::Part_runner& /*run*/) {
+    derived().faces_moved(faces);
   }
 
   /// A query about here may follow soon: its memory may be asked for. Changes no answer. Here nothing is done.

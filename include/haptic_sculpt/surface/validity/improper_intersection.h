@@ -6,10 +6,13 @@
 #include <haptic_sculpt/surface/validity/near_faces.h>
 
 #include <CGAL/intersections.h>
+#include <CGAL/tags.h>
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 #include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -108,23 +111,34 @@ struct Improper_intersections {
 /// Pairs of triangles of `faces` that meet improperly: all if there are at most `most`, else the first `most` that are
 /// found. Pairs that are near are found by Near_faces, always in the same order; each is then decided exactly.
 /// \param flat[f] whether face f is degenerate
-inline Improper_intersections improper_intersections(const Face_soup& soup, const std::vector<Face_soup::Index>& faces,
-                                                     const std::vector<bool>& flat, std::size_t most) {
+template <class Concurrency_tag>
+Improper_intersections improper_intersections(const Face_soup& soup, const std::vector<Face_soup::Index>& faces,
+                                              const std::vector<bool>& flat, std::size_t most) {
   using Index = Face_soup::Index;
   struct Enough {}; // thrown through the box intersection: it has no other way to end early
   Improper_intersections found;
   std::set<std::pair<Index, Index>> pairs;
   const Meet_improperly meet_improperly(soup);
+  std::mutex finding;
+  const auto meets = [&](Index f, Index g) {
+    return flat[f] || flat[g] ? meet_improperly.degenerate(f, g) : meet_improperly(f, g);
+  };
   const auto decide = [&](Index f, Index g) {
-    if (!(flat[f] || flat[g] ? meet_improperly.degenerate(f, g) : meet_improperly(f, g)) || pairs.count({f, g}) != 0)
+    if (!meets(f, g))
+      return;
+    const std::lock_guard<std::mutex> lock(finding);
+    if (pairs.count({f, g}) != 0)
       return;
     if (pairs.size() == most)
       throw Enough();
     pairs.emplace(f, g);
   };
   try {
-    Near_faces(soup, faces).for_each_pair(decide);
+    Near_faces(soup, faces).for_each_pair(decide, Part_runner::by<Concurrency_tag>());
   } catch (const Enough&) {
+    if constexpr (std::is_convertible<Concurrency_tag,
+                                      CGAL::Parallel_tag>::value) // which were found first hangs on the threads
+      return improper_intersections<CGAL::Sequential_tag>(soup, faces, flat, most);
     found.has_more = true;
   }
   found.pairs.assign(pairs.begin(), pairs.end());

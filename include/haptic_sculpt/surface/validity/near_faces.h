@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_NEAR_FACES_H
 #define HAPTIC_SCULPT_SURFACE_NEAR_FACES_H
 
+#include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
 #include <CGAL/Bbox_3.h>
@@ -34,6 +35,7 @@ class Near_faces {
   static constexpr std::size_t least_valence = 256;
   /// Below this number of boxes all pairs are tried; the figure PMP uses.
   static constexpr std::ptrdiff_t cutoff = 2000;
+  static constexpr std::size_t boxes_a_slab = 32768;
   static constexpr std::size_t most_slices = 16; ///< of a face at a hub, a box each
   /// Boxes of faces at hubs, 64 bytes each, unless there are more of these faces.
   static constexpr std::size_t most_sliced = 1 << 21;
@@ -45,10 +47,10 @@ public:
   Near_faces(const Face_soup& soup, const std::vector<Index>& faces) : soup_(soup), faces_(faces) {}
 
   /// Calls do_this(f, g) with f < g: at least once for each pair that meets improperly, mostly not more than a few
-  /// times.
+  /// times; where threads share the work, in no order, and several at a time.
   /// O(n log^3 n + pairs of meeting boxes).
   template <class Function>
-  void for_each_pair(const Function& do_this) const {
+  void for_each_pair(const Function& do_this, const Part_runner& run = Part_runner()) const {
     const std::vector<bool> is_hub = find_hubs();
     Boxes plain;
     std::vector<Face_at_hub> at_hubs;
@@ -65,15 +67,11 @@ public:
     const auto call = [&](const Box* a, const Box* b) {
       do_this(std::min(a->info(), b->info()), std::max(a->info(), b->info()));
     };
-    const auto pairs_within = [&](const Boxes& boxes) {
-      auto pointers = pointers_to(boxes);
-      CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), call, cutoff);
-    };
     const auto pairs_between = [&](const Boxes& a, const Boxes& b, const auto& function) {
       auto to_a = pointers_to(a), to_b = pointers_to(b);
       CGAL::box_intersection_d(to_a.begin(), to_a.end(), to_b.begin(), to_b.end(), function, cutoff);
     };
-    pairs_within(plain);
+    pairs_within(plain, call, run);
     if (at_hubs.empty())
       return;
     std::stable_sort(at_hubs.begin(), at_hubs.end(), [](const auto& a, const auto& b) { return a.hub < b.hub; });
@@ -119,6 +117,47 @@ private:
     Index hub, face;
     bool is_first; // whether no corner before this one is a hub
   };
+
+  // In slabs that the boxes begin in, across the axis along which they begin in the widest range: a box meets some of
+  // its slab, and some that begin before it and reach into it. Sorting within slabs asks memory for less, too.
+  template <class Function>
+  static void pairs_within(const Boxes& boxes, const Function& call, const Part_runner& run) {
+    auto sorted = pointers_to(boxes);
+    const int axis = widest_axis(boxes);
+    std::sort(sorted.begin(), sorted.end(), [axis](const Box* a, const Box* b) {
+      return a->min_coord(axis) < b->min_coord(axis) || (a->min_coord(axis) == b->min_coord(axis) && a < b);
+    });
+    const std::size_t slabs = 1 + sorted.size() / boxes_a_slab;
+    const auto begin = [&](std::size_t slab) { return sorted.begin() + slab * sorted.size() / slabs; };
+    std::vector<std::vector<const Box*>> reaching(slabs);
+    std::size_t number_reaching = 0;
+    for (std::size_t s = 0; s < slabs; ++s)
+      for (auto box = begin(s); box != begin(s + 1); ++box)
+        for (std::size_t t = s + 1; t < slabs && (*begin(t))->min_coord(axis) <= (*box)->max_coord(axis); ++t)
+          if (++number_reaching <= sorted.size())
+            reaching[t].push_back(*box);
+    if (number_reaching > sorted.size()) // most are long
+      return CGAL::box_self_intersection_d(sorted.begin(), sorted.end(), call, cutoff);
+    const auto work_on = [&](std::size_t s) {
+      std::vector<const Box*> own(begin(s), begin(s + 1));
+      CGAL::box_self_intersection_d(own.begin(), own.end(), call, cutoff);
+      CGAL::box_intersection_d(reaching[s].begin(), reaching[s].end(), own.begin(), own.end(), call, cutoff);
+    };
+    run(slabs, work_on);
+  }
+
+  static int widest_axis(const Boxes& boxes) {
+    std::array<double, 3> lowest, highest;
+    lowest.fill(std::numeric_limits<double>::infinity()), highest.fill(-std::numeric_limits<double>::infinity());
+    for (const Box& box : boxes)
+      for (int k = 0; k < 3; ++k)
+        lowest[k] = std::min(lowest[k], box.min_coord(k)), highest[k] = std::max(highest[k], box.min_coord(k));
+    int widest = 0; // halved, so that none overflows
+    for (int k = 1; k < 3; ++k)
+      if (highest[k] / 2 - lowest[k] / 2 > highest[widest] / 2 - lowest[widest] / 2)
+        widest = k;
+    return widest;
+  }
 
   // The box intersection orders these, so that boxes keep their addresses, by which it knows them.
   static std::vector<const Box*> pointers_to(const Boxes& boxes) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_PART_RUNNER_H
+#define HAPTIC_SCULPT_PART_RUNNER_H
+
+#include <haptic_sculpt/Rounding_to_nearest.h>
+
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/parallel_for.h>
+#endif
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Runs the parts of a task that do not touch each other: one after the other, or several at a time.
+///
+/// How is chosen when the program runs, so that both ways run the same code, and nothing is compiled twice. Where a
+/// task is cut into parts never depends on the number of threads: so its result does not either.
+class Part_runner {
+public:
+  Part_runner() = default; ///< one after the other
+
+  /// \tparam Concurrency_tag `CGAL::Sequential_tag`, `CGAL::Parallel_tag` (oneTBB) or `CGAL::Parallel_if_available_tag`
+  template <class Concurrency_tag>
+  static Part_runner by() {
+    Part_runner runner;
+    if constexpr (std::is_convertible<Concurrency_tag, CGAL::Parallel_tag>::value) {
+#ifdef CGAL_LINKED_WITH_TBB
+      runner.run_ = [](std::size_t parts, const void* task, void (*part)(const void*, std::size_t)) {
+        tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t k) {
+          const Rounding_to_nearest rounding; // a thread has a mode of its own
+          part(task, k);
+        });
+      };
+#else
+      static_assert(sizeof(Concurrency_tag) == 0,
+                    "Parallel_tag needs oneTBB: link CGAL::TBB_support, or use Parallel_if_available_tag");
+#endif
+    }
+    return runner;
+  }
+
+  /// Calls `part(k)` for k = 0, ..., parts - 1. An exception ends it, and goes on to the caller.
+  template <class Part>
+  void operator()(std::size_t parts, const Part& part) const {
+    if (run_ != nullptr && parts > 1)
+      return run_(parts, &part, [](const void* task, std::size_t k) { (*static_cast<const Part*>(task))(k); });
+    for (std::size_t k = 0; k < parts; ++k)
+      part(k);
+  }
+
+  /// Calls `part(first, end)` for ranges of this size, the last one perhaps shorter, that are 0, ..., n - 1 together.
+  template <class Part>
+  void in_ranges(std::size_t n, std::size_t size, const Part& part) const {
+    operator()((n + size - 1) / size, [&](std::size_t k) { part(k * size, std::min(n, (k + 1) * size)); });
+  }
+
+private:
+  void (*run_)(std::size_t, const void*, void (*)(const void*, std::size_t)) = nullptr;
+};
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
