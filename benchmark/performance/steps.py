@@ -16,5 +16,6 @@ STEPS = [
     Step("dabs", "brush_dabs",
          quick=Effort("--level 6 --dabs 50 --seed {seed}", 5),
          full=Effort("--level 7 --dabs 1000 --seed {seed}", 60, memory=4000)),
+    Step("threads", "threads", full=Effort("--level 8 --threads 1,2,4 --seed {seed}", 30, memory=6000)),
     Step("ticks", "haptic_ticks", full=Effort("--runs 3", 60, memory=4000)),
 ]

@@ -21,7 +21,7 @@ public:
 
   /// Points of these known faces have changed, or their corners (a flip). `Faces` is a range of `Mesh::Face_index`.
   template <class Faces>
-  void faces_moved(const Faces& faces);
+  void faces_moved(const Faces& faces); // many_faces_moved(), inherited, calls it after an axis move
   /// These faces have come, also under an index used before.
   template <class Faces>
   void faces_inserted(const Faces& faces);

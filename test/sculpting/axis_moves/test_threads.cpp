@@ -15,6 +15,7 @@
 #include <tbb/task_arena.h>
 #endif
 
+#include <atomic>
 #include <cfenv>
 
 using namespace haptic_sculpt;
@@ -136,12 +137,22 @@ BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
 }
 
 #ifdef CGAL_LINKED_WITH_TBB
-BOOST_AUTO_TEST_CASE(what_a_part_throws_goes_on_to_the_caller) {
+BOOST_AUTO_TEST_CASE(parts_round_to_nearest_and_throw_to_the_caller) {
   const auto run = internal::Part_runner::by<CGAL::Parallel_tag>();
+  std::fesetround(FE_UPWARD);
+  std::atomic<int> parts_made = 0, rounded_otherwise = 0;
+  run(1000, [&](std::size_t) {
+    ++parts_made;
+    rounded_otherwise += std::fegetround() != FE_TONEAREST;
+  });
+  BOOST_TEST(std::fegetround() == FE_UPWARD);
+  std::fesetround(FE_TONEAREST);
+  BOOST_TEST(parts_made == 1000);
+  BOOST_TEST(rounded_otherwise == 0);
   for (const std::size_t parts : {1, 2, 1000})
     BOOST_CHECK_THROW(run(parts,
                           [](std::size_t k) {
-                            if (k % 1000 == 0)
+                            if (k == 0)
                               throw Invalid_parameter("on purpose");
                           }),
                       Invalid_parameter);

@@ -64,7 +64,7 @@ public:
   }
   void forget() { are_all_ = false; } ///< connectivity is to change
 
-  /// As Axis_move::begin(); what the faces look like along the axis is to be told by look_along().
+  /// As Axis_move::begin(); look_along() each face next.
   void begin(int axis, const Axis_ways<Mesh>& ways, double delta) {
     axis_ = axis;
     delta_ = delta;

@@ -111,7 +111,7 @@ struct Improper_intersections {
 /// Pairs of triangles of `faces` that meet improperly: all if there are at most `most`, else the first `most` that are
 /// found. Pairs that are near are found by Near_faces, always in the same order; each is then decided exactly.
 /// \param flat[f] whether face f is degenerate
-template <class Concurrency_tag>
+template <class Concurrency_tag = CGAL::Sequential_tag>
 Improper_intersections improper_intersections(const Face_soup& soup, const std::vector<Face_soup::Index>& faces,
                                               const std::vector<bool>& flat, std::size_t most) {
   using Index = Face_soup::Index;
