@@ -42,6 +42,13 @@ inline Mesh torus(std::size_t m, std::size_t n, double tube, double flatness = 1
   });
 }
 
+/// A fine ring in a coarse one, which comes nearer to it when it is made smooth.
+inline Mesh nested_rings(std::size_t m, std::size_t n, double inner_tube) {
+  Mesh mesh = torus(m, n, 0.4);
+  mesh += torus(96, 24, inner_tube);
+  return mesh;
+}
+
 inline std::size_t self_intersecting_pairs(const Mesh& mesh) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
