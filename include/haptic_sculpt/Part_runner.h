@@ -15,7 +15,6 @@
 #endif
 
 namespace haptic_sculpt {
-namespace internal {
 
 /// Runs the parts of a task that do not touch each other: one after the other, or several at a time.
 ///
@@ -33,7 +32,7 @@ public:
 #ifdef CGAL_LINKED_WITH_TBB
       runner.run_ = [](std::size_t parts, const void* task, void (*part)(const void*, std::size_t)) {
         tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t k) {
-          const Rounding_to_nearest rounding; // a thread has a mode of its own
+          const internal::Rounding_to_nearest rounding; // a thread has a mode of its own
           part(task, k);
         });
       };
@@ -64,7 +63,6 @@ private:
   void (*run_)(std::size_t, const void*, void (*)(const void*, std::size_t)) = nullptr;
 };
 
-} // namespace internal
 } // namespace haptic_sculpt
 
 #endif

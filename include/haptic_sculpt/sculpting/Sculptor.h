@@ -192,7 +192,7 @@ public:
   /// \throw Unknown_vertex, Out_of_range. Cost: n log n in what moves and is near
   template <class Concurrency_tag = CGAL::Sequential_tag>
   Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
-    return internal::shift_all(guarded_, axis, ways, internal::Part_runner::by<Concurrency_tag>());
+    return internal::shift_all(guarded_, axis, ways, Part_runner::by<Concurrency_tag>());
   }
 
   /// Does an edit given by value, and gives it back as it can be done again. Strokes begun by one are ended by another;

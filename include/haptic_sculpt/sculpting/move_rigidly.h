@@ -41,7 +41,7 @@ Rigid_move_report<typename Sculptor::Mesh_type> move_rigidly(
   Rigid_move_report<typename Sculptor::Mesh_type> report;
   report.asked = moving.size();
   const auto stroke = sculptor.stroke();
-  internal::Rigid_mover<Sculptor>(sculptor, moving, way, internal::Part_runner::by<Concurrency_tag>()).run(report);
+  internal::Rigid_mover<Sculptor>(sculptor, moving, way, Part_runner::by<Concurrency_tag>()).run(report);
   return report;
 }
 

@@ -92,7 +92,7 @@ Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, cons
   const internal::Rounding_to_nearest rounding;
   return internal::move_to_targets(
       sculptor, vertices, [&](auto v) -> decltype(auto) { return get(target_map, v); }, parameters, left_behind,
-      internal::Part_runner::by<Concurrency_tag>());
+      Part_runner::by<Concurrency_tag>());
 }
 
 } // namespace haptic_sculpt

@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
 
 #ifdef CGAL_LINKED_WITH_TBB
 BOOST_AUTO_TEST_CASE(parts_round_to_nearest_and_throw_to_the_caller) {
-  const auto run = internal::Part_runner::by<CGAL::Parallel_tag>();
+  const auto run = Part_runner::by<CGAL::Parallel_tag>();
   std::fesetround(FE_UPWARD);
   std::atomic<int> parts_made = 0, rounded_otherwise = 0;
   run(1000, [&](std::size_t) {

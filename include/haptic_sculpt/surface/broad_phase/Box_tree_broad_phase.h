@@ -105,7 +105,7 @@ public:
   }
   /// The same by several threads, where most of all faces have moved: then the boxes of all are made anew.
   template <class Faces>
-  void many_faces_moved(const Faces& faces, const internal::Part_runner& run) {
+  void many_faces_moved(const Faces& faces, const Part_runner& run) {
     if (2 * faces.size() < slot_of_face_.size())
       return faces_moved(faces);
     run.in_ranges(face_of_slot_.size(), slots_a_part, [this](std::size_t first, std::size_t end) {

@@ -65,7 +65,7 @@ public:
   /// As `faces_moved(faces)`, after a change that moves many at once; threads of `run` may share the work. Here one
   /// does all of it.
   template <class Faces>
-  void many_faces_moved(const Faces& faces, const internal::Part_runner& /*run*/) {
+  void many_faces_moved(const Faces& faces, const Part_runner& /*run*/) {
     derived().faces_moved(faces);
   }
 
