@@ -136,6 +136,13 @@ BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
 #endif
 }
 
+BOOST_AUTO_TEST_CASE(the_tag_serves_with_and_without_onetbb) {
+  const Mesh mesh = meshes::to_mesh(meshes::overlapping_balls(3));
+  const auto report = haptic_sculpt::validate<CGAL::Parallel_if_available_tag>(mesh);
+  BOOST_TEST(!report.is_valid());
+  BOOST_TEST((report.intersecting_faces == haptic_sculpt::validate(mesh).intersecting_faces));
+}
+
 #ifdef CGAL_LINKED_WITH_TBB
 BOOST_AUTO_TEST_CASE(parts_round_to_nearest_and_throw_to_the_caller) {
   const auto run = Part_runner::by<CGAL::Parallel_tag>();
