@@ -146,11 +146,15 @@ BOOST_AUTO_TEST_CASE(the_tag_serves_with_and_without_onetbb) {
 #ifdef CGAL_LINKED_WITH_TBB
 BOOST_AUTO_TEST_CASE(parts_round_to_nearest_and_throw_to_the_caller) {
   const auto run = Part_runner::by<CGAL::Parallel_tag>();
-  std::fesetround(FE_UPWARD);
   std::atomic<int> parts_made = 0, rounded_otherwise = 0;
-  run(1000, [&](std::size_t) {
-    ++parts_made;
-    rounded_otherwise += std::fegetround() != FE_TONEAREST;
+  std::fesetround(FE_UPWARD);
+  tbb::task_arena arena(2); // its threads take over this mode
+  arena.initialize();
+  arena.execute([&] {
+    run(1000, [&](std::size_t) {
+      ++parts_made;
+      rounded_otherwise += std::fegetround() != FE_TONEAREST;
+    });
   });
   BOOST_TEST(std::fegetround() == FE_UPWARD);
   std::fesetround(FE_TONEAREST);
