@@ -37,6 +37,7 @@ struct Motion {
   std::string name;
   Mesh start;
   std::vector<Point_3> targets; ///< by index
+  bool are_targets_embedded = false;
 };
 
 double mean_edge(const Mesh& mesh) {
@@ -47,10 +48,45 @@ double mean_edge(const Mesh& mesh) {
 }
 
 Motion motion(const std::string& name, const Mesh& mesh, const std::function<Point_3(Vertex_index)>& target) {
-  Motion made{name, mesh, {}};
+  Motion made{name, mesh, {}, false};
+  Mesh moved = mesh;
   for (const Vertex_index v : mesh.vertices())
-    made.targets.push_back(target(v));
+    made.targets.push_back(moved.point(v) = target(v));
+  made.are_targets_embedded = validate(moved).is_valid();
   return made;
+}
+
+/// Plates 2^-35 apart: every second one is drawn out.
+Motion combs(int level) {
+  constexpr int teeth = 16;
+  meshes::Triangle_list list;
+  for (int tooth = 0; tooth < teeth; ++tooth)
+    list += meshes::box(std::size_t{1} << level).transform([tooth](const Point_3& p) {
+      return Point_3(p.x(), p.y(), 0.125 * p.z() + tooth * (0.125 + 0x1p-35));
+    });
+  return motion("combs 2^-35 apart", meshes::to_mesh(list), [&](Vertex_index v) {
+    const Point_3& p = list.points[v];
+    return v * teeth / list.points.size() % 2 == 1 ? p + Vector_3(0.7, 0.3, 0) : p;
+  });
+}
+
+/// A ball of 42 vertices that random slides have crumpled goes by ten edges.
+Motion crumpled(std::uint64_t seed) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+  std::mt19937_64 random(seed);
+  const auto uniform = [&] { return 2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1; };
+  const double edge = mean_edge(mesh);
+  const auto way = [&](double length) {
+    const double x = uniform(), y = uniform(), z = uniform();
+    return length * Vector_3(x, y, z);
+  };
+  Sculptor<Mesh> sculptor(mesh, parameters::response(Response::slide));
+  for (int slide = 0; slide < 300; ++slide) {
+    const Vertex_index v(static_cast<std::uint32_t>(random() % mesh.number_of_vertices()));
+    sculptor.grab(v).drag_to(mesh.point(v) + way(edge));
+  }
+  const Vector_3 all = way(10 * edge);
+  return motion("crumpled, by ten edges", mesh, [&](Vertex_index v) { return mesh.point(v) + all; });
 }
 
 std::vector<Motion> motions(int level, std::uint64_t seed) {
@@ -87,13 +123,16 @@ std::vector<Motion> motions(int level, std::uint64_t seed) {
                  }),
           motion("inflated by five edges", plate,
                  [&](Vertex_index v) { return plate.point(v) + 5 * edge_of_plate * normal(plate, v); }),
-          motion("a ball through a ball", balls, [&](Vertex_index v) {
-            const Point_3 p = balls.point(v);
-            return p.x() < split ? p + Vector_3(4 * (split - first) + 4, 0, 0) : p;
-          })};
+          motion("a ball through a ball", balls,
+                 [&](Vertex_index v) {
+                   const Point_3 p = balls.point(v);
+                   return p.x() < split ? p + Vector_3(4 * (split - first) + 4, 0, 0) : p;
+                 }),
+          combs(level),
+          crumpled(seed)};
 }
 
-/// Turns and a twist of a mesh about its middle, and every vertex by a tenth of an edge.
+/// Turns and a twist of a mesh about its middle; every vertex by a tenth of an edge and by one; inflation.
 std::vector<Motion> motions_of(const Mesh& mesh, std::uint64_t seed) {
   using Transformation = CGAL::Aff_transformation_3<meshes::Kernel>;
   const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());
@@ -106,6 +145,11 @@ std::vector<Motion> motions_of(const Mesh& mesh, std::uint64_t seed) {
   const Transformation generic(1 / 9., -4 / 9., 8 / 9., 8 / 9., 4 / 9., 1 / 9., -4 / 9., 7 / 9., 4 / 9.);
   std::mt19937_64 random(seed);
   const auto uniform = [&] { return 2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1; };
+  const auto by = [&](double length) {
+    const double x = uniform(), y = uniform(), z = uniform();
+    const Vector_3 way(x, y, z);
+    return length / std::sqrt(way.squared_length()) * way;
+  };
   const double edge = mean_edge(mesh), height = box.zmax() - box.zmin();
   return {motion("a right angle about z", mesh, [&](Vertex_index v) { return about_middle(about_z, v); }),
           motion("a right angle about (1, 2, 2)", mesh, [&](Vertex_index v) { return about_middle(generic, v); }),
@@ -115,11 +159,11 @@ std::vector<Motion> motions_of(const Mesh& mesh, std::uint64_t seed) {
                    const double c = std::cos(angle), d = std::sin(angle);
                    return about_middle(Transformation(c, -d, 0, d, c, 0, 0, 0, 1), v);
                  }),
-          motion("every vertex by a tenth of an edge", mesh, [&](Vertex_index v) {
-            const double x = uniform(), y = uniform(), z = uniform();
-            const Vector_3 way(x, y, z);
-            return mesh.point(v) + 0.1 * edge / std::sqrt(way.squared_length()) * way;
-          })};
+          motion("every vertex by a tenth of an edge", mesh,
+                 [&](Vertex_index v) { return mesh.point(v) + by(0.1 * edge); }),
+          motion("noise of one edge", mesh, [&](Vertex_index v) { return mesh.point(v) + by(edge); }),
+          motion("inflated by five edges", mesh,
+                 [&](Vertex_index v) { return mesh.point(v) + 5 * edge * normal(mesh, v); })};
 }
 
 /// 1 where all arrive, from squared distances.
@@ -174,6 +218,7 @@ Json row(const Motion& m, const char* method, std::clock_t begin, const Mesh& me
                  {"vertices", mesh.number_of_vertices()},
                  {"seconds", seconds},
                  {"share", share_of_the_way(m, mesh)},
+                 {"targets_embedded", m.are_targets_embedded},
                  {"passed_through", has_passed},
                  {"valid", validate(mesh).is_valid()}};
   std::printf("%s: %s: %.3f s, %.1f %% of the way%s\n", m.name.c_str(), method, seconds,
@@ -237,7 +282,7 @@ int main(int argc, char** argv) {
   int level = 4, rounds = 1;
   Shard shard;
   app.add_option("--json", file, "Write all figures to this file");
-  app.add_option("--mesh", given, "Turns, a twist and small motions of this mesh instead: times of the motion alone");
+  app.add_option("--mesh", given, "Turns, a twist, noise and inflation of this mesh instead: times of the motion alone");
   app.add_option("--level", level, "Fineness: 20 * 4^level triangles")->check(CLI::Range(1, 8))->capture_default_str();
   app.add_option("--rounds", rounds, "Each with another seed")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();

@@ -54,6 +54,12 @@ public:
         break;
       before = held;
     }
+    // The rest of the way with holding back, in steps: whole ways along one axis after the other lead round corners.
+    if (takes_steps)
+      for (double share = way + held_step; goes_on_ && share < 1; share += held_step) {
+        look_around();
+        step_to(share, vertices_.size());
+      }
     for (double left = sum_left(); goes_on_ && left > 0;) {
       look_around(); // fewer may be behind
       step_to(1, vertices_.size());
@@ -69,6 +75,9 @@ private:
   /// Steps of this share of the way are tried whatever comes of it; shorter ones, to the least, only while half as long
   /// a step at least halves the number held back: that is so in twists, and not in noise.
   static constexpr double worth_trying = 1.0 / 16, least_step = 1.0 / 256;
+  /// Of steps in which as many as need be are held back. Of 1/2, 1/4, 1/8 and 1/16 only with 1/8 all of 36 jams came
+  /// as far as by single drags, but for 4.4 % of the way at most.
+  static constexpr double held_step = 1.0 / 8;
   /// Steps are tried where this many motions a vertex may be made.
   static constexpr std::size_t work_of_steps = 16;
   /// Another pass to the end is made while the last has gained more than this share of what was left.
