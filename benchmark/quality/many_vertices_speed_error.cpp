@@ -56,6 +56,10 @@ Motion motion(const std::string& name, const Mesh& mesh, const std::function<Poi
   return made;
 }
 
+Vector_3 normal(const Mesh& mesh, Vertex_index v) {
+  return PMP::compute_vertex_normal(v, mesh);
+}
+
 /// Plates 2^-35 apart: every second one is drawn out.
 Motion combs(int level) {
   constexpr int teeth = 16;
@@ -97,7 +101,6 @@ std::vector<Motion> motions(int level, std::uint64_t seed) {
   const std::size_t cells = std::size_t{4} << level;
   const Mesh plate = meshes::to_mesh(meshes::wavy_plate(cells, 0.1, 0.5, 0.2, static_cast<std::uint32_t>(seed)));
   const double edge = mean_edge(hills), edge_of_plate = mean_edge(plate);
-  const auto normal = [](const Mesh& mesh, Vertex_index v) { return PMP::compute_vertex_normal(v, mesh); };
   const double first = balls.point(Vertex_index(0)).x(), split = [&] {
     double low = first, high = first;
     for (const Point_3& p : balls.points())
