@@ -3,10 +3,10 @@
 #define HAPTIC_SCULPT_EXAMPLES_OUTPUT_TARGETS_H
 
 #include "run_program.h"
+#include "write_file.h"
 
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/Write_error.h>
-#include <haptic_sculpt/surface/io/replace_file.h>
 
 #include <filesystem>
 #include <string>
@@ -79,7 +79,7 @@ struct Run_files {
 /// Finds out before hours of work whether a file can be put at `path`, as far as that can be known without writing; a
 /// disk may still be full in the end. \throw Write_error
 inline void check_target(const std::filesystem::path& path) {
-  if (const std::string why = why_not_replaceable(follow_links(path)); !why.empty())
+  if (const std::string why = why_not_writable(follow_links(path)); !why.empty())
     throw Write_error("cannot write '" + path.string() + "': " + why);
 }
 

@@ -3,14 +3,16 @@
 #define HAPTIC_SCULPT_DRAWING_WRITE_PNG_H
 
 #include "Scene.h"
-#include <haptic_sculpt/surface/io/replace_file.h>
+
+#include "../common/write_file.h"
+
 #include <filesystem>
 #include <png.h>
 
 namespace haptic_sculpt::drawing {
 
 /// Writes `width` x `height` pixels of red, green, blue bytes, the lowest row first as OpenGL gives them, by
-/// `replace_file()`: the file appears whole or not at all, and a link is followed.
+/// `write_file()`: the file appears whole or not at all, and a link is followed.
 /// \return what of an old file could not be kept \throw Picture_error if it cannot be written
 inline std::string write_png(const std::filesystem::path& path, int width, int height,
                              const std::vector<unsigned char>& pixels) {
@@ -27,7 +29,7 @@ inline std::string write_png(const std::filesystem::path& path, int width, int h
     throw Picture_error(cannot + image.message);
   bytes.resize(size);
   try {
-    return replace_file(path, bytes);
+    return examples::write_file(path, bytes);
   } catch (const Write_error& error) {
     throw Picture_error(std::string("The picture: ") + error.what());
   }

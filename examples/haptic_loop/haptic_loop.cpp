@@ -5,6 +5,7 @@
 
 #include "../common/mesh_program.h"
 #include "../common/output_targets.h"
+#include "../common/write_file.h"
 #include "../count_allocations.h"
 
 #include <haptic_sculpt/haptic_rendering/check_coupling.h>
@@ -98,7 +99,7 @@ int loop(const Arguments& arguments, Plan& plan) {
   if (!result.log_failure.empty())
     writer.fail(result.log_failure);
   writer.write(arguments.report, [&](const std::string& path) {
-    return replace_file(path, report_of(result, settings, writer.notes()));
+    return examples::write_file(path, report_of(result, settings, writer.notes()));
   });
   print_summary(std::cout, result, settings);
   if (!std::cout.flush())

@@ -8,6 +8,7 @@
 #include "write_run_picture.h"
 
 #include "../common/numbers.h"
+#include "../common/write_file.h"
 #include "../drawing/surface_mesh_arrays.h"
 
 #include "../sculpt/sha256_of_file.h"
@@ -312,7 +313,7 @@ private:
         options.vertex_order.emplace_back(static_cast<Mesh::size_type>(v));
     result_.is_valid = validate(scene.mesh).is_valid();
     log_->finish();
-    writer_.write(plan_.out, [&](const std::string& path) { return write_surface(path, scene.mesh, options); });
+    writer_.write(plan_.out, [&](const std::string& path) { return examples::write_mesh(path, scene.mesh, options); });
     writer_.write(plan_.picture, [&](const std::string& path) {
       return write_run_picture(drawing::scene_of(scene.mesh), samples_, path);
     });

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Log_file.h"
 
+#include "../common/write_file.h"
+
 #include <haptic_sculpt/surface/Write_error.h>
-#include <haptic_sculpt/surface/io/replace_file.h>
 
 #include <cerrno>
 #include <cstring>
@@ -28,7 +29,7 @@ Log_file::Log_file(const std::string& path, const std::string& mesh)
     : path_(path), mesh_(mesh), target_(follow_links(path)) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
-    if (const std::string why = why_not_replaceable(target_); !why.empty())
+    if (const std::string why = examples::why_not_writable(target_); !why.empty())
       throw Write_error("cannot make " + in_words(path) + ": " + why);
     return; // made when the work begins
   }

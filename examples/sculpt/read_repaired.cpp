@@ -3,7 +3,8 @@
 #include "refusal.h"
 #include "repair_json.h"
 
-#include <haptic_sculpt/surface/io/replace_file.h>
+#include "../common/write_file.h"
+
 #include <haptic_sculpt/surface/repair.h>
 
 #include <utility>
@@ -20,7 +21,7 @@ Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_ou
     parameters.largest_hole(*arguments.repair.largest_hole);
   const Repair_report report = repair(soup, parameters);
   if (!arguments.repair.report.empty())
-    replace_file(arguments.repair.report, json_of(report));
+    examples::write_file(arguments.repair.report, json_of(report));
   told = report.message(Validity_report::Reader::user);
   if (!report.is_repaired()) {
     write_refusal(arguments, report.attempt, report.left);

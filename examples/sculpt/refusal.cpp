@@ -5,9 +5,9 @@
 
 #include "../common/Result_writer.h"
 #include "../common/numbers.h"
+#include "../common/write_file.h"
 #include "../drawing/write_picture.h"
 
-#include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/version.h>
 
 #include <nlohmann/json.hpp>
@@ -144,8 +144,9 @@ void write_refusal(const Arguments& arguments, const Face_soup& soup, const Vali
   writer.write(arguments.picture, [&](const std::string& path) {
     return drawing::write_picture(Fault_scene(soup, report).scene(), path, view_of(arguments.shown, soup));
   });
-  writer.write(arguments.report,
-               [&](const std::string& path) { return replace_file(path, refusal_json(arguments.mesh, report)); });
+  writer.write(arguments.report, [&](const std::string& path) {
+    return examples::write_file(path, refusal_json(arguments.mesh, report));
+  });
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -9,9 +9,7 @@
 #include "picture.h"
 
 #include "../common/Result_writer.h"
-
-#include <haptic_sculpt/surface/io/replace_file.h>
-#include <haptic_sculpt/surface/write_surface.h>
+#include "../common/write_file.h"
 
 namespace haptic_sculpt::sculpt_program {
 
@@ -22,14 +20,15 @@ inline void write_all(examples::Result_writer& writer, const Mesh& mesh, const R
   writer.write(arguments.out, [&](const std::string& path) {
     Write_options options;
     options.vertex_order = result.vertex_order;
-    return write_surface(path, mesh, options);
+    return examples::write_mesh(path, mesh, options);
   });
   writer.write(arguments.picture,
           [&](const std::string& path) { return write_picture_of(mesh, result, before, path, arguments.shown); });
   writer.write(arguments.comparison,
           [&](const std::string& path) { return write_comparison(*without_guard, mesh, path, arguments.shown.view); });
-  writer.write(arguments.report,
-          [&](const std::string& path) { return replace_file(path, report_of(result, writer.notes(), nearest)); });
+  writer.write(arguments.report, [&](const std::string& path) {
+    return examples::write_file(path, report_of(result, writer.notes(), nearest));
+  });
 }
 
 } // namespace haptic_sculpt::sculpt_program

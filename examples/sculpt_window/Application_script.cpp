@@ -4,9 +4,9 @@
 #include "Application.h"
 
 #include "../common/json_words.h"
+#include "../common/write_file.h"
 
 #include <haptic_sculpt/surface/Write_error.h>
-#include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/version.h>
 
 #include <nlohmann/json.hpp>
@@ -275,7 +275,7 @@ int Application::finish() {
                          {"faces", last.faces},
                          {"edits", last.edits}};
     try {
-      replace_file(options_.report, examples::text_of(report, 2) + '\n');
+      examples::write_file(options_.report, examples::text_of(report, 2) + '\n');
     } catch (const Write_error& error) {
       fail_to_write(error.what());
     }

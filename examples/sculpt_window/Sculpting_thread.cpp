@@ -5,7 +5,7 @@
 #include "Loop_thread.h"
 #include "Options.h"
 
-#include <haptic_sculpt/surface/write_surface.h>
+#include "../common/write_file.h"
 
 #include <functional>
 
@@ -298,7 +298,7 @@ std::string destroy(Model* model, bool keeps_log) {
 std::string write_copy(const Scene_copy& copy, const std::string& path) {
   if (!copy.is_whole())
     throw Error("the copy of the mesh, which was to be saved as '" + path + "', has no room for all of it; save again");
-  return write_surface(path, copy.mesh<Mesh>());
+  return examples::write_mesh(path, copy.mesh<Mesh>());
 }
 
 } // namespace haptic_sculpt::window_program

@@ -163,6 +163,36 @@ inline std::string file_contents(const Face_soup& soup, Mesh_file_format format,
 
 } // namespace internal
 
+/// The bytes of the file that write_surface() writes. \throw Write_error
+template <class Mesh>
+std::string surface_bytes(const Mesh& mesh, Mesh_file_format format, const Write_options& options = {}) {
+  const internal::Rounding_to_nearest rounding;
+  using Encoding = Write_options::Encoding;
+  const bool may_be_binary = format == Mesh_file_format::ply || format == Mesh_file_format::stl;
+  if (options.encoding == Encoding::binary && !may_be_binary)
+    throw Write_error("only PLY and STL are written in binary");
+  const bool binary = options.encoding == Encoding::binary ||
+                      (options.encoding == Encoding::automatic && format == Mesh_file_format::ply);
+  Face_soup soup = internal::compacted(mesh, options);
+  if (format == Mesh_file_format::stl)
+    internal::prepare_stl(soup, binary, options.allow_rounding);
+  if (format == Mesh_file_format::ply)
+    internal::prepare_ply(soup, binary);
+  return internal::file_contents(soup, format, binary);
+}
+
+/// The same for the file of this name. \throw Write_error which names it
+template <class Mesh>
+std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path, const Write_options& options = {}) {
+  try {
+    if (const auto format = mesh_file_format(path))
+      return surface_bytes(mesh, *format, options);
+    throw Write_error("the extension has to be .off, .ply, .obj or .stl");
+  } catch (const Write_error& error) {
+    throw Write_error("cannot write '" + path.string() + "': " + error.what());
+  }
+}
+
 /// Writes a mesh without loss and atomically: the file is there whole, or what was there before is as it was.
 ///
 /// The extension says which format: .off, .ply, .obj or .stl. Coordinates come back bit for bit through
@@ -172,33 +202,11 @@ inline std::string file_contents(const Face_soup& soup, Mesh_file_format format,
 /// in index order or in `options.vertex_order`, faces in index order. An invalid surface is written as it is (and will
 /// not be read back), unless the format cannot hold it.
 ///
-/// \param path of the file; its folder has to exist. `replace_file()` says what becomes of links, permissions and owner
-/// \return for people: what of the old file could not be kept, such as its owner; empty if all was
+/// \param path of the file; its folder has to exist. `replace_file()` says what becomes of links and permissions
 /// \throw Write_error
 template <class Mesh>
-std::string write_surface(const std::filesystem::path& path, const Mesh& mesh, const Write_options& options = {}) {
-  const internal::Rounding_to_nearest rounding;
-  using Encoding = Write_options::Encoding;
-  const auto format = mesh_file_format(path);
-  std::string contents;
-  try {
-    if (!format)
-      throw Write_error("the extension has to be .off, .ply, .obj or .stl");
-    const bool may_be_binary = *format == Mesh_file_format::ply || *format == Mesh_file_format::stl;
-    if (options.encoding == Encoding::binary && !may_be_binary)
-      throw Write_error("only PLY and STL are written in binary");
-    const bool binary = options.encoding == Encoding::binary ||
-                        (options.encoding == Encoding::automatic && *format == Mesh_file_format::ply);
-    Face_soup soup = internal::compacted(mesh, options);
-    if (*format == Mesh_file_format::stl)
-      internal::prepare_stl(soup, binary, options.allow_rounding);
-    if (*format == Mesh_file_format::ply)
-      internal::prepare_ply(soup, binary);
-    contents = internal::file_contents(soup, *format, binary);
-  } catch (const Write_error& error) {
-    throw Write_error("cannot write '" + path.string() + "': " + error.what());
-  }
-  return replace_file(path, contents);
+void write_surface(const std::filesystem::path& path, const Mesh& mesh, const Write_options& options = {}) {
+  replace_file(path, surface_bytes(mesh, path, options));
 }
 
 } // namespace haptic_sculpt

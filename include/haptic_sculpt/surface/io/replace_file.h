@@ -18,30 +18,14 @@
 #include <unistd.h>
 
 namespace haptic_sculpt {
-namespace internal {
 
-/// Gives a new file the owner, group and permissions of the old one, as far as this process may. Bits that lend the
-/// owner's or the group's rights to whoever runs the file (setuid, setgid) are not passed on: the contents are others
-/// now. Nor does a group come by rights that it did not have. \return what was not kept, empty if all was; errno tells
-/// a failure
-inline std::string pass_on_rights(int file, const struct stat& old, bool& failed) {
-  struct stat made {};
-  failed = ::fstat(file, &made) != 0;
-  std::string note;
-  if (made.st_uid != old.st_uid && ::fchown(file, old.st_uid, static_cast<gid_t>(-1)) != 0)
-    note = "its owner (user " + std::to_string(old.st_uid) + ") could not be kept and is user " +
-           std::to_string(made.st_uid);
-  mode_t mode = old.st_mode & 0777;
-  if (made.st_gid != old.st_gid && ::fchown(file, static_cast<uid_t>(-1), old.st_gid) != 0) {
-    note += std::string(note.empty() ? "" : "; ") + "its group (" + std::to_string(old.st_gid) +
-            ") could not be kept and is " + std::to_string(made.st_gid);
-    mode &= ~((~mode & 07) << 3); // no more than everybody has
-  }
-  failed = failed || ::fchmod(file, mode) != 0;
-  return note;
+/// The default of `replace_file()`: gives the new file the permissions of the old one, but not setuid and setgid: the
+/// contents are others now. Owner and group are those of the process. \throw std::system_error
+inline std::string keep_permissions(int new_file, const struct stat& old) {
+  if (::fchmod(new_file, old.st_mode & 0777) != 0)
+    throw std::system_error(errno, std::generic_category());
+  return {};
 }
-
-} // namespace internal
 
 /// Why no file can be put at a place that `follow_links()` gave, as far as that can be known without writing; empty if
 /// one can.
@@ -61,25 +45,23 @@ inline std::string why_not_replaceable(const std::filesystem::path& target) {
   const fs::path folder = internal::folder_of(target);
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     return "no file can be made in its folder" + system_says();
-  struct stat file {}, around {};
-  if (::stat(target.c_str(), &file) == 0 && ::stat(folder.c_str(), &around) == 0 && (around.st_mode & S_ISVTX) != 0 &&
-      ::geteuid() != 0 && ::geteuid() != file.st_uid && ::geteuid() != around.st_uid)
-    return "in this folder only its owner (user " + std::to_string(file.st_uid) + ") may replace the file";
   return fs::is_directory(folder, error) ? "" : "'" + folder.string() + "' is not a folder";
 }
 
 /// Puts a file of these bytes at `path`, whole or not at all (POSIX).
 ///
 /// The bytes go to a temporary file in the same folder, are forced to the disk, and the temporary file is renamed. On
-/// any failure it is removed and what stood at `path` stays as it was. A file replaced passes on its permissions (not
-/// setuid and setgid, nor access control lists) and, where this process may give it, its owner; other hard links keep
-/// the old contents. A symbolic link stays, and what it leads to is replaced or, where nothing is there yet, made.
-/// Temporary files that killed processes have left in that folder are removed; those of living ones are locked, and
-/// stay.
+/// any failure it is removed and what stood at `path` stays as it was. Other hard links keep the old contents. A
+/// symbolic link stays, and what it leads to is replaced or, where nothing is there yet, made. Temporary files that
+/// killed processes have left in that folder are removed; those of living ones are locked, and stay.
 ///
-/// \return for people: what of the old file could not be kept, such as its owner; empty if all was
+/// \param keep_rights gives the new file what it is to have of the old one, where there is one: it takes the
+/// descriptor of the new file and the status of the old one, returns for people what could not be kept, and may throw
+/// std::system_error
+/// \return for people: what of the old file could not be kept; empty if all was
 /// \throw Write_error
-inline std::string replace_file(const std::filesystem::path& path, std::string_view bytes) {
+inline std::string replace_file(const std::filesystem::path& path, std::string_view bytes,
+                                std::string (*keep_rights)(int, const struct stat&) = keep_permissions) {
   const auto fail = [&](const std::string& why) { throw Write_error("cannot write '" + path.string() + "': " + why); };
   const auto system_says = [] { return " (" + std::generic_category().message(errno) + ")"; };
   const std::filesystem::path target = follow_links(path);
@@ -100,11 +82,11 @@ inline std::string replace_file(const std::filesystem::path& path, std::string_v
       rest.remove_prefix(static_cast<std::size_t>(written));
   }
   std::string note;
-  if (is_there) {
-    bool failed = false;
-    note = internal::pass_on_rights(temporary.descriptor(), old, failed);
-    if (failed)
-      fail("the permissions of the old file cannot be kept" + system_says());
+  try {
+    if (is_there)
+      note = keep_rights(temporary.descriptor(), old);
+  } catch (const std::system_error& error) {
+    fail("the permissions of the old file cannot be kept (" + error.code().message() + ")");
   }
   if (::fsync(temporary.descriptor()) != 0)
     fail("the data do not reach the disk" + system_says());
