@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // For the reference only: what is asked of a template parameter. It is not compiled.
 
-/// The concept of what hears of changes of a mesh: the third template parameter of haptic_sculpt::Sculptor. A model derives from
-/// haptic_sculpt::Default_edit_visitor, which ignores everything, and hides the functions of interest: of the others no call is
-/// made, and nothing is looked up for one. Has models haptic_sculpt::Default_edit_visitor and haptic_sculpt::Scene_teller.
+/// The concept of what hears of changes of a mesh: the third template parameter of haptic_sculpt::Sculptor. A model
+/// derives from haptic_sculpt::Default_edit_visitor, which ignores everything, and hides the functions of interest: of
+/// the others no call is made, and nothing is looked up for one. Has models haptic_sculpt::Default_edit_visitor and
+/// haptic_sculpt::Scene_visitor.
 ///
 /// Descriptors are those of the mesh. The functions do not change the mesh and do not call the Sculptor's edits.
 ///
-/// - *Moves.* `vertex_moved` is called once for each drag that moved its vertex, however many legs there were, and for each vertex
-///   of a shift when all stand; made, undone and redone alike. A stroke is undone and redone change by change, the drags of a vertex
-///   between two other edits as one.
-/// - *All other edits*, undone and redone ones too, replace some faces by others. While the mesh is still as it was, `face_dies`,
-///   `edge_dies` and `vertex_dies` are called for what the edit takes away. When the mesh is complete again, `vertex_created`,
-///   `edge_created` and `face_created` are called for what it has made. Each element is named once.
-/// - *Descriptors are used again*, within one edit too. A face or edge is the triangle or segment of its vertices: one that is
+/// - *Moves.* `vertex_moved` is called once for each drag that moved its vertex, however many legs there were, and for
+/// each vertex
+///   of a shift when all stand; made, undone and redone alike. A stroke is undone and redone change by change, the
+///   drags of a vertex between two other edits as one.
+/// - *All other edits*, undone and redone ones too, replace some faces by others. While the mesh is still as it was,
+/// `face_dies`,
+///   `edge_dies` and `vertex_dies` are called for what the edit takes away. When the mesh is complete again,
+///   `vertex_created`, `edge_created` and `face_created` are called for what it has made. Each element is named once.
+/// - *Descriptors are used again*, within one edit too. A face or edge is the triangle or segment of its vertices: one
+/// that is
 ///   replaced has died, and a new one may have its descriptor. Forget what died before you note what is new.
-/// - *Nothing is said* of what was refused or lacked memory, of a drag that did not move, of haptic_sculpt::Sculptor::probe(), of
+/// - *Nothing is said* of what was refused or lacked memory, of a drag that did not move, of
+/// haptic_sculpt::Sculptor::probe(), of
 ///   settings, and of an undo of several changes that ended halfway: there what was taken back has been made again.
-/// - *An exception* goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`, the change is
-///   not made, though some of what it would have killed has been named. Thrown in another function, the change stands, and the rest
-///   of it is not told. An undo or redo of several changes ends there; the next one goes on with what is left of the step.
+/// - *An exception* goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`,
+/// the change is
+///   not made, though some of what it would have killed has been named. Thrown in another function, the change stands,
+///   and the rest of it is not told. An undo or redo of several changes ends there; the next one goes on with what is
+///   left of the step.
 class EditVisitor : public haptic_sculpt::Default_edit_visitor {
 public:
   /// v is at its new place.

@@ -186,7 +186,7 @@ void Application::leave(Model* model, bool keeps_log) {
 
 void Application::take_reports() {
   for (Face_change change; thread_.take(change);)
-    if (change.scene == scene_)
+    if (change.scene + 1 == scene_)
       view_.change(change), frames_due_ = 3;
   for (Report report; thread_.take(report);) {
     switch (report.kind) {

@@ -89,7 +89,7 @@ private:
   Status status_; ///< as of the last step()
 
   std::string path_, log_;  ///< of the mesh that is shown
-  std::uint32_t scene_ = 0; ///< its number
+  std::uint32_t scene_ = 0; ///< its number, from 1
   std::size_t resumed_ = 0;
   std::uint64_t saved_edits_ = 0;
   bool is_saved_ = false;                 ///< at least once

@@ -6,12 +6,12 @@
 
 namespace haptic_sculpt::window_program {
 
-/// A brush in the hand: dab after dab as long as the button is down, each in parts that a tick has time for; all of it
-/// one step of undo.
+/// A brush in the hand: dab after dab as long as the button is down, each in parts that a tick has time for, the
+/// vertices of a part all at once; all of it one step of undo.
 class Brush_task : public Press_task {
 public:
   /// Vertices that are moved in a tick: some microseconds each where the way is free.
-  static constexpr std::size_t vertices_a_tick = 48;
+  static constexpr std::size_t vertices_a_tick = 128;
   /// Ticks from the begin of a dab to the next at least: some 60 a second.
   static constexpr int ticks_a_dab = 16;
 

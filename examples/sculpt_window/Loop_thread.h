@@ -14,16 +14,16 @@
 
 namespace haptic_sculpt::window_program {
 
-/// A thousand ticks a second of a Loop_session, and what it tells the window: changed faces through a bounded ring,
-/// where what finds no room stays dirty and is passed on later, as it is then; of the Status the newest counts.
+/// A thousand ticks a second of a Loop_session, and what it tells the window: changed faces through its Scene_feed; of
+/// the Status the newest counts.
 class Loop_thread {
 public:
   /// \name For the window's thread
   ///@{
-  Loop_desk<Scene> desk;
+  Command_queue<Scene> queue;
   Latest<Mouse_reading> mouse;
   Latest<Status> latest;
-  boost::lockfree::spsc_queue<Face_change> changes{std::size_t(1) << 16};
+  Scene_feed feed{std::size_t(1) << 16, 1}; ///< faces alone: of ticks the newest Status counts
 
   /// For tasks: what the mouse says in the tick under way.
   const Mouse_reading& reading() const { return reading_; }
@@ -40,7 +40,6 @@ private:
   using Loop = Pose_loop<Scene::Sculptor_type>;
   using Session = Loop_session<Loop, Scene>;
   static constexpr std::uint64_t tick_time = 1000000; // ns
-  static constexpr std::size_t faces_a_tick = 1000;
   static constexpr std::size_t entries_a_tick = 4096; // of a journal: more than a tick makes
 
   Model* model_;
@@ -74,8 +73,7 @@ private:
   void run() {
     Loop loop(model_->sculptor, model_->map, parameters());
     loop.tool().carry_probe(false);
-    Session session(loop, *model_, &desk, nullptr, model_->log.journal());
-    status_.scene = 1;
+    Session session(loop, *model_, &queue, &feed, model_->log.journal());
     std::uint64_t due = now();
     while (!ends_) {
       const std::uint64_t begin = now();
@@ -106,16 +104,15 @@ private:
   void tick(Session& session, const Loop& loop) {
     status_.waits_for_disk = !has_room(session);
     if (status_.waits_for_disk)
-      return tell_faces(); // all stands still until the log is written
+      return session.pass_faces_on(); // all stands still until the log is written
     const Mouse_reading& newest = mouse.get();
     if (newest.press == reading_.press || (!loop.tool().holds_vertex() && !loop.tool().holds_probe()))
       reading_ = newest; // else what is held is yet to be let go of, and stays where it is
     reading_.pose.elapsed = 1e-9 * tick_time; // a mouse has no clock of its own, and has said nothing yet at first
     const Pose_tick& made = session.tick(reading_.pose);
     if (&session.scene() != model_)
-      model_ = &static_cast<Model&>(session.scene()), ++status_.scene;
-    model_->sculptor.visitor().end_tick();
-    tell_faces();
+      model_ = &static_cast<Model&>(session.scene());
+    model_->end_tick();
     tell(made, loop.tool());
     status_.made = session.ticks(), status_.mouse = reading_.number;
   }
@@ -124,17 +121,6 @@ private:
     const Edit_journal* const journal = session.journal();
     return journal == nullptr ||
            (journal->room() >= entries_a_tick && journal->age(session.ticks()) <= journal->most_age() / 2);
-  }
-
-  void tell_faces() {
-    Dirty_faces& dirty = model_->sculptor.visitor().dirty;
-    for (std::size_t i = 0; i < faces_a_tick && dirty.size() > 0; ++i) {
-      Face_change change = model_->face(dirty.front());
-      change.scene = status_.scene;
-      if (!changes.push(change))
-        return; // told later, as it is then
-      dirty.pop();
-    }
   }
 
   void tell(const Pose_tick& made, const Loop_task<Scene>::Tool_type& tool) {
@@ -158,8 +144,8 @@ private:
     status_.undo_steps = history.number_of_undo_steps(), status_.redo_steps = history.number_of_redo_steps();
     status_.vertices = model.mesh.number_of_vertices(), status_.faces = model.mesh.number_of_faces();
     status_.vertex_slots = model.mesh.num_vertices(), status_.face_slots = model.mesh.num_faces();
-    status_.edits = model_->sculptor.visitor().edits;
-    status_.dirty_faces = model_->sculptor.visitor().dirty.size();
+    status_.edits = model_->edits;
+    status_.dirty_faces = model_->sculptor.visitor().changed.size();
   }
 
   template <class Contact>

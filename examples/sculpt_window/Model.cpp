@@ -25,7 +25,7 @@ Model::Model(const std::string& path_given, const std::string& log_given)
     , log(log_given, log_given.empty() ? "" : sculpt_program::sha256_of_file(path_given)) {
   note = log.resume(static_cast<Scene&>(*this));
   resumed = log.number_of_edits();
-  sculptor.visitor().forget();          // the window is shown all there is
+  changes_ = sculptor.visitor().changed.number();
   const std::uint64_t most_age = 20000; // ticks; a second half as long would be waited for, see Loop_thread::has_room
   const std::size_t entries_a_tick = 4; // in the mean; a mouse that drags makes one, a dab some fifty in sixteen ticks
   log.begin("the hand in sculpt_window", most_age, entries_a_tick);

@@ -37,13 +37,13 @@ struct Sculpting_thread::Parts {
   bool ask(Command::Kind kind, Edit_kind edit = Edit_kind::none) {
     Command command;
     command.kind = kind, command.edit.kind = edit;
-    return loop->desk.ask(command);
+    return loop->queue.ask(command);
   }
   template <class Task, class Tell>
   bool ask(std::shared_ptr<Task> task, const Tell& tell) {
     Command command;
     command.kind = Command::Kind::task, command.task = task.get();
-    if (!loop->desk.ask(command))
+    if (!loop->queue.ask(command))
       return false;
     Task* const raw = task.get();
     asked.push_back({std::move(task), [raw, tell](Report& report) { return tell(*raw, report); }});
@@ -63,7 +63,7 @@ struct Sculpting_thread::Parts {
     } else {
       Command command;
       command.kind = Command::Kind::enter, command.scene = model, command.journal = model->log.journal();
-      if (!loop->desk.ask(command))
+      if (!loop->queue.ask(command))
         return false;
     }
     models.push_back(model);
@@ -221,14 +221,14 @@ const Status& Sculpting_thread::status() {
 }
 
 bool Sculpting_thread::take(Face_change& change) {
-  return parts_->loop && parts_->loop->changes.pop(change);
+  return parts_->loop && parts_->loop->feed.take(change);
 }
 
 bool Sculpting_thread::take(Report& report) {
   Parts& p = *parts_;
   if (!p.loop)
     return false;
-  for (Loop_answer<Scene> answer; p.loop->desk.take(answer);)
+  for (Loop_answer<Scene> answer; p.loop->queue.take(answer);)
     if (p.take(answer, report))
       return true;
   p.pick();
@@ -243,7 +243,7 @@ bool Sculpting_thread::take(Report& report) {
 
 bool Sculpting_thread::is_idle() const {
   const Parts& p = *parts_;
-  return p.loop && p.loop->desk.waiting() == (p.brush != nullptr) && !(p.is_pick_due && p.may_pick()) &&
+  return p.loop && p.loop->queue.waiting() == (p.brush != nullptr) && !(p.is_pick_due && p.may_pick()) &&
          p.status.mouse == p.mouse.number() && p.status.made > p.answered;
 }
 
@@ -282,6 +282,7 @@ Opened open(const std::string& path, const std::string& log) {
   opened.faces.reserve(model->mesh.num_faces());
   for (std::uint32_t f = 0; f < model->mesh.num_faces(); ++f)
     opened.faces.push_back(model->face(f));
+  model->sculptor.visitor().changed.clear();
   opened.model = model.release();
   return opened;
 }

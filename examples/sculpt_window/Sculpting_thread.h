@@ -28,7 +28,7 @@ struct Report {
 };
 
 /// The window's side of the haptic loop, which is a thread of its own, a thousand ticks a second, and the only one that
-/// touches the mesh it was given: the mouse, what is asked of the loop through its Loop_desk, and what comes back.
+/// touches the mesh it was given: the mouse, what is asked of the loop through its Command_queue, and what comes back.
 /// Waits for nothing but the end.
 class Sculpting_thread {
 public:
@@ -37,7 +37,7 @@ public:
   Sculpting_thread(const Sculpting_thread&) = delete;
   Sculpting_thread& operator=(const Sculpting_thread&) = delete;
 
-  /// The loop begins with the first model that is entered. \return false where the desk is full: then ask later
+  /// The loop begins with the first model that is entered. \return false where the queue is full: then ask later
   bool ask(const Request& request);
   /// Where the mouse is, and by how much a probe is pressed in.
   void point(const Pointer& pointer, double depth);

@@ -248,7 +248,7 @@ public:
   std::uint64_t edits = 0; ///< that are in it
 
   bool go_on(Scene& scene, Tool_type& tool) override {
-    edits = scene.sculptor.visitor().edits;
+    edits = static_cast<Model&>(scene).edits;
     return Copy_task<Scene>::go_on(scene, tool);
   }
 };

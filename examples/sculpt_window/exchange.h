@@ -7,6 +7,7 @@
 /// Numbers of vertices are those of files and logs.
 
 #include <haptic_sculpt/haptic_rendering/Pose_reading.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_feed.h>
 #include <haptic_sculpt/sculpting/brushes/Dab_3.h>
 
 #include <Eigen/Core>
@@ -69,14 +70,6 @@ struct Request {
   Model* model = nullptr; ///< enter: it is the loop's until it comes back as Report::Kind::left
 };
 
-/// A face as it is now, or none at its index any more.
-struct Face_change {
-  std::uint32_t scene = 0; ///< which of the models that were entered, from 1
-  std::uint32_t index = 0;
-  bool is_there = false;
-  std::array<Place, 3> corners{};
-};
-
 struct Contact_view {
   const char* kind = "";
   int still = 0; ///< this many of `points` are the feature that stands still: 1 a vertex, 2 an edge, 3 a face
@@ -102,7 +95,6 @@ struct Status {
   enum class Hold : std::uint8_t { nothing, vertex, probe, brush };
   static constexpr int most_contacts = 8;
 
-  std::uint32_t scene = 0;
   std::uint64_t ticks = 0, missed_by_work = 0, woken_late = 0;
   std::uint64_t made = 0;      ///< ticks by the session: fewer where the disk stays behind
   std::uint64_t mouse = 0;     ///< the number of the Mouse_reading that the last of them had

@@ -6,6 +6,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <iostream>
+#include <map>
 #include <thread>
 
 using namespace haptic_sculpt;
@@ -48,10 +49,9 @@ int main(int argc, char** argv) {
   Scene scene(read_surface<Mesh>(argv[1]),
               [&](const auto& lower, const auto& upper) { return Workspace_map::fitted(lower, upper, home, radius); });
   Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.map, parameters);
-  Loop_desk<Scene> desk;
+  Command_queue<Scene> queue;
   Scene_feed feed;
-  Loop_session session(loop, scene, &desk, &feed, nullptr); // nullptr: no log
-  Copy_task<Scene> copying(scene.mesh.num_vertices() + 16, scene.mesh.num_faces() + 32);
+  Loop_session session(loop, scene, &queue, &feed, nullptr); // nullptr: no log
 
   std::atomic<bool> ends{false};
   std::thread loop_thread([&] {
@@ -63,45 +63,48 @@ int main(int argc, char** argv) {
   });
 
   // From here on this is the window's thread.
-  Loop_command<Scene> copy;
-  copy.kind = Loop_command<Scene>::Kind::task, copy.task = &copying;
-  desk.ask(copy);
-  Loop_answer<Scene> answer;
-  while (!desk.take(answer)) // the hand goes on meanwhile
-    std::this_thread::yield();
-  Scene_copy& shown = copying.copy;
-  bool is_good = shown.is_whole(), has_moved = false;
-  const auto follow = [&] { // what has changed since
-    for (Scene_change change; feed.take(change);) // the window's thread
-      if (change.number > shown.number)
-        shown.follow(change), has_moved = true;
+  std::map<std::uint32_t, Face_change> shown; // or vertices of a graphics card
+  std::size_t passed_on = 0;
+  const auto follow = [&] {
+    for (Face_change face; feed.take(face); ++passed_on) // at first all of them, then what changes
+      if (face.is_there)
+        shown[face.index] = face;
+      else
+        shown.erase(face.index);
   };
   for (Tick_view tick; tick.tick < 800; follow())
     while (feed.take(tick))
       ;
-  const Mesh sculpted = shown.mesh<Mesh>(); // to be drawn, or saved
-  std::cout << "the hand has " << (has_moved ? "sculpted" : "done nothing") << "; " << sculpted.number_of_faces()
-            << " faces\n";
+  const bool has_moved = passed_on > shown.size();
+  std::cout << "the hand has " << (has_moved ? "sculpted" : "done nothing") << "; " << shown.size() << " faces\n";
 
   Look look;
   Loop_command<Scene> looking;
   looking.kind = Loop_command<Scene>::Kind::task, looking.task = &look;
-  desk.ask(looking);
-  while (!desk.take(answer)) // from here on `look` is this thread's again
+  queue.ask(looking);
+  Loop_answer<Scene> answer;
+  while (!queue.take(answer)) // from here on `look` is this thread's again
     std::this_thread::yield();
   if (look.seen)
     std::cout << "seen from above: a " << name_of(look.seen->feature) << " at " << look.seen->point << '\n';
 
   Loop_command<Scene> undo;
   undo.kind = Loop_command<Scene>::Kind::edit, undo.edit = Edit::of(Edit_kind::undo);
-  desk.ask(undo);
-  while (!desk.take(answer)) // done, or refused and why
+  queue.ask(undo);
+  while (!queue.take(answer)) // done, or refused and why
+    std::this_thread::yield();
+  bool is_good = has_moved && answer.done;
+
+  Copy_task<Scene> copying(scene.mesh.num_vertices() + 16, scene.mesh.num_faces() + 32); // the mesh of one tick
+  Loop_command<Scene> copy;
+  copy.kind = Loop_command<Scene>::Kind::task, copy.task = &copying;
+  queue.ask(copy);
+  while (!queue.take(answer)) // the hand goes on meanwhile
     std::this_thread::yield();
   ends = true;
   loop_thread.join();
-  follow();
-  const Mesh before = read_surface<Mesh>(argv[1]), after = shown.mesh<Mesh>();
-  is_good = is_good && has_moved && answer.done && before.number_of_vertices() == after.number_of_vertices();
+  const Mesh before = read_surface<Mesh>(argv[1]), after = copying.copy.mesh<Mesh>(); // to be saved
+  is_good = is_good && copying.copy.is_whole() && before.number_of_vertices() == after.number_of_vertices();
   for (const auto v : before.vertices())
     is_good = is_good && before.point(v) == after.point(v);
   std::cout << "undone: " << (is_good ? "all is as before\n" : "not all is as before\n");

@@ -112,8 +112,8 @@ public:
     let_go();
     mesh_edits_.begin_stroke();
   }
-  /// Moves many vertices as near to their targets as straight ways lead (move_vertices()). A stroke under way goes on.
-  /// The Sculptor's visitor has to be a Scene_teller. \throw what move_vertices() throws
+  /// Moves many vertices towards their targets, all at once along each axis, as far as that is free (move_vertices()
+  /// without drags). A stroke under way goes on. \throw what move_vertices() throws
   template <class Vertex_range, class Target_map>
   Move_report move_many(const Vertex_range& vertices, const Target_map& targets) {
     grab_.reset();

@@ -53,6 +53,18 @@ Surface surface_of(const Mesh& mesh, const Sculptor& sculptor) {
 }
 inline Surface surface_of(const Scene& scene) { return surface_of(scene.mesh, scene.sculptor); }
 
+/// What a viewer has of the faces it was passed.
+inline Surface surface_of(const std::map<std::uint32_t, Face_change>& faces) {
+  Surface surface;
+  for (const auto& [index, face] : faces) {
+    surface.add_face(face.vertices);
+    for (std::size_t i = 0; i < 3; ++i)
+      surface.points[face.vertices[i]] = face.corners[i];
+  }
+  std::sort(surface.faces.begin(), surface.faces.end());
+  return surface;
+}
+
 inline Surface surface_of(const Scene_copy& copy) {
   Surface surface;
   for (std::size_t v = 0; v < copy.ids.size(); ++v)

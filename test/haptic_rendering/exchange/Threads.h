@@ -16,7 +16,7 @@ using Entries = std::vector<Edit>;
 /// A loop, a window and a writer, each with a thread.
 struct Threads {
   std::unique_ptr<Scene> scene = scene_of(2), other = scene_of(2);
-  Loop_desk<Scene> desk{16};
+  Command_queue<Scene> queue{16};
   Scene_feed feed;
   Edit_journal journal{1000000, 1};
   Entries entries;
@@ -31,7 +31,7 @@ struct Threads {
     std::atomic<bool> ends{false}, has_ended{false};
     std::thread loop_thread([&] {
       Loop loop(scene->sculptor, scene->map, parameters_of_tests());
-      Session session(loop, *scene, &desk, &feed, keeps_journal ? &journal : nullptr);
+      Session session(loop, *scene, &queue, &feed, keeps_journal ? &journal : nullptr);
       while (!ends) {
         session.tick(reading_at(session.ticks()));
         if (loop.has_stopped())

@@ -15,11 +15,14 @@ using Command = Loop_command<Scene>;
 /// What a window's thread does: shows, and asks for edits.
 class Window {
 public:
-  Window(Loop_desk<Scene>& desk, Scene_feed& feed, std::uint64_t seed) : desk_(desk), feed_(feed), random_(seed) {}
+  Window(Command_queue<Scene>& queue, Scene_feed& feed, std::uint64_t seed)
+      : queue_(queue), feed_(feed), random_(seed) {}
 
-  std::size_t done = 0, refused = 0, copies = 0, left = 0;
-  Scene_copy* shown = nullptr; ///< of copy_
-  bool is_current = false;     ///< nothing was lost since the copy
+  std::size_t done = 0, refused = 0, copies = 0, left = 0, whole_ticks = 0;
+  std::uint32_t scene = 0;
+  std::map<std::uint32_t, Face_change> shown; ///< by index, the faces that are there
+  bool is_whole = false;                      ///< as of the last tick
+  std::unique_ptr<Copy_task<Scene>> copy;     ///< the last that came
 
   void ask_for_copy() {
     if (asked_)
@@ -27,8 +30,7 @@ public:
     asked_ = std::make_unique<Copy_task<Scene>>(4000, 8000);
     Command command;
     command.kind = Command::Kind::task, command.task = asked_.get();
-    lost_at_copy_ = feed_.lost_changes();
-    if (!desk_.ask(command))
+    if (!queue_.ask(command))
       asked_.reset();
   }
   bool waits_for_copy() const { return asked_ != nullptr; }
@@ -43,69 +45,65 @@ public:
     edit = Edit::of(kinds[random_() % 8], {vertex, vertex + 1, vertex + 2});
     if (edit.kind != Kind::none) // lets go
       command.kind = Command::Kind::edit;
-    if ((edit.kind == Kind::flip || edit.kind == Kind::collapse) && shown) {
-      const auto& f = shown->faces[random_() % 200];
-      if (f[0] != Scene_copy::no_corner)
-        edit.vertices = {shown->ids[f[0]], shown->ids[f[1]], 0};
-    }
-    if (edit.kind == Kind::insert_on_face && shown) { // on a face that is seen; maybe it is gone by then
-      const auto& f = shown->faces[random_() % 200];
-      if (f[0] == Scene_copy::no_corner)
+    const auto seen = shown.find(static_cast<std::uint32_t>(random_() % 200)); // maybe it is gone by then
+    if ((edit.kind == Kind::flip || edit.kind == Kind::collapse) && seen != shown.end())
+      edit.vertices = {seen->second.vertices[0], seen->second.vertices[1], 0};
+    if (edit.kind == Kind::insert_on_face) {
+      if (seen == shown.end())
         return;
-      for (int i = 0; i < 3; ++i) {
-        edit.vertices[i] = shown->ids[f[i]];
-        for (int k = 0; k < 3; ++k)
-          edit.point[k] += shown->points[f[i]][k] / 3;
+      for (std::size_t i = 0; i < 3; ++i) {
+        edit.vertices[i] = seen->second.vertices[i];
+        for (std::size_t k = 0; k < 3; ++k)
+          edit.point[k] += seen->second.corners[i][k] / 3;
       }
     }
-    desk_.ask(command);
+    queue_.ask(command);
   }
 
   void look() {
-    Scene_change change;
-    while (feed_.take(change)) {
-      if (change.kind == Scene_change::Kind::replaced)
-        is_current = false;
-      later_.push_back(change);
-      if (shown && change.number > shown->number)
-        shown->follow(change);
-    }
     Tick_view tick;
-    while (feed_.take(tick))
+    while (feed_.take(tick)) {
       last_tick = tick.tick;
+      take_faces(tick.faces_passed_on);
+      is_whole = tick.faces_waiting == 0 && taken_ == tick.faces_passed_on;
+      whole_ticks += is_whole;
+    }
     Loop_answer<Scene> answer;
-    while (desk_.take(answer)) {
+    while (queue_.take(answer)) {
       ++(answer.done ? done : refused);
       left += answer.left != nullptr;
       if (answer.task == nullptr)
         continue;
       ++copies;
       BOOST_TEST(answer.task == asked_.get());
-      copy_ = std::move(asked_);
-      shown = &copy_->copy;
-      BOOST_TEST(shown->is_whole());
-      // What was lost before the last change in the copy does not matter; that of later ones is not known here.
-      is_current = true;
-      for (const Scene_change& c : later_) {
-        is_current = is_current && !(c.kind == Scene_change::Kind::replaced && c.number > shown->number);
-        if (c.number > shown->number)
-          shown->follow(c);
-      }
+      copy = std::move(asked_);
+      BOOST_TEST(copy->copy.is_whole());
     }
-    if (!asked_)
-      later_.clear();
-    if (feed_.lost_changes() != lost_at_copy_)
-      is_current = false;
+  }
+  /// What was passed on since the last tick, too.
+  void look_for_the_last_time() {
+    look();
+    take_faces(std::numeric_limits<std::uint64_t>::max());
   }
   std::uint64_t last_tick = 0;
 
 private:
-  Loop_desk<Scene>& desk_;
+  Command_queue<Scene>& queue_;
   Scene_feed& feed_;
   std::mt19937_64 random_;
-  std::unique_ptr<Copy_task<Scene>> asked_, copy_;
-  std::vector<Scene_change> later_; ///< while a copy is on its way
-  std::uint64_t lost_at_copy_ = 0;
+  std::unique_ptr<Copy_task<Scene>> asked_;
+  std::uint64_t taken_ = 0; ///< faces
+
+  void take_faces(std::uint64_t until) {
+    for (Face_change face; taken_ < until && feed_.take(face); ++taken_) {
+      if (face.scene != scene)
+        shown.clear(), scene = face.scene;
+      if (face.is_there)
+        shown[face.index] = face;
+      else
+        shown.erase(face.index);
+    }
+  }
 };
 
 } // namespace exchange_tests

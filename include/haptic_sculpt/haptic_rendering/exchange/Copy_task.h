@@ -2,7 +2,7 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COPY_TASK_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COPY_TASK_H
 
-#include <haptic_sculpt/haptic_rendering/exchange/Loop_desk.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Command_queue.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_copy.h>
 
 namespace haptic_sculpt {
@@ -30,8 +30,7 @@ public:
     }
     if (visitor.copy() != &copy || !copy.copy_some(scene.sculptor, copied_a_tick))
       return false;
-    visitor.tell_to(static_cast<Scene_copy*>(nullptr));
-    copy.number = visitor.feed() != nullptr ? visitor.feed()->number() : 0;
+    visitor.tell_to(nullptr);
     return true;
   }
 };

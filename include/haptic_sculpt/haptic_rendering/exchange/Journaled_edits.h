@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
 #include <haptic_sculpt/sculpting.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <optional>
 
@@ -67,41 +68,44 @@ public:
     return result;
   }
 
-  /// Moves many as near to their targets as straight ways lead. The Sculptor's visitor has to be a Scene_teller.
-  /// \throw what move_vertices() throws; what has been moved is reported
+  /// Moves many towards their targets, all at once along each axis, as far as that is free. \throw what move_vertices()
+  /// throws; what has been moved is reported
   template <class Vertex_range, class Target_map>
   Move_report move_many(const Vertex_range& vertices, const Target_map& targets) {
-    const Telling_moves telling(*this);
-    return move_vertices(*sculptor_, vertices, targets, Move_parameters().steps(false).slide(false));
+    Places before;
+    for (const Vertex_index v : vertices)
+      before.emplace_back(v, vertex_coordinates(sculptor_->mesh(), v));
+    try {
+      const Move_report report = move_vertices(*sculptor_, vertices, targets, Move_parameters().drags(false));
+      add_shifts(before);
+      return report;
+    } catch (...) {
+      add_shifts(before);
+      throw;
+    }
   }
 
 private:
-  using Moves = std::vector<std::pair<Vertex_index, Point>>;
+  using Places = std::vector<std::pair<Vertex_index, std::array<double, 3>>>;
 
   Sculptor* sculptor_;
   Edit_journal* journal_ = nullptr;
   static constexpr std::size_t most_legs = 64; ///< of a drag, and more: room that is made for them
   std::optional<typename Sculptor::Stroke_type> stroke_;
   std::vector<Point> legs_; ///< of the last drag
-  Moves moves_;             ///< of the last move_many()
 
-  /// Each move that the Sculptor makes as long as this lives is reported at its end, also where something was thrown.
-  struct Telling_moves {
-    Journaled_edits& edits;
-
-    explicit Telling_moves(Journaled_edits& told) : edits(told) {
-      edits.moves_.clear();
-      edits.sculptor_->visitor().tell_to(&edits.moves_);
+  /// What many vertices have moved by, as three shifts: all of a coordinate's changes were one.
+  void add_shifts(const Places& before) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Edit shift = Edit::of(Edit_kind::shift);
+      shift.axis = axis;
+      for (const auto& [v, p] : before)
+        if (const double now = vertex_coordinates(sculptor_->mesh(), v)[axis]; now != p[axis])
+          shift.ways.emplace_back(sculptor_->id(v), now);
+      if (!shift.ways.empty())
+        add(shift);
     }
-    ~Telling_moves() {
-      edits.sculptor_->visitor().tell_to(static_cast<Moves*>(nullptr));
-      for (const auto& [v, p] : edits.moves_)
-        edits.add_move(v, p);
-    }
-    Telling_moves(const Telling_moves&) = delete;
-    Telling_moves& operator=(const Telling_moves&) = delete;
-  };
-
+  }
   void add_move(Vertex_index v, const Point& to) {
     add(Edit::of(Edit_kind::move, {sculptor_->id(v), 0, 0}, {to.x(), to.y(), to.z()}));
   }

@@ -9,9 +9,9 @@
 
 namespace haptic_sculpt {
 
-/// A loop that others may talk to: takes a command before a tick, at most one, goes on with tasks, tells a viewer of
-/// each change and tick, and keeps a journal. Only the thread that calls `tick()` touches the mesh; it waits for
-/// nobody.
+/// A loop that others may talk to: takes a command before a tick, at most one, goes on with tasks, passes changed
+/// faces and ticks on to a viewer, and keeps a journal. Only the thread that calls `tick()` touches the mesh; it waits
+/// for nobody.
 ///
 /// \tparam Loop Haptic_loop or Pose_loop on the Sculptor of a Loop_scene
 template <class Loop, class Scene>
@@ -20,18 +20,18 @@ public:
   using Kind = typename Loop_command<Scene>::Kind; ///< of commands
   /// Tasks under way at once; while there are this many no other command is taken.
   static constexpr std::size_t most_tasks = 16;
+  /// Changed faces that are passed on by a tick, about 50 microseconds.
+  static constexpr std::size_t faces_a_tick = 1000;
 
-  /// All must outlive this; desk, feed and journal may be null.
-  Loop_session(Loop& loop, Scene& scene, Loop_desk<Scene>* desk, Scene_feed* feed, Edit_journal* journal)
-      : loop_(&loop), scene_(&scene), desk_(desk), feed_(feed), journal_(journal) {
+  /// All must outlive this; queue, feed and journal may be null.
+  Loop_session(Loop& loop, Scene& scene, Command_queue<Scene>* queue, Scene_feed* feed, Edit_journal* journal)
+      : loop_(&loop), scene_(&scene), queue_(queue), feed_(feed), journal_(journal) {
     loop.tool().keep_journal(journal);
-    scene.sculptor.visitor().tell_to(feed);
     tasks_.reserve(most_tasks);
   }
   ~Loop_session() {
     loop_->tool().keep_journal(nullptr);
-    scene_->sculptor.visitor().tell_to(static_cast<Scene_feed*>(nullptr));
-    scene_->sculptor.visitor().tell_to(static_cast<Scene_copy*>(nullptr));
+    scene_->sculptor.visitor().tell_to(nullptr);
   }
   Loop_session(const Loop_session&) = delete;
   Loop_session& operator=(const Loop_session&) = delete;
@@ -39,15 +39,24 @@ public:
   /// What a command or task throws is its answer, what the loop throws a fault of the loop: the force is given anyway.
   template <class Reading>
   const auto& tick(const Reading& reading) noexcept {
-    if (desk_ != nullptr)
+    if (queue_ != nullptr)
       serve();
     const auto& made = loop_->tick(reading);
     if (journal_ != nullptr)
       journal_->end_tick(ticks_);
-    if (feed_ != nullptr)
+    if (feed_ != nullptr) {
+      pass_faces_on();
       feed_->tell(view_of(made));
+    }
     ++ticks_;
     return made;
+  }
+
+  /// Passes on what has changed, as tick() does. \pre there is a feed
+  void pass_faces_on() {
+    Changed_faces& changed = scene_->sculptor.visitor().changed;
+    for (std::size_t i = 0; i < faces_a_tick && changed.size() > 0 && feed_->tell(face(changed.front())); ++i)
+      changed.pop();
   }
 
   /// Lets go, and what is done is in the journal. To be called after the last tick.
@@ -65,22 +74,23 @@ public:
 private:
   Loop* loop_;
   Scene* scene_;
-  Loop_desk<Scene>* desk_;
+  Command_queue<Scene>* queue_;
   Scene_feed* feed_;
   Edit_journal* journal_;
   std::uint64_t ticks_ = 0;
+  std::uint32_t scenes_ = 0;               ///< entered before the one that is sculpted now
   std::vector<Loop_command<Scene>> tasks_; ///< under way, in the order of the commands
   std::optional<Loop_command<Scene>> next_;
 
   /// A command is taken first, so that tasks see what the asking thread did before it asked for that.
   void serve() {
     Loop_command<Scene> command;
-    if (!next_ && tasks_.size() < most_tasks && desk_->take(command))
+    if (!next_ && tasks_.size() < most_tasks && queue_->take(command))
       next_ = command;
     for (std::size_t i = 0; i < tasks_.size();) {
       Loop_answer<Scene> answer = answer_to(tasks_[i], true);
       if (attempt(answer, [&] { return tasks_[i].task->go_on(*scene_, loop_->tool()); })) {
-        desk_->answer(answer);
+        queue_->answer(answer);
         tasks_.erase(tasks_.begin() + static_cast<std::ptrdiff_t>(i));
       } else {
         ++i;
@@ -112,7 +122,7 @@ private:
       return function();
     } catch (const std::exception& error) {
       return fail(error.what());
-    } catch (...) { // of a task: not of this library, and yet the desk has to go on
+    } catch (...) { // of a task: not of this library, and yet the queue has to go on
       return fail("something was thrown that is no std::exception");
     }
   }
@@ -120,7 +130,7 @@ private:
   void carry_out(const Loop_command<Scene>& command) {
     Loop_answer<Scene> answer = answer_to(command, true);
     if (attempt(answer, [&] { return is_done(command, answer); }))
-      desk_->answer(answer);
+      queue_->answer(answer);
   }
 
   /// \return false for a task that is to go on: answered when it is done
@@ -156,14 +166,8 @@ private:
       journal_->end_tick(ticks_);
     loop_->enter(scene.sculptor, scene.map);
     loop_->tool().keep_journal(journal_ = journal);
-    scene_->sculptor.visitor().tell_to(static_cast<Scene_feed*>(nullptr));
-    Scene* const left = std::exchange(scene_, &scene);
-    scene.sculptor.visitor().tell_to(feed_);
-    Scene_change change;
-    change.kind = Scene_change::Kind::replaced;
-    if (feed_ != nullptr)
-      feed_->tell(change);
-    return left;
+    ++scenes_;
+    return std::exchange(scene_, &scene);
   }
 
   void edit(const Loop_command<Scene>& command, Loop_answer<Scene>& answer) {
@@ -175,6 +179,12 @@ private:
       answer.reason = made.refusal->reason;
   }
 
+  Face_change face(std::uint32_t index) const {
+    Face_change face = scene_->face(index);
+    face.scene = scenes_;
+    return face;
+  }
+
   template <class Tick>
   Tick_view view_of(const Tick& made) const {
     const auto array = [](const Eigen::Vector3d& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
@@ -183,6 +193,7 @@ private:
     view.target = array(made.tool.target), view.proxy = array(made.tool.proxy), view.force = array(made.rendered.force);
     view.reached = made.tool.reached, view.starved = made.tool.starved, view.contacts = made.tool.contacts;
     view.event = made.tool.event, view.fault = made.fault;
+    view.faces_passed_on = feed_->passed_on(), view.faces_waiting = scene_->sculptor.visitor().changed.size();
     view.holds_vertex = loop_->tool().holds_vertex();
     view.vertex = view.holds_vertex ? scene_->sculptor.id(loop_->tool().vertex()) : 0;
     return view;

@@ -2,9 +2,11 @@
 #ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_COPY_H
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_COPY_H
 
-#include <haptic_sculpt/haptic_rendering/exchange/Scene_feed.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -17,15 +19,15 @@ class Scene_copy {
 public:
   static constexpr std::uint64_t absent = std::numeric_limits<std::uint64_t>::max();    ///< the id of no vertex
   static constexpr std::uint32_t no_corner = std::numeric_limits<std::uint32_t>::max(); ///< the corner of no face
+  static constexpr std::array<std::uint32_t, 3> no_face = {no_corner, 0, 0};            ///< at an index without a face
 
   /// Room for a mesh with this many descriptors (`number_of_vertices() + number_of_removed_vertices()`, and faces).
   Scene_copy(std::size_t vertices, std::size_t faces)
-      : points(vertices), ids(vertices, std::uint64_t(absent)), faces(faces, {no_corner, 0, 0}) {}
+      : points(vertices), ids(vertices, std::uint64_t(absent)), faces(faces, no_face) {}
 
   std::vector<std::array<double, 3>> points;       ///< by index of vertex
   std::vector<std::uint64_t> ids;                  ///< by index of vertex, its number that lasts; or `absent`
   std::vector<std::array<std::uint32_t, 3>> faces; ///< by index of face, the corners; or `no_corner` first
-  std::uint64_t number = 0; ///< the last Scene_change in it: a viewer makes those with larger numbers on it
   /// How many vertices there should have been room for: where there is less, the copy is of no use; ask with a new one.
   std::size_t vertices_needed = 0,
               faces_needed = 0; ///< the same of faces
@@ -33,39 +35,32 @@ public:
   /// Whether there was room for all so far.
   bool is_whole() const { return vertices_needed <= points.size() && faces_needed <= faces.size(); }
 
-  /// Makes a change of the mesh.
-  void follow(const Scene_change& change) {
-    using Kind = Scene_change::Kind;
-    const bool is_face = change.kind == Kind::face_created || change.kind == Kind::face_dies;
-    std::size_t& needed = is_face ? faces_needed : vertices_needed;
-    needed = std::max(needed, std::size_t{change.index} + 1);
-    if (change.index >= (is_face ? faces.size() : points.size()))
-      return;
-    switch (change.kind) {
-    case Kind::vertex_created:
-      ids[change.index] = change.id;
-      [[fallthrough]];
-    case Kind::vertex_moved:
-      points[change.index] = change.point;
-      break;
-    case Kind::vertex_dies:
-      ids[change.index] = absent;
-      break;
-    case Kind::face_created:
-      faces[change.index] = change.corners;
-      break;
-    case Kind::face_dies:
-      faces[change.index][0] = no_corner;
-      break;
-    case Kind::replaced:
-      break;
-    }
-  }
-
   /// \name The loop's thread
   ///@{
 
   void begin() { next_vertex_ = next_face_ = 0; } ///< from the first element again; what was needed is kept
+  /// A vertex is there now.
+  void set_vertex(std::uint32_t v, std::uint64_t id, const std::array<double, 3>& point) {
+    vertices_needed = std::max(vertices_needed, std::size_t{v} + 1);
+    if (v < points.size())
+      ids[v] = id, points[v] = point;
+  }
+  /// A vertex has moved.
+  void move_vertex(std::uint32_t v, const std::array<double, 3>& point) {
+    if (v < points.size())
+      points[v] = point;
+  }
+  /// A vertex is gone.
+  void unset_vertex(std::uint32_t v) {
+    if (v < ids.size())
+      ids[v] = absent;
+  }
+  /// A face is there now, or is gone: `no_corner` first.
+  void set_face(std::uint32_t f, const std::array<std::uint32_t, 3>& corners) {
+    faces_needed = std::max(faces_needed, std::size_t{f} + 1);
+    if (f < faces.size())
+      faces[f] = corners;
+  }
   /// Copies up to this many elements more. \return whether all are copied. Allocates nothing.
   template <class Sculptor>
   bool copy_some(const Sculptor& sculptor, std::size_t elements) {
@@ -76,12 +71,11 @@ public:
     for (; elements > 0 && next_vertex_ < vertices; --elements, ++next_vertex_) {
       const typename Sculptor::Vertex_index v(static_cast<std::uint32_t>(next_vertex_));
       ids[next_vertex_] = mesh.is_removed(v) ? std::uint64_t(absent) : sculptor.id(v);
-      const auto& p = mesh.point(v);
-      points[next_vertex_] = {p.x(), p.y(), p.z()};
+      points[next_vertex_] = vertex_coordinates(mesh, v);
     }
     for (; elements > 0 && next_face_ < known_faces; --elements, ++next_face_) {
       const typename Sculptor::Face_index f(static_cast<std::uint32_t>(next_face_));
-      faces[next_face_] = mesh.is_removed(f) ? std::array<std::uint32_t, 3>{no_corner, 0, 0} : corners_of(mesh, f);
+      faces[next_face_] = mesh.is_removed(f) ? no_face : corners_of(mesh, f);
     }
     return next_vertex_ >= vertices && next_face_ >= known_faces;
   }

@@ -3,7 +3,7 @@
 #define HAPTIC_SCULPT_SCULPTING_KEPT_PROPERTIES_H
 
 #include <haptic_sculpt/sculpting/edits/Kept_map.h>
-#include <haptic_sculpt/sculpting/edits/Lineage_teller.h>
+#include <haptic_sculpt/sculpting/edits/Lineage_map.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
@@ -35,11 +35,11 @@ public:
   template <class Visitor>
   void tell_lineage(Visitor& visitor) {
     if constexpr (Hears_of_faces<Visitor, Face_index>::value)
-      maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_teller<Visitor, Face_index>, Copy_property, false>>(
-          Lineage_teller<Visitor, Face_index>{&visitor}, Copy_property()));
+      maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_map<Visitor, Face_index>, Copy_property, false>>(
+          Lineage_map<Visitor, Face_index>{&visitor}, Copy_property()));
     if constexpr (Hears_of_edges<Visitor, Edge_index>::value)
-      maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_teller<Visitor, Edge_index>, Copy_property, false>>(
-          Lineage_teller<Visitor, Edge_index>{&visitor}, Copy_property()));
+      maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_map<Visitor, Edge_index>, Copy_property, false>>(
+          Lineage_map<Visitor, Edge_index>{&visitor}, Copy_property()));
   }
 
   /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_id` where

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_DESK_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_DESK_H
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COMMAND_QUEUE_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COMMAND_QUEUE_H
 
 #include <haptic_sculpt/haptic_rendering/Tool.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
@@ -59,10 +59,10 @@ struct Loop_answer {
 
 /// Between one thread that asks and the loop's: a queue of commands and one of answers. Bounded, without locks.
 template <class Scene>
-class Loop_desk {
+class Command_queue {
 public:
   /// \param room for this many commands whose answers have not been taken
-  explicit Loop_desk(std::size_t room = 256) : commands_(room), answers_(2 * room), room_(room) {}
+  explicit Command_queue(std::size_t room = 256) : commands_(room), answers_(2 * room), room_(room) {}
 
   /// \name The asking thread
   ///@{

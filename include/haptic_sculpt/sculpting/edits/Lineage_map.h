@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_LINEAGE_TELLER_H
-#define HAPTIC_SCULPT_SCULPTING_LINEAGE_TELLER_H
+#ifndef HAPTIC_SCULPT_SCULPTING_LINEAGE_MAP_H
+#define HAPTIC_SCULPT_SCULPTING_LINEAGE_MAP_H
 
 #include <boost/property_map/property_map.hpp>
 
@@ -27,7 +27,7 @@ struct Hears_of_edges<Visitor, Edge_index,
 /// As a property map: the value of an element is its descriptor, so what a new element is given is what it comes from,
 /// and the visitor hears of it.
 template <class Visitor, class Key>
-struct Lineage_teller {
+struct Lineage_map {
   using key_type = Key;
   using value_type = Key;
   using reference = Key;
@@ -35,8 +35,8 @@ struct Lineage_teller {
 
   Visitor* visitor;
 
-  friend Key get(const Lineage_teller&, Key key) { return key; }
-  friend void put(const Lineage_teller& map, Key created, Key dead) {
+  friend Key get(const Lineage_map&, Key key) { return key; }
+  friend void put(const Lineage_map& map, Key created, Key dead) {
     if constexpr (Hears_of_faces<Visitor, Key>::value)
       map.visitor->face_replaces(created, dead);
     else

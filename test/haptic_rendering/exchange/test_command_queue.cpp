@@ -26,27 +26,27 @@ struct Counting : Loop_task<Scene> {
   }
 };
 
-struct Desk {
+struct Queue {
   std::unique_ptr<Scene> scene = scene_of(2), other = scene_of(1);
-  Loop_desk<Scene> desk{64};
+  Command_queue<Scene> queue{64};
   Edit_journal journal{1000}, journal_of_other{1000};
   Loop loop{scene->sculptor, scene->map, parameters_of_tests()};
   Session session;
-  explicit Desk(bool keeps_journal = false)
-      : session(loop, *scene, &desk, nullptr, keeps_journal ? &journal : nullptr) {}
+  explicit Queue(bool keeps_journal = false)
+      : session(loop, *scene, &queue, nullptr, keeps_journal ? &journal : nullptr) {}
 
   void ask(Command::Kind kind, std::uint64_t ticket, Loop_task<Scene>* task = nullptr) {
     Command command;
     command.kind = kind, command.ticket = ticket, command.task = task;
     if (kind == Command::Kind::enter)
       command.scene = other.get();
-    BOOST_TEST(desk.ask(command));
+    BOOST_TEST(queue.ask(command));
   }
   void tick() { session.tick(reading_at(session.ticks())); }
   /// The tickets of what is answered by now.
   std::vector<std::uint64_t> answers() {
     std::vector<std::uint64_t> tickets;
-    for (Loop_answer<Scene> answer; desk.take(answer); tickets.push_back(answer.ticket))
+    for (Loop_answer<Scene> answer; queue.take(answer); tickets.push_back(answer.ticket))
       last = answer;
     return tickets;
   }
@@ -56,7 +56,7 @@ struct Desk {
 using Tickets = std::vector<std::uint64_t>;
 
 BOOST_AUTO_TEST_CASE(tasks_go_on_once_a_tick_beside_what_is_asked_for_later) {
-  Desk d;
+  Queue d;
   Counting at_once(1), three(3), two(2);
   d.ask(Command::Kind::task, 1, &three);
   d.ask(Command::Kind::task, 2, &at_once);
@@ -74,13 +74,13 @@ BOOST_AUTO_TEST_CASE(tasks_go_on_once_a_tick_beside_what_is_asked_for_later) {
   BOOST_TEST(two.calls == 1);
   d.tick();
   BOOST_TEST((d.answers() == Tickets{3, 4}));
-  BOOST_TEST(d.desk.waiting() == 0u);
+  BOOST_TEST(d.queue.waiting() == 0u);
   d.tick();
   BOOST_TEST((three.calls == 3 && two.calls == 2 && at_once.calls == 1));
 }
 
 BOOST_AUTO_TEST_CASE(another_scene_is_entered_once_no_task_is_under_way_and_with_a_journal_of_its_own) {
-  Desk d(true);
+  Queue d(true);
   Counting three(3), later(1);
   d.ask(Command::Kind::task, 1, &three);
   d.ask(Command::Kind::enter, 2); // without a journal: refused
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(another_scene_is_entered_once_no_task_is_under_way_and_with
   d.ask(Command::Kind::task, 3, &two);
   Command enter;
   enter.kind = Command::Kind::enter, enter.ticket = 4, enter.scene = d.other.get(), enter.journal = &d.journal_of_other;
-  BOOST_TEST(d.desk.ask(enter));
+  BOOST_TEST(d.queue.ask(enter));
   d.ask(Command::Kind::task, 5, &later);
   for (int k = 0; k < 4; ++k)
     d.tick();
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(another_scene_is_entered_once_no_task_is_under_way_and_with
 }
 
 BOOST_AUTO_TEST_CASE(copies_are_made_one_after_the_other) {
-  Desk d;
+  Queue d;
   Copy_task<Scene> first(4000, 8000), second(4000, 8000), small(10, 8000);
   d.ask(Command::Kind::task, 1, &first);
   d.ask(Command::Kind::task, 2, &second);
@@ -124,8 +124,8 @@ BOOST_AUTO_TEST_CASE(copies_are_made_one_after_the_other) {
   BOOST_TEST((surface_of(second.copy) == surface_of(*d.scene)));
 }
 
-BOOST_AUTO_TEST_CASE(what_throws_is_answered_with_its_reason_and_the_desk_and_the_force_go_on) {
-  Desk d;
+BOOST_AUTO_TEST_CASE(what_throws_is_answered_with_its_reason_and_the_queue_and_the_force_go_on) {
+  Queue d;
   struct Throwing : Counting {
     using Counting::Counting;
     bool go_on(Scene& scene, Tool_type& tool) override {
@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(what_throws_is_answered_with_its_reason_and_the_desk_and_th
       int i = 0;
       for (const auto v : d.scene->mesh.vertices_around_face(d.scene->mesh.halfedge(face)))
         command.edit.vertices[static_cast<std::size_t>(i++)] = d.scene->sculptor.id(v);
-      BOOST_TEST(d.desk.ask(command));
+      BOOST_TEST(d.queue.ask(command));
       const Haptic_tick& made = d.session.tick(reading_at(0));
       BOOST_TEST((d.answers() == Tickets{5}));
       BOOST_TEST(!d.last.done);

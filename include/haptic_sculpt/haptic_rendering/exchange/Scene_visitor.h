@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_VISITOR_H
+#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_VISITOR_H
+
+#include <haptic_sculpt/haptic_rendering/exchange/Changed_faces.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_copy.h>
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_feed.h>
+#include <haptic_sculpt/sculpting/Edit_visitor.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
+
+namespace haptic_sculpt {
+
+/// An EditVisitor that remembers which faces have changed, for a viewer, and keeps a copy under way right.
+template <class Mesh>
+class Scene_visitor : public Default_edit_visitor {
+public:
+  using Vertex_index = typename Mesh::Vertex_index; ///< of the mesh
+  using Face_index = typename Mesh::Face_index;     ///< of the mesh
+
+  /// \param mesh refers to it; it must outlive this and its copies
+  explicit Scene_visitor(const Mesh& mesh) : mesh_(&mesh) {}
+
+  Changed_faces changed; ///< what a viewer does not know yet
+
+  /// All faces are to be passed on, and there is room for this many more.
+  void mark_all(std::size_t more) {
+    changed.reserve(mesh_->num_faces() + more);
+    for (const Face_index f : mesh_->faces())
+      changed.add(static_cast<std::uint32_t>(f));
+  }
+
+  void tell_to(Scene_copy* copy) { copy_ = copy; } ///< that is under way; none: nullptr
+  const Scene_copy* copy() const { return copy_; } ///< that hears of changes; none: nullptr
+
+  /// \name What the Sculptor calls
+  ///@{
+
+  void vertex_moved(Vertex_index v) {
+    for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
+      changed.add(static_cast<std::uint32_t>(f));
+    if (copy_ != nullptr)
+      copy_->move_vertex(static_cast<std::uint32_t>(v), vertex_coordinates(*mesh_, v));
+  }
+  void vertex_created(Vertex_index v, std::size_t id) {
+    if (copy_ != nullptr)
+      copy_->set_vertex(static_cast<std::uint32_t>(v), id, vertex_coordinates(*mesh_, v));
+  }
+  void vertex_dies(Vertex_index v, std::size_t) {
+    if (copy_ != nullptr)
+      copy_->unset_vertex(static_cast<std::uint32_t>(v));
+  }
+  void face_created(Face_index f) {
+    changed_face(f, copy_ == nullptr ? Scene_copy::no_face : Scene_copy::corners_of(*mesh_, f));
+  }
+  void face_dies(Face_index f) { changed_face(f, Scene_copy::no_face); }
+  ///@}
+
+private:
+  const Mesh* mesh_;
+  Scene_copy* copy_ = nullptr;
+
+  void changed_face(Face_index f, const std::array<std::uint32_t, 3>& corners) {
+    changed.add(static_cast<std::uint32_t>(f));
+    if (copy_ != nullptr)
+      copy_->set_face(static_cast<std::uint32_t>(f), corners);
+  }
+};
+
+} // namespace haptic_sculpt
+
+#endif
