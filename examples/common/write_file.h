@@ -42,7 +42,8 @@ inline std::string keep_owner_and_permissions(int new_file, const struct stat& o
 inline std::string why_not_writable(const std::filesystem::path& target) {
   if (std::string why = why_not_replaceable(target); !why.empty())
     return why;
-  struct stat file {}, folder {};
+  struct stat file {};
+  struct stat folder {};
   const std::filesystem::path around = target.has_parent_path() ? target.parent_path() : ".";
   if (::stat(target.c_str(), &file) == 0 && ::stat(around.c_str(), &folder) == 0 && (folder.st_mode & S_ISVTX) != 0 &&
       ::geteuid() != 0 && ::geteuid() != file.st_uid && ::geteuid() != folder.st_uid)

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_FREE_FUNCTIONS_H
 
 #include "sculpting/public_functions/Scaled_scene.h"
+#include "surface/Temporary_folder.h"
 
 #include <haptic_sculpt/surface.h>
 
@@ -95,16 +96,17 @@ inline std::vector<Public_function> free_functions() {
                      outcome.length(p.x()), outcome.length(p.y()), outcome.length(p.z());
                  }});
   for (const char* extension : {".off", ".ply", ".obj", ".stl"})
-    all.push_back(
-        {"read_surface write_surface read_face_soup make_surface mesh_of", [=](double unit, Outcome& outcome) {
-           Scaled_scene scene(unit);
-           const Scene_file file(extension);
-           write_surface(file.path, scene.mesh);
-           outcome.mesh(read_surface<Mesh>(file.path));
-           outcome.mesh(make_surface<Mesh>(read_face_soup(file.path)));
-           outcome.mesh(mesh_of<Mesh>(read_face_soup(file.path)));
-           outcome.number(static_cast<double>(read_face_soup(file.path).number_of_faces()));
-         }});
+    all.push_back({"read_surface write_surface surface_bytes read_face_soup make_surface mesh_of",
+                   [=](double unit, Outcome& outcome) {
+                     Scaled_scene scene(unit);
+                     const Scene_file file(extension);
+                     write_surface(file.path, scene.mesh);
+                     outcome.number(surface_bytes(scene.mesh, file.path) == bytes_of(file.path));
+                     outcome.mesh(read_surface<Mesh>(file.path));
+                     outcome.mesh(make_surface<Mesh>(read_face_soup(file.path)));
+                     outcome.mesh(mesh_of<Mesh>(read_face_soup(file.path)));
+                     outcome.number(static_cast<double>(read_face_soup(file.path).number_of_faces()));
+                   }});
   for (const Guard_policy policy :
        {Guard_policy::back_off, Guard_policy::stop, Guard_policy::slide, Guard_policy::whole})
     all.push_back({"guarded_point_map", [=](double unit, Outcome& outcome) {

@@ -30,7 +30,7 @@ public:
     waits_[face] = true;
     waiting_.push_back(face);
   }
-  std::size_t size() const { return waiting_.size(); }    ///< faces that are to be passed on
+  std::size_t size() const { return waiting_.size(); }     ///< faces that are to be passed on
   std::uint32_t front() const { return waiting_.front(); } ///< the next of them \pre there is one
   /// It has been passed on. \pre there is one
   void pop() {

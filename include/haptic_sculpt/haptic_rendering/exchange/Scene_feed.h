@@ -35,9 +35,8 @@ struct Tick_view {
   int contacts = 0;                    ///< that hold the proxy
   Tool_event event = Tool_event::none; ///< what the button did in this tick
   Loop_fault fault = Loop_fault::none; ///< why the loop has let go of the hand
-  /// Faces passed on so far, and those that have changed and still wait for room. Who has taken the first and finds
-  /// none waiting has the mesh of this tick.
-  std::uint64_t faces_passed_on = 0, faces_waiting = 0;
+  std::uint64_t faces_passed_on = 0;   ///< so far: who has taken these, while none waits, has the mesh of this tick
+  std::uint64_t faces_waiting = 0;     ///< that have changed and are passed on later
 };
 
 /// A way from the loop's thread to one viewer or logger, which never stops the loop. No change is lost: a face that

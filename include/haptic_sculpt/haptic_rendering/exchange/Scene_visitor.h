@@ -35,23 +35,28 @@ public:
   /// \name What the Sculptor calls
   ///@{
 
+  /// Its faces have changed.
   void vertex_moved(Vertex_index v) {
     for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
       changed.add(static_cast<std::uint32_t>(f));
     if (copy_ != nullptr)
       copy_->move_vertex(static_cast<std::uint32_t>(v), vertex_coordinates(*mesh_, v));
   }
+  /// Goes into the copy.
   void vertex_created(Vertex_index v, std::size_t id) {
     if (copy_ != nullptr)
       copy_->set_vertex(static_cast<std::uint32_t>(v), id, vertex_coordinates(*mesh_, v));
   }
+  /// Leaves the copy.
   void vertex_dies(Vertex_index v, std::size_t) {
     if (copy_ != nullptr)
       copy_->unset_vertex(static_cast<std::uint32_t>(v));
   }
+  /// Has changed.
   void face_created(Face_index f) {
     changed_face(f, copy_ == nullptr ? Scene_copy::no_face : Scene_copy::corners_of(*mesh_, f));
   }
+  /// Has changed, too.
   void face_dies(Face_index f) { changed_face(f, Scene_copy::no_face); }
   ///@}
 
