@@ -119,6 +119,8 @@ def merge(reports):
         values = [report[name] for report in reports if name in report]
         if name == "shard":
             merged[name] = "0/1"
+        elif name == "did_not_fit":
+            merged[name] = len(values)  # this many shards
         elif name == "exit":
             merged[name] = max(values)  # judged below, where the promises are known
         elif isinstance(values[0], (dict, list)):

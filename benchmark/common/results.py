@@ -60,6 +60,15 @@ def shards(out, name):
     return rows
 
 
+def forget_what_did_not_fit(out):
+    """So that it is tried again."""
+    for path in (out / "shards").glob("*/*_of_*.json"):
+        if "did_not_fit" in json.loads(path.read_text()):
+            for suffix in (".json", ".note"):
+                path.with_suffix(suffix).unlink(missing_ok=True)
+            (out / "results" / f"{path.parent.name}.json").unlink(missing_ok=True)
+
+
 def deaths(out, names):
     """The last word of each shard that has no report."""
     count = circumstances(out)["shards"]

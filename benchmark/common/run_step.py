@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER]
+"""Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER] [--minutes M]
 
 The report appears when it is whole. Beside it go FILE.log, what the program printed, and FILE.note, the command and how
 it went. A broken promise is a result; a program that dies is named in FILE.failed, with the command that repeats it.
@@ -30,6 +30,17 @@ def report_of_exit(step, shard, shards, code, asked):
     return {"shard": f"{shard}/{shards}", "promises": promises, "exit": 10 if code != 0 else 0}
 
 
+def minutes_used(folder):
+    """By the shards of a step that have ended."""
+    return sum(json.loads(note.read_text())["seconds"] for note in folder.glob("*.note")) / 60
+
+
+def write_report(path, report):
+    whole = path.with_suffix(".whole")
+    whole.write_text(json.dumps(report, indent=1) + "\n")
+    whole.replace(path)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("step")
@@ -40,9 +51,15 @@ def main():
     parser.add_argument("--json", required=True, type=pathlib.Path)
     parser.add_argument("--meshes", default="")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--minutes", type=float, default=0, help="for all shards of the step together; 0: no bound")
     options = parser.parse_args()
     step = steps.all_steps()[options.step]
     minutes = step.effort(options.mode).minutes
+    if options.minutes > 0:
+        minutes = min(minutes, options.minutes - minutes_used(options.json.parent))
+    if minutes <= 0:
+        write_report(options.json, {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"not begun: {options.minutes:g} minutes of the step are used up"})
+        return 0
     unfinished = options.json.with_suffix(".unfinished")
     unfinished.unlink(missing_ok=True)
     words, extra = steps.command_of(step, options.mode, options.shard, options.shards, options.build, options.meshes, options.seed,
@@ -59,7 +76,7 @@ def main():
             code = 127
     seconds = time.time() - begin
     if code is None:
-        report = {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"more than {minutes:g} minutes"}
+        report = {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"more than {minutes:.3g} minutes"}
     elif step.promise and code in (0, 201):  # 201: a test failed
         report = report_of_exit(step, options.shard, options.shards, code, step.count[options.mode] // options.shards)
     else:
@@ -81,9 +98,7 @@ def main():
             "exit": code}
     options.json.with_suffix(".note").write_text(json.dumps(note, indent=1) + "\n")
     unfinished.unlink(missing_ok=True)
-    whole = options.json.with_suffix(".whole")
-    whole.write_text(json.dumps(report, indent=1) + "\n")
-    whole.replace(options.json)
+    write_report(options.json, report)
     return 0
 
 

@@ -89,6 +89,15 @@ def kill_and_resume(out):
     return done
 
 
+def little_time(out):
+    """What does not fit is listed, and made by the same command with more time."""
+    little = run(out, "axis", "device", "--minutes", "0.0001")
+    page = (out / "index.html").read_text()
+    expect(little.returncode == 0 and "did not fit: 0/3, 1/3, 2/3 of 3" in page, f"too little time: exit {little.returncode}, {little.stderr}")
+    enough = run(out, "axis", "device", "--minutes", "5")
+    expect(enough.returncode == 0 and "did not fit" not in (out / "index.html").read_text(), f"enough time: exit {enough.returncode}, {enough.stderr}")
+
+
 def death(out, folder):
     """A program that dies in one shard is named, made again, and the page is there."""
     build = folder / "build"
@@ -160,6 +169,7 @@ def main():
         folder = pathlib.Path(place)
         kill_and_resume(folder / "resumed")
         check_page(folder / "resumed")
+        little_time(folder / "little_time")
         death(folder / "death", folder)
         own_meshes(folder / "own", folder)
         answers(folder / "answers", folder)
