@@ -11,7 +11,8 @@ namespace haptic_sculpt {
 /// How a loop on a device of pose and force runs.
 struct Pose_loop_parameters {
   double tick = 0.001;       ///< s
-  Virtual_coupling coupling; ///< its stiffness at most passive_stiffness()
+  Virtual_coupling coupling; ///< its stiffness and that of the snap together at most passive_stiffness()
+  Vertex_snap snap;          ///< of a hand that holds no vertex; off by default
   Force_limits limits;       ///< of which cond(J) plays no role
   Pose_device device;        ///< what it does at its handle
   double delay = 0;          ///< from a command to its force, ticks
@@ -52,7 +53,8 @@ struct Pose_loop_parameters {
     internal::require_number("Pose_device::mass, that of the handle,", "kg", device.mass, 1e-4, 100);
     internal::require_number("Pose_device::resolution", "m", device.resolution, 0, 0.01);
     Haptic_parameters all;
-    all.tick = tick, all.delay = delay, all.coupling = coupling, all.limits = limits, all.reach = reach;
+    all.tick = tick, all.delay = delay, all.coupling = coupling, all.snap = snap, all.limits = limits,
+    all.reach = reach;
     all.work_limit = work_limit, all.work_of_a_face = work_of_a_face, all.controller_damping = controller_damping;
     all.virtual_mass = virtual_mass;
     all.watchdog.joint_rate = speed, all.watchdog.stall_time = stall_time;
@@ -83,7 +85,7 @@ public:
     limits.largest_damping = std::fmin(limits.friction, parameters.device.mass *
                                                             largest_damping_rate(parameters.tick, parameters.delay));
     limits.largest_controller = parameters.largest_controller(), limits.largest_mass = parameters.largest_mass();
-    check_coupling(parameters.coupling, limits);
+    check_coupling(parameters.checked().stiffest(), limits);
     check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0),
                    limits);
   }

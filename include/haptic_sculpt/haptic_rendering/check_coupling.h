@@ -49,7 +49,7 @@ inline void check_limits(const Passivity_limits& limits, const Device_parameters
                 "with passivity_limits()");
   check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0),
                  limits);
-  check_coupling(parameters.coupling, limits);
+  check_coupling(parameters.stiffest(), limits);
 }
 
 } // namespace haptic_sculpt

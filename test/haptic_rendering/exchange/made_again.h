@@ -55,8 +55,13 @@ inline Surface made_again(Mesh mesh, const Entries& entries) {
       break;
     case Kind::none: // the end of a tick
       break;
-    case Kind::shift:
-      ++failed;
+    case Kind::shift: {
+      std::vector<std::pair<Mesh::Vertex_index, double>> ways;
+      for (const auto& [id, coordinate] : e.ways)
+        ways.emplace_back(sculptor.vertex(id), coordinate);
+      failed += !sculptor.shift(e.axis, ways);
+      break;
+    }
     }
   }
   BOOST_TEST(failed == 0u);

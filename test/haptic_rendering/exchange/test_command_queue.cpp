@@ -124,6 +124,29 @@ BOOST_AUTO_TEST_CASE(copies_are_made_one_after_the_other) {
   BOOST_TEST((surface_of(second.copy) == surface_of(*d.scene)));
 }
 
+BOOST_AUTO_TEST_CASE(clutch_and_zoom_are_asked_for_by_another_thread) {
+  Queue d;
+  d.tick();
+  Command command;
+  command.kind = Command::Kind::clutch, command.opens = true;
+  BOOST_TEST(d.queue.ask(command));
+  d.tick();
+  BOOST_TEST(d.loop.is_clutch_open());
+  for (const double factor : {2.0, 0.0}) {
+    command.kind = Command::Kind::zoom, command.factor = factor;
+    BOOST_TEST(d.queue.ask(command));
+    d.tick();
+    BOOST_TEST(d.answers().size() > 0u);
+    BOOST_TEST(d.last.done == (factor > 0));
+    BOOST_TEST((d.last.failure[0] != 0) == (factor == 0)); // no scale
+  }
+  command.kind = Command::Kind::clutch, command.opens = false;
+  BOOST_TEST(d.queue.ask(command));
+  d.tick();
+  BOOST_TEST(!d.loop.is_clutch_open());
+  BOOST_TEST(std::abs(d.loop.map().scale() - 2 * map_of_tests.scale()) <= 1e-12 * map_of_tests.scale());
+}
+
 BOOST_AUTO_TEST_CASE(what_throws_is_answered_with_its_reason_and_the_queue_and_the_force_go_on) {
   Queue d;
   struct Throwing : Counting {

@@ -31,6 +31,8 @@ struct Loop_command {
     edit,   ///< `edit`, no stroke and no end; to undo, a grab from the button's press to its release is one step
     task,   ///< `task`; what is asked for later is done beside it
     enter,  ///< `scene` in place of the one sculpted so far, which comes back, once no task is under way
+    clutch, ///< opened or closed, as `opens` says
+    zoom,   ///< by `factor`, once the clutch is closed
     restart ///< after a fault
   };
   Kind kind = Kind::let_go;         ///< says which of the members below count
@@ -38,6 +40,8 @@ struct Loop_command {
   Edit edit;                        ///< vertices by number, points in the scene
   Loop_task<Scene>* task = nullptr; ///< the asking thread's; not to be touched until the answer
   Scene* scene = nullptr;           ///< from here on the loop's
+  bool opens = false;               ///< the clutch: the handle moves alone
+  double factor = 1;                ///< units of the scene a metre, times this
   Edit_journal* journal = nullptr; ///< of `scene`: a log is of one mesh. None is refused where one is kept so far
 };
 

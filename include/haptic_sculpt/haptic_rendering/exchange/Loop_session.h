@@ -139,6 +139,12 @@ private:
     case Kind::let_go:
       loop_->tool().let_go();
       break;
+    case Kind::clutch:
+      loop_->open_clutch(command.opens);
+      break;
+    case Kind::zoom:
+      loop_->zoom(command.factor);
+      break;
     case Kind::restart:
       loop_->restart();
       break;

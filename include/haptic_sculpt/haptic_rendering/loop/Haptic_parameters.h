@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_HAPTIC_PARAMETERS_H
 
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
+#include <haptic_sculpt/haptic_rendering/Vertex_snap.h>
 #include <haptic_sculpt/haptic_rendering/Virtual_mass.h>
 #include <haptic_sculpt/haptic_rendering/Watchdog.h>
 
@@ -15,6 +16,7 @@ struct Haptic_parameters {
   double tick = 0.001;       ///< s
   double delay = 0;          ///< from a command to its torque, ticks
   Virtual_coupling coupling; ///< between hand and tool; refused where it is not passive
+  Vertex_snap snap;          ///< of a hand that holds no vertex; off by default
   Force_limits limits;       ///< of what reaches the hand
   Watchdog_limits watchdog;  ///< beyond them the loop lets go
   Gravity_compensation gravity = Gravity_compensation::spatial; ///< unless it is changed
@@ -28,16 +30,18 @@ struct Haptic_parameters {
   std::size_t work_limit = 400;   ///< pairs a drag may decide (doc/use/work.md)
   std::size_t work_of_a_face = 4; ///< pairs more for each face about the vertex in hand
 
-  /// That the coupling needs at the handle to be passive, N s/m.
+  /// The coupling, as stiff as it and the snap are together: what has to be passive.
+  Virtual_coupling stiffest() const { return {coupling.stiffness + snap.stiffness(), coupling.damping}; }
+  /// That it needs at the handle to be passive, N s/m.
   double needed_friction() const {
-    return coupling.stiffness * tick * (1 + 2 * delay) / 2 + std::abs(coupling.damping);
+    return stiffest().stiffness * tick * (1 + 2 * delay) / 2 + std::abs(coupling.damping);
   }
 
   /// \throw Error naming what no device can use
   void check() const {
     internal::require_number("tick, the time of one,", "s", tick, Force_chain::least_tick, Force_chain::most_tick);
     internal::require_number("delay, to the force,", "ticks", delay, 0, Torque_delay<double>::most_ticks);
-    coupling.check(), limits.check(), watchdog.check(), virtual_mass.check();
+    coupling.check(), snap.check(), limits.check(), watchdog.check(), virtual_mass.check();
     internal::require_number("controller_damping, of the passivity controller,", "N s/m",
                              controller_damping.value_or(0), 0, 1e5);
     internal::require_number("reach, of a grab,", "m", reach, 0, 1);

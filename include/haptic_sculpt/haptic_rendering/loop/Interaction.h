@@ -11,6 +11,7 @@ namespace haptic_sculpt {
 struct Touch {
   Eigen::Vector3d way = Eigen::Vector3d::Zero(); ///< from where the hand wants what it holds to where that is, m
   Contact_span span;                             ///< of what pushes
+  Eigen::Vector3d snap = Eigen::Vector3d::Zero(); ///< the force of a Vertex_snap, N
   bool is_free = true;                           ///< what is held is where it is wanted
   bool is_starved = false; ///< work was cut short before anything was found to push: no spring can be rendered
   bool holds = false;      ///< something that may have a virtual mass is in hand
@@ -31,6 +32,7 @@ public:
   Interaction(const Side& side, const Haptic_parameters& parameters, double controller_damping)
       : side_(side)
       , coupling_(parameters.coupling)
+      , stiffness_(parameters.stiffest().stiffness)
       , watchdog_(limits_for(side, parameters.watchdog), parameters.tick, side.effort_limit())
       , observer_(parameters.delay, parameters.tick, side.has_force() ? side.friction() : 0, side.resolution())
       , controller_(controller_damping, parameters.tick)
@@ -44,7 +46,7 @@ public:
     if (!watchdog_.check(Side::coordinates(reading), Side::efforts(reading), reading.elapsed) ||
         !watchdog_.check_condition(side_.follow(reading, reading.elapsed)))
       return false;
-    observer_.add_step(side_.effort_step(), coupling_.stiffness, side_.step());
+    observer_.add_step(side_.effort_step(), stiffness_, side_.step());
     if (side_.has_force() && observer_.is_active())
       watchdog_.report(Loop_fault::energy);
     return watchdog_.fault() == Loop_fault::none;
@@ -54,7 +56,7 @@ public:
   void render(const Touch& touch) {
     const bool pulls = !touch.is_free && !touch.is_starved;
     spring_ = pulls ? Eigen::Vector3d(coupling_.stiffness * touch.way) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    wanted_ = spring_ + coupling_.damping_force(touch.span, side_.velocity(), !pulls);
+    wanted_ = spring_ + touch.snap + coupling_.damping_force(touch.span, side_.velocity(), !pulls);
     if (side_.has_force())
       wanted_ += virtual_mass_.force(side_.step(), touch.holds) + controller_.force(observer_, side_.step());
     rendered_ = side_.render(wanted_, touch.is_starved ? 0 : side_.step().norm());
@@ -97,6 +99,7 @@ public:
 private:
   Side side_;
   Virtual_coupling coupling_;
+  double stiffness_; ///< of all that a scene does, N/m
   Watchdog watchdog_;
   Passivity_observer observer_;
   Passivity_controller controller_;

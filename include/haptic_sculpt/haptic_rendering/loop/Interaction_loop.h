@@ -147,7 +147,19 @@ private:
     Touch touch;
     touch.way = map_.way_to_device(tool.proxy - tool.target), touch.span = tool.span;
     touch.is_free = tool.reached, touch.is_starved = tool.starved, touch.holds = tool_.holds_vertex();
+    if (tool_.holds_probe())
+      touch.snap = snap_at(tool.target);
     interaction_.render(touch);
+  }
+
+  /// The force that draws the hand from a place in the scene, N.
+  Eigen::Vector3d snap_at(const Eigen::Vector3d& place) const {
+    const Vertex_snap& snap = parameters_.snap;
+    if (snap.length == 0)
+      return Eigen::Vector3d::Zero();
+    const Vertex_index v = internal::nearest_vertex(*sculptor_, place, snap.length * map_.scale());
+    return v.is_valid() ? snap.force_for(map_.way_to_device(internal::vector_of(sculptor_->mesh().point(v)) - place))
+                        : Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
 
   /// Of the drag of a tick: to decide whether a step of a vertex is free takes some of each face about it. One that

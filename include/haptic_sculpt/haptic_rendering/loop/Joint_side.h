@@ -17,7 +17,7 @@ public:
   Joint_side(const Device_parameters<double>& device, const Device_pose<double>& start,
              const Haptic_parameters& parameters)
       : handle_(device, start, parameters.tick)
-      , renderer_(parameters.limits, parameters.coupling, parameters.gravity, parameters.tick,
+      , renderer_(parameters.limits, parameters.stiffest(), parameters.gravity, parameters.tick,
                   parameters.follows_pose ? parameters.needed_friction() : 0) {}
 
   /// \name What a reading says

@@ -23,7 +23,9 @@ public:
 
   /// \throw Error for parameters that cannot be used
   Pose_side(const Pose_device& device, const Haptic_parameters& parameters)
-      : device_(device), chain_(parameters.limits, parameters.coupling, parameters.tick), velocity_(parameters.tick) {}
+      : device_(device)
+      , chain_(parameters.limits, parameters.stiffest(), parameters.tick)
+      , velocity_(parameters.tick) {}
 
   /// \name What a reading says
   ///@{
