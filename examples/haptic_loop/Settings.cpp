@@ -146,6 +146,7 @@ json json_of(const Settings& s) {
           {"stiffness", s.stiffness},
           {"damping", s.damping},
           {"reach", s.reach},
+          {"snap", {s.snap.length, s.snap.force}},
           {"work", s.work},
           {"virtual_mass", s.virtual_mass},
           {"controller", s.controller ? json(*s.controller) : json()},
@@ -162,6 +163,8 @@ Settings settings_of(const json& j) {
     s.virtual_mass = j.value("virtual_mass", 0.0); // older recordings have none
     if (j.value("compensated_inertia", 0.0) != 0)
       throw Foreign_recording("`compensated_inertia` is no setting any more; record anew without it");
+    if (const json snap = j.value("snap", json()); !snap.is_null()) // older recordings have none
+      s.snap = {snap.at(0), snap.at(1)};
     const json controller = j.value("controller", json(0.0));
     s.controller = controller.is_null() ? std::nullopt : std::optional<double>(controller.get<double>());
     s.device = device_of(j.at("device"));
@@ -196,6 +199,9 @@ std::optional<Bad_setting> bad_setting(const Settings& s) {
     return Bad_setting{"controller", "must be a finite number >= 0, N s/m"};
   if (!is_length(s.reach))
     return Bad_setting{"reach", "must be a finite length >= 0, m"};
+  if (!(s.snap.length == 0 || (s.snap.length >= 1e-5 && s.snap.length <= 1)) ||
+      !(s.snap.force >= 0 && s.snap.force <= 100))
+    return Bad_setting{"snap", "must be 0, or a length from 0.00001 to 1 m and a force from 0 to 100 N"};
   if (s.work == 0)
     return Bad_setting{"work", "must be a whole number of pairs, at least 1"};
   if (!(s.map.empty() || s.map.size() == 4 || s.map.size() == 7))

@@ -34,6 +34,7 @@ struct Settings {
   double rate = 1000, delay = 0, stiffness = 500, damping = 0, reach = 0.001;
   double virtual_mass = 0; ///< kg
   std::optional<double> controller;                 ///< N s/m; nothing: half of what may be asked for
+  Vertex_snap snap;                                 ///< off by default
   std::size_t work = 400;
   std::vector<double> map; ///< scale, origin and, if given, the rotation vector; empty: the scene is fitted
   Device_description<double> device;

@@ -148,6 +148,12 @@ int run(int argc, char** argv) {
                  "SCALE X Y Z [RX RY RZ]: scene = (X, Y, Z) + SCALE R (device - home); by default the scene is fitted")
       ->expected(4, 7);
   app.add_option("--reach", settings.reach, "Of a grab, m in the device")->capture_default_str();
+  std::vector<double> snap;
+  app.add_option(
+         "--snap", snap,
+         "LENGTH [FORCE]: a hand that holds nothing is drawn to the nearest vertex within LENGTH, m, by at most "
+         "FORCE, N (0.2); counts as a stiffness of 2 FORCE / LENGTH")
+      ->expected(1, 2);
   app.add_option("--work", settings.work, "Pairs that a drag may decide")->capture_default_str();
   app.add_option("--device", arguments.device, "Device, JSON");
   app.add_option("--hand", arguments.hand, "Hand, JSON");
@@ -170,6 +176,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? examples::done : examples::usage;
   }
+  if (!snap.empty())
+    settings.snap = {snap[0], snap.size() > 1 ? snap[1] : settings.snap.force};
   return loop(arguments, plan);
 }
 

@@ -76,6 +76,7 @@ public:
     Haptic_parameters parameters;
     parameters.tick = tick_, parameters.delay = settings_.delay;
     parameters.coupling = {settings_.stiffness, settings_.damping};
+    parameters.snap = settings_.snap;
     parameters.virtual_mass.mass = settings_.virtual_mass;
     parameters.controller_damping = settings_.controller;
     parameters.reach = settings_.reach, parameters.work_limit = settings_.work;
@@ -135,7 +136,7 @@ private:
     try {
       check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass,
                      parameters.controller_damping.value_or(0), limits);
-      check_coupling(parameters.coupling, limits);
+      check_coupling(parameters.stiffest(), limits);
     } catch (const Unstable_coupling& error) {
       if (settings_.device.viscous_friction > 0)
         throw;
@@ -154,9 +155,9 @@ private:
     result_.passive_stiffness = limits.passive_stiffness;
     result_.largest_damping = limits.largest_damping, result_.largest_mass = limits.largest_mass;
     result_.largest_controller = limits.largest_controller;
-    if (limits.permits(parameters.coupling) && settings_.damping == 0 &&
-        settings_.stiffness > limits.recommended_stiffness())
-      writer_.note("the stiffness " + examples::decimal(settings_.stiffness) +
+    const double stiffness = parameters.stiffest().stiffness;
+    if (limits.permits(parameters.stiffest()) && settings_.damping == 0 && stiffness > limits.recommended_stiffness())
+      writer_.note("the stiffness " + examples::decimal(stiffness) +
                    " N/m is passive, but a handle that nobody holds rings on it; recommended are at most " +
                    examples::decimal(limits.recommended_stiffness()) + " N/m, or a damping");
     return limits;

@@ -116,6 +116,16 @@ check(open(at("m.off")).read() == open(at("n.off")).read(), "a replay has the sa
 for option, key in (("--virtual-mass", "largest_mass"), ("--controller", "largest_controller"), ("--damping", "largest_b")):
     told = run(MESH, "--no-wait", option, 1.01 * largest[key], code=7).stderr
     check("not stable" in told and f"{largest[key]:.4g}"[:4] in told, f"{option} is refused with what serves: {told}")
+# Drawn to vertices, the hand feels more forces, none above the limit; the snap counts as stiffness, and is in a recording.
+run(MESH, "--no-wait", "--snap", 0.004, 0.1, "--trace", at("s.csv"), "--record", at("s.rec"), "--report", at("s.json"), "-o", at("s.off"))
+report = json.load(open(at("s.json")))
+check(report["faults"] == [] and report["allocations"] == 0, f"snap: {report['faults']}, {report['allocations']} allocations")
+drawn = [row for row in rows_of(at("s.csv")) if 0.05 < sum(x * x for x in vector(row, "fx", "fy", "fz")) ** 0.5 <= 0.1 + 1e-9]
+check(drawn, "no vertex draws the hand")
+run(MESH, "--replay", at("s.rec"), "--trace", at("t.csv"))
+check(strip(rows_of(at("s.csv"))) == strip(rows_of(at("t.csv"))), "a replay has the same snap")
+check("is not passive" in run(MESH, "--no-wait", "--snap", 0.004, 10, code=7).stderr, "a snap too steep is refused")
+run(MESH, "--no-wait", "--snap", -1, code=2)
 run(MESH, "--no-wait", "--virtual-mass", "nan", code=2)
 run(MESH, "--no-wait", "--stiffness", 100000, code=7)
 run(MESH, "--nonsense", code=2)

@@ -3,8 +3,7 @@
 #define HAPTIC_SCULPT_DEVICE_CONDITIONING_H
 
 #include <haptic_sculpt/device/jacobian.h>
-
-#include <Eigen/SVD>
+#include <haptic_sculpt/device/linear_algebra/singular_values.h>
 
 namespace haptic_sculpt {
 
@@ -45,11 +44,11 @@ Outcome<Conditioning<S>> conditioning(const Device_parameters<S>& parameters, co
   S greatest;
   if (parameters.form() == Device_form::ditetrahedral) {
     const Device_matrix<S> a = pose.links.transpose();
-    const Device_vector<S> values = Eigen::JacobiSVD<Device_matrix<S>>(a).singularValues();
+    const Device_vector<S> values = internal::singular_values<S, 3>(a);
     greatest = values[0], c.distance_to_singular = values[2];
   } else {
-    const Eigen::Matrix<S, 6, 6> a = internal::constraint_matrix(parameters, pose);
-    const Eigen::Matrix<S, 6, 1> values = Eigen::JacobiSVD<Eigen::Matrix<S, 6, 6>>(a).singularValues();
+    const Eigen::Matrix<S, 6, 1> values =
+        internal::singular_values<S, 6>(internal::constraint_matrix(parameters, pose));
     greatest = values[0], c.distance_to_singular = values[5];
   }
   for (int leg = 0; leg < 3; ++leg) {
@@ -82,7 +81,7 @@ template <class S> struct Translation_conditioning {
 /// Extreme singular values and condition number of the position Jacobian. About a microsecond in double; no allocation.
 /// \pre the Jacobian is finite, as that of a success is
 template <class S> Translation_conditioning<S> translation_conditioning(const Device_jacobian<S>& jacobian) {
-  const Device_vector<S> values = Eigen::JacobiSVD<Device_matrix<S>>(jacobian.linear).singularValues();
+  const Device_vector<S> values = internal::singular_values<S, 3>(jacobian.linear);
   const S condition = values[2] > S(0) ? S(values[0] / values[2]) : std::numeric_limits<S>::infinity();
   return {values[0], values[2], condition};
 }
