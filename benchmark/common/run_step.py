@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER] [--minutes M]
+"""Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER [--repair]] [--minutes M]
 
 The report appears when it is whole. Beside it go FILE.log, what the program printed, and FILE.note, the command and how
 it went. A broken promise is a result; a program that dies is named in FILE.failed, with the command that repeats it.
@@ -50,6 +50,7 @@ def main():
     parser.add_argument("--build", required=True)
     parser.add_argument("--json", required=True, type=pathlib.Path)
     parser.add_argument("--meshes", default="")
+    parser.add_argument("--repair", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=0, help="for all shards of the step together; 0: no bound")
     options = parser.parse_args()
@@ -63,7 +64,7 @@ def main():
     unfinished = options.json.with_suffix(".unfinished")
     unfinished.unlink(missing_ok=True)
     words, extra = steps.command_of(step, options.mode, options.shard, options.shards, options.build, options.meshes, options.seed,
-                                    str(unfinished))
+                                    str(unfinished), options.repair)
     shown = " ".join([*(f"{k}={v}" for k, v in extra.items()), shlex.join(words)])
     begin = time.time()
     with open(options.json.with_suffix(".log"), "wb") as log:

@@ -28,6 +28,7 @@ class Step:
     quick: Effort = None
     full: Effort = None
     with_meshes: str = ""  # options added where there is a folder of meshes
+    with_repair: str = ""  # and where those of them that are refused are to be repaired
     environment: dict = field(default_factory=dict)  # {seed_of_shard} and {share} of `count` are put in
     promise: str = ""  # of a program without a report: what its exit code 0 says
     count: dict = field(default_factory=dict)  # how many of these by mode, in all shards
@@ -55,11 +56,12 @@ def chosen_steps(mode, names):
     return [s for s in chosen if not names or s.name in names or s.part in names]
 
 
-def command_of(step, mode, shard, shards, build, meshes, seed, json):
+def command_of(step, mode, shard, shards, build, meshes, seed, json, repair=False):
     """(words, environment) of one shard."""
     effort = step.effort(mode)
     words = [str(pathlib.Path(build) / step.folder / step.program)]
     options = effort.options + (" " + step.with_meshes if meshes and step.with_meshes else "")
+    options += " " + step.with_repair if meshes and repair else ""
     words += options.format(seed=seed, meshes=meshes).split()
     environment = {name: value.format(seed_of_shard=seed * 1000 + shard, share=step.count.get(mode, 0) // shards)
                    for name, value in step.environment.items()}

@@ -25,7 +25,7 @@ def drags_and_edits(report):
              seconds_text(r["mean_ns"] * 1e-9) if r.get("mean_ns") else ""] for r in report["meshes"]]
     tables = [Table("Meshes", ["mesh", "faces", "drags", "blocked", "mixed edits", "not valid after", "largest stop error, clearances", "mean drag"], rows)]
     if report["refused"]:
-        tables.append(Table("Meshes refused", ["file", "had to be", "reason"], [[r["file"], "yes" if r["has_to_be"] else "no", r["reason"]] for r in report["refused"]]))
+        tables.append(Table("Meshes refused", ["file", "had to be", "repaired", "reason"], [[r["file"], *("yes" if r[key] else "no" for key in ("has_to_be", "repaired")), r["reason"]] for r in report["refused"]]))
     how = "" if report["response"] == "slide" else f", response {report['response']},"
     said = "no promise broke" if not broken else "broken: " + "; ".join(p["promise"] for p in broken)
     return [of_promises("drags", report, f"In {drags:,} drags and {edits:,} mixed edits of {meshes} hard meshes{how} {said}.", str(len(broken)),

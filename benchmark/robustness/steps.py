@@ -7,7 +7,7 @@ STEPS = [
          tiny=Effort("--hard --drags 60 --edits 60 --batch 20 --edit-batch 20 --seed {seed}", shards=3),
          quick=Effort("--hard --drags 2000 --edits 500 --drags-on-large 200 --edits-on-large 20 --dump failures --seed {seed}", 10, shards=2),
          full=Effort("--hard --drags 4200000 --edits 100000 --extreme 20000 --dump failures --seed {seed}", 480, shards=1024),
-         with_meshes="--meshes {meshes}"),
+         with_meshes="--meshes {meshes}", with_repair="--repair"),
     *(Step(f"drags_with_{response}", "robustness",
            full=Effort(f"--hard --drags 100000 --edits 20000 --response {response} --dump failures --seed {{seed}}", 120, shards=64))
       for response in ("stop", "paper")),

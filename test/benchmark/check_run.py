@@ -137,6 +137,8 @@ def own_meshes(out, folder):
     expect(done.returncode == 4 and "what is embedded is accepted" in done.stderr, f"a mesh that is refused: exit {done.returncode}, {done.stderr}")
     expect("open.off" in page and "Meshes refused" in page, "the page does not list the mesh that is refused")
     expect("tetrahedron.off" in page, "the page does not list the mesh that is accepted")
+    repaired = run(out, "drags_and_edits", "--meshes", str(meshes), "--repair")
+    expect(repaired.returncode == 0 and "open.off, repaired" in (out / "index.html").read_text(), f"a mesh that is repaired: exit {repaired.returncode}, {repaired.stderr}")
 
 
 def answers(out, folder):

@@ -9,6 +9,7 @@
 #include "Shard.h"
 
 #include <haptic_sculpt/surface.h>
+#include <haptic_sculpt/surface/repair.h>
 
 #include <cmath>
 #include <iostream>
@@ -41,7 +42,7 @@ struct Options {
               edit_batch = 5000;
   std::uint64_t seed = 1;
   std::vector<std::string> refuse;
-  bool has_hard_meshes = false;
+  bool has_hard_meshes = false, repairs = false;
   benchmark::Shard shard;
 };
 
@@ -95,8 +96,10 @@ public:
         mesh(name, read);
       } catch (const Invalid_surface& error) {
         std::cout << name << ": refused: " << error.what() << '\n';
-        ++files_read_, wrongly_refused_ += !has_to_be_refused;
-        refused_.push_back({{"file", name}, {"has_to_be", has_to_be_refused}, {"reason", error.what()}});
+        const bool is_repaired = options_.repairs && repaired(name, file);
+        ++files_read_, wrongly_refused_ += !has_to_be_refused && !is_repaired;
+        refused_.push_back(
+            {{"file", name}, {"has_to_be", has_to_be_refused}, {"repaired", is_repaired}, {"reason", error.what()}});
       }
     }
   }
@@ -133,6 +136,16 @@ public:
   }
 
 private:
+  /// Works on what repair() makes of a refused file. \return whether that is a mesh
+  bool repaired(const std::string& name, const std::filesystem::path& file) {
+    Face_soup soup = read_face_soup(file);
+    const Repair_report report = repair(soup);
+    std::cout << name << ": " << report.message() << '\n';
+    if (report.is_repaired())
+      mesh(name + ", repaired", make_surface<Mesh>(soup), true);
+    return report.is_repaired();
+  }
+
   Options options_;
   benchmark::Shard shard_;
   Response response_;

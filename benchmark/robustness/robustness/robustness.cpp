@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
       "the result of a drag contradicts itself.");
   app.add_option("--meshes", options.folder, "Folder of meshes to work on, beside the generated ones")
       ->check(CLI::ExistingDirectory);
+  app.add_flag("--repair", options.repairs, "Files of the folder that are refused are repaired, and worked on then");
   app.add_option("--refuse", options.refuse, "File names in the folder that have to be refused");
   app.add_option("--drags", options.drags, "Drags on each mesh")->capture_default_str();
   app.add_option("--drags-on-large", options.drags_on_large, "Drags on meshes of 200,000 faces or more")
