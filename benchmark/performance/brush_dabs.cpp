@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CPU time of dabs with each brush at random places of a mesh, each of about as many vertices, and the share of the way
 // that is gone; the mesh is validated at the end.
+#include "Promises.h"
+#include "Shard.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/sculpting.h>
@@ -24,7 +26,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr int not_embedded = 10, cannot_write = 5;
 
-double milliseconds() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double milliseconds() {
+  return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 double quantile(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
@@ -39,7 +43,7 @@ double radius_about(const Mesh& mesh, Vertex_index centre, std::size_t vertices,
     const double ratio = static_cast<double>(vertices) / touched;
     if (std::abs(ratio - 1) < 0.02)
       break;
-    dab.radius *= std::sqrt(std::sqrt(ratio)) ; // of a surface the root; half of that, lest it swings
+    dab.radius *= std::sqrt(std::sqrt(ratio)); // of a surface the root; half of that, lest it swings
   }
   return dab.radius;
 }
@@ -57,25 +61,38 @@ int main(int argc, char** argv) {
   std::size_t dabs = 1000, vertices = 5000;
   std::uint64_t seed = 1;
   bool drags = false;
-  CLI::App app("Times dabs with each brush. Exit codes: 0; 5 the report cannot be written; 10 the mesh is not valid at the end.");
+  CLI::App app("Times dabs with each brush. Exit codes: 0; 5 the report cannot be written; 10 the mesh is not valid at "
+               "the end.");
   app.add_option("--mesh", file, "OFF, OBJ or PLY; hills on a sphere where none is given");
-  app.add_option("--level", level, "of the hills: 20 * 4^level triangles")->check(CLI::Range(2, 9))->capture_default_str();
+  app.add_option("--level", level, "of the hills: 20 * 4^level triangles")
+      ->check(CLI::Range(2, 9))
+      ->capture_default_str();
   app.add_option("--dabs", dabs, "with each brush")->check(CLI::Range(1, 1000000))->capture_default_str();
-  app.add_option("--vertices", vertices, "in a dab, approximately")->check(CLI::Range(8, 10000000))->capture_default_str();
+  app.add_option("--vertices", vertices, "in a dab, approximately")
+      ->check(CLI::Range(8, 10000000))
+      ->capture_default_str();
   app.add_option("--seed", seed, "of the places")->capture_default_str();
   app.add_flag("--drags", drags, "what is held back is brought on by smaller steps, drags and slides");
   app.add_option("--json", json, "where the report goes, too");
+  benchmark::Shard shard;
+  shard.add_option(app, "brush");
   CLI11_PARSE(app, argc, argv);
 
-  const Mesh start = file.empty() ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
-                                  : read_surface<Mesh>(file);
+  const Mesh start = file.empty()
+                         ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
+                         : read_surface<Mesh>(file);
   const auto parameters = Move_parameters().drags(drags);
-  std::mt19937_64 random(seed);
+  benchmark::Promises promises;
+  std::size_t asked = 0, broken = 0;
   Json rows = Json::array();
-  int exit_code = 0;
-  std::printf("%zu triangles, seed %llu; milliseconds of a dab\n%-8s %8s %8s %8s %8s %8s %10s\n", start.number_of_faces(),
-              static_cast<unsigned long long>(seed), "brush", "vertices", "p50", "p99", "max", "share", "valid");
+  std::printf("%zu triangles, seed %llu; milliseconds of a dab\n%-8s %8s %8s %8s %8s %8s %10s\n",
+              std::size_t{start.number_of_faces()}, static_cast<unsigned long long>(seed), "brush", "vertices", "p50",
+              "p99", "max", "share", "valid");
   for (const char* const name : {"grab", "inflate", "smooth", "flatten", "pinch"}) {
+    const std::size_t unit = shard.next_unit();
+    if (!shard.takes_next())
+      continue;
+    std::mt19937_64 random(seed * 1000003 + unit);
     Mesh mesh = start;
     Sculptor<Mesh> sculptor(mesh, Sculptor_parameters().known_valid(true));
     Tally tally;
@@ -91,26 +108,42 @@ int main(int argc, char** argv) {
                                                             : 1;
       const std::array<Dab_3<Kernel>, 1> dab{{{kind, mesh.point(v), radius, strength, {}}}};
       const double begin = milliseconds();
-      const Move_report report = apply_brush(sculptor, dab, boost::static_property_map<double, Vertex_index>(1.0), parameters);
+      const Move_report report =
+          apply_brush(sculptor, dab, boost::static_property_map<double, Vertex_index>(1.0), parameters);
       tally.times.push_back(milliseconds() - begin);
       tally.touched.push_back(static_cast<double>(report.asked));
       tally.asked += report.asked_l2 * report.asked_l2, tally.left += report.left_l2 * report.left_l2;
     }
     const bool is_valid = validate(mesh).is_valid();
     const double share = 1 - std::sqrt(tally.left / tally.asked);
-    exit_code = is_valid ? exit_code : not_embedded;
-    rows.push_back({{"brush", name}, {"dabs", dabs}, {"vertices_p50", quantile(tally.touched, 0.5)},
-                    {"ms_p50", quantile(tally.times, 0.5)}, {"ms_p99", quantile(tally.times, 0.99)},
-                    {"ms_max", quantile(tally.times, 1)}, {"share_of_the_way", share}, {"is_valid", is_valid}});
-    std::printf("%-8s %8.0f %8.2f %8.2f %8.2f %8.4f %10s\n", name, quantile(tally.touched, 0.5), quantile(tally.times, 0.5),
-                quantile(tally.times, 0.99), quantile(tally.times, 1), share, is_valid ? "yes" : "NO");
+    ++asked, broken += !is_valid;
+    rows.push_back({{"unit", unit},
+                    {"brush", name},
+                    {"dabs", dabs},
+                    {"vertices_p50", quantile(tally.touched, 0.5)},
+                    {"ms_p50", quantile(tally.times, 0.5)},
+                    {"ms_p99", quantile(tally.times, 0.99)},
+                    {"ms_max", quantile(tally.times, 1)},
+                    {"share_of_the_way", share},
+                    {"is_valid", is_valid}});
+    std::printf("%-8s %8.0f %8.2f %8.2f %8.2f %8.4f %10s\n", name, quantile(tally.touched, 0.5),
+                quantile(tally.times, 0.5), quantile(tally.times, 0.99), quantile(tally.times, 1), share,
+                is_valid ? "yes" : "NO");
     std::fflush(stdout);
   }
+  promises.add(not_embedded, "a mesh is embedded after all dabs", asked, broken);
   if (!json.empty()) {
     std::ofstream out(json);
-    out << Json{{"triangles", start.number_of_faces()}, {"seed", seed}, {"rows", rows}}.dump(1) << '\n';
+    out << Json{{"triangles", start.number_of_faces()},
+                {"seed", seed},
+                {"shard", shard.text()},
+                {"rows", rows},
+                {"promises", promises.json()},
+                {"exit", promises.exit()}}
+               .dump(1)
+        << '\n';
     if (!out.flush())
       return cannot_write;
   }
-  return exit_code;
+  return promises.exit();
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time by the clock of axis moves of all vertices and of validation, with one thread after the other number of threads
 // in turn, and whether each number makes the same bits.
+#include "Promises.h"
+#include "Shard.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/sculpting.h>
@@ -93,37 +95,48 @@ int main(int argc, char** argv) {
   app.add_option("--level", level, "of the hills: 20 * 4^level triangles")
       ->check(CLI::Range(2, 9))
       ->capture_default_str();
-  app.add_option("--moves", moves, "the median of this many is taken")->check(CLI::Range(1, 1000))->capture_default_str();
+  app.add_option("--moves", moves, "the median of this many is taken")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   app.add_option("--threads", threads, "numbers of threads, e.g. 1,2,4")
       ->delimiter(',')
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--seed", seed, "of the motions")->capture_default_str();
   app.add_option("--json", json, "where the report goes, too");
+  haptic_sculpt::benchmark::Shard shard;
+  shard.add_option(app, "number of threads");
   CLI11_PARSE(app, argc, argv);
 
   const Mesh mesh = file.empty()
                         ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
                         : read_surface<Mesh>(file);
-  std::printf("%zu triangles, seed %llu; seconds by the clock\n%-8s %10s %10s %10s %10s\n", mesh.number_of_faces(),
-              static_cast<unsigned long long>(seed), "threads", "shift", "held back", "validate", "same bits");
+  std::printf("%zu triangles, seed %llu; seconds by the clock\n%-8s %10s %10s %10s %10s\n",
+              std::size_t{mesh.number_of_faces()}, static_cast<unsigned long long>(seed), "threads", "shift",
+              "held back", "validate", "same bits");
   const Times alone = times_of<CGAL::Sequential_tag>(mesh, seed, moves);
   Json rows = Json::array();
-  int exit_code = alone.points.empty() ? other_bits : 0;
+  if (alone.points.empty())
+    return other_bits;
+  std::size_t asked = 0, broken = 0;
   const auto tell = [&](int count, const Times& times) {
     const bool is_same = times.points == alone.points;
-    exit_code = is_same ? exit_code : other_bits;
+    ++asked, broken += !is_same;
     std::printf("%-8s %10.3f %10.3f %10.3f %10s\n", count == 0 ? "none" : std::to_string(count).c_str(), times.shift,
                 times.held_back, times.validation, is_same ? "yes" : "NO");
-    rows.push_back({{"threads", count},
+    rows.push_back({{"unit", shard.next_unit() - 1},
+                    {"threads", count},
                     {"shift_s", times.shift},
                     {"held_back_s", times.held_back},
                     {"validate_s", times.validation},
                     {"same_bits", is_same}});
   };
-  tell(0, alone);
+  if (shard.takes_next())
+    tell(0, alone);
 #ifdef CGAL_LINKED_WITH_TBB
   for (const int count : threads) {
+    if (!shard.takes_next())
+      continue;
     const tbb::global_control most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
     tbb::task_arena arena(count);
     Times times;
@@ -133,11 +146,20 @@ int main(int argc, char** argv) {
 #else
   std::printf("compiled without oneTBB: nothing is shared\n");
 #endif
+  haptic_sculpt::benchmark::Promises promises;
+  promises.add(other_bits, "any number of threads makes the same bits", asked, broken);
   if (!json.empty()) {
     std::ofstream out(json);
-    out << Json{{"triangles", mesh.number_of_faces()}, {"seed", seed}, {"rows", rows}}.dump(1) << '\n';
+    out << Json{{"triangles", mesh.number_of_faces()},
+                {"seed", seed},
+                {"shard", shard.text()},
+                {"rows", rows},
+                {"promises", promises.json()},
+                {"exit", promises.exit()}}
+               .dump(1)
+        << '\n';
     if (!out.flush())
       return cannot_write;
   }
-  return exit_code;
+  return promises.exit();
 }

@@ -89,6 +89,19 @@ def kill_and_resume(out):
     return done
 
 
+def options_are_known():
+    """Every program takes what its steps give it, in every mode."""
+    sys.path.insert(0, str(ROOT / "benchmark/common"))
+    import steps
+    for step in steps.all_steps().values():
+        if step.promise:  # a test
+            continue
+        text = subprocess.run([str(BUILD / "benchmark" / step.program), "--help"], capture_output=True, text=True).stdout
+        efforts = " ".join(step.effort(mode).options for mode in steps.MODES if step.effort(mode))
+        for option in {"--json", "--shard", *re.findall("--[a-z-]+", f"{efforts} {step.with_meshes} {step.with_repair}")}:
+            expect(option in text, f"{step.program} of step {step.name} has no {option}")
+
+
 def little_time(out):
     """What does not fit is listed, and made by the same command with more time."""
     little = run(out, "axis", "device", "--minutes", "0.0001")
@@ -171,6 +184,7 @@ def main():
         folder = pathlib.Path(place)
         kill_and_resume(folder / "resumed")
         check_page(folder / "resumed")
+        options_are_known()
         little_time(folder / "little_time")
         death(folder / "death", folder)
         own_meshes(folder / "own", folder)
