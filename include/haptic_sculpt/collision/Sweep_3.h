@@ -18,8 +18,10 @@ namespace haptic_sculpt {
 ///
 /// Exact for all finite doubles. `s == t` is allowed: then the question is whether the closed sets meet, and the time
 /// is 0. \tparam feature which pair of features meets \tparam K a CGAL kernel with `FT` = double \tparam Counters where
-/// filter failures are counted Cost: constant; 5 orientation signs at most outside of flat cases.
-template <Impact_feature feature, class K, class Counters = No_filter_counters>
+/// filter failures are counted \tparam Mode sets the mode of rounding while it decides. Cost: constant; 5 orientation
+/// signs at most outside of flat cases.
+template <Impact_feature feature, class K, class Counters = No_filter_counters,
+          class Mode = internal::Rounding_to_nearest>
 class Sweep_3 {
 public:
   using Point_3 = typename K::Point_3;            ///< of the kernel; its coordinates are doubles
@@ -27,12 +29,16 @@ public:
 
   /// \param counters where to count, if anywhere; has to outlive this
   explicit Sweep_3(Counters* counters = nullptr) : counters_(counters) {}
+  /// The same sweep that sets the mode of rounding in another way.
+  template <class Other_mode>
+  explicit Sweep_3(const Sweep_3<feature, K, Counters, Other_mode>& other) : counters_(other.counters()) {}
+  Counters* counters() const { return counters_; } ///< where is counted; nullptr: nowhere
 
   /// The first impact, or nothing when the closed sets do not meet.
   /// \pre all coordinates are finite; the ends of a still edge, of an edge that a moving face has, differ
   result_type operator()(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b,
                          const Point_3& c) const {
-    const internal::Rounding_to_nearest rounding;
+    [[maybe_unused]] const Mode rounding{};
     const internal::Sweep_points points = checked_points(s, t, a, b, c);
     const internal::Sweep_verdict verdict = decide(points);
     if (!verdict.hits)
@@ -42,7 +48,7 @@ public:
 
   /// Whether the closed sets meet: the same answer as operator(), without building the impact.
   bool do_collide(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b, const Point_3& c) const {
-    const internal::Rounding_to_nearest rounding;
+    [[maybe_unused]] const Mode rounding{};
     return decide(checked_points(s, t, a, b, c)).hits;
   }
 

@@ -18,8 +18,10 @@
 /// \cond internal
 #if defined(__GNUC__)
 #define HAPTIC_SCULPT_NOINLINE __attribute__((noinline)) // keeps what stands before it small enough to inline
+#define HAPTIC_SCULPT_ALWAYS_INLINE inline __attribute__((always_inline)) // GCC calls what is used in a few places
 #else
 #define HAPTIC_SCULPT_NOINLINE
+#define HAPTIC_SCULPT_ALWAYS_INLINE inline
 #endif
 /// \endcond
 
@@ -56,7 +58,8 @@ inline double largest_magnitude(double a, double b, double c) {
 }
 
 /// The 3x3 determinant of rows b, c, d of differences.
-inline Enclosed_determinant enclosed_determinant_3(const Coordinates& b, const Coordinates& c, const Coordinates& d) {
+HAPTIC_SCULPT_ALWAYS_INLINE Enclosed_determinant enclosed_determinant_3(const Coordinates& b, const Coordinates& c,
+                                                                        const Coordinates& d) {
   const double mx = largest_magnitude(b[0], c[0], d[0]);
   const double my = largest_magnitude(b[1], c[1], d[1]);
   const double mz = largest_magnitude(b[2], c[2], d[2]);

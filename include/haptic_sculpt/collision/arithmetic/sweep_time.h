@@ -24,8 +24,24 @@ constexpr double unit_roundoff_any_rounding = 0x1p-52;
 /// An enclosure of the time wider than this (absolute, times are in [0, 1]) is computed anew from the exact ratio.
 constexpr double widest_filtered_time = 0x1p-40;
 
-/// f at the moving vertex's start (`end == 0`) or target (`end == 1`), in doubles. \param unit a power of two, by which
-/// differences are multiplied: what underflows then is far less than what is safe
+inline Enclosed_determinant enclosed_difference(double value) {
+  const double magnitude = std::abs(value);
+  const double error = unit_roundoff_any_rounding * magnitude; // itself 0 by underflow where the value is not safe
+  return {value, error, value == 0 || (magnitude >= least_safe_difference && magnitude <= largest_safe_difference)};
+}
+
+/// f at the moving vertex's start (`end == 0`) or target (`end == 1`), in doubles.
+inline Enclosed_determinant enclosed_time_function(const Sweep_points& p, const Sweep_verdict& verdict, int end) {
+  const auto& through = verdict.through;
+  if (verdict.form == Time_form::plane)
+    return enclosed_orientation_3(p[through[0]], p[through[1]], p[through[2]], p[end]);
+  if (verdict.form == Time_form::line)
+    return enclosed_orientation_2(p[through[0]], p[through[1]], p[end], verdict.axis);
+  return enclosed_difference(p[end][verdict.axis] - p[through[0]][verdict.axis]);
+}
+
+/// The same in another unit. \param unit a power of two, by which differences are multiplied: what underflows then is
+/// far less than what is safe
 inline Enclosed_determinant enclosed_time_function(const Sweep_points& p, const Sweep_verdict& verdict, int end,
                                                    double unit) {
   const auto& through = verdict.through;
@@ -37,9 +53,7 @@ inline Enclosed_determinant enclosed_time_function(const Sweep_points& p, const 
     return enclosed_determinant_3(from(p[through[1]]), from(p[through[2]]), from(p[end]));
   if (verdict.form == Time_form::line)
     return enclosed_orientation_2(Coordinates{}, from(p[through[1]]), from(p[end]), verdict.axis);
-  const double value = from(p[end])[verdict.axis], magnitude = std::abs(value);
-  const double error = unit_roundoff_any_rounding * magnitude; // itself 0 by underflow where the value is not safe
-  return {value, error, value == 0 || (magnitude >= least_safe_difference && magnitude <= largest_safe_difference)};
+  return enclosed_difference(from(p[end])[verdict.axis]);
 }
 
 /// That of the largest difference that the time depends on.
@@ -129,8 +143,7 @@ inline std::pair<double, double> tight_time(const Sweep_points& p, const Sweep_v
 inline std::pair<double, double> filtered_time(const Sweep_points& p, const Sweep_verdict& verdict) {
   if (verdict.form == Time_form::at_start)
     return {0, 0};
-  Enclosed_determinant start = enclosed_time_function(p, verdict, 0, 1),
-                       target = enclosed_time_function(p, verdict, 1, 1);
+  Enclosed_determinant start = enclosed_time_function(p, verdict, 0), target = enclosed_time_function(p, verdict, 1);
   if (start.is_safe && start.error == 0)
     return {0, 0};
   if (target.is_safe && target.error == 0)

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
 #define HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
 
+#include <haptic_sculpt/collision/In_set_mode.h>
 #include <haptic_sculpt/sculpting/Star_impact.h>
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
 #include <haptic_sculpt/sculpting/geometry/Work.h>
@@ -14,8 +15,8 @@ namespace internal {
 /// A pair is left out only when its boxes do not meet, which is decided exactly, when a plane lies certainly between
 /// its two, when it cannot come first any more, or when it shares a vertex that makes its meeting no collision: faces
 /// incident to the moving vertex, edges at the far end of the moving edge. All of this is exact whatever the traits;
-/// they decide the pairs that are left, and which of two impacts is first. \tparam Traits a model of
-/// SweptCollisionTraits_3
+/// they decide the pairs that are left, and which of two impacts is first.
+/// \tparam Traits a model of SweptCollisionTraits_3 \pre of all functions: a Rounding_to_nearest lives
 template <class Mesh, class Traits = Exact_sweep_traits<Mesh>>
 class Narrow_phase {
 public:
@@ -72,11 +73,11 @@ public:
 private:
   using Vertices = std::array<Vertex_index, 3>;
   using Point_3 = typename Mesh::Point;
-  using Compare_time = typename Traits::Compare_time_3;
+  using Compare_time = typename In_set_mode<typename Traits::Compare_time_3>::type;
 
-  typename Traits::Vertex_face_sweep_3 vertex_face_;
-  typename Traits::Edge_edge_sweep_3 edge_edge_;
-  typename Traits::Face_vertex_sweep_3 face_vertex_;
+  typename In_set_mode<typename Traits::Vertex_face_sweep_3>::type vertex_face_;
+  typename In_set_mode<typename Traits::Edge_edge_sweep_3>::type edge_edge_;
+  typename In_set_mode<typename Traits::Face_vertex_sweep_3>::type face_vertex_;
   Compare_time compare_time_;
   Star_runs<Mesh> runs_;
   Work work_;
@@ -114,7 +115,7 @@ private:
         firsts.clear();
       if (order <= 0)
         firsts.emplace_back(vertices, *impact);
-      return order < 0 ? impact->time_bounds().second : whole_way;
+      return order < 0 ? time_bounds_in_set_mode(*impact).second : whole_way;
     }
   };
 
