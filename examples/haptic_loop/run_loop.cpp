@@ -71,6 +71,7 @@ public:
     Scene scene(read_surface<Mesh>(plan_.mesh), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
       return map_of(settings_, lower, upper, device_, *home_);
     });
+    keep_vertex_attributes(scene.sculptor);
     if (const std::string told = log_->resume(scene); !told.empty())
       writer_.note(told);
     Haptic_parameters parameters;

@@ -20,7 +20,9 @@ class Script_runner {
 public:
   using Result = Drag_result<Mesh>;
 
-  Script_runner(Mesh& mesh, const Sculptor_parameters& parameters) : mesh_(mesh), sculptor_(mesh, parameters) {}
+  Script_runner(Mesh& mesh, const Sculptor_parameters& parameters) : mesh_(mesh), sculptor_(mesh, parameters) {
+    keep_vertex_attributes(sculptor_);
+  }
 
   Run_result run(const std::vector<Command>& script, const After_command& after) {
     Progress progress(script.size());

@@ -221,6 +221,10 @@ int sculpt(const Arguments& arguments) {
   if (const std::string remarks = found.remarks(); !remarks.empty())
     writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are. --orient turns components "
                 "over that are inside out, of which the brush `inflate` makes less");
+  if (const auto format = mesh_file_format(arguments.out))
+    for (const std::string& word : attributes_not_held(mesh, *format))
+      if (std::find(left_out.begin(), left_out.end(), word) == left_out.end())
+        left_out.push_back(word);
   if (!arguments.out.empty() && !left_out.empty())
     writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh +
                 "' has besides its faces: " + listed(left_out));

@@ -12,6 +12,7 @@
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/guarded_point_map.h>
 #include <haptic_sculpt/sculpting/isotropic_remeshing.h>
+#include <haptic_sculpt/sculpting/keep_vertex_attributes.h>
 #include <haptic_sculpt/sculpting/move_rigidly.h>
 #include <haptic_sculpt/sculpting/move_vertices.h>
 

@@ -11,6 +11,7 @@
 #include <haptic_sculpt/surface/read_surface.h>
 #include <haptic_sculpt/surface/star.h>
 #include <haptic_sculpt/surface/validate.h>
+#include <haptic_sculpt/surface/vertex_attributes.h>
 #include <haptic_sculpt/surface/write_surface.h>
 
 #endif

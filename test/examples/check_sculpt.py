@@ -4,6 +4,7 @@
 import hashlib
 import json
 import os
+import struct
 import tempfile
 
 from program_runs import bytes_of, OCTAHEDRON, QUERIES, SOURCE, TETRAHEDRON, check, end, fails, points, run, surface, write
@@ -308,6 +309,16 @@ def what_people_read(folder, mesh):
         check(done.returncode == 0 and all(part in done.stderr and part in " ".join(notes) for part in parts), f"what {name} loses is not said: {done.stderr}")
         check(done.stderr.count("besides") == 1 and run(path).stderr == "", f"said too often, or where nothing is written: {done.stderr}")
     check(run(mesh, "-o", out).stderr == "", "something is said of nothing")
+    # Colours and other numbers of vertices go with them, to PLY all, to OBJ colours; a new vertex has the mean.
+    coloured = f"{folder}/f.ply"
+    for name, script in (("g.ply", "insert_edge 0 1 0.5 0 0\n"), ("h.obj", "insert_edge 0 1 0.5 0 0\n")):
+        done = run(coloured, "-o", f"{folder}/{name}", "--script", "-", script=script)
+        check(done.returncode == 0 and "colours" not in done.stderr or name == "h.obj", f"{name}: {done.stderr}")
+    text = open(f"{folder}/g.ply", "rb").read()
+    head, body = text.split(b"end_header\n", 1)
+    check(b"property uchar red\nproperty float heat\n" in head, f"attributes in the head: {head}")
+    rows = [struct.unpack("<dddBf", body[29 * i:29 * i + 29])[3:] for i in range(5)]
+    check(rows == [(255, 7), (2, 3), (2, 3), (2, 3), (128, 5)], f"attributes of vertices: {rows}")
     # Advice without functions of a library.
     for name in ("degenerate", "boundary", "crossing", "polygon"):
         text = {"degenerate": TETRAHEDRON.replace("0.1 0.1 1", "0.5 0 0"), "boundary": TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", ""),

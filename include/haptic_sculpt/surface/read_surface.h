@@ -12,6 +12,7 @@
 #include <haptic_sculpt/surface/io/parse_stl.h>
 #include <haptic_sculpt/surface/io/quoted.h>
 #include <haptic_sculpt/surface/validate.h>
+#include <haptic_sculpt/surface/vertex_attributes.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
@@ -67,7 +68,8 @@ inline Face_soup parse(std::string_view bytes, Mesh_file_format format) {
 } // namespace internal
 
 /// The surface as a mesh; vertices and faces keep their indices, and faces their first corners (STL numbers vertices by
-/// first appearance, so writing has to begin faces where reading did). \pre it is closed, 2-manifold and oriented
+/// first appearance, so writing has to begin faces where reading did). Attributes are vertex_attributes(). \pre it is
+/// closed, 2-manifold and oriented
 template <class Mesh>
 Mesh mesh_of(const Face_soup& soup) {
   using Vertex = typename Mesh::Vertex_index;
@@ -79,6 +81,11 @@ Mesh mesh_of(const Face_soup& soup) {
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (int k = 0; k < 3; ++k)
       faces[f][k] = Vertex(soup.begin(f)[k]);
+  for (const Vertex_attribute& attribute : soup.attributes) {
+    const auto map = add_vertex_attribute(mesh, attribute.name, attribute.type).map;
+    for (std::size_t v = 0; v < soup.points.size(); ++v)
+      put(map, Vertex(static_cast<typename Mesh::size_type>(v)), attribute.values[v]);
+  }
   CGAL::Euler::add_faces(faces, mesh);
   for (const auto f : mesh.faces()) {
     auto h = mesh.halfedge(f);
@@ -132,7 +139,8 @@ inline Face_soup read_face_soup(const std::filesystem::path& path) {
 ///
 /// Vertices and faces are numbered from 0 in file order. STL has no vertices: exactly equal corners become one,
 /// numbered by first appearance. Decimals are read to the nearest double, so what `write_surface()` wrote comes back
-/// bit for bit, whatever rounding mode the caller has set. Vertices without faces are refused; repair() leaves
+/// bit for bit, whatever rounding mode the caller has set. Colours and other numbers of the vertices of PLY and OBJ are
+/// property maps then (vertex_attributes()). Vertices without faces are refused; repair() leaves
 /// them out.
 ///
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`

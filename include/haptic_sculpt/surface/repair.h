@@ -5,6 +5,7 @@
 #include <haptic_sculpt/no_fast_math.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/read_surface.h>
+#include <haptic_sculpt/surface/repair/copy_attributes.h>
 #include <haptic_sculpt/surface/repair/Repairer.h>
 
 #include <string>
@@ -64,6 +65,7 @@ inline Repair_report repair(Face_soup& soup, const Repair_parameters& parameters
   Repair_report report = internal::repaired(soup, parameters, result);
   if (report.is_repaired() && !report.steps.empty()) {
     result.left_out = std::move(soup.left_out);
+    internal::copy_attributes(soup, result);
     soup = std::move(result);
   }
   return report;

@@ -5,8 +5,10 @@
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
+#include <haptic_sculpt/surface/io/format_attributes.h>
 #include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/surface/validate.h>
+#include <haptic_sculpt/surface/vertex_attributes.h>
 
 #include <boost/range/iterator_range.hpp>
 
@@ -85,6 +87,11 @@ Face_soup compacted(const Mesh& mesh, const Write_options& options) {
   for (Face_soup::Index& corner : soup.corners)
     corner = place[corner];
   soup.points = std::move(points);
+  for (const auto& attribute : vertex_attributes(mesh)) {
+    soup.attributes.push_back({attribute.name, attribute.type, {}});
+    for (const auto v : order)
+      soup.attributes.back().values.push_back(rounded_to(attribute.type, get(attribute.map, v)));
+  }
   return soup;
 }
 
@@ -132,6 +139,10 @@ inline void prepare_ply(const Face_soup& soup, bool binary) {
 /// The text or bytes of the file, by CGAL's writers. They are given a stream of their own, in the C locale and with 17
 /// digits, which bring every double back.
 inline std::string file_contents(const Face_soup& soup, Mesh_file_format format, bool binary) {
+  if (format == Mesh_file_format::ply && !soup.attributes.empty())
+    return format_ply(soup, binary);
+  if (const auto colours = colours_of_obj(soup); format == Mesh_file_format::obj && colours)
+    return format_obj(soup, *colours);
   std::vector<boost::iterator_range<const Face_soup::Index*>> faces;
   faces.reserve(soup.number_of_faces());
   for (std::size_t f = 0; f < soup.number_of_faces(); ++f)
@@ -199,7 +210,8 @@ std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path, c
 /// `read_surface()` from every format but binary STL, which holds floats: there it is refused unless the coordinates
 /// are floats anyway, or `allow_rounding` is set and the rounded surface validates. ASCII STL holds 17 digits and is
 /// lossless, but numbers vertices anew, in order of first appearance. Removed elements are left out; vertices close up
-/// in index order or in `options.vertex_order`, faces in index order. An invalid surface is written as it is (and will
+/// in index order or in `options.vertex_order`, faces in index order. PLY holds all vertex_attributes(), OBJ colours,
+/// the other formats none (`attributes_not_held()`). An invalid surface is written as it is (and will
 /// not be read back), unless the format cannot hold it.
 ///
 /// \param path of the file; its folder has to exist. `replace_file()` says what becomes of links and permissions

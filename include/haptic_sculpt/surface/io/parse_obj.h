@@ -14,8 +14,9 @@
 namespace haptic_sculpt {
 namespace internal {
 
-/// Reads the text of a Wavefront OBJ file: its `v` and `f` lines. Texture coordinates, normals, colours, materials,
-/// groups and lines are skipped; free-form surfaces and lines continued by a backslash are refused. \throw Read_error
+/// Reads the text of a Wavefront OBJ file: its `v` and `f` lines, with colours of vertices. Texture coordinates,
+/// normals, materials, groups and lines are skipped; free-form surfaces and lines continued by a backslash are refused.
+/// \throw Read_error
 inline Face_soup parse_obj(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, const char*>, 12> left_out{{{"vt", "texture coordinates"},
                                                                                {"vn", "normals"},
@@ -31,6 +32,7 @@ inline Face_soup parse_obj(std::string_view text) {
                                                                                {"usemap", "materials"}}};
   Text_scanner scan(text);
   Face_soup soup;
+  std::array<Vertex_attribute, 3> colours{{{"red", {}, {}}, {"green", {}, {}}, {"blue", {}, {}}}};
   std::int64_t highest = -1;
   std::size_t face_with_highest = 0;
   while (scan.next_line()) {
@@ -47,8 +49,10 @@ inline Face_soup parse_obj(std::string_view text) {
         scan.fail("a vertex has 3 coordinates, not " + std::to_string(n));
       if (n % 3 == 1 && x[3] != 1)
         scan.fail("vertices with a weight other than 1 are not supported; divide the coordinates by it");
-      if (n >= 6)
-        soup.leave_out("colours");
+      for (std::size_t k = 0; n >= 6 && k < 3; ++k) {
+        colours[k].values.resize(soup.points.size()); // 0 where there was none
+        colours[k].values.push_back(x[n - 3 + k]);
+      }
       soup.add_point(x[0], x[1], x[2]);
     } else if (keyword == "f") {
       const auto face = std::to_string(soup.number_of_faces());
@@ -76,6 +80,11 @@ inline Face_soup parse_obj(std::string_view text) {
       scan.fail(in_quotes(keyword) + " is no line of an OBJ mesh");
     }
   }
+  for (Vertex_attribute& part : colours)
+    if (!part.values.empty()) {
+      part.type = Vertex_attribute::Type::float64, part.values.resize(soup.points.size());
+      soup.attributes.push_back(std::move(part));
+    }
   if (highest >= static_cast<std::int64_t>(soup.points.size()))
     throw Read_error("face " + std::to_string(face_with_highest) + " (counted from 0) names vertex " +
                      std::to_string(highest + 1) + ", but there are only " + std::to_string(soup.points.size()));

@@ -4,6 +4,7 @@
 
 #include <haptic_sculpt/surface/io/Binary_scanner.h>
 #include <haptic_sculpt/surface/io/Text_scanner.h>
+#include <haptic_sculpt/surface/io/attribute_in_words.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 namespace haptic_sculpt {
 namespace internal {
 
-enum class Ply_type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+using Ply_type = Vertex_attribute::Type;
 
 inline std::size_t size_of(Ply_type type) {
   constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
@@ -155,22 +156,9 @@ private:
   Binary_scanner scan_bytes_;
 };
 
-/// What is lost with a property, in words.
-inline std::string left_out_by_ply(const std::string& property) {
-  const auto is_one_of = [&](std::initializer_list<const char*> names) {
-    return std::find(names.begin(), names.end(), property) != names.end();
-  };
-  if (is_one_of({"nx", "ny", "nz"}))
-    return "normals";
-  if (is_one_of({"red", "green", "blue", "alpha", "diffuse_red", "diffuse_green", "diffuse_blue"}))
-    return "colours";
-  if (is_one_of({"s", "t", "u", "v", "texture_u", "texture_v", "texcoord", "texnumber"}))
-    return "texture coordinates";
-  return "the property " + in_quotes(property);
-}
-
-/// Reads a PLY file, ASCII or binary: x, y, z of the element `vertex`, and the list `vertex_indices` (or
-/// `vertex_index`) of the element `face`. Everything else is skipped. \throw Read_error
+/// Reads a PLY file, ASCII or binary: x, y, z and further numbers of the element `vertex`, and the list
+/// `vertex_indices` (or `vertex_index`) of the element `face`. Normals, which a drag makes wrong, and everything else
+/// is skipped. \throw Read_error
 inline Face_soup parse_ply(std::string_view bytes) {
   const Ply_header header = parse_ply_header(bytes);
   const bool text = header.encoding == Ply_header::Encoding::ascii;
@@ -205,16 +193,26 @@ inline Face_soup parse_ply(std::string_view bytes) {
       throw Read_error("the vertices lack one of the properties x, y and z");
     if (is_face && !indices)
       throw Read_error("the faces lack the list of integers 'vertex_indices'");
-    for (std::size_t i = 0; (is_vertex || is_face) && i < element.properties.size(); ++i)
-      if (!(is_vertex && (coordinate[0] == i || coordinate[1] == i || coordinate[2] == i)) &&
-          !(is_face && indices == i))
-        soup.leave_out(left_out_by_ply(element.properties[i].name));
+    std::vector<std::size_t> attributes; // properties by index
+    for (std::size_t i = 0; (is_vertex || is_face) && i < element.properties.size(); ++i) {
+      const Ply_property& property = element.properties[i];
+      if ((is_vertex && (coordinate[0] == i || coordinate[1] == i || coordinate[2] == i)) || (is_face && indices == i))
+        continue;
+      if (is_vertex && !property.length_type && attribute_in_words(property.name) != "normals") {
+        soup.attributes.push_back({property.name, property.type, {}});
+        attributes.push_back(i);
+      } else {
+        soup.leave_out(attribute_in_words(property.name));
+      }
+    }
     if (!is_vertex && !is_face && element.count > 0)
       soup.leave_out("the element " + in_quotes(element.name));
     has_vertices |= is_vertex;
     has_faces |= is_face;
     if (is_vertex)
       soup.points.reserve(element.count);
+    for (std::size_t k = 0; k < attributes.size(); ++k)
+      soup.attributes[k].values.reserve(element.count);
 
     const auto take = [&](Ply_type type, std::uint64_t item) {
       try {
@@ -247,6 +245,8 @@ inline Face_soup parse_ply(std::string_view bytes) {
       }
       if (is_vertex)
         soup.add_point(row[*coordinate[0]], row[*coordinate[1]], row[*coordinate[2]]);
+      for (std::size_t k = 0; k < attributes.size(); ++k)
+        soup.attributes[k].values.push_back(row[attributes[k]]);
       if (is_face)
         soup.close_face();
     }

@@ -2,6 +2,7 @@
 #ifndef HAPTIC_SCULPT_SURFACE_FACE_SOUP_H
 #define HAPTIC_SCULPT_SURFACE_FACE_SOUP_H
 
+#include <haptic_sculpt/surface/Vertex_attribute.h>
 #include <haptic_sculpt/surface/cgal_compatibility.h>
 
 #include <array>
@@ -25,6 +26,7 @@ struct Face_soup {
   std::vector<Point_3> points;        ///< in the order of the file
   std::vector<Index> corners;         ///< indices of points, face after face
   std::vector<Index> first_corner{0}; ///< one more than there are faces; the last is the number of corners
+  std::vector<Vertex_attribute> attributes; ///< of the points
   /// What the file has besides, e.g. "normals"; each once.
   std::vector<std::string> left_out;
 

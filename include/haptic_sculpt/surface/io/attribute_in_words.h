@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_ATTRIBUTE_IN_WORDS_H
+#define HAPTIC_SCULPT_SURFACE_ATTRIBUTE_IN_WORDS_H
+
+#include <haptic_sculpt/surface/io/quoted.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// What is lost with a property of a PLY file, for people.
+inline std::string attribute_in_words(const std::string& name) {
+  const auto is_one_of = [&](std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (is_one_of({"nx", "ny", "nz"}))
+    return "normals";
+  if (is_one_of({"red", "green", "blue", "alpha", "diffuse_red", "diffuse_green", "diffuse_blue"}))
+    return "colours";
+  if (is_one_of({"s", "t", "u", "v", "texture_u", "texture_v", "texcoord", "texnumber"}))
+    return "texture coordinates";
+  return "the property " + in_quotes(name);
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_FORMAT_ATTRIBUTES_H
+#define HAPTIC_SCULPT_SURFACE_FORMAT_ATTRIBUTES_H
+
+#include <haptic_sculpt/surface/validity/Face_soup.h>
+
+#include <cstring>
+#include <limits>
+#include <locale>
+#include <optional>
+#include <sstream>
+
+/// \file
+/// PLY and OBJ with attributes of vertices, which CGAL's writers of points and faces do not take.
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// In the C locale and with 17 digits, which bring every double back.
+inline std::ostringstream exact_stream() {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(std::numeric_limits<double>::max_digits10);
+  return out;
+}
+
+/// Numbers of PLY's types, as text or as bytes, the lowest first.
+class Ply_writer {
+public:
+  Ply_writer(std::ostringstream& out, bool binary) : out_(out), binary_(binary) {}
+
+  void put(Vertex_attribute::Type type, double x) {
+    using Type = Vertex_attribute::Type;
+    switch (type) {
+    case Type::int8:
+      return put_as<std::int8_t>(x);
+    case Type::uint8:
+      return put_as<std::uint8_t>(x);
+    case Type::int16:
+      return put_as<std::int16_t>(x);
+    case Type::uint16:
+      return put_as<std::uint16_t>(x);
+    case Type::int32:
+      return put_as<std::int32_t>(x);
+    case Type::uint32:
+      return put_as<std::uint32_t>(x);
+    case Type::float32:
+      return put_as<float>(x);
+    case Type::float64:
+      return put_as<double>(x);
+    }
+  }
+  void end_line() {
+    if (!binary_)
+      out_ << '\n';
+  }
+
+private:
+  std::ostringstream& out_;
+  bool binary_;
+
+  template <class Number>
+  void put_as(double x) {
+    const Number number = static_cast<Number>(x);
+    if (!binary_) {
+      out_ << +number << ' ';
+      return;
+    }
+    char bytes[sizeof number];
+    std::memcpy(bytes, &number, sizeof number);
+    out_.write(bytes, sizeof number);
+  }
+};
+
+/// \pre no face has more than 255 corners where it is binary
+inline std::string format_ply(const Face_soup& soup, bool binary) {
+  using Type = Vertex_attribute::Type;
+  const std::uint16_t one = 1;
+  char first = 0;
+  std::memcpy(&first, &one, 1);
+  std::ostringstream out = exact_stream();
+  out << "ply\nformat "
+      << (!binary      ? "ascii"
+          : first == 1 ? "binary_little_endian"
+                       : "binary_big_endian")
+      << " 1.0\nelement vertex " << soup.points.size() << "\nproperty double x\nproperty double y\nproperty double z\n";
+  for (const Vertex_attribute& attribute : soup.attributes)
+    out << "property " << name_of(attribute.type) << ' ' << attribute.name << '\n';
+  out << "element face " << soup.number_of_faces() << "\nproperty list " << (binary ? "uchar" : "uint")
+      << " uint vertex_indices\nend_header\n";
+  Ply_writer writer(out, binary);
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    for (int axis = 0; axis < 3; ++axis)
+      writer.put(Type::float64, soup.points[v][axis]);
+    for (const Vertex_attribute& attribute : soup.attributes)
+      writer.put(attribute.type, attribute.values[v]);
+    writer.end_line();
+  }
+  for (std::size_t f = 0; f < soup.number_of_faces(); ++f) {
+    writer.put(binary ? Type::uint8 : Type::uint32, static_cast<double>(soup.number_of_corners(f)));
+    for (const auto* corner = soup.begin(f); corner != soup.end(f); ++corner)
+      writer.put(Type::uint32, *corner);
+    writer.end_line();
+  }
+  return std::move(out).str();
+}
+
+/// Which attributes are red, green and blue; nothing unless all are there.
+inline std::optional<std::array<std::size_t, 3>> colours_of_obj(const Face_soup& soup) {
+  std::array<std::size_t, 3> colours{};
+  constexpr const char* names[] = {"red", "green", "blue"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    while (colours[k] < soup.attributes.size() && soup.attributes[colours[k]].name != names[k])
+      ++colours[k];
+    if (colours[k] == soup.attributes.size())
+      return std::nullopt;
+  }
+  return colours;
+}
+
+/// Colours from 0 to 1: the bytes of PLY are divided by 255.
+inline std::string format_obj(const Face_soup& soup, const std::array<std::size_t, 3>& colours) {
+  std::ostringstream out = exact_stream();
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    out << "v " << soup.points[v].x() << ' ' << soup.points[v].y() << ' ' << soup.points[v].z();
+    for (const std::size_t colour : colours) {
+      const Vertex_attribute& part = soup.attributes[colour];
+      out << ' ' << (part.type == Vertex_attribute::Type::uint8 ? part.values[v] / 255 : part.values[v]);
+    }
+    out << '\n';
+  }
+  for (std::size_t f = 0; f < soup.number_of_faces(); ++f) {
+    out << 'f';
+    for (const auto* corner = soup.begin(f); corner != soup.end(f); ++corner)
+      out << ' ' << *corner + std::size_t{1};
+    out << '\n';
+  }
+  return std::move(out).str();
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_SURFACE_COPY_ATTRIBUTES_H
+#define HAPTIC_SCULPT_SURFACE_COPY_ATTRIBUTES_H
+
+#include <haptic_sculpt/surface/validity/Face_soup.h>
+
+#include <CGAL/Kd_tree.h>
+#include <CGAL/Orthogonal_k_neighbor_search.h>
+#include <CGAL/Search_traits_3.h>
+#include <CGAL/Search_traits_adapter.h>
+#include <CGAL/property_map.h>
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Each point of `to` gets the values of the nearest point of `from`: its own, where it has not moved. Distances are
+/// rounded. \pre all points are finite
+inline void copy_attributes(const Face_soup& from, Face_soup& to) {
+  if (from.attributes.empty() || from.points.empty())
+    return;
+  using Entry = std::pair<Face_soup::Point_3, std::size_t>;
+  using Traits = CGAL::Search_traits_adapter<Entry, CGAL::First_of_pair_property_map<Entry>,
+                                             CGAL::Search_traits_3<Decision_kernel>>;
+  std::vector<Entry> entries;
+  for (std::size_t v = 0; v < from.points.size(); ++v)
+    entries.emplace_back(from.points[v], v);
+  CGAL::Kd_tree<Traits> tree(entries.begin(), entries.end());
+  to.attributes = from.attributes;
+  for (Vertex_attribute& attribute : to.attributes)
+    attribute.values.assign(to.points.size(), 0);
+  for (std::size_t v = 0; v < to.points.size(); ++v) {
+    const CGAL::Orthogonal_k_neighbor_search<Traits> nearest(tree, to.points[v], 1);
+    const std::size_t source = nearest.begin()->first.second;
+    for (std::size_t k = 0; k < to.attributes.size(); ++k)
+      to.attributes[k].values[v] = from.attributes[k].values[source];
+  }
+}
+
+} // namespace internal
+} // namespace haptic_sculpt
+
+#endif
