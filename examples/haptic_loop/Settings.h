@@ -4,6 +4,7 @@
 
 #include "../common/run_program.h"
 
+#include <haptic_sculpt/haptic_rendering/Vertex_snap.h>
 #include <haptic_sculpt/device/Device_parameters.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Hand_path.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Simulated_hand.h>

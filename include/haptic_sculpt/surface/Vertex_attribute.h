@@ -13,7 +13,7 @@ namespace haptic_sculpt {
 struct Vertex_attribute {
   /// Of the number in a file, as PLY names them.
   enum class Type : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-  static constexpr int number_of_types = 8;
+  static constexpr int number_of_types = 8; ///< of Type
   std::string name;           ///< as in the file, e.g. "red"
   Type type = Type::float64;  ///< values are doubles, which hold all of them exactly
   std::vector<double> values; ///< by index of the point

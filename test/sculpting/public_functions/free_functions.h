@@ -95,6 +95,22 @@ inline std::vector<Public_function> free_functions() {
                    for (const auto& p : face_soup(scene.mesh).points)
                      outcome.length(p.x()), outcome.length(p.y()), outcome.length(p.z());
                  }});
+  all.push_back({"add_vertex_attribute vertex_attributes keep_vertex_attributes attributes_not_held",
+                 [](double unit, Outcome& outcome) {
+                   Scaled_scene scene(unit);
+                   const auto red = add_vertex_attribute(scene.mesh, "red", Vertex_attribute::Type::uint8).map;
+                   for (const Vertex_index v : scene.mesh.vertices())
+                     put(red, v, v.idx() % 256);
+                   Sculptor<Mesh> sculptor(scene.mesh);
+                   keep_vertex_attributes(sculptor);
+                   const auto e = *scene.mesh.edges().begin();
+                   outcome.edit(
+                       sculptor.insert_on_edge(e, scene.middle(scene.mesh.vertex(e, 0), scene.mesh.vertex(e, 1))));
+                   for (const auto& attribute : vertex_attributes(scene.mesh))
+                     for (const Vertex_index v : scene.mesh.vertices())
+                       outcome.number(get(attribute.map, v));
+                   outcome.number(static_cast<double>(attributes_not_held(scene.mesh, Mesh_file_format::off).size()));
+                 }});
   for (const char* extension : {".off", ".ply", ".obj", ".stl"})
     all.push_back({"read_surface write_surface surface_bytes read_face_soup make_surface mesh_of",
                    [=](double unit, Outcome& outcome) {
