@@ -285,7 +285,7 @@ int main(int argc, char** argv) {
   int level = 4, rounds = 1;
   Shard shard;
   app.add_option("--json", file, "Write all figures to this file");
-  app.add_option("--mesh", given, "Turns, a twist, noise and inflation of this mesh instead: times of the motion alone");
+  app.add_option("--mesh", given, "Turns, a twist, noise, inflation of this mesh instead: times of the motion alone");
   app.add_option("--level", level, "Fineness: 20 * 4^level triangles")->check(CLI::Range(1, 8))->capture_default_str();
   app.add_option("--rounds", rounds, "Each with another seed")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();

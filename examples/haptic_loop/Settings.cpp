@@ -199,7 +199,7 @@ std::optional<Bad_setting> bad_setting(const Settings& s) {
     return Bad_setting{"controller", "must be a finite number >= 0, N s/m"};
   if (!is_length(s.reach))
     return Bad_setting{"reach", "must be a finite length >= 0, m"};
-  if (!(s.snap.length == 0 || (s.snap.length >= 1e-5 && s.snap.length <= 1)) ||
+  if (!(s.snap.length == 0 || (s.snap.length >= Vertex_snap::least_length && s.snap.length <= 1)) ||
       !(s.snap.force >= 0 && s.snap.force <= 100))
     return Bad_setting{"snap", "must be 0, or a length from 0.00001 to 1 m and a force from 0 to 100 N"};
   if (s.work == 0)

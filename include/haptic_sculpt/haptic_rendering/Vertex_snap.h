@@ -13,11 +13,12 @@ namespace haptic_sculpt {
 ///
 /// It has the potential min over all vertices of u(distance), whose second derivatives are at most stiffness(): a force
 /// that is held for a tick gives at most half of that times the square of the handle's step, as a spring of that
-/// stiffness does. So it counts as one where limits of passivity are checked. To take a vertex in hand, and to let go of
-/// it, switches it off and on, and may give force x length / 2.
+/// stiffness does. So it counts as one where limits of passivity are checked. To take a vertex in hand, and to let go
+/// of it, switches it off and on, and may give force x length / 2.
 struct Vertex_snap {
-  double length = 0;  ///< m; 0: no snap
-  double force = 0.2; ///< N, at most
+  static constexpr double least_length = 1e-5; ///< m, unless it is 0: below it are the counts of encoders
+  double length = 0;                           ///< m; 0: no snap
+  double force = 0.2;                          ///< N, at most
 
   /// Of the steepest part, N/m.
   double stiffness() const { return length > 0 ? 2 * force / length : 0; }
@@ -37,7 +38,7 @@ struct Vertex_snap {
     internal::require_number("Vertex_snap::length", "m", length, 0, 1);
     internal::require_number("Vertex_snap::force", "N", force, 0, 100);
     if (length > 0)
-      internal::require_number("Vertex_snap::length, unless it is 0,", "m", length, 1e-5, 1);
+      internal::require_number("Vertex_snap::length, unless it is 0,", "m", length, least_length, 1);
   }
 };
 
