@@ -30,14 +30,14 @@ double potential(const Mesh& mesh, const Vertex_snap& snap, const Vector3d& hand
 }
 
 /// A mouse with forces that goes about a ball.
-struct Bench {
+struct Snap_bench {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
   Sculptor<Mesh> sculptor{mesh};
   Pose_loop_parameters parameters = parameters_of_tests();
   std::optional<Pose_loop<Sculptor<Mesh>>> loop;
   Vector3d handle = map_of_tests.to_device(Vector3d(0, 0, 1.5));
 
-  explicit Bench(const Vertex_snap& snap) {
+  explicit Snap_bench(const Vertex_snap& snap) {
     parameters.snap = snap, parameters.limits.ramp_time = 0.01;
     loop.emplace(sculptor, map_of_tests, parameters);
   }
@@ -53,7 +53,7 @@ const Vertex_snap snap_of_tests{0.004, 0.2};
 BOOST_AUTO_TEST_CASE(the_force_is_bounded_and_the_slope_of_a_potential) {
   std::mt19937_64 random(21);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const Bench b(snap_of_tests);
+  const Snap_bench b(snap_of_tests);
   constexpr double h = 1e-7; // m
   int drawn = 0, kinks = 0;
   for (int k = 0; k < 2000; ++k) {
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(on_any_way_it_gives_no_more_than_a_spring_of_its_stiffness)
   std::uniform_real_distribution<double> uniform(-1, 1);
   double most = -1, most_force = 0, bare = 0;
   for (int run = 0; run < 20; ++run) {
-    Bench b(snap_of_tests);
+    Snap_bench b(snap_of_tests);
     b.go(Vector3d::Zero());
     Vector3d velocity = Vector3d::Zero(), force = Vector3d::Zero();
     double work = 0, friction = 0;
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(on_any_way_it_gives_no_more_than_a_spring_of_its_stiffness)
 }
 
 BOOST_AUTO_TEST_CASE(a_vertex_in_hand_is_not_drawn_and_what_is_not_passive_is_refused) {
-  Bench b(snap_of_tests);
+  Snap_bench b(snap_of_tests);
   b.go(Vector3d::Zero());
   b.loop->tool().take(*b.mesh.vertices_begin());
   for (int k = 0; k < 20; ++k)

@@ -198,7 +198,10 @@ inline Face_soup parse_ply(std::string_view bytes) {
       const Ply_property& property = element.properties[i];
       if ((is_vertex && (coordinate[0] == i || coordinate[1] == i || coordinate[2] == i)) || (is_face && indices == i))
         continue;
-      if (is_vertex && !property.length_type && attribute_in_words(property.name) != "normals") {
+      const auto has_this_name = [&](const Vertex_attribute& a) { return a.name == property.name; };
+      const bool is_new = property.name != "x" && property.name != "y" && property.name != "z" &&
+                          std::none_of(soup.attributes.begin(), soup.attributes.end(), has_this_name);
+      if (is_vertex && !property.length_type && is_new && attribute_in_words(property.name) != "normals") {
         soup.attributes.push_back({property.name, property.type, {}});
         attributes.push_back(i);
       } else {
