@@ -31,8 +31,8 @@ public:
 
 private:
 #if defined(__SSE2__)
-  // The control register of what computes with doubles. fesetround() sets it, too, and to ask it takes a third of the
-  // time of fegetround(), which sweeps would notice.
+  // The control register of what computes with doubles, which fesetround() sets, too: fegetround() in each sweep was a
+  // tenth of the time of a star that is pushed through.
   static constexpr unsigned subnormals_are_zero = 0x0040, rounding = 0x6000, flush_to_zero = 0x8000,
                             not_nearest = subnormals_are_zero | rounding | flush_to_zero;
   using State = unsigned;
