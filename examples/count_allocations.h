@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_COUNT_ALLOCATIONS_H
-#define HAPTIC_SCULPT_EXAMPLES_COUNT_ALLOCATIONS_H
+#pragma once
 
 /// \file
 /// Counts how often each thread asks for memory, in `allocations_so_far`. To be included by one source file of a
@@ -43,5 +42,3 @@ __attribute__((noinline)) void operator delete(void* p, std::align_val_t) noexce
 __attribute__((noinline)) void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
   std::free(p);
 }
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_DEVICE_JSON_H
-#define HAPTIC_SCULPT_EXAMPLES_DEVICE_JSON_H
+#pragma once
 
 #include <haptic_sculpt/device/Device_parameters.h>
 #include <nlohmann/json.hpp>
@@ -130,5 +129,3 @@ template <class S> Device_description<S> device_description_as(const Device_desc
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_JSON_LINE_H
-#define HAPTIC_SCULPT_EXAMPLES_JSON_LINE_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <nlohmann/json.hpp>
@@ -85,5 +84,3 @@ inline nlohmann::json parse_line(std::string_view line) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

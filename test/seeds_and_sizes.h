@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SEEDS_AND_SIZES_H
-#define HAPTIC_SCULPT_TEST_SEEDS_AND_SIZES_H
+#pragma once
 
 #include <cstdint>
 #include <cstdlib>
@@ -34,5 +33,3 @@ inline std::size_t count_from_environment(const char* name, std::size_t otherwis
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SHARED_DATA_H
-#define HAPTIC_SCULPT_TEST_SHARED_DATA_H
+#pragma once
 
 #include <boost/test/unit_test.hpp>
 
@@ -26,5 +25,3 @@ inline std::optional<std::filesystem::path> shared_data(const std::string& name)
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_LONG_SCULPTING_H
-#define HAPTIC_SCULPT_BENCHMARK_LONG_SCULPTING_H
+#pragma once
 
 #include "sculpting/response/Recording_guard.h"
 #include "sculpting/clearances.h"
@@ -198,5 +197,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_PROMISES_H
-#define HAPTIC_SCULPT_BENCHMARK_PROMISES_H
+#pragma once
 
 #include <nlohmann/json.hpp>
 
@@ -31,5 +30,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

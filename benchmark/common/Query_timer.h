@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_QUERY_TIMER_H
-#define HAPTIC_SCULPT_BENCHMARK_QUERY_TIMER_H
+#pragma once
 
 #include <algorithm>
 #include <chrono>
@@ -66,5 +65,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

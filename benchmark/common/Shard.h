@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_SHARD_H
-#define HAPTIC_SCULPT_BENCHMARK_SHARD_H
+#pragma once
 
 #include <CLI/CLI.hpp>
 
@@ -50,5 +49,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

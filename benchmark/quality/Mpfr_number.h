@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_MPFR_NUMBER_H
-#define HAPTIC_SCULPT_BENCHMARK_MPFR_NUMBER_H
+#pragma once
 
 #include <mpfr.h>
 
@@ -46,5 +45,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

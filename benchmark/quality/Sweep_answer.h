@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_SWEEP_ANSWER_H
-#define HAPTIC_SCULPT_BENCHMARK_SWEEP_ANSWER_H
+#pragma once
 
 namespace haptic_sculpt::benchmark {
 
@@ -11,5 +10,3 @@ struct Sweep_answer {
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_VECTOR_OF_NUMBERS_H
-#define HAPTIC_SCULPT_BENCHMARK_VECTOR_OF_NUMBERS_H
+#pragma once
 
 namespace haptic_sculpt::benchmark {
 
@@ -36,5 +35,3 @@ Number orientation(const Vector_of_numbers<Number>& a, const Vector_of_numbers<N
 }
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

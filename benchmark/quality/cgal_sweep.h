@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_CGAL_SWEEP_H
-#define HAPTIC_SCULPT_BENCHMARK_CGAL_SWEEP_H
+#pragma once
 
 #include "oracle/Sweep_kind.h"
 
@@ -68,5 +67,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

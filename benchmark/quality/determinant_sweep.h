@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DETERMINANT_SWEEP_H
-#define HAPTIC_SCULPT_BENCHMARK_DETERMINANT_SWEEP_H
+#pragma once
 
 #include "Sweep_answer.h"
 #include "Vector_of_numbers.h"
@@ -163,5 +162,3 @@ template <class Number> Sweep_answer determinant_sweep(test::Sweep_kind kind, co
 }
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

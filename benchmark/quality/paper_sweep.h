@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_PAPER_SWEEP_H
-#define HAPTIC_SCULPT_BENCHMARK_PAPER_SWEEP_H
+#pragma once
 
 #include "Sweep_answer.h"
 #include "Vector_of_numbers.h"
@@ -113,5 +112,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_PRINTABLE_STREAM_H
-#define HAPTIC_SCULPT_EXAMPLES_PRINTABLE_STREAM_H
+#pragma once
 
 #include <cstdio>
 #include <ostream>
@@ -78,5 +77,3 @@ private:
 };
 
 } // namespace haptic_sculpt::examples
-
-#endif

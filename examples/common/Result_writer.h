@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_RESULT_WRITER_H
-#define HAPTIC_SCULPT_EXAMPLES_RESULT_WRITER_H
+#pragma once
 
 #include <exception>
 #include <iostream>
@@ -54,5 +53,3 @@ private:
 };
 
 } // namespace haptic_sculpt::examples
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_CONTENTS_OF_H
-#define HAPTIC_SCULPT_EXAMPLES_CONTENTS_OF_H
+#pragma once
 
 #include <array>
 #include <cerrno>
@@ -50,5 +49,3 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
 }
 
 } // namespace haptic_sculpt::examples
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_JSON_WORDS_H
-#define HAPTIC_SCULPT_EXAMPLES_JSON_WORDS_H
+#pragma once
 
 #include <nlohmann/json.hpp>
 
@@ -32,5 +31,3 @@ std::string text_of(const Json& json, int indent = -1) {
 }
 
 } // namespace haptic_sculpt::examples
-
-#endif

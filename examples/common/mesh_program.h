@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_MESH_PROGRAM_H
-#define HAPTIC_SCULPT_EXAMPLES_MESH_PROGRAM_H
+#pragma once
 
 #include "run_program.h"
 
@@ -79,5 +78,3 @@ int run_mesh_program(const char* name, const Body& body, const Code_of& code_of)
 }
 
 } // namespace haptic_sculpt::examples
-
-#endif

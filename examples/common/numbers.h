@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_NUMBERS_H
-#define HAPTIC_SCULPT_EXAMPLES_NUMBERS_H
+#pragma once
 
 #include <array>
 #include <cctype>
@@ -57,5 +56,3 @@ inline std::optional<std::array<double, 3>> place_of(const std::string& text) {
 }
 
 } // namespace haptic_sculpt::examples
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_OUTPUT_TARGETS_H
-#define HAPTIC_SCULPT_EXAMPLES_OUTPUT_TARGETS_H
+#pragma once
 
 #include "run_program.h"
 #include "write_file.h"
@@ -98,5 +97,3 @@ inline void check_picture_name(const Named_file& file) {
 }
 
 } // namespace haptic_sculpt::examples
-
-#endif

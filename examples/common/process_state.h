@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_PROCESS_STATE_H
-#define HAPTIC_SCULPT_EXAMPLES_PROCESS_STATE_H
+#pragma once
 
 #include <array>
 #include <atomic>
@@ -104,5 +103,3 @@ inline const std::atomic<bool>& end_in_order_by_signals() {
 }
 
 } // namespace haptic_sculpt::examples
-
-#endif

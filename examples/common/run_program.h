@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_RUN_PROGRAM_H
-#define HAPTIC_SCULPT_EXAMPLES_RUN_PROGRAM_H
+#pragma once
 
 #include "Printable_stream.h"
 #include "process_state.h"
@@ -46,5 +45,3 @@ int run_program(const char* name, const Body& body, const Exit_code_of& exit_cod
 }
 
 } // namespace haptic_sculpt::examples
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WRITE_FILE_H
-#define HAPTIC_SCULPT_EXAMPLES_WRITE_FILE_H
+#pragma once
 
 #include <haptic_sculpt/surface/write_surface.h>
 
@@ -63,5 +62,3 @@ std::string write_mesh(const std::filesystem::path& path, const Mesh& mesh, cons
 }
 
 } // namespace haptic_sculpt::examples
-
-#endif

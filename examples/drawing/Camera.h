@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_CAMERA_H
-#define HAPTIC_SCULPT_DRAWING_CAMERA_H
+#pragma once
 
 #include "Scene.h"
 #include <Eigen/Geometry>
@@ -236,5 +235,3 @@ private:
 };
 
 } // namespace haptic_sculpt::drawing
-
-#endif

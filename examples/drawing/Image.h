@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_IMAGE_H
-#define HAPTIC_SCULPT_DRAWING_IMAGE_H
+#pragma once
 
 #include "Scene.h"
 #include <algorithm>
@@ -51,5 +50,3 @@ private:
 };
 
 } // namespace haptic_sculpt::drawing
-
-#endif

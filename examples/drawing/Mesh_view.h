@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_MESH_VIEW_H
-#define HAPTIC_SCULPT_DRAWING_MESH_VIEW_H
+#pragma once
 
 #include "Triangle_buffer.h"
 
@@ -55,5 +54,3 @@ private:
 };
 
 } // namespace haptic_sculpt::drawing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_OFFSCREEN_CONTEXT_H
-#define HAPTIC_SCULPT_DRAWING_OFFSCREEN_CONTEXT_H
+#pragma once
 
 #define EGL_NO_X11 // X11's headers define `None`, `Status`, `Bool` as macros
 #define MESA_EGL_NO_X11_HEADERS
@@ -59,5 +58,3 @@ private:
 };
 
 } // namespace haptic_sculpt::drawing
-
-#endif

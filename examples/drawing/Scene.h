@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_SCENE_H
-#define HAPTIC_SCULPT_DRAWING_SCENE_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <Eigen/Core>
@@ -161,5 +160,3 @@ struct Scene {
 };
 
 } // namespace haptic_sculpt::drawing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_TEXT_H
-#define HAPTIC_SCULPT_DRAWING_TEXT_H
+#pragma once
 
 #include "Image.h"
 #include <ft2build.h>
@@ -61,5 +60,3 @@ private:
 };
 
 } // namespace haptic_sculpt::drawing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_TRIANGLE_BUFFER_H
-#define HAPTIC_SCULPT_DRAWING_TRIANGLE_BUFFER_H
+#pragma once
 
 #include "mark_triangles.h"
 
@@ -35,5 +34,3 @@ private:
 };
 
 } // namespace haptic_sculpt::drawing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_MARK_TRIANGLES_H
-#define HAPTIC_SCULPT_DRAWING_MARK_TRIANGLES_H
+#pragma once
 
 #include "Camera.h"
 #include <utility>
@@ -178,5 +177,3 @@ private:
 };
 
 } // namespace haptic_sculpt::drawing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_OCCLUSION_H
-#define HAPTIC_SCULPT_DRAWING_OCCLUSION_H
+#pragma once
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
@@ -59,5 +58,3 @@ std::vector<float> openness(const CGAL::Surface_mesh<Point>& mesh) {
 }
 
 } // namespace haptic_sculpt::drawing
-
-#endif

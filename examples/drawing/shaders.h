@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_SHADERS_H
-#define HAPTIC_SCULPT_DRAWING_SHADERS_H
+#pragma once
 
 #include <string>
 
@@ -100,5 +99,3 @@ void main() {
 ///@}
 
 } // namespace haptic_sculpt::drawing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_SURFACE_MESH_ARRAYS_H
-#define HAPTIC_SCULPT_DRAWING_SURFACE_MESH_ARRAYS_H
+#pragma once
 
 #include "Scene.h"
 #include <CGAL/Surface_mesh.h>
@@ -35,5 +34,3 @@ Scene scene_of(const CGAL::Surface_mesh<Point>& mesh) {
 }
 
 } // namespace haptic_sculpt::drawing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_WRITE_PICTURE_H
-#define HAPTIC_SCULPT_DRAWING_WRITE_PICTURE_H
+#pragma once
 
 #include "Camera.h"
 #include <filesystem>
@@ -20,5 +19,3 @@ std::string write_picture(const Scene& scene, const std::filesystem::path& path,
 std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view = {});
 
 } // namespace haptic_sculpt::drawing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_WRITE_PNG_H
-#define HAPTIC_SCULPT_DRAWING_WRITE_PNG_H
+#pragma once
 
 #include "Scene.h"
 
@@ -36,5 +35,3 @@ inline std::string write_png(const std::filesystem::path& path, int width, int h
 }
 
 } // namespace haptic_sculpt::drawing
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DRAWING_WRITE_WORDS_H
-#define HAPTIC_SCULPT_DRAWING_WRITE_WORDS_H
+#pragma once
 
 #include "Camera.h"
 #include "Text.h"
@@ -95,5 +94,3 @@ inline void write_legend(Image& image, const Scene& scene, int strip) {
 }
 
 } // namespace haptic_sculpt::drawing
-
-#endif

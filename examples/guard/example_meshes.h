@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_GUARD_EXAMPLE_MESHES_H
-#define HAPTIC_SCULPT_EXAMPLES_GUARD_EXAMPLE_MESHES_H
+#pragma once
 
 /// \file
 /// What the examples work on, made on the spot, and how they look at it.
@@ -54,5 +53,3 @@ inline std::size_t self_intersecting_pairs(const Mesh& mesh) {
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
   return pairs.size();
 }
-
-#endif

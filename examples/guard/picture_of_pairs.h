@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_GUARD_PICTURE_OF_PAIRS_H
-#define HAPTIC_SCULPT_EXAMPLES_GUARD_PICTURE_OF_PAIRS_H
+#pragma once
 
 #include "drawing/write_picture.h"
 #include "example_meshes.h"
@@ -27,5 +26,3 @@ inline void add_to_picture(haptic_sculpt::drawing::Scene& scene, const Mesh& mes
     scene.triangles.push_back(corners);
   }
 }
-
-#endif

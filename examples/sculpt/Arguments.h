@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_ARGUMENTS_H
-#define HAPTIC_SCULPT_EXAMPLES_ARGUMENTS_H
+#pragma once
 
 #include "../common/run_program.h"
 
@@ -46,5 +45,3 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments);
 using examples::Usage_error;
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_LOG_FILE_H
-#define HAPTIC_SCULPT_EXAMPLES_LOG_FILE_H
+#pragma once
 
 #include "Log_text.h"
 
@@ -64,5 +63,3 @@ private:
 };
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_LOG_TEXT_H
-#define HAPTIC_SCULPT_EXAMPLES_LOG_TEXT_H
+#pragma once
 
 #include "Script.h"
 
@@ -87,5 +86,3 @@ struct Log_contents {
 Log_contents read_log(std::string_view text, const std::string& name, const std::string& mesh);
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_PATIENCE_H
-#define HAPTIC_SCULPT_EXAMPLES_PATIENCE_H
+#pragma once
 
 #include <chrono>
 #include <condition_variable>
@@ -46,5 +45,3 @@ private:
 };
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

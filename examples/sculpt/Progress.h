@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_PROGRESS_H
-#define HAPTIC_SCULPT_EXAMPLES_PROGRESS_H
+#pragma once
 
 #include <chrono>
 #include <cstddef>
@@ -42,5 +41,3 @@ private:
 };
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

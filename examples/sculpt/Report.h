@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_REPORT_H
-#define HAPTIC_SCULPT_EXAMPLES_REPORT_H
+#pragma once
 
 #include "Run_result.h"
 
@@ -32,5 +31,3 @@ void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh);
 void print_nearest(std::ostream& out, const Edit_record::Coordinates& to, const std::vector<Near_vertex>& nearest);
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_RUN_RESULT_H
-#define HAPTIC_SCULPT_EXAMPLES_RUN_RESULT_H
+#pragma once
 
 #include "Script.h"
 
@@ -95,5 +94,3 @@ Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Scul
                       const After_command& after);
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

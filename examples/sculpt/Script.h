@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_SCRIPT_H
-#define HAPTIC_SCULPT_EXAMPLES_SCRIPT_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/sculpting/Edit.h>
@@ -98,5 +97,3 @@ std::vector<Command> read_script(std::string_view text, const std::string& name)
 std::size_t open_strokes(const std::vector<Command>& commands);
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_SCRIPT_RUNNER_H
-#define HAPTIC_SCULPT_EXAMPLES_SCRIPT_RUNNER_H
+#pragma once
 
 #include "Progress.h"
 #include "nearest_vertices.h"
@@ -310,5 +309,3 @@ Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Scul
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

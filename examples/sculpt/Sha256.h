@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_SHA256_H
-#define HAPTIC_SCULPT_EXAMPLES_SHA256_H
+#pragma once
 
 #include <nettle/sha2.h>
 
@@ -42,5 +41,3 @@ inline bool is_sha256(std::string_view word) {
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_COMPARISON_H
-#define HAPTIC_SCULPT_EXAMPLES_COMPARISON_H
+#pragma once
 
 #include "Run_result.h"
 
@@ -21,5 +20,3 @@ std::string write_comparison(const Mesh& without_guard, const Mesh& with_guard, 
                              const std::vector<double>& direction);
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

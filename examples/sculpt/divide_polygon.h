@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_DIVIDE_POLYGON_H
-#define HAPTIC_SCULPT_EXAMPLES_DIVIDE_POLYGON_H
+#pragma once
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -109,5 +108,3 @@ divided_polygon(const std::vector<std::array<double, 3>>& corners) {
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_FAULTS_JSON_H
-#define HAPTIC_SCULPT_EXAMPLES_FAULTS_JSON_H
+#pragma once
 
 #include <haptic_sculpt/surface/Validity_report.h>
 
@@ -22,5 +21,3 @@ void for_each_kind_of_fault(const Validity_report& report, const Function& do_th
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_MANY_VERTICES_LINES_H
-#define HAPTIC_SCULPT_EXAMPLES_MANY_VERTICES_LINES_H
+#pragma once
 
 #include "Run_result.h"
 
@@ -126,5 +125,3 @@ Many_vertices_outcome carry_out_remesh(Sculptor& sculptor, const Command& comman
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_NEAREST_VERTICES_H
-#define HAPTIC_SCULPT_EXAMPLES_NEAREST_VERTICES_H
+#pragma once
 
 #include "Run_result.h"
 
@@ -24,5 +23,3 @@ std::vector<std::size_t> nearest_vertices(std::vector<std::size_t> numbers, cons
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_PICTURE_H
-#define HAPTIC_SCULPT_EXAMPLES_PICTURE_H
+#pragma once
 
 #include "Arguments.h"
 #include "Run_result.h"
@@ -180,5 +179,3 @@ inline std::string write_picture_of(const Mesh& mesh, const Run_result& result, 
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

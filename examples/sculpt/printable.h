@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_PRINTABLE_H
-#define HAPTIC_SCULPT_EXAMPLES_PRINTABLE_H
+#pragma once
 
 #include <cstdio>
 #include <string>
@@ -25,5 +24,3 @@ inline std::string printable(std::string_view bytes) {
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

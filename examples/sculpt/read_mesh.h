@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_READ_MESH_H
-#define HAPTIC_SCULPT_EXAMPLES_READ_MESH_H
+#pragma once
 
 #include "Arguments.h"
 #include "Run_result.h"
@@ -17,5 +16,3 @@ namespace haptic_sculpt::sculpt_program {
 Mesh read_mesh(const Arguments& arguments, std::vector<std::string>& left_out, Validity_report& found);
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

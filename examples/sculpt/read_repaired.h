@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_READ_REPAIRED_H
-#define HAPTIC_SCULPT_EXAMPLES_READ_REPAIRED_H
+#pragma once
 
 #include "Arguments.h"
 #include "Run_result.h"
@@ -16,5 +15,3 @@ namespace haptic_sculpt::sculpt_program {
 Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_out, std::string& told);
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_REFUSAL_H
-#define HAPTIC_SCULPT_EXAMPLES_REFUSAL_H
+#pragma once
 
 #include "Arguments.h"
 
@@ -15,5 +14,3 @@ namespace haptic_sculpt::sculpt_program {
 void write_refusal(const Arguments& arguments, const Face_soup& soup, const Validity_report& report);
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

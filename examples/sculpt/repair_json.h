@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_REPAIR_JSON_H
-#define HAPTIC_SCULPT_EXAMPLES_REPAIR_JSON_H
+#pragma once
 
 #include "faults_json.h"
 
@@ -40,5 +39,3 @@ inline std::string json_of(const Repair_report& report) {
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

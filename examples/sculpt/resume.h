@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_RESUME_H
-#define HAPTIC_SCULPT_EXAMPLES_RESUME_H
+#pragma once
 
 #include "Arguments.h"
 #include "Log_text.h"
@@ -28,5 +27,3 @@ Settings settings_of(const Arguments& arguments);
 void check_options(const Arguments& arguments, const Log_contents& log, bool is_new_pass);
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_SHA256_OF_FILE_H
-#define HAPTIC_SCULPT_EXAMPLES_SHA256_OF_FILE_H
+#pragma once
 
 #include "Sha256.h"
 
@@ -18,5 +17,3 @@ inline std::string sha256_of_file(const std::string& path) {
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

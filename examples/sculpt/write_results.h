@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WRITE_RESULTS_H
-#define HAPTIC_SCULPT_EXAMPLES_WRITE_RESULTS_H
+#pragma once
 
 #include "Arguments.h"
 #include "Report.h"
@@ -32,5 +31,3 @@ inline void write_all(examples::Result_writer& writer, const Mesh& mesh, const R
 }
 
 } // namespace haptic_sculpt::sculpt_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_ERROR_H
-#define HAPTIC_SCULPT_ERROR_H
+#pragma once
 
 #include <locale>
 #include <sstream>
@@ -33,5 +32,3 @@ inline std::string number(double x) {
 
 } // namespace internal
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_PART_RUNNER_H
-#define HAPTIC_SCULPT_PART_RUNNER_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 
@@ -64,5 +63,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_ROUNDING_TO_NEAREST_H
-#define HAPTIC_SCULPT_ROUNDING_TO_NEAREST_H
+#pragma once
 
 #include <cfenv>
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// As long as it lives, arithmetic of this thread rounds to nearest and keeps subnormal numbers; then it is as the
 /// caller had it.
@@ -70,7 +68,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

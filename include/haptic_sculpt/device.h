@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_H
-#define HAPTIC_SCULPT_DEVICE_H
+#pragma once
 
 /// \file
 /// The three-leg mechanism of the paper: kinematics, statics and dynamics, templated on the scalar. Needs Eigen only.
@@ -27,5 +26,3 @@
 #include <haptic_sculpt/device/spatial_dynamics.h>
 #include <haptic_sculpt/device/workspace.h>
 #include <haptic_sculpt/no_fast_math.h>
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_H
+#pragma once
 
 /// \file
 /// What the surface says, the hand feels: from a device's joint angles to drags, and back to torques. Needs CGAL and
@@ -16,5 +15,3 @@
 #include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_session.h>
 #include <haptic_sculpt/haptic_rendering/reach_position.h>
-
-#endif

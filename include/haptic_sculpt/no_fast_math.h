@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_NO_FAST_MATH_H
-#define HAPTIC_SCULPT_NO_FAST_MATH_H
+#pragma once
 
 /// \file
 /// Refuses to be compiled with re-associated, reciprocal or finite-only arithmetic: exact predicates, tests for
@@ -12,6 +11,4 @@
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error                                                                                                                 \
     "haptic_sculpt: exact predicates do not survive -ffast-math, -Ofast, -funsafe-math-optimizations, -ffinite-math-only, -fassociative-math or -freciprocal-math; compile without them"
-#endif
-
 #endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_H
-#define HAPTIC_SCULPT_SCULPTING_H
+#pragma once
 
 /// \file
 /// Dragging the vertices of a closed triangle mesh so that no surface ever passes through a surface.
@@ -15,5 +14,3 @@
 #include <haptic_sculpt/sculpting/keep_vertex_attributes.h>
 #include <haptic_sculpt/sculpting/move_rigidly.h>
 #include <haptic_sculpt/sculpting/move_vertices.h>
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_H
-#define HAPTIC_SCULPT_SURFACE_H
+#pragma once
 
 #include <haptic_sculpt/no_fast_math.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
@@ -13,5 +12,3 @@
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/vertex_attributes.h>
 #include <haptic_sculpt/surface/write_surface.h>
-
-#endif

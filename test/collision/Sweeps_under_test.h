@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SWEEPS_UNDER_TEST_H
-#define HAPTIC_SCULPT_TEST_SWEEPS_UNDER_TEST_H
+#pragma once
 
 #include "oracle/sweep_oracle.h"
 #include "populations/sweep_populations.h"
@@ -64,5 +63,3 @@ inline Triangle_location location(const First_meeting& meeting) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

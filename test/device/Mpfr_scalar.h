@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DEVICE_MPFR_SCALAR_H
-#define HAPTIC_SCULPT_TEST_DEVICE_MPFR_SCALAR_H
+#pragma once
 
 #include <Eigen/Core>
 #include <limits>
@@ -152,5 +151,3 @@ struct Eigen::NumTraits<device_populations::Mpfr_scalar<bits>>
     MulCost = 80
   };
 };
-
-#endif

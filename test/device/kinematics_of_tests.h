@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DEVICE_KINEMATICS_OF_TESTS_H
-#define HAPTIC_SCULPT_TEST_DEVICE_KINEMATICS_OF_TESTS_H
+#pragma once
 
 /// \file
 /// What the tests of kinematics share; in the namespace of their suite.
@@ -18,5 +17,3 @@ inline double residual(const Device_parameters<double>& parameters, const Device
 }
 
 } // namespace device_kinematics
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DEVICE_MAXIMAL_COORDINATES_H
-#define HAPTIC_SCULPT_TEST_DEVICE_MAXIMAL_COORDINATES_H
+#pragma once
 
 #include "populations.h"
 #include <Eigen/Dense>
@@ -91,5 +90,3 @@ inline Vector joint_accelerations(const Device_parameters<double>& parameters, c
 }
 
 } // namespace maximal_coordinates
-
-#endif

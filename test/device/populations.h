@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DEVICE_POPULATIONS_H
-#define HAPTIC_SCULPT_TEST_DEVICE_POPULATIONS_H
+#pragma once
 
 #include <haptic_sculpt/device.h>
 #include <random>
@@ -58,5 +57,3 @@ Device_vector<S> vector_as(const Device_vector<double>& v) {
 }
 
 } // namespace device_populations
-
-#endif

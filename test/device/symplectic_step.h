@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DEVICE_SYMPLECTIC_STEP_H
-#define HAPTIC_SCULPT_TEST_DEVICE_SYMPLECTIC_STEP_H
+#pragma once
 
 #include <haptic_sculpt/device/simulation/simulation.h>
 
@@ -85,5 +84,3 @@ Outcome<Device_state<S>> symplectic_step(const Device_parameters<S>& parameters,
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DRAWING_PICTURES_H
-#define HAPTIC_SCULPT_TEST_DRAWING_PICTURES_H
+#pragma once
 
 /// \file
 /// Pictures are written, and read back with libpng.
@@ -94,5 +93,3 @@ inline bool is_background(const Eigen::Vector3i& color) {
 }
 
 } // namespace drawing_tests
-
-#endif

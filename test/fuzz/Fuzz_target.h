@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FUZZ_FUZZ_TARGET_H
-#define HAPTIC_SCULPT_TEST_FUZZ_FUZZ_TARGET_H
+#pragma once
 
 /// \file
 /// What a fuzz target defines. libFuzzer and `fuzz_main.cpp` both run it.
@@ -19,5 +18,3 @@ std::vector<std::string> fuzz_seeds();
 
 /// What became of the inputs so far, for people.
 std::string fuzz_summary();
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_CONTACT_RUN_H
-#define HAPTIC_SCULPT_TEST_CONTACT_RUN_H
+#pragma once
 
 #include "haptic_rendering/devices_of_tests.h"
 
@@ -122,5 +121,3 @@ inline Contact_outcome run_contact(const Contact_setup& setup, double seconds) {
 }
 
 } // namespace haptic_rendering_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DEVICES_OF_TESTS_H
-#define HAPTIC_SCULPT_TEST_DEVICES_OF_TESTS_H
+#pragma once
 
 #include "haptic_rendering/random_vector.h"
 
@@ -33,5 +32,3 @@ inline Force_limits no_limits() {
 }
 
 } // namespace haptic_rendering_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_HELD_SCENES_H
-#define HAPTIC_SCULPT_TEST_HELD_SCENES_H
+#pragma once
 
 #include "haptic_rendering/random_vector.h"
 #include "meshes/generated_meshes.h"
@@ -74,5 +73,3 @@ struct Held_scene {
 };
 
 } // namespace haptic_rendering_tests
-
-#endif

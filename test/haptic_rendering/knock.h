@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_KNOCK_H
-#define HAPTIC_SCULPT_TEST_KNOCK_H
+#pragma once
 
 #include "haptic_rendering/Contact_run.h"
 
@@ -84,5 +83,3 @@ inline Knock_outcome run_knock(const Contact_setup& setup, double wait) {
 }
 
 } // namespace haptic_rendering_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_LED_MOTION_H
-#define HAPTIC_SCULPT_TEST_LED_MOTION_H
+#pragma once
 
 #include "haptic_rendering/held_scenes.h"
 
@@ -86,5 +85,3 @@ inline Force_error error_of(const Led_motion& led, std::uint64_t seed) {
 }
 
 } // namespace haptic_rendering_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_MAP_OF_TESTS_H
-#define HAPTIC_SCULPT_TEST_MAP_OF_TESTS_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Workspace_map.h>
 
@@ -11,5 +10,3 @@ inline const haptic_sculpt::Workspace_map map_of_tests(20, Eigen::Vector3d(0.3, 
                                                        Eigen::Vector3d(0.5, 0.5, 0.5), Eigen::Vector3d(0, 0, 0.132));
 
 } // namespace haptic_rendering_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_POSE_READINGS_H
-#define HAPTIC_SCULPT_TEST_POSE_READINGS_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Pose_loop.h>
 #include <haptic_sculpt/haptic_rendering/Pose_reading.h>
@@ -39,5 +38,3 @@ inline Pose_loop_parameters parameters_of_tests() {
 }
 
 } // namespace exchange_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_RANDOM_VECTOR_H
-#define HAPTIC_SCULPT_TEST_RANDOM_VECTOR_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -18,5 +17,3 @@ inline Vector3d random_vector(Random& random, double length = 1) {
 }
 
 } // namespace haptic_rendering_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_MESHES_BROKEN_MESHES_H
-#define HAPTIC_SCULPT_TEST_MESHES_BROKEN_MESHES_H
+#pragma once
 
 /// \file
 /// Meshes with one fault each, as programs that draw or scan make them.
@@ -166,5 +165,3 @@ inline std::vector<std::pair<std::string, Triangle_list>> broken_meshes() {
 }
 
 } // namespace meshes
-
-#endif

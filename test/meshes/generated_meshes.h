@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_MESHES_GENERATED_MESHES_H
-#define HAPTIC_SCULPT_TEST_MESHES_GENERATED_MESHES_H
+#pragma once
 
 /// \file
 /// Closed valid meshes, generated. The same call gives the same doubles on every machine only if the compiler does not
@@ -279,5 +278,3 @@ inline Triangle_list nearly_pinched(double gap) {
 }
 
 } // namespace meshes
-
-#endif

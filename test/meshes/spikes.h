@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_MESHES_SPIKES_H
-#define HAPTIC_SCULPT_TEST_MESHES_SPIKES_H
+#pragma once
 
 /// \file
 /// Closed valid meshes with parts that are thin and long.
@@ -48,5 +47,3 @@ inline Triangle_list gear(std::size_t teeth, std::size_t steps, double thickness
 }
 
 } // namespace meshes
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_MESHES_THIN_WALLS_H
-#define HAPTIC_SCULPT_TEST_MESHES_THIN_WALLS_H
+#pragma once
 
 /// \file
 /// Closed meshes with walls much thinner than their edges are long: what smoothing without a guard drives through
@@ -95,5 +94,3 @@ inline Triangle_list swiss_cheese(std::size_t n = 2, double wall = 0.02, int lev
 }
 
 } // namespace meshes
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FEASIBLE_POLYTOPE_H
-#define HAPTIC_SCULPT_TEST_FEASIBLE_POLYTOPE_H
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -108,5 +107,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_STILL_SURROUNDINGS_H
-#define HAPTIC_SCULPT_TEST_STILL_SURROUNDINGS_H
+#pragma once
 
 /// \file
 /// All that stands still while one vertex of a mesh is dragged: whether a straight motion of the vertex is free, and
@@ -237,5 +236,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

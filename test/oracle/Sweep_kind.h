@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SWEEP_KIND_H
-#define HAPTIC_SCULPT_TEST_SWEEP_KIND_H
+#pragma once
 
 #include <array>
 
@@ -28,5 +27,3 @@ constexpr const char* sweep_name(Sweep_kind kind) {
 using Sweep_coordinates = std::array<double, 15>;
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_ANALYTIC_CASES_H
-#define HAPTIC_SCULPT_TEST_ANALYTIC_CASES_H
+#pragma once
 
 #include "oracle/Sweep_kind.h"
 
@@ -102,5 +101,3 @@ inline const std::vector<Analytic_case>& analytic_cases() {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_AXIS_ORACLE_H
-#define HAPTIC_SCULPT_TEST_AXIS_ORACLE_H
+#pragma once
 
 #include "oracle/fourier_motzkin.h"
 
@@ -101,5 +100,3 @@ inline bool axis_face_degenerates(const Axis_query& query) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

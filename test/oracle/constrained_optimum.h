@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_CONSTRAINED_OPTIMUM_H
-#define HAPTIC_SCULPT_TEST_CONSTRAINED_OPTIMUM_H
+#pragma once
 
 /// \file
 /// The point nearest to a target among those that keep a clearance from some planes, in GMP rationals.
@@ -219,5 +218,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_ORACLE_EMBEDDING_ORACLE_H
-#define HAPTIC_SCULPT_TEST_ORACLE_EMBEDDING_ORACLE_H
+#pragma once
 
 /// \file
 /// Does a mesh stay embedded while one of its vertices moves along a segment? Decided by integers, from nothing but the
@@ -388,5 +387,3 @@ inline bool collapse_stays_embedded(const Mesh_list& mesh, int J, int P) {
 }
 
 } // namespace oracle
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_ORACLE_EXACT_TRIANGLES_H
-#define HAPTIC_SCULPT_TEST_ORACLE_EXACT_TRIANGLES_H
+#pragma once
 
 /// \file
 /// How closed triangles meet, over integers. Uses nothing of the library and nothing of CGAL.
@@ -228,5 +227,3 @@ inline std::vector<std::pair<int, int>> improper_pairs(const Mesh_list& mesh) {
 }
 
 } // namespace oracle
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_ORACLE_FLIP_ORACLE_H
-#define HAPTIC_SCULPT_TEST_ORACLE_FLIP_ORACLE_H
+#pragma once
 
 /// \file
 /// Can an edge be flipped? Decided by integers over all faces and all vertices. Uses nothing of the library and nothing
@@ -108,5 +107,3 @@ Flip_obstacle flip_obstacle(const std::vector<Point<Integer>>& points, const std
 }
 
 } // namespace oracle
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FOURIER_MOTZKIN_H
-#define HAPTIC_SCULPT_TEST_FOURIER_MOTZKIN_H
+#pragma once
 
 #include "oracle/Sweep_kind.h"
 
@@ -102,5 +101,3 @@ inline bool features_meet_at(Sweep_kind kind, const Sweep_coordinates& x, const 
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

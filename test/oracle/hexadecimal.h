@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_HEXADECIMAL_H
-#define HAPTIC_SCULPT_TEST_HEXADECIMAL_H
+#pragma once
 
 #include "oracle/Sweep_kind.h"
 
@@ -21,5 +20,3 @@ inline std::string hexadecimal(Sweep_kind kind, const Sweep_coordinates& x) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

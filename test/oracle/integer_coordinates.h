@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_INTEGER_COORDINATES_H
-#define HAPTIC_SCULPT_TEST_INTEGER_COORDINATES_H
+#pragma once
 
 #include <algorithm>
 #include <climits>
@@ -29,5 +28,3 @@ template <std::size_t N> void scale_to_integers(const double (&value)[N], mpz_pt
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SAMPLE_QUERIES_H
-#define HAPTIC_SCULPT_TEST_SAMPLE_QUERIES_H
+#pragma once
 
 #include "oracle/Sweep_kind.h"
 
@@ -59,5 +58,3 @@ inline std::vector<Sample_query> read_sample_queries(const std::string& file) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SWEEP_ORACLE_H
-#define HAPTIC_SCULPT_TEST_SWEEP_ORACLE_H
+#pragma once
 
 #include "oracle/Feasible_polytope.h"
 #include "oracle/Sweep_kind.h"
@@ -115,5 +114,3 @@ inline std::optional<mpq_class> first_time(Sweep_kind kind, const Sweep_coordina
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

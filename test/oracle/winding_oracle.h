@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_ORACLE_WINDING_ORACLE_H
-#define HAPTIC_SCULPT_TEST_ORACLE_WINDING_ORACLE_H
+#pragma once
 
 /// \file
 /// Where a point lies and which way a closed surface is turned, over integers, by brute force. Uses nothing of the
@@ -60,5 +59,3 @@ inline int volume_sign(const std::vector<Point<mpz_class>>& points, const std::v
 }
 
 } // namespace oracle
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FIVE_POINTS_H
-#define HAPTIC_SCULPT_TEST_FIVE_POINTS_H
+#pragma once
 
 #include "oracle/Sweep_kind.h"
 #include "populations/Portable_random.h"
@@ -94,5 +93,3 @@ inline void aim(Portable_random& random, Sweep_kind kind, Five_points& points) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_PORTABLE_RANDOM_H
-#define HAPTIC_SCULPT_TEST_PORTABLE_RANDOM_H
+#pragma once
 
 #include <cstdint>
 #include <random>
@@ -29,5 +28,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DRAW_POPULATIONS_H
-#define HAPTIC_SCULPT_TEST_DRAW_POPULATIONS_H
+#pragma once
 
 #include "oracle/Sweep_kind.h"
 #include "populations/Five_points.h"
@@ -36,5 +35,3 @@ Five_points mixed_exponents(Sweep_kind kind, Portable_random& random);
 Five_points subnormal(Sweep_kind kind, Portable_random& random);
 
 } // namespace haptic_sculpt::test
-
-#endif

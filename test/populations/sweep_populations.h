@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SWEEP_POPULATIONS_H
-#define HAPTIC_SCULPT_TEST_SWEEP_POPULATIONS_H
+#pragma once
 
 #include "oracle/Sweep_kind.h"
 
@@ -39,5 +38,3 @@ const std::vector<Sweep_population>& sweep_populations();
 bool standing_features_are_simplices(Sweep_kind kind, const Sweep_coordinates& x);
 
 } // namespace haptic_sculpt::test
-
-#endif

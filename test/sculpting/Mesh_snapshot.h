@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_MESH_SNAPSHOT_H
-#define HAPTIC_SCULPT_TEST_MESH_SNAPSHOT_H
+#pragma once
 
 #include <haptic_sculpt/surface/star.h>
 
@@ -58,5 +57,3 @@ Mesh_snapshot snapshot(const Sculptor& sculptor) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_MOVER_HAND_H
-#define HAPTIC_SCULPT_TEST_MOVER_HAND_H
+#pragma once
 
 #include "sculpting/scene_parts.h"
 
@@ -44,5 +43,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

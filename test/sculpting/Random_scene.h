@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_RANDOM_SCENE_H
-#define HAPTIC_SCULPT_TEST_RANDOM_SCENE_H
+#pragma once
 
 #include "seeds_and_sizes.h"
 #include "meshes/generated_meshes.h"
@@ -58,5 +57,3 @@ inline meshes::Triangle_list random_small_list(Random& random, int size) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

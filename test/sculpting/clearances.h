@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_CLEARANCES_H
-#define HAPTIC_SCULPT_TEST_CLEARANCES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting.h>
 
@@ -26,5 +25,3 @@ double clearance_kept(const Sculptor& sculptor, const typename Sculptor::Result&
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SCENE_PARTS_H
-#define HAPTIC_SCULPT_TEST_SCENE_PARTS_H
+#pragma once
 
 /// \file
 /// What the scenes of slides are put together from: random numbers and motions, solids with corners, things to drag.
@@ -198,5 +197,3 @@ inline Mesh valid_mesh(const meshes::Triangle_list& list, const std::string& nam
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

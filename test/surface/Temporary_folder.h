@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SURFACE_TEMPORARY_FOLDER_H
-#define HAPTIC_SCULPT_TEST_SURFACE_TEMPORARY_FOLDER_H
+#pragma once
 
 #include <boost/test/unit_test.hpp>
 
@@ -45,5 +44,3 @@ inline std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SURFACE_BAD_FILES_H
-#define HAPTIC_SCULPT_TEST_SURFACE_BAD_FILES_H
+#pragma once
 
 /// \file
 /// What is said of files that are refused. In the namespace of the suite, for others have helpers of these names, too.
@@ -61,5 +60,3 @@ inline std::string replaced(std::string text, const std::string& from, const std
 }
 
 } // namespace bad_input
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SURFACE_IDENTICAL_H
-#define HAPTIC_SCULPT_TEST_SURFACE_IDENTICAL_H
+#pragma once
 
 /// \file
 /// Which meshes are the same to the bit. In the namespace of the suite, for others have helpers of these names, too.
@@ -38,5 +37,3 @@ inline bool identical(const Mesh& a, const Mesh& b) {
 }
 
 } // namespace reading_and_writing
-
-#endif

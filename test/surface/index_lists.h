@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SURFACE_INDEX_LISTS_H
-#define HAPTIC_SCULPT_TEST_SURFACE_INDEX_LISTS_H
+#pragma once
 
 /// \file
 /// Lists of indices as numbers, to be compared and printed. In the namespace of the suite.
@@ -27,5 +26,3 @@ using Numbers = std::vector<std::size_t>;
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 } // namespace validity
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SURFACE_SOUP_OF_H
-#define HAPTIC_SCULPT_TEST_SURFACE_SOUP_OF_H
+#pragma once
 
 #include <haptic_sculpt/surface/validate.h>
 
@@ -17,5 +16,3 @@ inline Face_soup soup_of(const meshes::Triangle_list& list) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

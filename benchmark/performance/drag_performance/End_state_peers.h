@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_END_STATE_PEERS_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_END_STATE_PEERS_H
+#pragma once
 
 #include "drag_performance/Latencies.h"
 #include "drag_performance/Random_motions.h"
@@ -128,5 +127,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

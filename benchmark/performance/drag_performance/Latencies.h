@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_LATENCIES_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_LATENCIES_H
+#pragma once
 
 #include "Query_timer.h"
 
@@ -77,5 +76,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RANDOM_MOTIONS_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RANDOM_MOTIONS_H
+#pragma once
 
 #include "meshes/generated_meshes.h"
 
@@ -70,5 +69,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RTREE_BROAD_PHASE_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RTREE_BROAD_PHASE_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 
@@ -72,5 +71,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

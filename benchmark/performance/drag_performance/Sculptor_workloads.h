@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_SCULPTOR_WORKLOADS_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_SCULPTOR_WORKLOADS_H
+#pragma once
 
 #include "drag_performance/Latencies.h"
 #include "drag_performance/Random_motions.h"
@@ -250,5 +249,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_TIMED_BROAD_PHASE_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_TIMED_BROAD_PHASE_H
+#pragma once
 
 #include "drag_performance/Latencies.h"
 
@@ -50,5 +49,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

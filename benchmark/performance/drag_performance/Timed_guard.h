@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_TIMED_GUARD_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_TIMED_GUARD_H
+#pragma once
 
 #include "drag_performance/Latencies.h"
 
@@ -75,5 +74,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RUN_PEER_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RUN_PEER_H
+#pragma once
 
 #include "drag_performance/Sculptor_workloads.h"
 #include "drag_performance/run_structures.h"
@@ -19,5 +18,3 @@ void run_peer(const std::string& name, Json& rows, std::size_t triangles, const 
 }
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

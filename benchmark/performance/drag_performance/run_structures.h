@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RUN_STRUCTURES_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_RUN_STRUCTURES_H
+#pragma once
 
 /// \file
 /// One translation unit a structure: each holds a whole Sculptor.
@@ -41,5 +40,3 @@ void run_memory(Json& rows, std::size_t triangles, const Effort& effort);
 void run_end_states(Json& rows, std::size_t triangles, const Effort& effort);
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_WORKLOAD_MESHES_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_PERFORMANCE_WORKLOAD_MESHES_H
+#pragma once
 
 #include "meshes/generated_meshes.h"
 
@@ -64,5 +63,3 @@ inline Workload_mesh fan_in_a_crowd(std::size_t valence, std::uint64_t seed) {
 }
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

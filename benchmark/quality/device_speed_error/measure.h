@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DEVICE_SPEED_ERROR_MEASURE_H
-#define HAPTIC_SCULPT_BENCHMARK_DEVICE_SPEED_ERROR_MEASURE_H
+#pragma once
 
 #include <haptic_sculpt/device/leg_frame.h>
 
@@ -23,5 +22,3 @@ template <class S>
 void measure(const char* scalar, const Population& population, int checked, int repetitions, nlohmann::json& rows);
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DEVICE_SPEED_ERROR_MEASURE_IMPLEMENTATION_H
-#define HAPTIC_SCULPT_BENCHMARK_DEVICE_SPEED_ERROR_MEASURE_IMPLEMENTATION_H
+#pragma once
 
 #include "device/populations.h"
 #include "device_speed_error/measure.h"
@@ -169,5 +168,3 @@ void measure(const char* name, const Population& p, int checked, int repetitions
 }
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DEVICE_SPEED_ERROR_REFERENCE_H
-#define HAPTIC_SCULPT_BENCHMARK_DEVICE_SPEED_ERROR_REFERENCE_H
+#pragma once
 
 #include "device/Mpfr_scalar.h"
 
@@ -33,5 +32,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

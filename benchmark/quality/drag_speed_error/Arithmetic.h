@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_SPEED_ERROR_ARITHMETIC_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_SPEED_ERROR_ARITHMETIC_H
+#pragma once
 
 namespace haptic_sculpt::benchmark {
 
@@ -16,5 +15,3 @@ inline const char* name_of(Arithmetic arithmetic) {
 }
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

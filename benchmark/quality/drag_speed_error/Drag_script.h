@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_SPEED_ERROR_DRAG_SCRIPT_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_SPEED_ERROR_DRAG_SCRIPT_H
+#pragma once
 
 #include "drag_speed_error/Arithmetic.h"
 
@@ -46,5 +45,3 @@ Drag_counts measure_exact(const Drag_script& script, bool slides);
 Drag_counts measure_rounded(const Drag_script& script, bool slides, Arithmetic arithmetic);
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_SPEED_ERROR_ROUNDED_SWEEP_TRAITS_3_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_SPEED_ERROR_ROUNDED_SWEEP_TRAITS_3_H
+#pragma once
 
 #include "determinant_sweep.h"
 #include "drag_speed_error/Arithmetic.h"
@@ -114,5 +113,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

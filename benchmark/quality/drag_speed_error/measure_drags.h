@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DRAG_SPEED_ERROR_MEASURE_DRAGS_H
-#define HAPTIC_SCULPT_BENCHMARK_DRAG_SPEED_ERROR_MEASURE_DRAGS_H
+#pragma once
 
 #include "Query_timer.h"
 #include "drag_speed_error/Drag_script.h"
@@ -64,5 +63,3 @@ Drag_counts measure_drags(const Drag_script& script, Sculptor& sculptor) {
 }
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

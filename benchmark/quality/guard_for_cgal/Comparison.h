@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_COMPARISON_H
-#define HAPTIC_SCULPT_BENCHMARK_COMPARISON_H
+#pragma once
 
 #include "meshes/generated_meshes.h"
 #include "sculpting/Mesh_snapshot.h"
@@ -108,5 +107,3 @@ void compare_remeshing(const Named_mesh& scene, const Settings& settings, const 
 Json move_all_by_a_tenth(Mesh mesh, unsigned seed);
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

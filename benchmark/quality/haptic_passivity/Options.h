@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_PASSIVITY_OPTIONS_H
-#define HAPTIC_SCULPT_BENCHMARK_PASSIVITY_OPTIONS_H
+#pragma once
 
 #include <haptic_sculpt/device/Device_parameters.h>
 
@@ -31,5 +30,3 @@ inline Device_form form_of(int run) {
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

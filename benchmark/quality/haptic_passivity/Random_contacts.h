@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_RANDOM_CONTACTS_H
-#define HAPTIC_SCULPT_BENCHMARK_RANDOM_CONTACTS_H
+#pragma once
 
 #include "haptic_rendering/Contact_run.h"
 
@@ -138,5 +137,3 @@ inline Contact_setup random_contact(std::uint64_t seed, Device_form form, const 
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_CHART_H
-#define HAPTIC_SCULPT_BENCHMARK_CHART_H
+#pragma once
 
 #include "haptic_passivity/Options.h"
 #include "haptic_passivity/stability.h"
@@ -65,5 +64,3 @@ inline Json chart() {
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_CONTACT_REPORTS_H
-#define HAPTIC_SCULPT_BENCHMARK_CONTACT_REPORTS_H
+#pragma once
 
 #include "haptic_passivity/Options.h"
 #include "haptic_passivity/Random_contacts.h"
@@ -217,5 +216,3 @@ inline Json alarms(const Options& options) {
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_DYNAMIC_LIMITS_H
-#define HAPTIC_SCULPT_BENCHMARK_DYNAMIC_LIMITS_H
+#pragma once
 
 #include "haptic_passivity/stability.h"
 
@@ -65,5 +64,3 @@ inline Dynamic_limits dynamic_limits(Device_form form, double tick, double delay
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_GRAVITY_RESIDUAL_H
-#define HAPTIC_SCULPT_BENCHMARK_GRAVITY_RESIDUAL_H
+#pragma once
 
 #include "haptic_passivity/Random_contacts.h"
 
@@ -75,5 +74,3 @@ inline Gravity_residual gravity_residual(std::uint64_t seed, Device_form form, R
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

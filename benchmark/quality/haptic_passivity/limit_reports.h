@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_LIMIT_REPORTS_H
-#define HAPTIC_SCULPT_BENCHMARK_LIMIT_REPORTS_H
+#pragma once
 
 #include "haptic_passivity/Options.h"
 #include "haptic_passivity/dynamic_limits.h"
@@ -115,5 +114,3 @@ inline Json dynamics_report(const Options& options) {
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_PRESCRIBED_MOTION_H
-#define HAPTIC_SCULPT_BENCHMARK_PRESCRIBED_MOTION_H
+#pragma once
 
 #include "haptic_passivity/Random_contacts.h"
 
@@ -78,5 +77,3 @@ inline Activity activity(std::uint64_t seed, int count, double delay) {
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

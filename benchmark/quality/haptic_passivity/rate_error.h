@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_RATE_ERROR_H
-#define HAPTIC_SCULPT_BENCHMARK_RATE_ERROR_H
+#pragma once
 
 #include "haptic_passivity/Random_contacts.h"
 
@@ -48,5 +47,3 @@ inline Rate_error rate_error(double rate, double delay, double speed, double sti
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_STABILITY_H
-#define HAPTIC_SCULPT_BENCHMARK_STABILITY_H
+#pragma once
 
 #include "haptic_passivity/prescribed_motion.h"
 
@@ -96,5 +95,3 @@ inline double largest_stable_mass(const Device_parameters<double>& device, const
 }
 
 } // namespace haptic_sculpt::passivity_benchmark
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_CERTIFY_ENDS_CERTIFIED_GRABS_H
-#define HAPTIC_SCULPT_BENCHMARK_CERTIFY_ENDS_CERTIFIED_GRABS_H
+#pragma once
 
 #include "End_tally.h"
 #include "Grab_record.h"
@@ -203,5 +202,3 @@ private:
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

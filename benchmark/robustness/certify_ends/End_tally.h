@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_CERTIFY_ENDS_END_TALLY_H
-#define HAPTIC_SCULPT_BENCHMARK_CERTIFY_ENDS_END_TALLY_H
+#pragma once
 
 #include <nlohmann/json.hpp>
 
@@ -47,5 +46,3 @@ struct End_tally {
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

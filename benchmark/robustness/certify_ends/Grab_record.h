@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_CERTIFY_ENDS_GRAB_RECORD_H
-#define HAPTIC_SCULPT_BENCHMARK_CERTIFY_ENDS_GRAB_RECORD_H
+#pragma once
 
 #include "sculpting/scene_parts.h"
 
@@ -89,5 +88,3 @@ struct Grab_record {
 };
 
 } // namespace haptic_sculpt::benchmark
-
-#endif

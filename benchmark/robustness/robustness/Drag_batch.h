@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_DRAG_BATCH_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_DRAG_BATCH_H
+#pragma once
 
 #include "Drag_tally.h"
 #include "Random_places.h"
@@ -119,5 +118,3 @@ private:
 };
 
 } // namespace haptic_sculpt::robustness
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EDIT_BATCH_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EDIT_BATCH_H
+#pragma once
 
 #include "Edit_tally.h"
 #include "Random_places.h"
@@ -176,5 +175,3 @@ private:
 };
 
 } // namespace haptic_sculpt::robustness
-
-#endif

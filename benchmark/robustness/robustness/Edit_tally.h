@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EDIT_TALLY_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EDIT_TALLY_H
+#pragma once
 
 #include <nlohmann/json.hpp>
 
@@ -76,5 +75,3 @@ struct Edit_tally {
 };
 
 } // namespace haptic_sculpt::robustness
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EXTREME_BATCH_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EXTREME_BATCH_H
+#pragma once
 
 #include "Extreme_tally.h"
 #include "robustness_meshes.h"
@@ -151,5 +150,3 @@ private:
 };
 
 } // namespace haptic_sculpt::robustness
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EXTREME_TALLY_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_EXTREME_TALLY_H
+#pragma once
 
 #include <nlohmann/json.hpp>
 
@@ -30,5 +29,3 @@ struct Extreme_tally {
 };
 
 } // namespace haptic_sculpt::robustness
-
-#endif

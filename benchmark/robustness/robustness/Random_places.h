@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_RANDOM_PLACES_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_RANDOM_PLACES_H
+#pragma once
 
 #include "robustness_meshes.h"
 
@@ -135,5 +134,3 @@ private:
 };
 
 } // namespace haptic_sculpt::robustness
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_RUN_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_RUN_H
+#pragma once
 
 #include "Drag_batch.h"
 #include "Edit_batch.h"
@@ -241,5 +240,3 @@ private:
 };
 
 } // namespace haptic_sculpt::robustness
-
-#endif

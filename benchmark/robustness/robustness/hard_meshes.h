@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_HARD_MESHES_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_HARD_MESHES_H
+#pragma once
 
 #include "Random_places.h"
 #include "meshes/thin_walls.h"
@@ -67,5 +66,3 @@ inline std::vector<std::pair<std::string, Mesh>> hard_meshes() {
 }
 
 } // namespace haptic_sculpt::robustness
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_IS_FEASIBLE_CREATION_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_IS_FEASIBLE_CREATION_H
+#pragma once
 
 #include "oracle/exact_triangles.h"
 #include "robustness_meshes.h"
@@ -76,5 +75,3 @@ inline bool is_feasible_creation(const Mesh& mesh, const std::vector<Halfedge_in
 }
 
 } // namespace haptic_sculpt::robustness
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_ROBUSTNESS_MESHES_H
-#define HAPTIC_SCULPT_BENCHMARK_ROBUSTNESS_ROBUSTNESS_MESHES_H
+#pragma once
 
 #include "meshes/generated_meshes.h"
 
@@ -53,5 +52,3 @@ inline std::vector<Small_mesh> small_meshes() {
 }
 
 } // namespace haptic_sculpt::robustness
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_AXIS_SWEEP_TRAITS_3_H
-#define HAPTIC_SCULPT_COLLISION_AXIS_SWEEP_TRAITS_3_H
+#pragma once
 
 #include <haptic_sculpt/collision/Degenerate_face_axis_sweep_3.h>
 #include <haptic_sculpt/collision/Edge_edge_axis_sweep_3.h>
@@ -43,5 +42,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

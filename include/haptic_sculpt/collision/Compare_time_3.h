@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_COMPARE_TIME_3_H
-#define HAPTIC_SCULPT_COLLISION_COMPARE_TIME_3_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/collision/Impact_3.h>
@@ -36,5 +35,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_EDGE_EDGE_AXIS_SWEEP_3_H
-#define HAPTIC_SCULPT_COLLISION_EDGE_EDGE_AXIS_SWEEP_3_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/axis_sweep.h>
 #include <haptic_sculpt/collision/arithmetic/sweep_points.h>
@@ -46,5 +45,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_FACE_VERTEX_SWEEP_3_H
-#define HAPTIC_SCULPT_COLLISION_FACE_VERTEX_SWEEP_3_H
+#pragma once
 
 #include <haptic_sculpt/collision/Sweep_3.h>
 
@@ -15,5 +14,3 @@ template <class K, class Counters = No_filter_counters>
 using Face_vertex_sweep_3 = Sweep_3<Impact_feature::face_vertex, K, Counters>;
 
 } // namespace haptic_sculpt
-
-#endif

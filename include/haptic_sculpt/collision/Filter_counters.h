@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_FILTER_COUNTERS_H
-#define HAPTIC_SCULPT_COLLISION_FILTER_COUNTERS_H
+#pragma once
 
 #include <cstdint>
 
@@ -46,5 +45,3 @@ struct No_filter_counters {
 };
 
 } // namespace haptic_sculpt
-
-#endif

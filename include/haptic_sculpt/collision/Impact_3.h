@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_IMPACT_3_H
-#define HAPTIC_SCULPT_COLLISION_IMPACT_3_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/collision/arithmetic/sweep_time.h>
@@ -115,5 +114,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

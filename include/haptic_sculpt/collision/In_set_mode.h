@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_IN_SET_MODE_H
-#define HAPTIC_SCULPT_COLLISION_IN_SET_MODE_H
+#pragma once
 
 #include <haptic_sculpt/collision/Compare_time_3.h>
 #include <haptic_sculpt/collision/Sweep_3.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// In the place of a Rounding_to_nearest where the caller has one: to ask for the mode takes a tenth of a sweep.
 struct Mode_is_set {};
@@ -35,7 +33,4 @@ std::pair<double, double> time_bounds_in_set_mode(const Impact_3<K>& impact) {
   return filtered_time(impact.coordinates(), impact.verdict());
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

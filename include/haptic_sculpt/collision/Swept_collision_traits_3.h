@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_SWEPT_COLLISION_TRAITS_3_H
-#define HAPTIC_SCULPT_COLLISION_SWEPT_COLLISION_TRAITS_3_H
+#pragma once
 
 #include <haptic_sculpt/collision/Compare_time_3.h>
 #include <haptic_sculpt/collision/Edge_edge_sweep_3.h>
@@ -56,5 +55,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_VERTEX_FACE_SWEEP_3_H
-#define HAPTIC_SCULPT_COLLISION_VERTEX_FACE_SWEEP_3_H
+#pragma once
 
 #include <haptic_sculpt/collision/Sweep_3.h>
 
@@ -14,5 +13,3 @@ template <class K, class Counters = No_filter_counters>
 using Vertex_face_sweep_3 = Sweep_3<Impact_feature::vertex_face, K, Counters>;
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_ALLOW_EMBEDDED_MOVE_H
-#define HAPTIC_SCULPT_SCULPTING_ALLOW_EMBEDDED_MOVE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
 
@@ -53,5 +52,3 @@ Allow_embedded_move<Sculptor> allow_embedded_move(Sculptor& sculptor, typename S
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_APPLIED_H
-#define HAPTIC_SCULPT_SCULPTING_APPLIED_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/Drag_result.h>
@@ -129,5 +128,3 @@ private:
 
 } // namespace internal
 } // namespace haptic_sculpt
-
-#endif

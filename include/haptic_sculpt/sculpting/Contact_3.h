@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CONTACT_3_H
-#define HAPTIC_SCULPT_SCULPTING_CONTACT_3_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Star_impact.h>
 #include <haptic_sculpt/sculpting/geometry/contact_plane.h>
@@ -81,5 +80,3 @@ double height_over_plane(const Contact_3<Mesh>& contact, const Coordinates& q) {
 
 } // namespace internal
 } // namespace haptic_sculpt
-
-#endif

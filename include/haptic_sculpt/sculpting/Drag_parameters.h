@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_DRAG_PARAMETERS_H
-#define HAPTIC_SCULPT_SCULPTING_DRAG_PARAMETERS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Response.h>
 
@@ -44,5 +43,3 @@ struct Drag_parameters {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_DRAG_RESULT_H
-#define HAPTIC_SCULPT_SCULPTING_DRAG_RESULT_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Contact_3.h>
 #include <haptic_sculpt/sculpting/Response.h>
@@ -60,5 +59,3 @@ struct Drag_result {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_H
-#define HAPTIC_SCULPT_SCULPTING_EDIT_H
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -46,5 +45,3 @@ struct Edit {
 };
 
 } // namespace haptic_sculpt
-
-#endif

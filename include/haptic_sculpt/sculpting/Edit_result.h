@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_RESULT_H
-#define HAPTIC_SCULPT_SCULPTING_EDIT_RESULT_H
+#pragma once
 
 #include <boost/container/small_vector.hpp>
 
@@ -65,5 +64,3 @@ struct Edit_result {
 };
 
 } // namespace haptic_sculpt
-
-#endif

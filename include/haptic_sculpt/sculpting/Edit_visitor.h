@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_VISITOR_H
-#define HAPTIC_SCULPT_SCULPTING_EDIT_VISITOR_H
+#pragma once
 
 #include <cstddef>
 
@@ -28,5 +27,3 @@ struct Default_edit_visitor {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_GRAB_H
-#define HAPTIC_SCULPT_SCULPTING_GRAB_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Drag_parameters.h>
 #include <haptic_sculpt/sculpting/Drag_result.h>
@@ -112,5 +111,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

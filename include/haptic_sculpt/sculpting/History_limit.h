@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_HISTORY_LIMIT_H
-#define HAPTIC_SCULPT_SCULPTING_HISTORY_LIMIT_H
+#pragma once
 
 #include <cstddef>
 #include <limits>
@@ -18,5 +17,3 @@ struct History_limit {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_HISTORY_VIEW_H
-#define HAPTIC_SCULPT_SCULPTING_HISTORY_VIEW_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/edits/Edit_history.h>
 
@@ -23,5 +22,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_INVALID_PARAMETER_H
-#define HAPTIC_SCULPT_SCULPTING_INVALID_PARAMETER_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 
@@ -14,5 +13,3 @@ public:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_MESH_CHANGED_H
-#define HAPTIC_SCULPT_SCULPTING_MESH_CHANGED_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 
@@ -17,5 +16,3 @@ public:
 };
 
 } // namespace haptic_sculpt
-
-#endif

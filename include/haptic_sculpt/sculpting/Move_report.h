@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_MOVE_REPORT_H
-#define HAPTIC_SCULPT_SCULPTING_MOVE_REPORT_H
+#pragma once
 
 #include <cstddef>
 #include <functional>
@@ -85,5 +84,3 @@ struct Move_parameters {
 };
 
 } // namespace haptic_sculpt
-
-#endif

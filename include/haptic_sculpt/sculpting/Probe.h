@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_PROBE_H
-#define HAPTIC_SCULPT_SCULPTING_PROBE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Drag_parameters.h>
 #include <haptic_sculpt/sculpting/Drag_result.h>
@@ -85,5 +84,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_PROPERTY_ORIGIN_H
-#define HAPTIC_SCULPT_SCULPTING_PROPERTY_ORIGIN_H
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -49,5 +48,3 @@ struct Interpolate_property {
 };
 
 } // namespace haptic_sculpt
-
-#endif

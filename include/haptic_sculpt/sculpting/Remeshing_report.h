@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_REMESHING_REPORT_H
-#define HAPTIC_SCULPT_SCULPTING_REMESHING_REPORT_H
+#pragma once
 
 #include <cstddef>
 #include <functional>
@@ -73,5 +72,3 @@ struct Remeshing_parameters {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_RESPONSE_H
-#define HAPTIC_SCULPT_SCULPTING_RESPONSE_H
+#pragma once
 
 #include <cstdint>
 #include <optional>
@@ -30,5 +29,3 @@ inline std::optional<Response> response_named(const std::string& name) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

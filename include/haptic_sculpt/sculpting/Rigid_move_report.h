@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_RIGID_MOVE_REPORT_H
-#define HAPTIC_SCULPT_SCULPTING_RIGID_MOVE_REPORT_H
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -38,5 +37,3 @@ struct Rigid_move_report {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
-#define HAPTIC_SCULPT_SCULPTING_SCULPTOR_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Applied.h>
 #include <haptic_sculpt/sculpting/Grab.h>
@@ -366,5 +365,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

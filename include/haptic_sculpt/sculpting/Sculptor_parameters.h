@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SCULPTOR_PARAMETERS_H
-#define HAPTIC_SCULPT_SCULPTING_SCULPTOR_PARAMETERS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Drag_parameters.h>
 
@@ -55,5 +54,3 @@ inline Sculptor_parameters known_valid(bool known) { return Sculptor_parameters(
 } // namespace parameters
 
 } // namespace haptic_sculpt
-
-#endif

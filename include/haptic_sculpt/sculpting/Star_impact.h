@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STAR_IMPACT_H
-#define HAPTIC_SCULPT_SCULPTING_STAR_IMPACT_H
+#pragma once
 
 #include <haptic_sculpt/collision.h>
 
@@ -52,5 +51,3 @@ template <class Mesh, class Impact = typename Exact_sweep_traits<Mesh>::Impact_3
 using Star_impacts = std::vector<Star_impact<Mesh, Impact>>;
 
 } // namespace haptic_sculpt
-
-#endif

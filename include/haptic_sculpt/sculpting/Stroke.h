@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STROKE_H
-#define HAPTIC_SCULPT_SCULPTING_STROKE_H
+#pragma once
 
 #include <cstddef>
 #include <utility>
@@ -48,5 +47,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SURFACE_HIT_H
-#define HAPTIC_SCULPT_SCULPTING_SURFACE_HIT_H
+#pragma once
 
 #include <cstdint>
 
@@ -29,5 +28,3 @@ struct Surface_hit {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_UNFINISHED_CHANGE_H
-#define HAPTIC_SCULPT_SCULPTING_UNFINISHED_CHANGE_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 
@@ -21,5 +20,3 @@ public:
 };
 
 } // namespace haptic_sculpt
-
-#endif

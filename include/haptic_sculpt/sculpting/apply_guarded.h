@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_APPLY_GUARDED_H
-#define HAPTIC_SCULPT_SCULPTING_APPLY_GUARDED_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/move_vertices.h>
 
@@ -64,5 +63,3 @@ Move_report apply_guarded(Sculptor& sculptor, Function&& function,
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_BRUSHES_H
-#define HAPTIC_SCULPT_SCULPTING_BRUSHES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/brushes/brush_targets.h>
 #include <haptic_sculpt/sculpting/move_vertices.h>
@@ -47,5 +46,3 @@ Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_ma
 }
 
 } // namespace haptic_sculpt
-
-#endif

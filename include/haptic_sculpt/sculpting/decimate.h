@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_DECIMATE_H
-#define HAPTIC_SCULPT_SCULPTING_DECIMATE_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/no_fast_math.h>
@@ -163,5 +162,3 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_FIRST_IMPACT_H
-#define HAPTIC_SCULPT_SCULPTING_FIRST_IMPACT_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/Rounding_to_nearest.h>
@@ -97,5 +96,3 @@ first_impact(const Mesh& mesh, typename Mesh::Vertex_index v, const typename Mes
 }
 
 } // namespace haptic_sculpt
-
-#endif

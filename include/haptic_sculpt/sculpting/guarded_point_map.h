@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_GUARDED_POINT_MAP_H
-#define HAPTIC_SCULPT_SCULPTING_GUARDED_POINT_MAP_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/geometry/stop.h>
@@ -112,5 +111,3 @@ Guarded_point_map<Sculptor> guarded_point_map(Sculptor& sculptor, Guard_policy p
 }
 
 } // namespace haptic_sculpt
-
-#endif

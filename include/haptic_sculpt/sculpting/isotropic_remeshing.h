@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_ISOTROPIC_REMESHING_H
-#define HAPTIC_SCULPT_SCULPTING_ISOTROPIC_REMESHING_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remesher.h>
@@ -104,5 +103,3 @@ Remeshing_report isotropic_remeshing(Sculptor& sculptor, double target_edge_leng
 }
 
 } // namespace haptic_sculpt
-
-#endif

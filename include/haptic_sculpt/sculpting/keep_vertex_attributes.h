@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_KEEP_VERTEX_ATTRIBUTES_H
-#define HAPTIC_SCULPT_SCULPTING_KEEP_VERTEX_ATTRIBUTES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Property_origin.h>
 #include <haptic_sculpt/surface/vertex_attributes.h>
@@ -16,5 +15,3 @@ void keep_vertex_attributes(Sculptor& sculptor) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

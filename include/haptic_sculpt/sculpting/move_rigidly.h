@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_MOVE_RIGIDLY_H
-#define HAPTIC_SCULPT_SCULPTING_MOVE_RIGIDLY_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/many_vertices/Rigid_mover.h>
@@ -46,5 +45,3 @@ Rigid_move_report<typename Sculptor::Mesh_type> move_rigidly(
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_MOVE_VERTICES_H
-#define HAPTIC_SCULPT_SCULPTING_MOVE_VERTICES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/many_vertices/Vertices_mover.h>
@@ -96,5 +95,3 @@ Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, cons
 }
 
 } // namespace haptic_sculpt
-
-#endif

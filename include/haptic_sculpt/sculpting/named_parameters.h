@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_NAMED_PARAMETERS_H
-#define HAPTIC_SCULPT_SCULPTING_NAMED_PARAMETERS_H
+#pragma once
 
 #include <CGAL/Named_function_parameters.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// CGAL's named parameters are tagged by types that CGAL does not document: they are named here only.
 namespace named = CGAL::internal_np;
@@ -15,7 +13,4 @@ using CGAL::parameters::get_parameter;
 template <class Named_parameters, class Tag>
 constexpr bool is_not_given = CGAL::parameters::is_default_parameter<Named_parameters, Tag>::value;
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

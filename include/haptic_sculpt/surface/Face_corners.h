@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_FACE_CORNERS_H
-#define HAPTIC_SCULPT_SURFACE_FACE_CORNERS_H
+#pragma once
 
 #include <array>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The corners of a face in the orientation of the mesh, from its halfedges.
 template <class Mesh>
@@ -69,7 +67,4 @@ private:
   std::vector<std::array<Vertex_index, 3>> corners_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

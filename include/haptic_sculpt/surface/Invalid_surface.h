@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_INVALID_SURFACE_H
-#define HAPTIC_SCULPT_SURFACE_INVALID_SURFACE_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/surface/Validity_report.h>
@@ -37,5 +36,3 @@ public:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_MESH_FILE_FORMAT_H
-#define HAPTIC_SCULPT_SURFACE_MESH_FILE_FORMAT_H
+#pragma once
 
 #include <filesystem>
 #include <optional>
@@ -40,5 +39,3 @@ inline std::optional<Mesh_file_format> mesh_file_format(const std::filesystem::p
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_ROUND_MARKS_H
-#define HAPTIC_SCULPT_SURFACE_ROUND_MARKS_H
+#pragma once
 
 #include <cstdint>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Which of some small numbers have been met since a round began.
 class Round_marks {
@@ -34,7 +32,4 @@ private:
   std::uint32_t round_ = 0;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_VALIDITY_REPORT_H
-#define HAPTIC_SCULPT_SURFACE_VALIDITY_REPORT_H
+#pragma once
 
 #include <haptic_sculpt/surface/cgal_compatibility.h>
 
@@ -186,5 +185,3 @@ inline const char* name_of(Validity_report::Reader reader) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

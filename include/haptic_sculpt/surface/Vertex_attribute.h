@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_VERTEX_ATTRIBUTE_H
-#define HAPTIC_SCULPT_SURFACE_VERTEX_ATTRIBUTE_H
+#pragma once
 
 #include <cmath>
 #include <cstdint>
@@ -40,5 +39,3 @@ inline double rounded_to(Vertex_attribute::Type type, double x) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_WRITE_ERROR_H
-#define HAPTIC_SCULPT_SURFACE_WRITE_ERROR_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 
@@ -13,5 +12,3 @@ public:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_CGAL_COMPATIBILITY_H
-#define HAPTIC_SCULPT_SURFACE_CGAL_COMPATIBILITY_H
+#pragma once
 
 /// \file
 /// The one place that knows CGAL 5.5 from CGAL 6, but for the search tree of sculpting/many_vertices/Input_surface.h,
@@ -52,5 +51,3 @@ auto find_property_map(const Mesh& mesh, const std::string& name) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

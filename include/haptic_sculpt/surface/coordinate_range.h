@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_COORDINATE_RANGE_H
-#define HAPTIC_SCULPT_SURFACE_COORDINATE_RANGE_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 
@@ -47,5 +46,3 @@ inline void check_range(const char* what, double length) {
 
 } // namespace internal
 } // namespace haptic_sculpt
-
-#endif

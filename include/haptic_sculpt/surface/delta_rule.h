@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_DELTA_RULE_H
-#define HAPTIC_SCULPT_SURFACE_DELTA_RULE_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/cgal_compatibility.h>
@@ -69,5 +68,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

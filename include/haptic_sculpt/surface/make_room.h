@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_MAKE_ROOM_H
-#define HAPTIC_SCULPT_SURFACE_MAKE_ROOM_H
+#pragma once
 
 #include <algorithm>
 #include <cstddef>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What a container of n elements that is full grows to: so growing by one again and again costs a constant each time.
 inline std::size_t grown(std::size_t n) { return n + n / 2; }
@@ -19,7 +17,4 @@ void make_room(Vector& vector, std::size_t elements) {
     vector.reserve(std::max(elements, grown(vector.capacity())));
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_ORIENT_COMPONENTS_H
-#define HAPTIC_SCULPT_SURFACE_ORIENT_COMPONENTS_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
@@ -82,5 +81,3 @@ std::size_t orient_components(Mesh& mesh) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

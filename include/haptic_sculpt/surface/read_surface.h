@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_READ_SURFACE_H
-#define HAPTIC_SCULPT_SURFACE_READ_SURFACE_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
@@ -185,5 +184,3 @@ Mesh make_surface(const Face_soup& soup, double delta = 0) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

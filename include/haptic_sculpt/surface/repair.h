@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_REPAIR_H
-#define HAPTIC_SCULPT_SURFACE_REPAIR_H
+#pragma once
 
 #include <haptic_sculpt/no_fast_math.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
@@ -95,5 +94,3 @@ Repair_report repair(Mesh& mesh, const Repair_parameters& parameters = {}) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_STAR_H
-#define HAPTIC_SCULPT_SURFACE_STAR_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The closed star of a vertex: its link in order around it, and its faces.
 ///
@@ -68,7 +66,4 @@ struct Star {
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_VALIDATE_H
-#define HAPTIC_SCULPT_SURFACE_VALIDATE_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/Rounding_to_nearest.h>
@@ -199,5 +198,3 @@ Validity_report validate(const Mesh& mesh, double delta = 0,
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_VERTEX_ATTRIBUTES_H
-#define HAPTIC_SCULPT_SURFACE_VERTEX_ATTRIBUTES_H
+#pragma once
 
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/io/attribute_in_words.h>
@@ -63,5 +62,3 @@ std::vector<std::string> attributes_not_held(const Mesh& mesh, Mesh_file_format 
 }
 
 } // namespace haptic_sculpt
-
-#endif

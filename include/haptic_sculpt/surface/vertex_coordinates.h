@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_VERTEX_COORDINATES_H
-#define HAPTIC_SCULPT_SURFACE_VERTEX_COORDINATES_H
+#pragma once
 
 #include <array>
 
@@ -14,5 +13,3 @@ std::array<double, 3> vertex_coordinates(const Mesh& mesh, typename Mesh::Vertex
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_WRITE_SURFACE_H
-#define HAPTIC_SCULPT_SURFACE_WRITE_SURFACE_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
@@ -222,5 +221,3 @@ void write_surface(const std::filesystem::path& path, const Mesh& mesh, const Wr
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DEVICE_COUPLED_HAND_H
-#define HAPTIC_SCULPT_TEST_DEVICE_COUPLED_HAND_H
+#pragma once
 
 /// \file
 /// What the tests of the simulation share; in the namespace of their suite.
@@ -69,5 +68,3 @@ Coupled_state<S, count> at_rest(const Device_parameters<S>& parameters, const De
 }
 
 } // namespace device_simulation
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_EXCHANGE_SURFACE_H
-#define HAPTIC_SCULPT_TEST_EXCHANGE_SURFACE_H
+#pragma once
 
 #include "haptic_rendering/pose_readings.h"
 #include "meshes/generated_meshes.h"
@@ -78,5 +77,3 @@ inline Surface surface_of(const Scene_copy& copy) {
 }
 
 } // namespace exchange_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_EXCHANGE_THREADS_H
-#define HAPTIC_SCULPT_TEST_EXCHANGE_THREADS_H
+#pragma once
 
 #include "haptic_rendering/exchange/Surface.h"
 
@@ -64,5 +63,3 @@ struct Threads {
 };
 
 } // namespace exchange_tests
-
-#endif

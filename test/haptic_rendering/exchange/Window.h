@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_EXCHANGE_WINDOW_H
-#define HAPTIC_SCULPT_TEST_EXCHANGE_WINDOW_H
+#pragma once
 
 #include "haptic_rendering/exchange/Surface.h"
 
@@ -107,5 +106,3 @@ private:
 };
 
 } // namespace exchange_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_EXCHANGE_MADE_AGAIN_H
-#define HAPTIC_SCULPT_TEST_EXCHANGE_MADE_AGAIN_H
+#pragma once
 
 #include "haptic_rendering/exchange/Surface.h"
 
@@ -69,5 +68,3 @@ inline Surface made_again(Mesh mesh, const Entries& entries) {
 }
 
 } // namespace exchange_tests
-
-#endif

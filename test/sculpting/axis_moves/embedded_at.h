@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_EMBEDDED_AT_H
-#define HAPTIC_SCULPT_TEST_EMBEDDED_AT_H
+#pragma once
 
 #include "oracle/exact_triangles.h"
 
@@ -82,5 +81,3 @@ inline std::vector<mpq_class> times_in_one_plane(const Axis_scene& scene) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_ALL_PAIRS_H
-#define HAPTIC_SCULPT_TEST_ALL_PAIRS_H
+#pragma once
 
 #include "sculpting/Random_scene.h"
 
@@ -160,5 +159,3 @@ inline bool same(const Star_impacts<Mesh>& a, const Star_impacts<Mesh>& b) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_DRAWN_STARS_H
-#define HAPTIC_SCULPT_TEST_DRAWN_STARS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
@@ -152,5 +151,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_PLANES_AND_POINTS_H
-#define HAPTIC_SCULPT_TEST_PLANES_AND_POINTS_H
+#pragma once
 
 #include "sculpting/Random_scene.h"
 #include "sculpting/culling/drawn_stars.h"
@@ -181,5 +180,3 @@ void check(Random& random, const Faces_and_points& scene, const Planes& planes, 
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

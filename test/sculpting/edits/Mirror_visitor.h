@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_MIRROR_VISITOR_H
-#define HAPTIC_SCULPT_TEST_MIRROR_VISITOR_H
+#pragma once
 
 #include "sculpting/Mesh_snapshot.h"
 #include "sculpting/Random_scene.h"
@@ -105,5 +104,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FAILING_ALLOCATIONS_H
-#define HAPTIC_SCULPT_TEST_FAILING_ALLOCATIONS_H
+#pragma once
 
 /// \file
 /// Memory that runs out when asked to: replaces the global operator new. To be included by one source file of a
@@ -52,5 +51,3 @@ __attribute__((noinline)) void operator delete(void* p) noexcept { std::free(p);
 __attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 __attribute__((noinline)) void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
 __attribute__((noinline)) void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_RANDOM_EDITS_H
-#define HAPTIC_SCULPT_TEST_RANDOM_EDITS_H
+#pragma once
 
 #include "sculpting/Random_scene.h"
 
@@ -66,5 +65,3 @@ Random_edit random_edit(Sculptor_type& sculptor, Random& random) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_PROBE_SCENES_H
-#define HAPTIC_SCULPT_TEST_PROBE_SCENES_H
+#pragma once
 
 /// \file
 /// Small meshes on a grid with places for probes, and where these lie, by decisions over integers that share nothing
@@ -64,5 +63,3 @@ inline Point_3 random_place_off(Random& random, int size, const meshes::Triangle
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_MANY_VERTICES_SCENE_H
-#define HAPTIC_SCULPT_TEST_MANY_VERTICES_SCENE_H
+#pragma once
 
 #include "meshes/thin_walls.h"
 #include "sculpting/Mesh_snapshot.h"
@@ -77,5 +76,3 @@ void check_undo_and_redo(Sculptor& sculptor, const Mesh_snapshot& before) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

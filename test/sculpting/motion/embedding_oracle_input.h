@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_EMBEDDING_ORACLE_INPUT_H
-#define HAPTIC_SCULPT_TEST_EMBEDDING_ORACLE_INPUT_H
+#pragma once
 
 #include "sculpting/Random_scene.h"
 
@@ -19,5 +18,3 @@ inline oracle::Mesh_list to_oracle(const meshes::Triangle_list& list) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -7,8 +7,7 @@
 
 #include <cstring>
 
-namespace haptic_sculpt {
-namespace test {
+namespace haptic_sculpt::test {
 
 inline bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 inline bool same_bits(const Point_3& a, const Point_3& b) {
@@ -46,7 +45,6 @@ inline bool same_bits(const Mesh& a, const Mesh& b) {
   return true;
 }
 
-} // namespace test
-} // namespace haptic_sculpt
+} // namespace haptic_sculpt::test
 
 #endif

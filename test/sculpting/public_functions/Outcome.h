@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_OUTCOME_H
-#define HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_OUTCOME_H
+#pragma once
 
 #include "sculpting/Random_scene.h"
 
@@ -109,5 +108,3 @@ struct Public_function {
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

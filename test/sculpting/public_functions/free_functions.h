@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_FREE_FUNCTIONS_H
-#define HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_FREE_FUNCTIONS_H
+#pragma once
 
 #include "sculpting/public_functions/Scaled_scene.h"
 #include "surface/Temporary_folder.h"
@@ -237,5 +236,3 @@ inline std::vector<Public_function> free_functions() {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_SCULPTOR_FUNCTIONS_H
-#define HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_SCULPTOR_FUNCTIONS_H
+#pragma once
 
 #include "sculpting/public_functions/Scaled_scene.h"
 
@@ -216,5 +215,3 @@ inline std::vector<Public_function> sculptor_functions() {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

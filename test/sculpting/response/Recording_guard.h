@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_RECORDING_GUARD_H
-#define HAPTIC_SCULPT_TEST_RECORDING_GUARD_H
+#pragma once
 
 #include <haptic_sculpt/sculpting.h>
 
@@ -58,5 +57,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

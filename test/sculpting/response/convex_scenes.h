@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_CONVEX_SCENES_H
-#define HAPTIC_SCULPT_TEST_CONVEX_SCENES_H
+#pragma once
 
 /// \file
 /// Scenes in which the point a drag has to end at is unique: planes, convex cavities, concave corners; the plane of a
@@ -233,5 +232,3 @@ inline std::vector<Convex_scene> convex_scenes(Random& random) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_END_CERTIFICATE_H
-#define HAPTIC_SCULPT_TEST_END_CERTIFICATE_H
+#pragma once
 
 /// \file
 /// Does a drag end too early? Looks for a free straight way from its end to somewhere nearer to the target: in many
@@ -199,5 +198,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

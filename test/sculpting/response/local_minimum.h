@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_LOCAL_MINIMUM_H
-#define HAPTIC_SCULPT_TEST_LOCAL_MINIMUM_H
+#pragma once
 
 /// \file
 /// Is the end of a drag a constrained local minimum of the distance to the target? From outside of a solid no end is
@@ -218,5 +217,3 @@ Local_minimum_check check_local_minimum(const Surroundings& around, const Mesh& 
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_OPTIMUM_CHECK_H
-#define HAPTIC_SCULPT_TEST_OPTIMUM_CHECK_H
+#pragma once
 
 #include "sculpting/response/convex_scenes.h"
 
@@ -43,5 +42,3 @@ inline bool is_beyond_no_plane(const Convex_scene& scene, const Point_3& p) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_OUTSIDE_SCENES_H
-#define HAPTIC_SCULPT_TEST_OUTSIDE_SCENES_H
+#pragma once
 
 /// \file
 /// Scenes in which drags end at one of many local minima: probes and stars around solids, vertices dragged against
@@ -262,5 +261,3 @@ inline Point_3 outside_target(const Outside_scene& scene, const Mesh& mesh, Rand
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

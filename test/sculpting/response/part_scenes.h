@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_PART_SCENES_H
-#define HAPTIC_SCULPT_TEST_PART_SCENES_H
+#pragma once
 
 /// \file
 /// Machine parts and near-degenerate solids in which vertices are dragged, and targets that lie on, along and beyond
@@ -240,5 +239,3 @@ inline Point_3 part_target(const Part_scene& scene, const Mesh& mesh, Vertex_ind
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

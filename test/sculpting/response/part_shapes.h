@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_PART_SHAPES_H
-#define HAPTIC_SCULPT_TEST_PART_SHAPES_H
+#pragma once
 
 /// \file
 /// Surfaces as machine parts have them, on an integer grid: flat faces of several triangles, right angles, coplanar and
@@ -313,5 +312,3 @@ inline meshes::Triangle_list narrow_slots(double width, double foot, Random& ran
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

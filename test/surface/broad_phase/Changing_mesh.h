@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_CHANGING_MESH_H
-#define HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_CHANGING_MESH_H
+#pragma once
 
 #include "surface/broad_phase/random_points.h"
 #include "surface/broad_phase/swept_faces.h"
@@ -117,5 +116,3 @@ struct Changing_mesh {
 };
 
 } // namespace broad_phase_tests
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_CHECKED_MESH_H
-#define HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_CHECKED_MESH_H
+#pragma once
 
 #include "surface/broad_phase/Changing_mesh.h"
 
@@ -144,5 +143,3 @@ struct Checked_mesh : Changing_mesh {
 };
 
 } // namespace broad_phase_tests
-
-#endif

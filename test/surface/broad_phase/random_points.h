@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_RANDOM_POINTS_H
-#define HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_RANDOM_POINTS_H
+#pragma once
 
 #include "seeds_and_sizes.h"
 
@@ -29,5 +28,3 @@ inline Coordinates random_point(Random& random, double size) {
 }
 
 } // namespace broad_phase_tests
-
-#endif

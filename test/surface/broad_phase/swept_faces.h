@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_SWEPT_FACES_H
-#define HAPTIC_SCULPT_TEST_SURFACE_BROAD_PHASE_SWEPT_FACES_H
+#pragma once
 
 #include "meshes/generated_meshes.h"
 
@@ -79,5 +78,3 @@ inline std::vector<Face_index> swept_faces(const Mesh& mesh, const Swept_star_3&
 }
 
 } // namespace broad_phase_tests
-
-#endif

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_FIXED_INTEGER_H
-#define HAPTIC_SCULPT_COLLISION_FIXED_INTEGER_H
+#pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 __extension__ typedef unsigned __int128 Double_limb;
 
@@ -93,7 +91,4 @@ Fixed_integer<wide> widened(const Fixed_integer<narrow>& a) {
   return result;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_SWEEP_SIGNS_H
-#define HAPTIC_SCULPT_COLLISION_SWEEP_SIGNS_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/Sweep_verdict.h>
 #include <haptic_sculpt/collision/arithmetic/orientation_filter.h>
 
 #include <variant>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Exact signs among the five points of one sweep, by index. The points become integers once, when the first sign needs
 /// it: on degenerate inputs several do.
@@ -92,7 +90,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

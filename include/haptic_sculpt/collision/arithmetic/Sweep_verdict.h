@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_SWEEP_VERDICT_H
-#define HAPTIC_SCULPT_COLLISION_SWEEP_VERDICT_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 
@@ -50,5 +49,3 @@ struct Sweep_verdict {
 
 } // namespace internal
 } // namespace haptic_sculpt
-
-#endif

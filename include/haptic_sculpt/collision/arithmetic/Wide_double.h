@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_WIDE_DOUBLE_H
-#define HAPTIC_SCULPT_COLLISION_WIDE_DOUBLE_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 
 #include <cmath>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A double with an exponent that cannot overflow: exact integers of any size rounded to 53 bits or a few less.
 ///
@@ -80,7 +78,4 @@ inline Wide_double length(const Wide_vector& v) {
   return Wide_double(std::sqrt(std::fma(m[0], m[0], std::fma(m[1], m[1], m[2] * m[2]))), exponent);
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

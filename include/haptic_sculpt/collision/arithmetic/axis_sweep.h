@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_AXIS_SWEEP_H
-#define HAPTIC_SCULPT_COLLISION_AXIS_SWEEP_H
+#pragma once
 
 /// \file
 /// Do two features meet while their corners move along one coordinate axis, each at its own speed?
@@ -12,8 +11,7 @@
 
 #include <initializer_list>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Points at the two ends of a motion along one axis. \pre start and end differ in that coordinate alone.
 template <std::size_t points>
@@ -157,7 +155,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

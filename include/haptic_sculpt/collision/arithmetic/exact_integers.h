@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_EXACT_INTEGERS_H
-#define HAPTIC_SCULPT_COLLISION_EXACT_INTEGERS_H
+#pragma once
 
 /// \file
 /// Doubles as integer multiples of one power of two: the exact stage behind the floating-point filters.
@@ -18,8 +17,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 using Coordinates = std::array<double, 3>;
 
@@ -171,7 +169,4 @@ auto orientation_determinant_2(const std::array<Integer, 3>& a, const std::array
   return (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_FLAT_SWEEP_H
-#define HAPTIC_SCULPT_COLLISION_FLAT_SWEEP_H
+#pragma once
 
 /// \file
 /// The sweeps whose five points lie in one plane, or on one line.
@@ -14,8 +13,7 @@
 
 #include <initializer_list>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Flat sweeps among five coplanar points. All functions take indices into the points.
 template <class Counters>
@@ -195,7 +193,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

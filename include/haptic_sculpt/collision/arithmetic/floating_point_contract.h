@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_FLOATING_POINT_CONTRACT_H
-#define HAPTIC_SCULPT_COLLISION_FLOATING_POINT_CONTRACT_H
+#pragma once
 
 /// \file
 /// What the error bounds of the filters take for granted of the compiler; see doc/proofs/sweep_arithmetic.md.
@@ -21,5 +20,3 @@ namespace haptic_sculpt {
 static_assert(std::numeric_limits<double>::is_iec559, "haptic_sculpt needs IEEE 754 doubles");
 static_assert(FLT_EVAL_METHOD == 0, "haptic_sculpt needs doubles evaluated as doubles: compile with -mfpmath=sse");
 } // namespace haptic_sculpt
-
-#endif

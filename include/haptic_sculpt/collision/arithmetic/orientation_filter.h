@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_ORIENTATION_FILTER_H
-#define HAPTIC_SCULPT_COLLISION_ORIENTATION_FILTER_H
+#pragma once
 
 /// \file
 /// Exact signs of orientation determinants of doubles: a semi-static filter, then integers.
@@ -25,8 +24,7 @@
 #endif
 /// \endcond
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// |computed 3x3 determinant - exact| <= this times the product of the largest differences in x, y and z.
 /// The derivation gives 54 units of 2^-52; the rest covers the rounding of the product itself.
@@ -205,7 +203,4 @@ int orientation_2(const Coordinates& a, const Coordinates& b, const Coordinates&
   });
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_SWEEP_DECISION_H
-#define HAPTIC_SCULPT_COLLISION_SWEEP_DECISION_H
+#pragma once
 
 /// \file
 /// The three sweeps on plain coordinates: whether and when. Why these signs decide: doc/proofs/exact_sweeps.md.
 
 #include <haptic_sculpt/collision/arithmetic/flat_sweep.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Whether both signs are on one strict side.
 inline bool same_side(int a, int b) { return a * b > 0; }
@@ -166,7 +164,4 @@ Sweep_verdict face_vertex_verdict(const Sweep_points& p, Counters& counters) {
   return careful_face_vertex_verdict(p, counters);
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

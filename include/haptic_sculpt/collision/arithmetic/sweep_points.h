@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_SWEEP_POINTS_H
-#define HAPTIC_SCULPT_COLLISION_SWEEP_POINTS_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/Sweep_verdict.h>
 
 #include <cmath>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 template <class Point_3>
 Coordinates coordinates(const Point_3& p) {
@@ -28,7 +26,4 @@ bool are_finite(const std::array<Coordinates, size>& points) {
   return true;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

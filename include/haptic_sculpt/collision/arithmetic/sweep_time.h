@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_SWEEP_TIME_H
-#define HAPTIC_SCULPT_COLLISION_SWEEP_TIME_H
+#pragma once
 
 /// \file
 /// The time of an impact: u = f(S) / (f(S) - f(T)) for an affine f that vanishes at the impact.
@@ -17,8 +16,7 @@
 
 #include <utility>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 constexpr double unit_roundoff_any_rounding = 0x1p-52;
 /// An enclosure of the time wider than this (absolute, times are in [0, 1]) is computed anew from the exact ratio.
@@ -206,7 +204,4 @@ int compare_times(const Sweep_points& p, const Sweep_verdict& first, const Sweep
   });
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

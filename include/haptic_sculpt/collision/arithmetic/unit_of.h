@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_COLLISION_UNIT_OF_H
-#define HAPTIC_SCULPT_COLLISION_UNIT_OF_H
+#pragma once
 
 #include <algorithm>
 #include <cmath>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The power of two that brings a length to about 1, where products of lengths stay in the range of doubles; it and its
 /// inverse are normal numbers. 1 for 0, and for what is not finite.
@@ -16,7 +14,4 @@ inline double unit_of(double length) {
   return std::ldexp(1.0, std::max(-1000, std::min(1000, -std::ilogb(length))));
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_BOX_H
-#define HAPTIC_SCULPT_SCULPTING_AXIS_BOX_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 
 #include <array>
 #include <cstdint>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Where a face is in a motion along one axis: the intervals of the two other coordinates, which do not change, and
 /// those along the axis at the start and at the end. Floats in a unit of the scene's own, rounded outward.
@@ -90,7 +88,4 @@ struct alignas(64) Axis_box_node {
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_BOX_TREE_H
-#define HAPTIC_SCULPT_SCULPTING_AXIS_BOX_TREE_H
+#pragma once
 
 #include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_box.h>
@@ -9,8 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// An implicit 8-wide tree over slots, neighbours in space side by side, that finds the pairs of slots whose boxes may
 /// meet in a motion along one axis.
@@ -184,7 +182,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

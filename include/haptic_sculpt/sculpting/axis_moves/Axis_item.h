@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_ITEM_H
-#define HAPTIC_SCULPT_SCULPTING_AXIS_ITEM_H
+#pragma once
 
 #include <array>
 #include <cstdint>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A face, as an axis move looks at it.
 struct Axis_item {
@@ -33,7 +31,4 @@ inline bool are_side_by_side(const Axis_item& f, const Axis_item& g, unsigned sh
   return f.side != 0 && f.side == g.side && shared != 0 && (is_edge || (f.unfolded & shared) != 0);
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

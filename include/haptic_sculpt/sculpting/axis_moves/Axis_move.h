@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_MOVE_H
-#define HAPTIC_SCULPT_SCULPTING_AXIS_MOVE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Mesh_changed.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_box_tree.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_scene.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Decides whether many vertices of a mesh can go at once along one axis, and holds those back that cannot: it reads
 /// the mesh and changes nothing. The theorem is in doc/proofs/axis_moves.md.
@@ -229,7 +227,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

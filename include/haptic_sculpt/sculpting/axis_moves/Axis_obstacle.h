@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_OBSTACLE_H
-#define HAPTIC_SCULPT_SCULPTING_AXIS_OBSTACLE_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/axis_sweep.h>
 #include <haptic_sculpt/collision/arithmetic/unit_of.h>
@@ -8,8 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What makes a motion along an axis not free.
 struct Axis_obstacle {
@@ -84,7 +82,4 @@ inline Axis_pull pull_for(Axis_obstacle::Kind kind, const Axis_motion<4>& motion
   return proposed.share < 1 ? proposed : pull; // not where it is not a number either
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

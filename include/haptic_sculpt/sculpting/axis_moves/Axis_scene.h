@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_SCENE_H
-#define HAPTIC_SCULPT_SCULPTING_AXIS_SCENE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/axis_moves/Axis_item.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_obstacle.h>
 #include <haptic_sculpt/sculpting/axis_moves/axis_delta.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Vertices, and where each is to be along an axis.
 template <class Mesh>
@@ -211,7 +209,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_FACES_ON_THE_WAY_H
-#define HAPTIC_SCULPT_SCULPTING_FACES_ON_THE_WAY_H
+#pragma once
 
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/Round_marks.h>
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Vertices, and where they are to be.
 template <class Mesh>
@@ -78,7 +76,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_DELTA_H
-#define HAPTIC_SCULPT_SCULPTING_AXIS_DELTA_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/axis_sweep.h>
 
@@ -8,8 +7,7 @@
 #include <CGAL/Gmpq.h>
 #include <CGAL/Interval_nt.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Whether q(t) = |n|^2 - delta^2 |side|^2 >= 0 for all t in [0, 1], for each side of the triangle 0, 1, 2; n is the
 /// normal, a cross product of two sides. One coordinate of n is constant and two are affine in t, so q is a quadratic
@@ -67,7 +65,4 @@ inline bool is_delta_kept(const Axis_motion<3>& motion, double delta) {
   return CGAL::get_certain(is_delta_kept_in<CGAL::Gmpq>(motion, delta));
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

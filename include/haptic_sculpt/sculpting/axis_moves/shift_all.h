@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SHIFT_ALL_H
-#define HAPTIC_SCULPT_SCULPTING_SHIFT_ALL_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
@@ -11,8 +10,7 @@
 
 #include <algorithm>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The way of functions that are no members to what a Sculptor guards.
 struct Sculptor_access {
@@ -58,7 +56,4 @@ Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways, co
   return ways.empty() ? Edit_result<Mesh>{} : Edit_result<Mesh>::done(ways.back().first);
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_DAB_3_H
-#define HAPTIC_SCULPT_SCULPTING_DAB_3_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/brushes/scaled_directions.h>
@@ -60,5 +59,3 @@ Dab_3<Kernel> mirrored(Dab_3<Kernel> dab, const typename Kernel::Plane_3& plane)
 }
 
 } // namespace haptic_sculpt
-
-#endif

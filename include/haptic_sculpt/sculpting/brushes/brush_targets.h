@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_BRUSH_TARGETS_H
-#define HAPTIC_SCULPT_SCULPTING_BRUSH_TARGETS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/brushes/Dab_3.h>
 
@@ -91,5 +90,3 @@ void fill_brush_targets(const std::vector<typename Mesh::Vertex_index>& vertices
 }
 
 } // namespace haptic_sculpt
-
-#endif

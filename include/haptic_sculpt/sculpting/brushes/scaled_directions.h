@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SCALED_DIRECTIONS_H
-#define HAPTIC_SCULPT_SCULPTING_SCALED_DIRECTIONS_H
+#pragma once
 
 #include <CGAL/Kernel/global_functions.h>
 
@@ -53,5 +52,3 @@ auto vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_FACET_H
-#define HAPTIC_SCULPT_SCULPTING_FACET_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Contact_3.h>
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/delta_limit.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What one contact forbids the moving vertex J, taken as a point: to cross a planar convex facet
 /// (doc/proofs/slide.md).
@@ -162,7 +160,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

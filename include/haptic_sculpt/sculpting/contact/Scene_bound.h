@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SCENE_BOUND_H
-#define HAPTIC_SCULPT_SCULPTING_SCENE_BOUND_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/contact/check_parameters.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A bound of the coordinates of all vertices of a mesh under way: it grows with every move, and is taken anew where
 /// that matters.
@@ -52,7 +50,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

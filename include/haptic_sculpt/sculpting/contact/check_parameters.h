@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CHECK_PARAMETERS_H
-#define HAPTIC_SCULPT_SCULPTING_CHECK_PARAMETERS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
@@ -12,8 +11,7 @@
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// \throw Out_of_range; Invalid_parameter where a length would be refused in every scene.
 inline void check_length(const std::optional<double>& clearance) {
@@ -83,7 +81,4 @@ const Mesh& checked_scene(const Mesh& mesh, const Sculptor_parameters& parameter
   return mesh;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

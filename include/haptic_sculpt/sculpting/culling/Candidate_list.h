@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CANDIDATE_LIST_H
-#define HAPTIC_SCULPT_SCULPTING_CANDIDATE_LIST_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/culling/Distinct_pairs.h>
 #include <haptic_sculpt/surface/Face_corners.h>
@@ -9,8 +8,7 @@
 
 #include <algorithm>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The paper's checklist (4.0): the static faces, edges and vertices that a star may touch while it stays in a region,
 /// each once, with a private copy of their points.
@@ -138,7 +136,4 @@ private:
   Distinct_pairs pairs_;                   ///< the edges that were met so far
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

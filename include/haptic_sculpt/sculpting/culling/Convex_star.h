@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CONVEX_STAR_H
-#define HAPTIC_SCULPT_SCULPTING_CONVEX_STAR_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/separation.h>
 #include <haptic_sculpt/surface/star.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A cheap proof that the motion of an ordinary star is free: its link, seen along some direction n, is a strictly
 /// convex polygon, its centre stays strictly inside, and every other face nearby is beyond one of the walls that stand
@@ -128,7 +126,4 @@ private:
   double side(std::size_t i, const Vector& p) const { return quick_dot(wall_[i], minus(p, link_[i])); }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

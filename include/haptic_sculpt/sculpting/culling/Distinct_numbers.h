@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_DISTINCT_NUMBERS_H
-#define HAPTIC_SCULPT_SCULPTING_DISTINCT_NUMBERS_H
+#pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Numbers the distinct ones of a stream of 64-bit numbers in the order in which they come first.
 ///
@@ -59,7 +57,4 @@ private:
   std::uint32_t round_ = 0, count_ = 0;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_DISTINCT_PAIRS_H
-#define HAPTIC_SCULPT_SCULPTING_DISTINCT_PAIRS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/culling/Distinct_numbers.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Tells the distinct ones of a stream of pairs (a, b) of small numbers: the edges of some faces with few vertices.
 ///
@@ -47,7 +45,4 @@ private:
   Distinct_numbers others_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_NEAR_PAIRS_H
-#define HAPTIC_SCULPT_SCULPTING_NEAR_PAIRS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Star_impact.h>
 #include <haptic_sculpt/sculpting/culling/Star_runs.h>
 #include <haptic_sculpt/sculpting/geometry/separation.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The free ball: how far apart the features of a star and its candidates are with the moving vertex J in one
 /// place, the centre. A motion of J between two points nowhere farther than r from there can make only pairs touch that
@@ -196,7 +194,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_OUTCODES_H
-#define HAPTIC_SCULPT_SCULPTING_OUTCODES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
@@ -8,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Points and their outcodes: on the far side of which planes each certainly lies, a bit a side. All of an edge or face
 /// lies on a side if all its corners do, which is one `and`.
@@ -120,7 +118,4 @@ private:
   std::vector<Outcode> sides_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

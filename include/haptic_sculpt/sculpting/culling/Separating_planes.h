@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SEPARATING_PLANES_H
-#define HAPTIC_SCULPT_SCULPTING_SEPARATING_PLANES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/culling/Outcodes.h>
 #include <haptic_sculpt/sculpting/geometry/separation.h>
@@ -8,8 +7,7 @@
 
 #include <cstdint>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Planes about some consecutive faces of a star, which part many pairs of a moving and a still feature at once.
 ///
@@ -115,7 +113,4 @@ private:
   Outcode vertex_ = box_sides;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SPOKE_PLANES_H
-#define HAPTIC_SCULPT_SCULPTING_SPOKE_PLANES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/culling/Swept_fan.h>
 
 #include <cstdint>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Planes at the ends of some consecutive spokes of a large star, which part each spoke and each face from what lies
 /// beside it, under and over its neighbours too.
@@ -108,7 +106,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

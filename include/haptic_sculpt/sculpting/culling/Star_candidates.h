@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STAR_CANDIDATES_H
-#define HAPTIC_SCULPT_SCULPTING_STAR_CANDIDATES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/culling/Convex_star.h>
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
@@ -8,8 +7,7 @@
 #include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A star, or a probe, and what it may touch: looks candidates up in the broad phase when the motions of a grab leave
 /// the region for which they are known.
@@ -298,7 +296,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

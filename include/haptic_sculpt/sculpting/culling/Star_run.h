@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STAR_RUN_H
-#define HAPTIC_SCULPT_SCULPTING_STAR_RUN_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/culling/Candidate_list.h>
 #include <haptic_sculpt/sculpting/culling/Separating_planes.h>
 #include <haptic_sculpt/sculpting/culling/Spoke_planes.h>
 #include <haptic_sculpt/surface/broad_phase/bits.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Candidates that are near some faces of a star.
 struct Near_candidates {
@@ -151,7 +149,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STAR_RUNS_H
-#define HAPTIC_SCULPT_SCULPTING_STAR_RUNS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/culling/Star_run.h>
 #include <haptic_sculpt/sculpting/geometry/Star_motion.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Goes through the faces of a star in runs of a few, each with the candidates that are near it.
 ///
@@ -243,7 +241,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SWEPT_FAN_H
-#define HAPTIC_SCULPT_SCULPTING_SWEPT_FAN_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/culling/Outcodes.h>
 #include <haptic_sculpt/sculpting/geometry/separation.h>
@@ -8,8 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What some consecutive faces of a star sweep over, to tell fast what is certainly apart from it.
 ///
@@ -111,7 +109,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

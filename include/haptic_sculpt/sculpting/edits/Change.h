@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CHANGE_H
-#define HAPTIC_SCULPT_SCULPTING_CHANGE_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/Edit.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// An edit that was made, and what it takes to take it back. In numbers of vertices that last.
 struct Change {
@@ -22,7 +20,4 @@ struct Change {
       ways; ///< shift: of each vertex around, its coordinate along the axis before and after
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

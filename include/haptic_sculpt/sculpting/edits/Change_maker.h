@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CHANGE_MAKER_H
-#define HAPTIC_SCULPT_SCULPTING_CHANGE_MAKER_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Edit_visitor.h>
 #include <haptic_sculpt/sculpting/edits/Change.h>
@@ -14,8 +13,7 @@
 
 #include <type_traits>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Makes changes of a mesh and takes them back, and keeps the broad phase, the numbers of the vertices and a visitor
 /// told. Nothing is proven here: what comes in has been, or restores what was.
@@ -346,7 +344,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_COLLAPSE_PROOF_H
-#define HAPTIC_SCULPT_SCULPTING_COLLAPSE_PROOF_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/edits/Edit_proof.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Decides into which of its neighbours a vertex can be drawn, for the edge between them to collapse
 /// (doc/use/edits.md).
@@ -108,7 +106,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

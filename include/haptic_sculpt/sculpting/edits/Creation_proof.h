@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CREATION_PROOF_H
-#define HAPTIC_SCULPT_SCULPTING_CREATION_PROOF_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/culling/Convex_star.h>
@@ -12,8 +11,7 @@
 
 #include <limits>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Decides whether one or two faces can be replaced by the star of a new vertex: the new faces meet nothing improperly,
 /// and nothing stands between them and the old (doc/use/edits.md).
@@ -143,7 +141,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

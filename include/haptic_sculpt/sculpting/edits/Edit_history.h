@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_HISTORY_H
-#define HAPTIC_SCULPT_SCULPTING_EDIT_HISTORY_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/History_limit.h>
 #include <haptic_sculpt/sculpting/edits/Change.h>
@@ -8,8 +7,7 @@
 
 #include <cstring>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The changes made, and those taken back, in steps: what one undo takes back. A stroke is one step; any other change
 /// is one each.
@@ -325,7 +323,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_EDIT_PROOF_H
-#define HAPTIC_SCULPT_SCULPTING_EDIT_PROOF_H
+#pragma once
 
 #include <haptic_sculpt/collision.h>
 #include <haptic_sculpt/sculpting/culling/Star_runs.h>
@@ -9,8 +8,7 @@
 
 #include <CGAL/Kernel_traits.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A corner of a triangle: who it is, and where.
 template <class Mesh>
@@ -157,7 +155,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

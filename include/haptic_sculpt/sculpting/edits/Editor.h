@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_EDITOR_H
-#define HAPTIC_SCULPT_SCULPTING_EDITOR_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/edits/Change_maker.h>
@@ -11,8 +10,7 @@
 #include <haptic_sculpt/sculpting/edits/Pivot_order.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Creates and removes vertices of a mesh and flips edges by Euler operations: each is proven and then done, or refused
 /// and nothing has changed. Also takes changes back and makes them again, in the steps of the history. Change_maker
@@ -279,7 +277,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_ELEMENT_IDS_H
-#define HAPTIC_SCULPT_SCULPTING_ELEMENT_IDS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/edits/Change.h>
 #include <haptic_sculpt/sculpting/edits/Vertex_ids.h>
@@ -9,8 +8,7 @@
 #include <array>
 #include <optional>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// An element by the numbers of its vertices, which last: of a face and an edge in ascending order, of a halfedge its
 /// source first.
@@ -97,7 +95,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_ELEMENT_ROOM_H
-#define HAPTIC_SCULPT_SCULPTING_ELEMENT_ROOM_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/edits/Vertex_ids.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Makes room in a mesh, and in all that is kept for each of its elements, for an edit that is about to begin: no array
 /// grows in the middle of it.
@@ -91,7 +89,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_FLIP_PROOF_H
-#define HAPTIC_SCULPT_SCULPTING_FLIP_PROOF_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/culling/Distinct_numbers.h>
@@ -8,8 +7,7 @@
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Decides whether the edge AB between the faces ABC and BAD can be flipped to CD: the new faces meet nothing
 /// improperly, and nothing is in the tetrahedron ABCD between them and the old. Exact; the argument is in
@@ -133,7 +131,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

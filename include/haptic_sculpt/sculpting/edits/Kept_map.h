@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_KEPT_MAP_H
-#define HAPTIC_SCULPT_SCULPTING_KEPT_MAP_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Property_origin.h>
 #include <haptic_sculpt/sculpting/edits/Element_ids.h>
@@ -11,8 +10,7 @@
 #include <map>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// An edit that is under way, as property maps see it.
 struct Edit_under_way {
@@ -139,7 +137,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

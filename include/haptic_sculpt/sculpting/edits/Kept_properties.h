@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_KEPT_PROPERTIES_H
-#define HAPTIC_SCULPT_SCULPTING_KEPT_PROPERTIES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/edits/Kept_map.h>
 #include <haptic_sculpt/sculpting/edits/Lineage_map.h>
@@ -9,8 +8,7 @@
 
 #include <memory>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The property maps that a Sculptor keeps. Costs nothing while there is none.
 template <class Mesh>
@@ -130,7 +128,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

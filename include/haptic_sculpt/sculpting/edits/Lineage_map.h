@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_LINEAGE_MAP_H
-#define HAPTIC_SCULPT_SCULPTING_LINEAGE_MAP_H
+#pragma once
 
 #include <boost/property_map/property_map.hpp>
 
 #include <type_traits>
 #include <utility>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Whether a visitor has `face_replaces(created, dead)`, or `edge_replaces`.
 template <class Visitor, class Face_index, class = void>
@@ -44,7 +42,4 @@ struct Lineage_map {
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_MESH_WATCH_H
-#define HAPTIC_SCULPT_SCULPTING_MESH_WATCH_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Mesh_changed.h>
 #include <haptic_sculpt/surface/Face_corners.h>
@@ -10,8 +9,7 @@
 
 #include <algorithm>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A private copy of the points and counts of a mesh, against which changes by others are found.
 ///
@@ -124,7 +122,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

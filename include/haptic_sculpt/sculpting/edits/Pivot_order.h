@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_PIVOT_ORDER_H
-#define HAPTIC_SCULPT_SCULPTING_PIVOT_ORDER_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/star.h>
@@ -11,8 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The neighbours that a vertex may be drawn into, best first: by the least altitude, relative to the longest edge,
 /// among the triangles of the fan that would be left; equal ones in link order. A heuristic: rounded numbers are good
@@ -73,7 +71,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_RECORD_QUEUE_H
-#define HAPTIC_SCULPT_SCULPTING_RECORD_QUEUE_H
+#pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Records in the order in which they came: added and taken away at the end, forgotten at the beginning, and read by a
 /// number that a record keeps as long as it is there.
@@ -65,7 +63,4 @@ private:
   const std::vector<Record>& block_of(std::size_t i) const { return blocks_[(i - base_) / block_size]; }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_VERTEX_IDS_H
-#define HAPTIC_SCULPT_SCULPTING_VERTEX_IDS_H
+#pragma once
 
 #include <haptic_sculpt/surface/make_room.h>
 
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Numbers of vertices that last: a new vertex takes the next number never used, and a removed one's number stays dead
 /// until undo revives it. Surface_mesh's own indices are recycled and do neither.
@@ -66,7 +64,4 @@ private:
   std::vector<std::size_t> ids_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

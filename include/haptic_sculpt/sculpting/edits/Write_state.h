@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_WRITE_STATE_H
-#define HAPTIC_SCULPT_SCULPTING_WRITE_STATE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Unfinished_change.h>
 
 #include <cstdint>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Whether the mesh, or what is kept beside it, is being written. An exception that comes meanwhile leaves it so, for
 /// good.
@@ -33,7 +31,4 @@ private:
   std::uint64_t changes_ = 0;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

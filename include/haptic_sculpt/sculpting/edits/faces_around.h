@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_FACES_AROUND_H
-#define HAPTIC_SCULPT_SCULPTING_FACES_AROUND_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/edits/Vertex_ids.h>
 #include <haptic_sculpt/surface/Face_corners.h>
 #include <haptic_sculpt/surface/Round_marks.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Collects the faces around vertices given by their numbers, each face once.
 /// \pre all of the vertices are in the mesh
@@ -23,7 +21,4 @@ void collect_faces_around(const Mesh& mesh, const Vertex_ids<Mesh>& ids, const s
         faces.push_back(f);
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

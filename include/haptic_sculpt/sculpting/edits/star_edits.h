@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STAR_EDITS_H
-#define HAPTIC_SCULPT_SCULPTING_STAR_EDITS_H
+#pragma once
 
 /// \file
 /// Euler operations that make and unmake a star. Connectivity only: nothing is proven here.
@@ -9,8 +8,7 @@
 
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The halfedge of h's face that ends in v. \pre there is one
 template <class Mesh>
@@ -84,7 +82,4 @@ typename Mesh::Halfedge_index merge_fan(Mesh& mesh, const Fan<Mesh>& fan) {
   return fan[0];
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SURFACE_FINDER_H
-#define HAPTIC_SCULPT_SCULPTING_SURFACE_FINDER_H
+#pragma once
 
 #include <haptic_sculpt/collision.h>
 #include <haptic_sculpt/sculpting/Surface_hit.h>
@@ -12,8 +11,7 @@
 
 #include <optional>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Finds the vertex nearest to a point, and what of the surface a segment meets first. Exact; vertices without faces
 /// are no part of the surface (doc/use/finding.md).
@@ -155,7 +153,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_BOX_BOUNDS_H
-#define HAPTIC_SCULPT_SCULPTING_BOX_BOUNDS_H
+#pragma once
 
 /// \file
 /// Lower bounds by which a tree of boxes is searched, nearest first. In doubles, safe whatever rounding does
@@ -11,8 +10,7 @@
 
 #include <cmath>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The boxes that hold anything.
 inline unsigned nonempty_boxes(const Box_node& node) {
@@ -98,7 +96,4 @@ private:
   std::array<bool, 3> is_used_{};
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

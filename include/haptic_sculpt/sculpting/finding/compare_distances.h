@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_COMPARE_DISTANCES_H
-#define HAPTIC_SCULPT_SCULPTING_COMPARE_DISTANCES_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The squares of two lengths, rounded: whether these tell which is larger. A square is off by less than 2^-50 of
 /// itself; where it is below the least, by what underflows, which is less still than 2^-50 of the least.
@@ -68,7 +66,4 @@ inline int compare_distance(const Coordinates& p, const Coordinates& a, double l
   });
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

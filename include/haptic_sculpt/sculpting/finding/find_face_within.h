@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_FIND_FACE_WITHIN_H
-#define HAPTIC_SCULPT_SCULPTING_FIND_FACE_WITHIN_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/is_within_distance.h>
@@ -11,8 +10,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A face on which p lies, or that is nearer to it than the clearance there; of several that of the smallest index, the
 /// null index where there is none. Exact. \param largest_coordinate bounds those of all vertices \param faces working
@@ -43,7 +41,4 @@ typename Mesh::Face_index find_face_within(const Mesh& mesh, Broad_phase& broad_
   return {};
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_IS_INSIDE_H
-#define HAPTIC_SCULPT_SCULPTING_IS_INSIDE_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/orientation_filter.h>
 #include <haptic_sculpt/surface/Face_corners.h>
@@ -8,8 +7,7 @@
 
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// On which side of ab a ray along x passes that begins at p + (0, e, e^2) with an infinitely small e > 0; 0 only where
 /// a and b are one point, seen along x. As First_face_along_x decides it (doc/use/validity.md, "What it meets").
@@ -44,7 +42,4 @@ bool is_inside(const Mesh& mesh, Broad_phase& broad_phase, const Coordinates& p,
   return inside;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SLIDE_LENGTHS_H
-#define HAPTIC_SCULPT_SCULPTING_SLIDE_LENGTHS_H
+#pragma once
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The lengths of a slide where J is. All in the unit of the coordinates.
 struct Slide_lengths {
@@ -32,7 +30,4 @@ struct Slide_lengths {
   static constexpr double clearances_of_lift = 8, clearances_of_retreat = 128;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

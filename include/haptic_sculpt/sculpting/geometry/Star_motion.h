@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STAR_MOTION_H
-#define HAPTIC_SCULPT_SCULPTING_STAR_MOTION_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 
 #include <limits>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The straight motion of a star's centre, as far as it is of interest.
 class Star_motion {
@@ -53,7 +51,4 @@ private:
   Box_3 path_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_WORK_H
-#define HAPTIC_SCULPT_SCULPTING_WORK_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 
 #include <limits>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The work of a drag, in pairs decided and candidates looked up, and its bound. Counted, never timed: a replay stops
 /// at the same pair (doc/use/work.md).
@@ -79,7 +77,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

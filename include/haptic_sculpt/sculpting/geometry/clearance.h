@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CLEARANCE_H
-#define HAPTIC_SCULPT_SCULPTING_CLEARANCE_H
+#pragma once
 
 #include <cstdint>
 #include <cstring>
 #include <optional>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// How many units in the last place a stop keeps from a contact plane by default.
 /// Measured (doc/proofs/stop.md): below 3 a rounded stop often fails its proof and retries; above 4 nothing is gained.
@@ -58,7 +56,4 @@ struct Drag_rules {
   double delta = 0; ///< no triangle of the star gets an altitude below this length
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

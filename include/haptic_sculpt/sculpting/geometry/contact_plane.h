@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CONTACT_PLANE_H
-#define HAPTIC_SCULPT_SCULPTING_CONTACT_PLANE_H
+#pragma once
 
 #include <haptic_sculpt/collision/Impact_3.h>
 #include <haptic_sculpt/collision/arithmetic/Wide_double.h>
 #include <haptic_sculpt/collision/arithmetic/sweep_points.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// How a path meets the plane in which the moving vertex is held: A, B, C; V, A, B; or G, I, A.
 ///
@@ -128,7 +126,4 @@ inline double height_over_plane(const Coordinates& a, const Coordinates& b, cons
   });
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

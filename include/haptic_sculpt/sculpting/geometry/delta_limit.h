@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_DELTA_LIMIT_H
-#define HAPTIC_SCULPT_SCULPTING_DELTA_LIMIT_H
+#pragma once
 
 /// \file
 /// The delta rule along a drag (the 1997 paper, 3.1): when does a moving triangle first get an altitude below delta?
@@ -19,8 +18,7 @@
 
 #include <optional>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Which side of the moving triangle J, G, I an altitude stands on.
 enum class Altitude_over : std::uint8_t { gi, ji, jg };
@@ -200,7 +198,4 @@ inline double altitude(const Coordinates& j, const Coordinates& g, const Coordin
   return length(cross(normalized(base), minus(side == Altitude_over::jg ? i : g, j)));
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_IS_WITHIN_DISTANCE_H
-#define HAPTIC_SCULPT_SCULPTING_IS_WITHIN_DISTANCE_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 
@@ -9,8 +8,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/squared_distance_3.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Whether intervals show that p is farther than `distance` from the plane of a, b, c. Allocates nothing.
 inline bool is_surely_off_plane(const Coordinates& p, const Coordinates& a, const Coordinates& b, const Coordinates& c,
@@ -41,7 +39,4 @@ inline bool is_within_distance(const Coordinates& p, const Coordinates& a, const
                        CGAL::Gmpq(limit * limit)) != CGAL::LARGER;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

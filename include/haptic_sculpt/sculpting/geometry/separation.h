@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SEPARATION_H
-#define HAPTIC_SCULPT_SCULPTING_SEPARATION_H
+#pragma once
 
 /// \file
 /// Lower bounds of distances by separating planes. Whatever direction n they have, min n . p over one set less max n .
@@ -15,8 +14,7 @@
 #include <array>
 #include <limits>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 inline double quick_dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -96,7 +94,4 @@ inline Vector between_segments(const std::array<Vector, 2>& p, const std::array<
   return minus(quick_sum(p[0], s, d), quick_sum(q[0], t, e));
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

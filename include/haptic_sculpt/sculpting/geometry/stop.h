@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STOP_H
-#define HAPTIC_SCULPT_SCULPTING_STOP_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/contact_plane.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// How far back along the path, as a length, a stop stays from the impact so that `clearance` is left normal to the
 /// contact plane. Where the path lies in the plane there is no normal way: the clearance itself.
@@ -50,7 +48,4 @@ Coordinates stop_before(const Coordinates& source, const Coordinates& target, do
   return source;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_VECTOR_3_H
-#define HAPTIC_SCULPT_SCULPTING_VECTOR_3_H
+#pragma once
 
 /// \file
 /// The little vector arithmetic behind stops and slides. Nothing here decides about geometry: it only proposes points.
@@ -14,8 +13,7 @@
 #include <array>
 #include <cmath>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 using Vector = std::array<double, 3>;
 
@@ -80,7 +78,4 @@ inline double nearer_by(const Vector& target, const Vector& from, const Vector& 
   return sum > 0 ? dot(minus(to, from), {(a[0] + b[0]) / sum, (a[1] + b[1]) / sum, (a[2] + b[2]) / sum}) : 0;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_GUARDED_MESH_H
-#define HAPTIC_SCULPT_SCULPTING_GUARDED_MESH_H
+#pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/Probe.h>
@@ -15,8 +14,7 @@
 #include <haptic_sculpt/sculpting/guarded_mesh/Hand.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A mesh with all that guards it, and the ways of a drag, a probe, a search and an edit through that. What its users
 /// see of it is the Sculptor, which says what each operation promises.
@@ -345,7 +343,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

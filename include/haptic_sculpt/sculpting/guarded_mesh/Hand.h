@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_HAND_H
-#define HAPTIC_SCULPT_SCULPTING_HAND_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Drag_parameters.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Responses.h>
 #include <haptic_sculpt/sculpting/motion/Guarded_star.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The vertex that is being dragged: its guarded star, the contacts it carries along, and when the mesh about it is
 /// compared with how it was left.
@@ -179,7 +177,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

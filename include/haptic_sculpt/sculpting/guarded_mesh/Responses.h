@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_RESPONSES_H
-#define HAPTIC_SCULPT_SCULPTING_RESPONSES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/paper_1997/Paper_response.h>
@@ -8,8 +7,7 @@
 #include <haptic_sculpt/sculpting/response/kkt_residual.h>
 #include <haptic_sculpt/sculpting/response/settle_result.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The three responses to a blocked way behind one call, with the contacts they carry along.
 template <class Mesh>
@@ -81,7 +79,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

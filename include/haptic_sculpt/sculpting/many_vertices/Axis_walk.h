@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_AXIS_WALK_H
-#define HAPTIC_SCULPT_SCULPTING_AXIS_WALK_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Move_report.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
 #include <haptic_sculpt/sculpting/many_vertices/Moving_vertex.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Brings many vertices towards their targets by axis moves: all along x, then along y, then along z. Whole ways first;
 /// where too many are held back all is taken back and tried by half (doc/use/many_vertices.md).
@@ -171,7 +169,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

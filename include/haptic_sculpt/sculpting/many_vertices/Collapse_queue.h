@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_COLLAPSE_QUEUE_H
-#define HAPTIC_SCULPT_SCULPTING_COLLAPSE_QUEUE_H
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -8,8 +7,7 @@
 #include <queue>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Edges by cost, the cheapest first, of equal ones the lowest. An edge that is put in anew has its new cost only.
 template <class Mesh>
@@ -59,7 +57,4 @@ private:
   std::priority_queue<Entry, std::vector<Entry>, Comes_later> queue_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

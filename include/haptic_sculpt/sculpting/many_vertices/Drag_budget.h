@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_DRAG_BUDGET_H
-#define HAPTIC_SCULPT_SCULPTING_DRAG_BUDGET_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Move_report.h>
 
 #include <algorithm>
 #include <optional>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// How many drags may still be made, a slide counting by its work (doc/use/many_vertices.md, "Limits of time").
 class Drag_budget {
@@ -51,7 +49,4 @@ private:
   std::size_t next_call_ = 0; ///< of the progress function, as counted
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

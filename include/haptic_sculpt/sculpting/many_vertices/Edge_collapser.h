@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_EDGE_COLLAPSER_H
-#define HAPTIC_SCULPT_SCULPTING_EDGE_COLLAPSER_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/Rated_collapse.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_state.h>
 #include <haptic_sculpt/sculpting/many_vertices/star_shape.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Collapses the short edges of a remeshing, the shortest first.
 template <class State>
@@ -149,7 +147,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_EDGE_QUEUE_H
-#define HAPTIC_SCULPT_SCULPTING_EDGE_QUEUE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/Scaled_points.h>
 
 #include <queue>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Edges by length. Those that have died, or have another length than when they were put in, are left out: their slots
 /// may have been used again, and what is new is put in anew.
@@ -48,7 +46,4 @@ private:
   std::priority_queue<Entry, std::vector<Entry>, Comes_later> queue_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_EDGE_SPLITTER_H
-#define HAPTIC_SCULPT_SCULPTING_EDGE_SPLITTER_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_state.h>
 
 #include <unordered_set>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Splits the long edges of a remeshing at their midpoints, the longest first.
 template <class State>
@@ -97,7 +95,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

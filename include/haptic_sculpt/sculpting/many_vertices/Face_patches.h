@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_FACE_PATCHES_H
-#define HAPTIC_SCULPT_SCULPTING_FACE_PATCHES_H
+#pragma once
 
 #include <boost/property_map/property_map.hpp>
 
@@ -8,8 +7,7 @@
 #include <map>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Stands for a map of patches that was not given.
 struct No_face_patches {};
@@ -106,7 +104,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

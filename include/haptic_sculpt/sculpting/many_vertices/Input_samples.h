@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_INPUT_SAMPLES_H
-#define HAPTIC_SCULPT_SCULPTING_INPUT_SAMPLES_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/Scaled_points.h>
 
 #include <limits>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Points of the surface as it was, each with a face of the surface as it is that is near it, so that no operation
 /// takes the surface farther from one of them than allowed.
@@ -127,7 +125,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_INPUT_SURFACE_H
-#define HAPTIC_SCULPT_SCULPTING_INPUT_SURFACE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/Scaled_points.h>
 #include <haptic_sculpt/surface/Face_corners.h>
@@ -17,8 +16,7 @@
 
 #include <deque>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A copy of the faces of a range, in the unit of the points, to which points are projected through CGAL's AABB trees,
 /// one a patch.
@@ -82,7 +80,4 @@ private:
   static Point point(const Coordinates& p) { return {p[0], p[1], p[2]}; }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_MOVING_VERTEX_H
-#define HAPTIC_SCULPT_SCULPTING_MOVING_VERTEX_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/geometry/separation.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A vertex and where it is to go.
 template <class Mesh>
@@ -48,7 +46,4 @@ std::vector<Moving_vertex<Mesh>> moving_vertices(const Mesh& mesh, const Vertex_
   return moving;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_RATED_COLLAPSE_H
-#define HAPTIC_SCULPT_SCULPTING_RATED_COLLAPSE_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
 #include <haptic_sculpt/surface/star.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Six times the volume between a star with its vertex at `from` and what it is once that has collapsed into vertex
 /// `to` of the link, in cubes of a length: 0 within a plane and along a crease.
@@ -43,7 +41,4 @@ struct Rated_collapse {
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_REMESHER_H
-#define HAPTIC_SCULPT_SCULPTING_REMESHER_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/many_vertices/Edge_collapser.h>
@@ -9,8 +8,7 @@
 
 #include <cstdlib>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Splits, collapses and flips edges and relaxes vertices, each by a proven operation of the Sculptor, or not at all.
 /// See doc/use/many_vertices.md.
@@ -237,7 +235,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

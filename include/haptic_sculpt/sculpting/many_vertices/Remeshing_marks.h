@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_REMESHING_MARKS_H
-#define HAPTIC_SCULPT_SCULPTING_REMESHING_MARKS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/Face_patches.h>
 #include <haptic_sculpt/sculpting/many_vertices/Scaled_points.h>
@@ -9,8 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What a remeshing has to leave as it is: constrained edges, fixed vertices, and all that is not in the range of
 /// faces; and the patches of the faces, whose borders are constrained.
@@ -160,7 +158,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_REMESHING_STATE_H
-#define HAPTIC_SCULPT_SCULPTING_REMESHING_STATE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Remeshing_report.h>
 #include <haptic_sculpt/sculpting/many_vertices/Edge_queue.h>
 #include <haptic_sculpt/sculpting/many_vertices/Input_samples.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_marks.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What is asked of a remeshing; the names are CGAL's. Lengths are in the unit of the points.
 struct Remeshing_options {
@@ -102,7 +100,4 @@ private:
   static double square(double x) { return x * x; }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

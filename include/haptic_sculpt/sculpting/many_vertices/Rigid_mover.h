@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_RIGID_MOVER_H
-#define HAPTIC_SCULPT_SCULPTING_RIGID_MOVER_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Rigid_move_report.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
 #include <haptic_sculpt/sculpting/many_vertices/Moving_vertex.h>
 #include <haptic_sculpt/sculpting/many_vertices/Rigid_way.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Moves vertices as one, in steps that are made by all or by none, each along x, then y, then z, to places worked out
 /// from where all were at the start: so what is rounded does not add up.
@@ -97,7 +95,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_RIGID_WAY_H
-#define HAPTIC_SCULPT_SCULPTING_RIGID_WAY_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The way of a translation, or of a rotation by less than half a turn, told by a matrix: straight, or along arcs.
 class Rigid_way {
@@ -69,7 +67,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

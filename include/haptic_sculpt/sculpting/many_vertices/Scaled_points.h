@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SCALED_POINTS_H
-#define HAPTIC_SCULPT_SCULPTING_SCALED_POINTS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
 #include <haptic_sculpt/surface/star.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The points of a mesh in a unit of length that is a power of two, so that squares, areas and volumes of what is about
 /// that long neither overflow nor vanish. No bit of a coordinate changes by it, unless it becomes subnormal.
@@ -58,7 +56,4 @@ private:
   double to_unit_, from_unit_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
-#define HAPTIC_SCULPT_SCULPTING_VERTICES_MOVER_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/many_vertices/Axis_walk.h>
 #include <haptic_sculpt/sculpting/many_vertices/Drag_budget.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Brings many vertices as near to their targets as axis moves and single drags do (doc/use/many_vertices.md).
 ///
@@ -150,7 +148,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CHECK_REMESHING_H
-#define HAPTIC_SCULPT_SCULPTING_CHECK_REMESHING_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_state.h>
 #include <haptic_sculpt/sculpting/named_parameters.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Refuses what CGAL documents for its isotropic_remeshing(), and ours does not serve.
 template <class Named_parameters>
@@ -65,7 +63,4 @@ void check_number_of_faces(const Mesh& mesh, const Scaled_points<Mesh>& points,
                           " may be made: give a longer one, or allow for more faces");
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

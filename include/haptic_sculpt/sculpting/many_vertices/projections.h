@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_PROJECTIONS_H
-#define HAPTIC_SCULPT_SCULPTING_PROJECTIONS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/Input_surface.h>
 
 #include <optional>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Projects onto the faces as they were at first, each vertex onto those of its patch, or nowhere.
 template <class Mesh>
@@ -73,7 +71,4 @@ struct Comes_after_relaxation : std::false_type {};
 template <class Mesh, class Function>
 struct Comes_after_relaxation<Projection_by_function<Mesh, Function>> : std::true_type {};
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

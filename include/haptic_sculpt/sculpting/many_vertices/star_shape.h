@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STAR_SHAPE_H
-#define HAPTIC_SCULPT_SCULPTING_STAR_SHAPE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
 #include <haptic_sculpt/surface/star.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// sin^2 of five degrees: no operation makes a triangle with a smaller angle, unless the least angle there was smaller
 /// before.
@@ -79,7 +77,4 @@ Coordinates relaxed_place(const Star<Mesh>& star, const Coordinates& p) {
   return plus(p, square > 0 ? quick_sum(mean, -quick_dot(mean, normal) / square, normal) : mean);
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

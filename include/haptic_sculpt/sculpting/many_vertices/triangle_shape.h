@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_TRIANGLE_SHAPE_H
-#define HAPTIC_SCULPT_SCULPTING_TRIANGLE_SHAPE_H
+#pragma once
 
 /// \file
 /// What makes a triangle worth having, in rounded numbers: nothing here proves anything.
 
 #include <haptic_sculpt/sculpting/geometry/separation.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 inline double squared_length(const Vector& a, const Vector& b) {
   const Vector d = minus(a, b);
@@ -69,7 +67,4 @@ inline bool point_alike(const Vector& a, const Vector& b) {
   return quick_dot(a, b) > 0;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

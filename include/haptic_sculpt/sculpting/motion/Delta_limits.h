@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_DELTA_LIMITS_H
-#define HAPTIC_SCULPT_SCULPTING_DELTA_LIMITS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Contact_3.h>
 #include <haptic_sculpt/sculpting/geometry/delta_limit.h>
 #include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/surface/star.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Where faces of a star reach the delta rule first in a motion, exactly. Costs nothing where delta is 0.
 template <class Mesh>
@@ -99,7 +97,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

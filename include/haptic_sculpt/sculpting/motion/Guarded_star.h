@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_GUARDED_STAR_H
-#define HAPTIC_SCULPT_SCULPTING_GUARDED_STAR_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/culling/Star_candidates.h>
@@ -9,8 +8,7 @@
 #include <haptic_sculpt/sculpting/motion/Narrow_phase.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Asks for no memory ahead.
 struct Fetch_nothing {
@@ -190,7 +188,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
-#define HAPTIC_SCULPT_SCULPTING_NARROW_PHASE_H
+#pragma once
 
 #include <haptic_sculpt/collision/In_set_mode.h>
 #include <haptic_sculpt/sculpting/Star_impact.h>
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
 #include <haptic_sculpt/sculpting/geometry/Work.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// All three sweeps of a star against its candidates (completeness: doc/proofs/exact_sweeps.md).
 ///
@@ -214,7 +212,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_PAPER_RESPONSE_H
-#define HAPTIC_SCULPT_SCULPTING_PAPER_RESPONSE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
@@ -11,8 +10,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The walk of the 1997 paper (3.2.2, rules a to e), kept to be compared with: from face to edge to vertex, each time
 /// to the point nearest to the target on the triangles at the feature in contact; edge on edge and face on vertex
@@ -232,7 +230,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SIX_LIST_BROAD_PHASE_H
-#define HAPTIC_SCULPT_SCULPTING_SIX_LIST_BROAD_PHASE_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/make_room.h>
@@ -204,5 +203,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

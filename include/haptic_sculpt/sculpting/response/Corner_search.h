@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_CORNER_SEARCH_H
-#define HAPTIC_SCULPT_SCULPTING_CORNER_SEARCH_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/response/Search_memory.h>
 #include <haptic_sculpt/sculpting/response/Slide_walk.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Half-spaces forbid more than facets do: at a corner that is neither convex nor concave there may be a way on
 /// although the planes meet. Looks for one where a walk has settled (doc/proofs/slide.md, "The way out").
@@ -156,7 +154,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

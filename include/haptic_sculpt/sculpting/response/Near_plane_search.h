@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_NEAR_PLANE_SEARCH_H
-#define HAPTIC_SCULPT_SCULPTING_NEAR_PLANE_SEARCH_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/response/Search_memory.h>
 #include <haptic_sculpt/sculpting/response/Slide_walk.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Where a walk has settled, planes may be nearer than a clearance that were never in its way. Looks for them, so that
 /// the clearance is kept from those too (doc/proofs/slide.md, "The walk").
@@ -79,7 +77,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

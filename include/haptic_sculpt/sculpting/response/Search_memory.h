@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SEARCH_MEMORY_H
-#define HAPTIC_SCULPT_SCULPTING_SEARCH_MEMORY_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/Slide_lengths.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Where a search has found nothing, and for which target.
 ///
@@ -34,7 +32,4 @@ private:
   Vector place_{}, target_{};
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SLIDE_CONTACTS_H
-#define HAPTIC_SCULPT_SCULPTING_SLIDE_CONTACTS_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/contact/Facet.h>
 #include <haptic_sculpt/sculpting/geometry/Slide_lengths.h>
@@ -13,8 +12,7 @@
 #include <limits>
 #include <optional>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Where a vertex J is, and the facets of its contacts, measured from there: which of them are known, where they let J
 /// go, and which it has left (doc/proofs/slide.md).
@@ -245,7 +243,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SLIDE_PATH_H
-#define HAPTIC_SCULPT_SCULPTING_SLIDE_PATH_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 #include <algorithm>
 #include <array>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The legs a vertex has made in one drag: a polyline, each segment of which is proven free. Plain data.
 class Slide_path {
@@ -85,7 +83,4 @@ private:
   std::array<Vector, most_legs + 1> points_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SLIDE_RESPONSE_H
-#define HAPTIC_SCULPT_SCULPTING_SLIDE_RESPONSE_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/response/Straight_way_search.h>
@@ -8,8 +7,7 @@
 #include <haptic_sculpt/sculpting/response/Corner_search.h>
 #include <haptic_sculpt/sculpting/response/is_farther.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The default response: a blocked vertex slides along what blocks it to a point nearest to its target
 /// (doc/proofs/slide.md).
@@ -177,7 +175,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SLIDE_WALK_H
-#define HAPTIC_SCULPT_SCULPTING_SLIDE_WALK_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/response/Slide_contacts.h>
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// How a walk ended.
 enum class Walk_end : std::uint8_t {
@@ -230,7 +228,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_STRAIGHT_WAY_SEARCH_H
-#define HAPTIC_SCULPT_SCULPTING_STRAIGHT_WAY_SEARCH_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/response/Search_memory.h>
 #include <haptic_sculpt/sculpting/response/Slide_walk.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Where a walk has ended, no plane is taken at its word any more: looks for a free straight way that leads nearer to
 /// the target, by deciding motions (doc/proofs/slide.md, "The last look").
@@ -283,7 +281,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

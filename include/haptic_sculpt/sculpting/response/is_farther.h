@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_IS_FARTHER_H
-#define HAPTIC_SCULPT_SCULPTING_IS_FARTHER_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 #include <CGAL/Gmpq.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What nearer_by() may be wrong by, in lengths of the way: some ten roundings, of differences, sums and products, by
 /// 2^-53 each, with room.
@@ -31,7 +29,4 @@ inline bool is_farther(const Coordinates& target, const Coordinates& p, const Co
   return CGAL::sign(sum) == CGAL::POSITIVE;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

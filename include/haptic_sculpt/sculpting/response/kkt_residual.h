@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_KKT_RESIDUAL_H
-#define HAPTIC_SCULPT_SCULPTING_KKT_RESIDUAL_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/response/nearest_permitted.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The distance from `pull` to the cone of all combinations of `-normals` with weights >= 0, over |pull|: 0 where the
 /// contacts hold the vertex at a constrained nearest point to its target, 1 where none of them resists.
@@ -27,7 +25,4 @@ double kkt_residual(const Vector& pull, const Half_spaces& half_spaces) {
   return permitted.exists ? std::fmin(1.0, length(permitted.displacement)) : 0;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_NEAREST_PERMITTED_H
-#define HAPTIC_SCULPT_SCULPTING_NEAREST_PERMITTED_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 #include <cstddef>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// One half-space { d : normal . d >= least } of displacements.
 struct Half_space {
@@ -111,7 +109,4 @@ Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spa
   return result;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_SETTLE_RESULT_H
-#define HAPTIC_SCULPT_SCULPTING_SETTLE_RESULT_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The one place where a result is made to say one thing: what follows from where a drag began, where it ended and
 /// where it was to end is derived from these, whatever the response has written. \pre contacts, legs, stop errors and
@@ -36,7 +34,4 @@ void settle_result(const Coordinates& source, const Coordinates& target, const C
     result.end = Drag_end::stuck;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

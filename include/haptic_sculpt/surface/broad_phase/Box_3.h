@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_BOX_3_H
-#define HAPTIC_SCULPT_SURFACE_BOX_3_H
+#pragma once
 
 #include <array>
 #include <limits>
@@ -67,5 +66,3 @@ inline bool do_meet(const Box_3& a, const Box_3& b) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

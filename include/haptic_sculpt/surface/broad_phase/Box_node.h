@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_BOX_NODE_H
-#define HAPTIC_SCULPT_SURFACE_BOX_NODE_H
+#pragma once
 
 #include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/surface/broad_phase/bits.h>
@@ -9,8 +8,7 @@
 
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The boxes of eight children, bound by bound, so that compilers compare four or eight at once. Three cache lines.
 struct alignas(64) Box_node {
@@ -93,7 +91,4 @@ void refit_all(std::vector<Box_node, Allocator>& nodes, const std::uint32_t* lev
   }
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

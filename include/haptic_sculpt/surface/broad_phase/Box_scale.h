@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_BOX_SCALE_H
-#define HAPTIC_SCULPT_SURFACE_BOX_SCALE_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/outward_float.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
@@ -9,8 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The power of two by which coordinates are multiplied before they become floats: the range of floats ends at 2^128,
 /// that of coordinates does not. Taken from the scene once. What is outside of the range of floats then has boxes that
@@ -97,7 +95,4 @@ private:
   double factor_ = 1, inverse_ = 1;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_BOX_TREE_BROAD_PHASE_H
-#define HAPTIC_SCULPT_SURFACE_BOX_TREE_BROAD_PHASE_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 #include <haptic_sculpt/surface/broad_phase/Growing_box_tree.h>
@@ -367,5 +366,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

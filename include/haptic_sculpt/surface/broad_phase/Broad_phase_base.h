@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_BROAD_PHASE_BASE_H
-#define HAPTIC_SCULPT_SURFACE_BROAD_PHASE_BASE_H
+#pragma once
 
 #include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/surface/broad_phase/Star_filter.h>
@@ -110,5 +109,3 @@ struct Broad_phase_access {
 
 } // namespace internal
 } // namespace haptic_sculpt
-
-#endif

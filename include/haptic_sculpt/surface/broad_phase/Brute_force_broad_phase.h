@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_BRUTE_FORCE_BROAD_PHASE_H
-#define HAPTIC_SCULPT_SURFACE_BRUTE_FORCE_BROAD_PHASE_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Broad_phase_base.h>
 
@@ -33,5 +32,3 @@ public:
 };
 
 } // namespace haptic_sculpt
-
-#endif

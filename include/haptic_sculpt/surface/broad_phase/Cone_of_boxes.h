@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_CONE_OF_BOXES_H
-#define HAPTIC_SCULPT_SURFACE_CONE_OF_BOXES_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
 
 #include <cmath>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// All boxes (1 - t) A + t B, 0 <= t <= until, between two boxes: up to `until` = 1 the convex hull of both, and more.
 ///
@@ -91,7 +89,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

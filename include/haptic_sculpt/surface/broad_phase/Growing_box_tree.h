@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_GROWING_BOX_TREE_H
-#define HAPTIC_SCULPT_SURFACE_GROWING_BOX_TREE_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/nearest_first.h>
 #include <haptic_sculpt/surface/make_room.h>
@@ -10,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The overflow of a laid-out tree: an 8-wide R-tree that takes boxes one by one, in log n each, and never moves its
 /// nodes.
@@ -262,7 +260,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

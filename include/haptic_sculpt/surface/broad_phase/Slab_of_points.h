@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_SLAB_OF_POINTS_H
-#define HAPTIC_SCULPT_SURFACE_SLAB_OF_POINTS_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
 #include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 #include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What lies between two parallel planes that have a swept star between them. A long edge that goes far sideways sweeps
 /// a sheet, which one slab holds; a needle is held by two that cross along it. The proof that no rounding loses a box
@@ -82,7 +80,4 @@ private:
   bool is_thin_ = false;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_STAR_FILTER_H
-#define HAPTIC_SCULPT_SURFACE_STAR_FILTER_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 #include <haptic_sculpt/surface/broad_phase/Cone_of_boxes.h>
 #include <haptic_sculpt/surface/broad_phase/Slab_of_points.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Which boxes of a node may meet what a star sweeps: those in the box around it, in the cone from its start to the
 /// target, in that from the end back to the start, in the cone from its link to where its centre is, and in two slabs
@@ -97,7 +95,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_SWEPT_STAR_3_H
-#define HAPTIC_SCULPT_SURFACE_SWEPT_STAR_3_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 
@@ -48,5 +47,3 @@ struct Swept_star_3 {
 };
 
 } // namespace haptic_sculpt
-
-#endif

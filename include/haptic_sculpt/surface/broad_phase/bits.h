@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_BITS_H
-#define HAPTIC_SCULPT_SURFACE_BITS_H
+#pragma once
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The position of the lowest bit. \pre mask != 0
 inline unsigned lowest_bit(unsigned mask) {
@@ -17,7 +15,4 @@ inline unsigned lowest_bit(unsigned mask) {
 #endif
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

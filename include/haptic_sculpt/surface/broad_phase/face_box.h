@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_FACE_BOX_H
-#define HAPTIC_SCULPT_SURFACE_FACE_BOX_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
@@ -18,5 +17,3 @@ Box_3 face_box(const Mesh& mesh, typename Mesh::Face_index f) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_NEAREST_FIRST_H
-#define HAPTIC_SCULPT_SURFACE_NEAREST_FIRST_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
 
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The nodes that a search of a tree of boxes has found and not looked at yet. The nearest of those found last is on
 /// top.
@@ -70,7 +68,4 @@ private:
   std::vector<Entry> entries_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

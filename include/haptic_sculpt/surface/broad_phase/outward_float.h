@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_OUTWARD_FLOAT_H
-#define HAPTIC_SCULPT_SURFACE_OUTWARD_FLOAT_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 
 #include <cstdint>
 #include <cstring>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The float next to x towards -infinity. \pre x is neither NaN nor -infinity
 inline float next_down(float x) {
@@ -43,7 +41,4 @@ struct Float_box {
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_PREFETCH_H
-#define HAPTIC_SCULPT_SURFACE_PREFETCH_H
+#pragma once
 
 #include <cstddef>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Tells the processor that these bytes will be read soon; nothing depends on it but the time.
 inline void prefetch(const void* begin, std::size_t bytes) {
@@ -17,7 +15,4 @@ inline void prefetch(const void* begin, std::size_t bytes) {
 #endif
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

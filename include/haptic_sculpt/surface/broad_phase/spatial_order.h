@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_SPATIAL_ORDER_H
-#define HAPTIC_SCULPT_SURFACE_SPATIAL_ORDER_H
+#pragma once
 
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
 #include <haptic_sculpt/surface/broad_phase/Box_scale.h>
@@ -10,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A face and the middle of its box, rounded: an order changes the speed of what is laid out by it, never an answer.
 struct Face_middle {
@@ -65,7 +63,4 @@ std::vector<Face_middle> faces_in_spatial_order(const Mesh& mesh, const Faces& g
   return faces;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_BINARY_SCANNER_H
-#define HAPTIC_SCULPT_SURFACE_BINARY_SCANNER_H
+#pragma once
 
 #include <haptic_sculpt/surface/Invalid_surface.h>
 
@@ -11,8 +10,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Takes numbers off a sequence of bytes.
 class Binary_scanner {
@@ -47,7 +45,4 @@ private:
   bool swap_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

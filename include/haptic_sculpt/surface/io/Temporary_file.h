@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_TEMPORARY_FILE_H
-#define HAPTIC_SCULPT_SURFACE_TEMPORARY_FILE_H
+#pragma once
 
 #include <atomic>
 #include <cerrno>
@@ -113,5 +112,3 @@ private:
 };
 
 } // namespace haptic_sculpt::internal
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_TEXT_SCANNER_H
-#define HAPTIC_SCULPT_SURFACE_TEXT_SCANNER_H
+#pragma once
 
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/io/quoted.h>
@@ -17,8 +16,7 @@
 #include <system_error>
 #include <type_traits>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The text behind a byte order mark of UTF-8, which some editors put before it.
 inline std::string_view without_bom(std::string_view text) {
@@ -138,7 +136,4 @@ inline void check_count(std::uint64_t count, std::size_t least, std::size_t byte
     throw Read_error("the header promises " + std::to_string(count) + " " + items + ", more than 32-bit indices hold");
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

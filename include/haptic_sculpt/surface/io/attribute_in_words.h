@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_ATTRIBUTE_IN_WORDS_H
-#define HAPTIC_SCULPT_SURFACE_ATTRIBUTE_IN_WORDS_H
+#pragma once
 
 #include <haptic_sculpt/surface/io/quoted.h>
 
@@ -8,8 +7,7 @@
 #include <initializer_list>
 #include <string>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What is lost with a property of a PLY file, for people.
 inline std::string attribute_in_words(const std::string& name) {
@@ -25,7 +23,4 @@ inline std::string attribute_in_words(const std::string& name) {
   return "the property " + in_quotes(name);
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

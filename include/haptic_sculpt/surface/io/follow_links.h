@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_FOLLOW_LINKS_H
-#define HAPTIC_SCULPT_SURFACE_FOLLOW_LINKS_H
+#pragma once
 
 #include <haptic_sculpt/surface/Write_error.h>
 
@@ -37,5 +36,3 @@ inline std::filesystem::path follow_links(const std::filesystem::path& path) {
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_FORMAT_ATTRIBUTES_H
-#define HAPTIC_SCULPT_SURFACE_FORMAT_ATTRIBUTES_H
+#pragma once
 
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
@@ -13,8 +12,7 @@
 /// \file
 /// PLY and OBJ with attributes of vertices, which CGAL's writers of points and faces do not take.
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// In the C locale and with 17 digits, which bring every double back.
 inline std::ostringstream exact_stream() {
@@ -138,7 +136,4 @@ inline std::string format_obj(const Face_soup& soup, const std::array<std::size_
   return std::move(out).str();
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_PARSE_OBJ_H
-#define HAPTIC_SCULPT_SURFACE_PARSE_OBJ_H
+#pragma once
 
 #include <haptic_sculpt/surface/io/Text_scanner.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
@@ -11,8 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Reads the text of a Wavefront OBJ file: its `v` and `f` lines, with colours of vertices. Texture coordinates,
 /// normals, materials, groups and lines are skipped; free-form surfaces and lines continued by a backslash are refused.
@@ -91,7 +89,4 @@ inline Face_soup parse_obj(std::string_view text) {
   return soup;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

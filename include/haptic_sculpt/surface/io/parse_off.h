@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_PARSE_OFF_H
-#define HAPTIC_SCULPT_SURFACE_PARSE_OFF_H
+#pragma once
 
 #include <haptic_sculpt/surface/io/Text_scanner.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
@@ -11,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Pairs of vertices that stand one after another in a face. O(n log n)
 inline std::size_t number_of_edges(const Face_soup& soup) {
@@ -98,7 +96,4 @@ inline Face_soup parse_off(std::string_view text) {
   return soup;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_PARSE_PLY_H
-#define HAPTIC_SCULPT_SURFACE_PARSE_PLY_H
+#pragma once
 
 #include <haptic_sculpt/surface/io/Binary_scanner.h>
 #include <haptic_sculpt/surface/io/Text_scanner.h>
@@ -14,8 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 using Ply_type = Vertex_attribute::Type;
 
@@ -266,7 +264,4 @@ inline Face_soup parse_ply(std::string_view bytes) {
   return soup;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

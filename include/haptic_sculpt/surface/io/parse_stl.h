@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_PARSE_STL_H
-#define HAPTIC_SCULPT_SURFACE_PARSE_STL_H
+#pragma once
 
 #include <haptic_sculpt/surface/io/Binary_scanner.h>
 #include <haptic_sculpt/surface/io/Text_scanner.h>
@@ -15,8 +14,7 @@
 #include <string_view>
 #include <unordered_map>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Makes vertices of the corners of an STL file: exactly equal points are one vertex (0 and -0 are equal), numbered in
 /// the order of first appearance.
@@ -134,7 +132,4 @@ inline Face_soup parse_stl(std::string_view bytes) {
   return parse_ascii_stl(text);
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_QUOTED_H
-#define HAPTIC_SCULPT_SURFACE_QUOTED_H
+#pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 inline void append_escaped(std::string& out, unsigned char byte) {
   constexpr char digits[] = "0123456789abcdef";
@@ -67,7 +65,4 @@ inline std::string quoted_path(const std::filesystem::path& path) {
   return out + "'";
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

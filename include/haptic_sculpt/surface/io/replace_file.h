@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_REPLACE_FILE_H
-#define HAPTIC_SCULPT_SURFACE_REPLACE_FILE_H
+#pragma once
 
 #include <haptic_sculpt/surface/Write_error.h>
 #include <haptic_sculpt/surface/io/Temporary_file.h>
@@ -103,5 +102,3 @@ inline std::string replace_file(const std::filesystem::path& path, std::string_v
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_COMPONENT_REPAIR_H
-#define HAPTIC_SCULPT_SURFACE_COMPONENT_REPAIR_H
+#pragma once
 
 #include <haptic_sculpt/surface/repair/separate_vertices.h>
 
@@ -16,8 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Resolves what intersects in a soup of triangles, component by component: those that meet themselves, and then those
 /// that meet others, which are united. Components that meet nothing are not touched.
@@ -222,7 +220,4 @@ private:
   std::vector<Work_mesh> meshes_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_REPAIR_PARAMETERS_H
-#define HAPTIC_SCULPT_SURFACE_REPAIR_PARAMETERS_H
+#pragma once
 
 #include <cstddef>
 #include <limits>
@@ -40,5 +39,3 @@ struct Repair_parameters {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_REPAIR_REPORT_H
-#define HAPTIC_SCULPT_SURFACE_REPAIR_REPORT_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/surface/Validity_report.h>
@@ -115,5 +114,3 @@ struct Repair_report {
 };
 
 } // namespace haptic_sculpt
-
-#endif

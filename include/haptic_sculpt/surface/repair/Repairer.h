@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_REPAIRER_H
-#define HAPTIC_SCULPT_SURFACE_REPAIRER_H
+#pragma once
 
 #include <haptic_sculpt/surface/orient_components.h>
 #include <haptic_sculpt/surface/repair/Component_repair.h>
@@ -12,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Carries out repair() on a copy of a soup. \pre its points are finite and in range, its corners are indices of points
 class Repairer {
@@ -110,7 +108,4 @@ private:
   Trail trail_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

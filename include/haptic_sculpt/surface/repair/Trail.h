@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_TRAIL_H
-#define HAPTIC_SCULPT_SURFACE_TRAIL_H
+#pragma once
 
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
@@ -11,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Rounded; by halves, for the difference of two doubles may overflow.
 inline double distance_between(const Decision_kernel::Point_3& p, const Decision_kernel::Point_3& q) {
@@ -105,7 +103,4 @@ private:
   std::vector<std::optional<Point>> now_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_UNIT_SCALE_H
-#define HAPTIC_SCULPT_SURFACE_UNIT_SCALE_H
+#pragma once
 
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A power of two that brings very large or very small coordinates near 1, where squares and volumes, which CGAL's
 /// constructions round, neither overflow nor vanish. 1 where a coordinate would lose a bit by it, or there is no need.
@@ -47,7 +45,4 @@ private:
   int exponent_ = 0;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

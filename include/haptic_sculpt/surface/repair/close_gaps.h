@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_CLOSE_GAPS_H
-#define HAPTIC_SCULPT_SURFACE_CLOSE_GAPS_H
+#pragma once
 
 #include <haptic_sculpt/surface/repair/Repair_parameters.h>
 #include <haptic_sculpt/surface/repair/Trail.h>
@@ -13,8 +12,7 @@
 #include <limits>
 #include <map>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Points on open edges that are nearly equal become one, the first of them.
 class Gap_closer {
@@ -133,7 +131,4 @@ private:
   std::vector<std::vector<std::size_t>> neighbours_; // of points with open edges
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_COPY_ATTRIBUTES_H
-#define HAPTIC_SCULPT_SURFACE_COPY_ATTRIBUTES_H
+#pragma once
 
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
@@ -10,8 +9,7 @@
 #include <CGAL/Search_traits_adapter.h>
 #include <CGAL/property_map.h>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Each point of `to` gets the values of the nearest point of `from`: its own, where it has not moved. Distances are
 /// rounded. \pre all points are finite
@@ -36,7 +34,4 @@ inline void copy_attributes(const Face_soup& from, Face_soup& to) {
   }
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

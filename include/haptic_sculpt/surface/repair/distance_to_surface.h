@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_DISTANCE_TO_SURFACE_H
-#define HAPTIC_SCULPT_SURFACE_DISTANCE_TO_SURFACE_H
+#pragma once
 
 #include <haptic_sculpt/surface/repair/Trail.h>
 
@@ -15,8 +14,7 @@
 
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The largest distance of a point from the triangles of a soup, rounded; 0 if it has none. O((points + faces) log
 /// faces) in the mean.
@@ -45,7 +43,4 @@ inline double farthest_from_surface(const std::vector<Decision_kernel::Point_3>&
   return farthest;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_MESH_STEPS_H
-#define HAPTIC_SCULPT_SURFACE_MESH_STEPS_H
+#pragma once
 
 #include <haptic_sculpt/surface/repair/Repair_parameters.h>
 #include <haptic_sculpt/surface/repair/Trail.h>
@@ -25,8 +24,7 @@
 #include <iterator>
 #include <limits>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// What CGAL's functions work on, whatever the user's kernel.
 using Work_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>;
@@ -121,7 +119,4 @@ inline bool resolve_self_intersections(Work_mesh& mesh) {
          PMP::experimental::remove_self_intersections(mesh, CGAL::parameters::preserve_genus(false));
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_SEPARATE_VERTICES_H
-#define HAPTIC_SCULPT_SURFACE_SEPARATE_VERTICES_H
+#pragma once
 
 #include <haptic_sculpt/surface/repair/mesh_steps.h>
 
@@ -9,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Draws vertices that are at one point, because the surface was pinched there, apart: each a little towards the middle
 /// of its own neighbours. CGAL splits such vertices and leaves them where they are.
@@ -136,7 +134,4 @@ private:
   std::vector<std::size_t> place_of_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

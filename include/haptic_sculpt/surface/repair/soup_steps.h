@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_SOUP_STEPS_H
-#define HAPTIC_SCULPT_SURFACE_SOUP_STEPS_H
+#pragma once
 
 #include <haptic_sculpt/surface/repair/Repair_report.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
@@ -12,8 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A soup as CGAL's functions take it.
 struct Polygon_soup {
@@ -78,7 +76,4 @@ inline Repair_step orient_soup(Polygon_soup& soup) {
           {{"faces turned over", turned}, {"copies of points made", soup.points.size() - points}}, 0, {}};
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_FACE_SOUP_H
-#define HAPTIC_SCULPT_SURFACE_FACE_SOUP_H
+#pragma once
 
 #include <haptic_sculpt/surface/Vertex_attribute.h>
 #include <haptic_sculpt/surface/cgal_compatibility.h>
@@ -70,5 +69,3 @@ struct Face_soup {
 };
 
 } // namespace haptic_sculpt
-
-#endif

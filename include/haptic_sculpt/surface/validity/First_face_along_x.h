@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_FIRST_FACE_ALONG_X_H
-#define HAPTIC_SCULPT_SURFACE_FIRST_FACE_ALONG_X_H
+#pragma once
 
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
@@ -15,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Finds the face that a ray from a vertex v in the direction of x meets first.
 ///
@@ -222,7 +220,4 @@ private:
   std::vector<Node> nodes_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_COMPONENT_ORIENTATION_H
-#define HAPTIC_SCULPT_SURFACE_COMPONENT_ORIENTATION_H
+#pragma once
 
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 #include <haptic_sculpt/surface/validity/First_face_along_x.h>
@@ -17,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Finds the components of a valid surface whose normals point into the solid.
 ///
@@ -143,7 +141,4 @@ private:
   std::vector<Component> components_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

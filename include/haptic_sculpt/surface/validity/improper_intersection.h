@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_IMPROPER_INTERSECTION_H
-#define HAPTIC_SCULPT_SURFACE_IMPROPER_INTERSECTION_H
+#pragma once
 
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 #include <haptic_sculpt/surface/validity/near_faces.h>
@@ -16,8 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Whether two closed triangles of a soup meet elsewhere than in the vertices and the edge they share; exact.
 ///
@@ -145,7 +143,4 @@ Improper_intersections improper_intersections(const Face_soup& soup, const std::
   return found;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

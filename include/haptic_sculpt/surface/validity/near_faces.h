@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_NEAR_FACES_H
-#define HAPTIC_SCULPT_SURFACE_NEAR_FACES_H
+#pragma once
 
 #include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
@@ -16,8 +15,7 @@
 #include <limits>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Finds the pairs of triangles that may meet improperly, by CGAL's box intersection, always in the same order.
 ///
@@ -218,7 +216,4 @@ private:
   const std::vector<Index>& faces_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

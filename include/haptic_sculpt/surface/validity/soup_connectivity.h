@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SURFACE_SOUP_CONNECTIVITY_H
-#define HAPTIC_SCULPT_SURFACE_SOUP_CONNECTIVITY_H
+#pragma once
 
 #include <haptic_sculpt/surface/Validity_report.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
@@ -9,8 +8,7 @@
 #include <numeric>
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Disjoint sets of 0, ..., n-1, with path halving.
 class Disjoint_sets {
@@ -159,7 +157,4 @@ private:
   const Face_soup& soup_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal
