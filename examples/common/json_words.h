@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <initializer_list>
 #include <string>
 
 namespace haptic_sculpt::examples {

@@ -3,10 +3,8 @@
 
 #include <boost/container/small_vector.hpp>
 
-#include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 namespace haptic_sculpt {
 

@@ -11,7 +11,6 @@
 #include <haptic_sculpt/collision/arithmetic/Sweep_signs.h>
 #include <haptic_sculpt/collision/arithmetic/sweep_time.h>
 
-#include <initializer_list>
 
 namespace haptic_sculpt::internal {
 

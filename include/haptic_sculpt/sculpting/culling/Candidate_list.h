@@ -6,7 +6,6 @@
 #include <haptic_sculpt/surface/star.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-#include <algorithm>
 
 namespace haptic_sculpt::internal {
 

@@ -5,7 +5,6 @@
 #include <haptic_sculpt/sculpting/geometry/separation.h>
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 
-#include <cstdint>
 
 namespace haptic_sculpt::internal {
 

@@ -3,7 +3,6 @@
 
 #include <haptic_sculpt/sculpting/culling/Swept_fan.h>
 
-#include <cstdint>
 
 namespace haptic_sculpt::internal {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/many_vertices/Axis_walk.h>
 #include <haptic_sculpt/sculpting/many_vertices/Drag_budget.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>

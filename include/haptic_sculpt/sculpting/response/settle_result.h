@@ -2,7 +2,6 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
-#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 namespace haptic_sculpt::internal {
 

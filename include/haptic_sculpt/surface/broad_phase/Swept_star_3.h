@@ -4,7 +4,6 @@
 #include <haptic_sculpt/surface/broad_phase/Box_3.h>
 
 #include <cmath>
-#include <vector>
 
 namespace haptic_sculpt {
 

@@ -6,7 +6,6 @@
 #include <haptic_sculpt/surface/io/follow_links.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>

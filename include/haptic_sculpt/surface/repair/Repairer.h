@@ -7,7 +7,6 @@
 #include <haptic_sculpt/surface/repair/close_gaps.h>
 #include <haptic_sculpt/surface/repair/distance_to_surface.h>
 
-#include <optional>
 #include <utility>
 #include <vector>
 

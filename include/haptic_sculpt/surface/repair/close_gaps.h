@@ -9,7 +9,6 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <array>
-#include <limits>
 #include <map>
 
 namespace haptic_sculpt::internal {

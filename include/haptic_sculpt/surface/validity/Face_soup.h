@@ -4,7 +4,6 @@
 #include <haptic_sculpt/surface/Vertex_attribute.h>
 #include <haptic_sculpt/surface/cgal_compatibility.h>
 
-#include <array>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
