@@ -3,6 +3,8 @@
 
 #include <haptic_sculpt/Error.h>
 
+#include <cstdint>
+
 namespace haptic_sculpt {
 
 /// An exception came in the middle of a change of the mesh, so that nobody knows what the mesh is now. The Sculptor
@@ -18,5 +20,33 @@ public:
               "Sculptor refuses "
               "every call; make a new one of a valid copy of the mesh") {}
 };
+
+namespace internal {
+
+/// Whether the mesh, or what is kept beside it, is being written. An exception that comes meanwhile leaves it so, for
+/// good.
+class Write_state {
+public:
+  void begin() noexcept {
+    is_writing_ = true;
+    ++changes_;
+  }
+  void end() noexcept { is_writing_ = false; }
+
+  /// \throw Unfinished_change if a change has been begun and never ended
+  void check() const {
+    if (is_writing_)
+      throw Unfinished_change();
+  }
+
+  /// How many changes have been begun: as long as this stays the mesh has not been written.
+  std::uint64_t changes() const noexcept { return changes_; }
+
+private:
+  bool is_writing_ = false;
+  std::uint64_t changes_ = 0;
+};
+
+} // namespace internal
 
 } // namespace haptic_sculpt

@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(a_shift_is_one_change) {
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
   const std::size_t moved = sculptor.visitor().moved.size();
   BOOST_TEST(moved > 30u); // one at x = 0 stays
-  BOOST_TEST(sculptor.history().bytes() - bytes == 56 + 24 * moved + 16);
+  BOOST_TEST(sculptor.history().bytes() - bytes == 48 + 24 * moved + 16);
   for (const Points& seen : sculptor.visitor().seen)
     BOOST_TEST((seen == after));
   sculptor.check_unchanged();

@@ -6,9 +6,9 @@
 #include <haptic_sculpt/sculpting/edits/Element_room.h>
 #include <haptic_sculpt/sculpting/edits/Kept_properties.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
-#include <haptic_sculpt/sculpting/edits/Write_state.h>
-#include <haptic_sculpt/sculpting/edits/faces_around.h>
+#include <haptic_sculpt/sculpting/Unfinished_change.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
+#include <haptic_sculpt/surface/Round_marks.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <type_traits>
@@ -59,41 +59,42 @@ public:
   /// faces to be replaced are not those known; std::bad_alloc; and nothing has changed \param run who may share the
   /// work of a shift
   template <class Noted>
-  Vertex_index make(const Change& edit, const Place& place, const Noted& noted,
+  Vertex_index make(const Change& change, const Place& place, const Noted& noted,
                     const Part_runner& run = Part_runner()) {
-    begin(edit, false, place);
+    const Edit& edit = change.edit;
+    begin(change, false, place);
     switch (edit.kind) {
     case Edit_kind::move:
-      return put(edit.vertex, edit.after, noted);
+      return put(edit.vertices[0], edit.point, noted);
     case Edit_kind::shift:
-      return put_all(edit, 1, noted, run);
+      return put_all(edit, [&edit](std::size_t k) { return edit.ways[k].second; }, noted, run);
     case Edit_kind::insert_on_face:
-      return create_on_face(edit, noted);
     case Edit_kind::insert_on_edge:
-      return create_on_edge(edit, noted);
+      return create(change, noted);
     case Edit_kind::flip:
-      return flip(edit, 0, noted);
+      return flip(edit.vertices[0], edit.vertices[1], change.around[0], noted);
     default:
-      return fan_instead_of_star(edit, noted);
+      return fan_instead_of_star(edit.vertices[0], edit.vertices[1], noted);
     }
   }
 
   /// \return the vertex moved or revived; of a creation, a neighbour of what was created; of a flip, an end of the old
   /// edge
   template <class Noted>
-  Vertex_index take_back(const Change& edit, const Place& place, const Noted& noted) {
-    begin(edit, true, place);
+  Vertex_index take_back(const Change& change, const Place& place, const Noted& noted) {
+    const Edit& edit = change.edit;
+    begin(change, true, place);
     switch (edit.kind) {
     case Edit_kind::move:
-      return put(edit.vertex, edit.before, noted);
+      return put(edit.vertices[0], change.before, noted);
     case Edit_kind::shift:
-      return put_all(edit, 0, noted, Part_runner());
+      return put_all(edit, [&change](std::size_t k) { return change.starts[k]; }, noted, Part_runner());
     case Edit_kind::collapse:
-      return star_instead_of_fan(edit, noted);
+      return star_instead_of_fan(change, noted);
     case Edit_kind::flip:
-      return flip(edit, 2, noted);
+      return flip(change.around[0], change.around[1], edit.vertices[0], noted);
     default:
-      return fan_instead_of_star(edit, noted);
+      return fan_instead_of_star(change.around[0], edit.vertices[0], noted);
     }
   }
 
@@ -110,7 +111,6 @@ public:
     room_.reserve(edits);
     star_.reserve(usual_valence);
     fan_.reserve(usual_valence);
-    link_.reserve(usual_valence);
     faces_.reserve(usual_valence);
   }
 
@@ -128,15 +128,14 @@ private:
   Visitor visitor_;
   Star<Mesh> star_;
   Fan<Mesh> fan_;
-  std::vector<Vertex_index> link_;
   std::vector<Face_index> faces_;
   Round_marks is_taken_; ///< faces
   bool is_ready_ = false;
 
   Vertex_index vertex(std::size_t id) const { return ids_.vertex(id); }
-  void begin(const Change& edit, bool is_back, const Place& place) {
-    if (edit.kind != Edit_kind::move && edit.kind != Edit_kind::shift)
-      kept_.begin(edit, is_back, place);
+  void begin(const Change& change, bool is_back, const Place& place) {
+    if (change.edit.kind != Edit_kind::move && change.edit.kind != Edit_kind::shift)
+      kept_.begin(change, is_back, place);
   }
   static typename Mesh::Point to_point(const Coordinates& p) { return {p[0], p[1], p[2]}; }
 
@@ -163,102 +162,94 @@ private:
     return v;
   }
 
-  /// All at once: the visitor hears when all stand. \param end 0: as before, 1: as after
-  template <class Noted>
-  Vertex_index put_all(const Change& edit, int end, const Noted& noted, const Part_runner& run) {
+  /// All at once: the visitor hears when all stand. \param coordinate(k) where the k-th is to be along the axis
+  template <class Coordinate, class Noted>
+  Vertex_index put_all(const Edit& edit, const Coordinate& coordinate, const Noted& noted, const Part_runner& run) {
     // All that allocates comes before the first point is written.
-    collect_faces_around(*mesh_, ids_, edit.around, is_taken_, faces_);
+    collect_faces_around(edit.ways);
     is_ready_ = true;
     writing_->begin();
-    for (std::size_t k = 0; k < edit.around.size(); ++k) {
-      const Vertex_index v = vertex(edit.around[k]);
+    for (std::size_t k = 0; k < edit.ways.size(); ++k) {
+      const Vertex_index v = vertex(edit.ways[k].first);
       Coordinates p = vertex_coordinates(*mesh_, v);
-      p[edit.vertex] = edit.ways[k][end];
+      p[edit.axis] = coordinate(k);
       mesh_->point(v) = to_point(p);
     }
     broad_phase_->many_faces_moved(faces_, run);
     noted(Vertex_index());
     writing_->end();
     if constexpr (has_visitor)
-      for (const std::size_t id : edit.around)
-        visitor_.vertex_moved(vertex(id));
-    return edit.around.empty() ? Vertex_index() : vertex(edit.around.back());
+      for (const auto& way : edit.ways)
+        visitor_.vertex_moved(vertex(way.first));
+    return edit.ways.empty() ? Vertex_index() : vertex(edit.ways.back().first);
+  }
+
+  /// Each face once. Cost: linear in the faces.
+  void collect_faces_around(const std::vector<std::pair<std::size_t, double>>& ways) {
+    faces_.clear();
+    is_taken_.begin(mesh_->num_faces());
+    for (const auto& way : ways)
+      for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(vertex(way.first))))
+        if (is_taken_.mark(static_cast<std::size_t>(f)))
+          faces_.push_back(f);
   }
 
   template <class Noted>
-  Vertex_index create_on_face(const Change& edit, const Noted& noted) {
-    const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
-    fan_.assign(1, h);
-    make_room_for_star(edit, 3, {1, 3, 2}, {});
+  Vertex_index create(const Change& change, const Noted& noted) {
+    const auto& corners = change.edit.vertices;
+    const bool is_on_edge = change.edit.kind == Edit_kind::insert_on_edge;
+    const Halfedge_index h = halfedge(vertex(corners[0]), vertex(corners[1]));
+    fan_.assign(1, is_on_edge ? mesh_->opposite(h) : h);
+    if (is_on_edge)
+      fan_.push_back(h);
+    make_room_for_star(change.around[0], is_on_edge ? 4 : 3, {1, 3, 2}, {});
     fan_dies();
-    return star_created(insert_star_in_face(*mesh_, h, to_point(edit.after)), edit, noted);
+    const auto p = to_point(change.edit.point);
+    return star_created(is_on_edge ? insert_star_in_edge(*mesh_, h, p) : insert_star_in_face(*mesh_, h, p),
+                        change.around[0], noted);
   }
 
   template <class Noted>
-  Vertex_index create_on_edge(const Change& edit, const Noted& noted) {
-    const Halfedge_index h = halfedge(vertex(edit.around[0]), vertex(edit.around[1]));
-    fan_.assign(1, mesh_->opposite(h));
-    fan_.push_back(h);
-    make_room_for_star(edit, 4, {1, 3, 2}, {});
+  Vertex_index star_instead_of_fan(const Change& change, const Noted& noted) {
+    const std::size_t n = change.around.size(), id = change.edit.vertices[0];
+    find_fan(*mesh_, halfedge(vertex(change.around[1]), vertex(change.around[0])), n - 2, fan_);
+    make_room_for_star(id, n, {1, n, n - 1}, {0, n - 3, n - 3});
     fan_dies();
-    return star_created(insert_star_in_edge(*mesh_, h, to_point(edit.after)), edit, noted);
+    return star_created(insert_star_in_face(*mesh_, merge_fan(*mesh_, fan_), to_point(change.before)), id, noted);
   }
 
   template <class Noted>
-  Vertex_index star_instead_of_fan(const Change& edit, const Noted& noted) {
-    link_.clear();
-    for (const std::size_t id : edit.around)
-      link_.push_back(vertex(id));
-    const std::size_t n = link_.size();
-    find_fan(*mesh_, halfedge(link_[1], link_[0]), n - 2, fan_);
-    make_room_for_star(edit, n, {1, n, n - 1}, {0, n - 3, n - 3});
-    fan_dies();
-    return star_created(insert_star_in_face(*mesh_, merge_fan(*mesh_, fan_), to_point(edit.before)), edit, noted);
-  }
-
-  template <class Noted>
-  Vertex_index fan_instead_of_star(const Change& edit, const Noted& noted) {
-    const Vertex_index v = vertex(edit.vertex), apex = vertex(edit.around[0]);
+  Vertex_index fan_instead_of_star(std::size_t id, std::size_t apex_id, const Noted& noted) {
+    const Vertex_index v = vertex(id), apex = vertex(apex_id);
     star_.collect(*mesh_, v);
     Mesh_watch<Mesh>::check_faces(*corners_of_, star_.faces);
     const std::size_t n = star_.valence();
     fan_.reserve(n - 2);
     faces_.reserve(n - 2);
     room_.make({0, n - 3, n - 3}, {1, n, n - 1}, n - 2);
-    star_dies(v);
-    ids_.take(edit.vertex);
+    begin_to_write(v, star_.faces, halfedges_into(v));
+    take_away(star_.faces);
+    ids_.take(id);
     fill_with_fan(*mesh_, remove_star(*mesh_, v), apex, fan_);
-    fan_created(noted);
+    collect_fan_faces();
+    put_there(faces_);
+    end_to_write(Vertex_index(), faces_, inside_of_fan(), noted);
     return apex;
   }
 
-  /// \param old where in edit.around the ends of the edge that dies are: 0 or 2
+  /// The edge from one to the other. \param corner an end of the new edge, which is returned
   template <class Noted>
-  Vertex_index flip(const Change& edit, std::size_t old, const Noted& noted) {
-    const Halfedge_index h = halfedge(vertex(edit.around[old]), vertex(edit.around[old + 1]));
-    faces_.assign(1, mesh_->face(h));
-    faces_.push_back(mesh_->face(mesh_->opposite(h)));
+  Vertex_index flip(std::size_t from, std::size_t to, std::size_t corner, const Noted& noted) {
+    const std::array<Halfedge_index, 1> edge = {halfedge(vertex(from), vertex(to))};
+    faces_.assign(1, mesh_->face(edge[0]));
+    faces_.push_back(mesh_->face(mesh_->opposite(edge[0])));
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
-    kept_.die(ids_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
-    is_ready_ = true;
-    if constexpr (has_visitor) {
-      for (const Face_index f : faces_)
-        visitor_.face_dies(f);
-      visitor_.edge_dies(mesh_->edge(h));
-    }
-    writing_->begin();
-    CGAL::Euler::flip_edge(h, *mesh_);
+    begin_to_write(Vertex_index(), faces_, edge);
+    CGAL::Euler::flip_edge(edge[0], *mesh_);
     corners_of_->update(faces_);
     broad_phase_->faces_moved(faces_); // they keep their descriptors
-    noted(Vertex_index());
-    writing_->end();
-    kept_.create(ids_, Vertex_index(), faces_, std::array<Halfedge_index, 1>{h});
-    if constexpr (has_visitor) {
-      visitor_.edge_created(mesh_->edge(h));
-      for (const Face_index f : faces_)
-        visitor_.face_created(f);
-    }
-    return vertex(edit.around[2 - old]);
+    end_to_write(Vertex_index(), faces_, edge, noted);
+    return vertex(corner);
   }
 
   void collect_fan_faces() {
@@ -268,79 +259,72 @@ private:
   }
 
   auto inside_of_fan() const { return CGAL::make_range(fan_.begin() + 1, fan_.end()); }
+  auto halfedges_into(Vertex_index v) const { return mesh_->halfedges_around_target(mesh_->halfedge(v)); }
 
   /// Looks up and compares the fan that a star of this valence is to replace, and makes room for all that will be
   /// written.
-  void make_room_for_star(const Change& edit, std::size_t valence, const Elements& born, const Elements& dead) {
+  void make_room_for_star(std::size_t id, std::size_t valence, const Elements& born, const Elements& dead) {
     collect_fan_faces();
     Mesh_watch<Mesh>::check_faces(*corners_of_, faces_);
     star_.reserve(valence);
-    ids_.make_room_for(edit.vertex);
+    ids_.make_room_for(id);
     room_.make(born, dead, valence);
   }
 
   void fan_dies() {
-    kept_.die(ids_, Vertex_index(), faces_, inside_of_fan());
-    is_ready_ = true;
-    if constexpr (has_visitor) {
-      for (const Face_index f : faces_)
-        visitor_.face_dies(f);
-      for (std::size_t i = 1; i < fan_.size(); ++i)
-        visitor_.edge_dies(mesh_->edge(fan_[i]));
-    }
-    writing_->begin();
-    broad_phase_->faces_removed(faces_);
-    corners_of_->forget(faces_);
+    begin_to_write(Vertex_index(), faces_, inside_of_fan());
+    take_away(faces_);
   }
 
   template <class Noted>
-  void fan_created(const Noted& noted) {
-    collect_fan_faces();
-    corners_of_->update(faces_);
-    broad_phase_->faces_inserted(faces_);
-    noted(Vertex_index());
-    writing_->end();
-    kept_.create(ids_, Vertex_index(), faces_, inside_of_fan());
-    if constexpr (has_visitor) {
-      for (std::size_t i = 1; i < fan_.size(); ++i)
-        visitor_.edge_created(mesh_->edge(fan_[i]));
-      for (const Face_index f : faces_)
-        visitor_.face_created(f);
-    }
-  }
-
-  void star_dies(Vertex_index v) {
-    kept_.die(ids_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
-    is_ready_ = true;
-    if constexpr (has_visitor) {
-      for (const Face_index f : star_.faces)
-        visitor_.face_dies(f);
-      for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))
-        visitor_.edge_dies(mesh_->edge(h));
-      visitor_.vertex_dies(v, ids_.id(v));
-    }
-    writing_->begin();
-    broad_phase_->faces_removed(star_.faces);
-    corners_of_->forget(star_.faces);
-  }
-
-  template <class Noted>
-  Vertex_index star_created(Vertex_index v, const Change& edit, const Noted& noted) {
-    ids_.give(edit.vertex, v);
+  Vertex_index star_created(Vertex_index v, std::size_t id, const Noted& noted) {
+    ids_.give(id, v);
     star_.collect(*mesh_, v);
-    corners_of_->update(star_.faces);
-    broad_phase_->faces_inserted(star_.faces);
+    put_there(star_.faces);
+    end_to_write(v, star_.faces, halfedges_into(v), noted);
+    return v;
+  }
+
+  void take_away(const std::vector<Face_index>& faces) {
+    broad_phase_->faces_removed(faces);
+    corners_of_->forget(faces);
+  }
+  void put_there(const std::vector<Face_index>& faces) {
+    corners_of_->update(faces);
+    broad_phase_->faces_inserted(faces);
+  }
+
+  /// Values are kept, and the visitor hears, of what will die. \param v the null index where no vertex dies
+  template <class Halfedges>
+  void begin_to_write(Vertex_index v, const std::vector<Face_index>& faces, const Halfedges& halfedges) {
+    kept_.die(ids_, v, faces, halfedges);
+    is_ready_ = true;
+    if constexpr (has_visitor) {
+      for (const Face_index f : faces)
+        visitor_.face_dies(f);
+      for (const Halfedge_index h : halfedges)
+        visitor_.edge_dies(mesh_->edge(h));
+      if (v.is_valid())
+        visitor_.vertex_dies(v, ids_.id(v));
+    }
+    writing_->begin();
+  }
+
+  /// What was made gets values, and the visitor hears of it. \param v the null index where no vertex was made
+  template <class Halfedges, class Noted>
+  void end_to_write(Vertex_index v, const std::vector<Face_index>& faces, const Halfedges& halfedges,
+                    const Noted& noted) {
     noted(v);
     writing_->end();
-    kept_.create(ids_, v, star_.faces, mesh_->halfedges_around_target(mesh_->halfedge(v)));
+    kept_.create(ids_, v, faces, halfedges);
     if constexpr (has_visitor) {
-      visitor_.vertex_created(v, edit.vertex);
-      for (const Halfedge_index h : mesh_->halfedges_around_target(mesh_->halfedge(v)))
+      if (v.is_valid())
+        visitor_.vertex_created(v, ids_.id(v));
+      for (const Halfedge_index h : halfedges)
         visitor_.edge_created(mesh_->edge(h));
-      for (const Face_index f : star_.faces)
+      for (const Face_index f : faces)
         visitor_.face_created(f);
     }
-    return v;
   }
 };
 

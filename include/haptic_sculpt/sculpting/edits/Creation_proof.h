@@ -86,13 +86,6 @@ private:
     return convex_star_.assign(star_, p, p);
   }
 
-  bool stands_between(const Coordinates& vertex, const Coordinates& p) const {
-    for (const Corners<Mesh>& old : old_faces_)
-      if (proof_.contains(old, p, vertex))
-        return true;
-    return false;
-  }
-
   /// Adds what is near the tetrahedron between an old face and the new faces in its place. It is what a corner's edge
   /// opposite passes over where the corner goes to p: of a face of a spike, far less than a box holds if the edge is
   /// short.

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/sculpting/edits/Change.h>
 #include <haptic_sculpt/sculpting/edits/Record_queue.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace haptic_sculpt::internal {
@@ -13,7 +14,8 @@ namespace haptic_sculpt::internal {
 /// is one each.
 ///
 /// Within a stroke the moves between two other edits are kept once a vertex, from where it was first to where it was
-/// last. Bytes: a move 56, another edit 56 and 8 for each vertex around it, 24 for each that a shift moves, a step 16.
+/// last. Bytes: a move 56, a shift 48 and 24 for each vertex that it moves, another edit 72 and 8 for each vertex around
+/// it, a step 16.
 class Edit_history {
 public:
   /// This many drags follow a `make_room()` without an allocation: a quarter of a minute of a hand that drags a
@@ -30,7 +32,7 @@ public:
       return;
     reserve_records(edits, moves);
     latest_.resize(std::max(latest_.size(), ids), no_move); // or the first stroke would fill it
-    current_.around.reserve(usual_around * usual_around);
+    current_.around.reserve(usual_words * usual_words);
   }
 
   /// Where there is more already, the oldest is forgotten.
@@ -79,13 +81,11 @@ public:
     if (is_in_stroke() && latest_.size() < ids)
       latest_.resize(ids, no_move);
   }
-  void make_room_for(const Change& edit) {
-    if (edit.kind == Edit_kind::move)
-      return make_room_for_move(edit.vertex + 1);
+  void make_room_for(const Change& change) {
     if (is_off())
       return;
     edits_.reserve(1);
-    around_.reserve(words_of(edit));
+    words_.reserve(words_of(change));
     steps_.reserve(1);
   }
 
@@ -105,20 +105,19 @@ public:
     ++moves_done_;
     end_record();
   }
-  void push(const Change& edit) {
-    if (edit.kind == Edit_kind::move)
-      return push_move(edit.vertex, edit.before, edit.after);
+  /// \pre it is no move
+  void push(const Change& change) {
     if (!begin_record())
       return;
-    const auto& point = edit.kind == Edit_kind::collapse ? edit.before : edit.after;
-    edits_.push_back(
-        {edit.vertex, point, moves_done_, around_.end(), static_cast<std::uint32_t>(words_of(edit)), edit.kind});
-    for (const std::size_t id : edit.around)
-      around_.push_back(id);
-    if (edit.kind == Edit_kind::shift)
-      for (const auto& way : edit.ways)
-        for (const double x : way)
-          around_.push_back(word_of(x));
+    const Edit& edit = change.edit;
+    edits_.push_back({edit.kind == Edit_kind::collapse ? change.before : edit.point, moves_done_, words_.end(),
+                      static_cast<std::uint32_t>(words_of(change)), edit.kind, static_cast<std::uint8_t>(edit.axis)});
+    const auto add = [this](std::size_t word) { words_.push_back(word); };
+    if (edit.kind != Edit_kind::shift)
+      std::for_each(edit.vertices.begin(), edit.vertices.end(), add);
+    std::for_each(change.around.begin(), change.around.end(), add);
+    for (std::size_t k = 0; k < edit.ways.size(); ++k)
+      add(edit.ways[k].first), add(word_of(edit.ways[k].second)), add(word_of(change.starts[k]));
     ++edits_done_;
     first_of_run_ = moves_done_;
     end_record();
@@ -171,7 +170,7 @@ public:
 
   /// Of all that can be undone and redone.
   std::size_t bytes() const {
-    return moves_.size() * sizeof(Move) + edits_.size() * sizeof(Other) + around_.size() * sizeof(std::size_t) +
+    return moves_.size() * sizeof(Move) + edits_.size() * sizeof(Other) + words_.size() * sizeof(std::size_t) +
            steps_.size() * sizeof(Place);
   }
 
@@ -182,22 +181,22 @@ private:
   };
   /// An edit that is not a move.
   struct Other {
-    std::size_t vertex;
-    Coordinates point;
+    Coordinates point; ///< of a collapse, where the vertex was before
     std::size_t moves_before; ///< the number of the first move that came later
-    std::size_t around;       ///< where the vertices around begin; of a shift, their coordinates follow, as words
+    std::size_t first_word;   ///< of the vertices and those around; of a shift, of vertex, end and start of each way
     std::uint32_t words;      ///< how many there are
     Edit_kind kind;
+    std::uint8_t axis;
   };
   /// Between two records.
   struct Place {
     std::size_t moves, edits;
   };
-  static constexpr std::size_t usual_around = 8, no_move = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t usual_words = 11, no_move = std::numeric_limits<std::size_t>::max();
 
   Record_queue<Move, room> moves_;
   Record_queue<Other, 1024> edits_;
-  Record_queue<std::size_t, 1024 * usual_around> around_;
+  Record_queue<std::size_t, 1024 * usual_words> words_;
   Record_queue<Place, room> steps_; ///< the end of each
   Place first_{0, 0};                         ///< the begin of the first step
   std::size_t moves_done_ = 0, edits_done_ = 0, steps_done_ = 0;
@@ -212,8 +211,8 @@ private:
 
   static_assert(sizeof(std::size_t) == sizeof(double), "coordinates are kept among numbers of vertices");
   /// That are kept of it besides.
-  static std::size_t words_of(const Change& edit) {
-    return edit.around.size() * (edit.kind == Edit_kind::shift ? 3 : 1);
+  static std::size_t words_of(const Change& change) {
+    return change.edit.kind == Edit_kind::shift ? 3 * change.starts.size() : 3 + change.around.size();
   }
   static std::size_t word_of(double x) {
     std::size_t word;
@@ -231,7 +230,7 @@ private:
   void reserve_records(std::size_t edits, std::size_t moves) {
     moves_.reserve(moves);
     edits_.reserve(edits);
-    around_.reserve(edits * usual_around);
+    words_.reserve(edits * usual_words);
     steps_.reserve(edits + moves);
   }
 
@@ -242,24 +241,27 @@ private:
   }
 
   const Change* read(const Move& move) {
-    current_.kind = Edit_kind::move;
-    current_.vertex = move.vertex;
+    current_.edit.kind = Edit_kind::move;
+    current_.edit.vertices[0] = move.vertex;
+    current_.edit.point = move.after;
     current_.before = move.before;
-    current_.after = move.after;
-    current_.around.clear();
     return &current_;
   }
   const Change* read(const Other& other) {
-    current_.kind = other.kind;
-    current_.vertex = other.vertex;
-    current_.before = current_.after = other.point;
-    current_.around.clear();
-    current_.ways.clear();
-    const std::size_t vertices = other.kind == Edit_kind::shift ? other.words / 3 : other.words;
-    for (std::size_t k = 0; k < vertices; ++k)
-      current_.around.push_back(around_[other.around + k]);
-    for (std::size_t k = other.around + vertices; k < other.around + other.words; k += 2)
-      current_.ways.push_back({number_of(around_[k]), number_of(around_[k + 1])});
+    Edit& edit = current_.edit;
+    edit.kind = other.kind, edit.axis = other.axis;
+    edit.point = current_.before = other.point;
+    edit.ways.clear(), current_.starts.clear(), current_.around.clear();
+    std::size_t k = other.first_word;
+    const std::size_t end = k + other.words;
+    if (other.kind == Edit_kind::shift)
+      for (; k < end; k += 3) {
+        edit.ways.emplace_back(words_[k], number_of(words_[k + 1]));
+        current_.starts.push_back(number_of(words_[k + 2]));
+      }
+    else
+      for (edit.vertices = {words_[k], words_[k + 1], words_[k + 2]}, k += 3; k < end; ++k)
+        current_.around.push_back(words_[k]);
     return &current_;
   }
 
@@ -294,7 +296,7 @@ private:
 
   void cut_to(std::size_t moves, std::size_t edits) {
     if (edits < edits_.end())
-      around_.cut(edits_[edits].around);
+      words_.cut(edits_[edits].first_word);
     moves_.cut(moves);
     edits_.cut(edits);
   }
@@ -309,7 +311,7 @@ private:
       has_step_ &= !is_lost_;
       first_ = steps_[steps_.begin()];
       moves_.forget(first_.moves);
-      around_.forget(first_.edits < edits_.end() ? edits_[first_.edits].around : around_.end());
+      words_.forget(first_.edits < edits_.end() ? edits_[first_.edits].first_word : words_.end());
       edits_.forget(first_.edits);
       steps_.forget(steps_.begin() + 1);
     }

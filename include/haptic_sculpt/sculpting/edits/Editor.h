@@ -52,7 +52,7 @@ public:
     collapse_.reserve(usual_valence, usual_candidates);
     flip_.reserve(usual_candidates);
     order_.reserve(usual_valence);
-    edit_.around.reserve(usual_valence);
+    change_.around.reserve(usual_valence);
   }
 
   /// Room to note a drag, to be made before it is. \throw std::bad_alloc
@@ -68,15 +68,16 @@ public:
     const Halfedge_index h = mesh_->halfedge(f);
     if (auto refusal = creation_.refuse({h}, p, delta))
       return {std::nullopt, std::move(refusal)};
-    describe(Edit_kind::insert_on_face, ids().size(), p,
-             {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))});
+    describe(Edit_kind::insert_on_face, {mesh_->source(h), mesh_->target(h), mesh_->target(mesh_->next(h))}, p);
+    change_.around.push_back(ids().size());
     return make();
   }
 
   Result insert_on_edge(Halfedge_index h, const Coordinates& p, double delta) {
     if (auto refusal = creation_.refuse({h, mesh_->opposite(h)}, p, delta))
       return {std::nullopt, std::move(refusal)};
-    describe(Edit_kind::insert_on_edge, ids().size(), p, {mesh_->source(h), mesh_->target(h)});
+    describe(Edit_kind::insert_on_edge, {mesh_->source(h), mesh_->target(h)}, p);
+    change_.around.push_back(ids().size());
     return make();
   }
 
@@ -111,7 +112,8 @@ public:
     if (auto refusal = flip_.refuse(h, delta))
       return {std::nullopt, std::move(refusal)};
     const auto& [a, b, c, d] = flip_.corners();
-    describe(Edit_kind::flip, ids().id(a), {}, {a, b, c, d});
+    describe(Edit_kind::flip, {a, b}, {});
+    change_.around = {ids().id(c), ids().id(d)};
     return make();
   }
 
@@ -119,21 +121,16 @@ public:
   /// be
   void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways,
              const Part_runner& run = Part_runner()) {
-    Change edit; // not kept: there may be millions
-    edit.kind = Edit_kind::shift;
-    edit.vertex = static_cast<std::size_t>(axis);
-    edit.around.reserve(ways.size());
-    edit.ways.reserve(ways.size());
+    Change change; // not kept: there may be millions
+    change.edit = Edit::of(Edit_kind::shift);
+    change.edit.axis = axis;
+    change.edit.ways.reserve(ways.size());
+    change.starts.reserve(ways.size());
     for (const auto& [v, end] : ways) {
-      edit.around.push_back(ids().id(v));
-      edit.ways.push_back({vertex_coordinates(*mesh_, v)[axis], end});
+      change.edit.ways.emplace_back(ids().id(v), end);
+      change.starts.push_back(vertex_coordinates(*mesh_, v)[axis]);
     }
-    history_.make_room_for(edit);
-    const auto noted = [&](Vertex_index changed) {
-      watch(changed, edit);
-      history_.push(edit);
-    };
-    changes_.make(edit, place(history_.number_of_next(), true), noted, run);
+    make(change, run);
   }
 
   /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. What
@@ -180,7 +177,7 @@ private:
   Collapse_proof<Mesh, Broad_phase> collapse_;
   Flip_proof<Mesh, Broad_phase> flip_;
   Pivot_order<Mesh> order_;
-  Change edit_; ///< the one that is made, kept to allocate no more
+  Change change_; ///< the one that is made, kept to allocate no more
 
   /// Takes a step back or makes it again, all of its changes or none: where one lacks memory, those before it are made
   /// undone. \param next gives the next change
@@ -219,17 +216,17 @@ private:
 
   Vertex_index take_back() {
     const auto at = place(history_.number_to_undo(), false);
-    const Change& edit = *history_.to_undo();
-    return changes_.take_back(edit, at, [&](Vertex_index changed) {
-      watch(changed, edit);
+    const Change& change = *history_.to_undo();
+    return changes_.take_back(change, at, [&](Vertex_index changed) {
+      watch(changed, change.edit);
       history_.undone();
     });
   }
   Vertex_index make_again() {
     const auto at = place(history_.number_to_redo(), false);
-    const Change& edit = *history_.to_redo();
-    return changes_.make(edit, at, [&](Vertex_index changed) {
-      watch(changed, edit);
+    const Change& change = *history_.to_redo();
+    return changes_.make(change, at, [&](Vertex_index changed) {
+      watch(changed, change.edit);
       history_.redone();
     });
   }
@@ -238,42 +235,40 @@ private:
     return {history_.first_number(), number, is_new};
   }
 
-  void describe(Edit_kind kind, std::size_t vertex, const Coordinates& p, std::initializer_list<Vertex_index> around) {
-    edit_.kind = kind;
-    edit_.vertex = vertex;
-    edit_.before = edit_.after = p;
-    edit_.around.clear();
-    for (const Vertex_index v : around)
-      edit_.around.push_back(ids().id(v));
+  void describe(Edit_kind kind, std::initializer_list<Vertex_index> vertices, const Coordinates& p) {
+    change_.edit = Edit::of(kind, {}, p);
+    std::transform(vertices.begin(), vertices.end(), change_.edit.vertices.begin(),
+                   [this](Vertex_index v) { return ids().id(v); });
+    change_.before = p;
+    change_.around.clear();
   }
 
   Result collapse_into(std::size_t pivot) {
     const Star<Mesh>& star = collapse_.star();
-    describe(Edit_kind::collapse, ids().id(star.centre), collapse_.centre(), {});
+    describe(Edit_kind::collapse, {star.centre, star.link[pivot]}, collapse_.centre());
     for (std::size_t i = 0; i < star.valence(); ++i)
-      edit_.around.push_back(ids().id(star.link[(pivot + i) % star.valence()]));
+      change_.around.push_back(ids().id(star.link[(pivot + i) % star.valence()]));
     return make();
   }
 
-  Result make() {
-    history_.make_room_for(edit_);
-    return Result::done(changes_.make(edit_, place(history_.number_of_next(), true), [this](Vertex_index changed) {
-      watch(changed);
-      history_.push(edit_);
-    }));
+  Result make() { return Result::done(make(change_)); }
+  Vertex_index make(const Change& change, const Part_runner& run = Part_runner()) {
+    history_.make_room_for(change);
+    const auto noted = [&](Vertex_index changed) {
+      watch(changed, change.edit);
+      history_.push(change);
+    };
+    return changes_.make(change, place(history_.number_of_next(), true), noted, run);
   }
 
   /// Of a shift all that it moves.
-  void watch(Vertex_index changed, const Change& edit) {
-    watch(changed);
-    if (edit.kind == Edit_kind::shift)
-      for (const std::size_t id : edit.around)
-        watch_->remember(ids().vertex(id));
-  }
-  void watch(Vertex_index changed) {
+  void watch(Vertex_index changed, const Edit& edit) {
     watch_->remember_counts();
     if (changed.is_valid())
       watch_->remember(changed);
+    if (edit.kind == Edit_kind::shift)
+      for (const auto& way : edit.ways)
+        watch_->remember(ids().vertex(way.first));
   }
 };
 

@@ -53,14 +53,14 @@ Element_ids ids_of(const Mesh& mesh, const Vertex_ids<Mesh>& ids, typename Mesh:
 class Edit_lineage {
 public:
   /// \param is_directed whether the ids are those of halfedges
-  Edit_lineage(const Change& edit, bool is_back, bool is_directed)
-      : edit_(&edit), is_back_(is_back), is_directed_(is_directed) {}
+  Edit_lineage(const Change& change, bool is_back, bool is_directed)
+      : change_(&change), is_back_(is_back), is_directed_(is_directed) {}
 
   /// Of a collapse, what `created` comes from, if there was one such; of other edits none is said.
   std::optional<Element_ids> only_origin(Element_ids created) const {
-    if (edit_->kind != Edit_kind::collapse)
+    if (change_->edit.kind != Edit_kind::collapse)
       return std::nullopt;
-    const std::size_t v = edit_->vertex, p = edit_->around[0];
+    const std::size_t v = change_->edit.vertices[0], p = change_->edit.vertices[1];
     std::replace(created.begin(), created.end(), is_back_ ? v : p, is_back_ ? p : v);
     return is_directed_ ? created : sorted(created);
   }
@@ -71,18 +71,18 @@ public:
   }
 
 private:
-  const Change* edit_;
+  const Change* change_;
   bool is_back_, is_directed_;
 
   /// As the edit is made.
   bool is_of(const Element_ids& made, const Element_ids& old) const {
-    switch (edit_->kind) {
+    switch (change_->edit.kind) {
     case Edit_kind::insert_on_face:
       return true; // no edge dies
     case Edit_kind::insert_on_edge:
       return is_directed_ ? made[0] == old[0] || made[1] == old[1] : is_part(made, old);
     case Edit_kind::flip:
-      return !is_directed_ || (made[0] == edit_->around[2]) == (old[0] == edit_->around[0]);
+      return !is_directed_ || (made[0] == change_->around[0]) == (old[0] == change_->edit.vertices[0]);
     default:
       return only_origin(made) == old;
     }
@@ -90,7 +90,7 @@ private:
   /// Whether all vertices of `made` but the new one are those of `old`.
   bool is_part(const Element_ids& made, const Element_ids& old) const {
     return std::all_of(made.begin(), made.end(), [&](std::size_t id) {
-      return id == edit_->vertex || std::find(old.begin(), old.end(), id) != old.end();
+      return id == change_->around[0] || std::find(old.begin(), old.end(), id) != old.end();
     });
   }
 };

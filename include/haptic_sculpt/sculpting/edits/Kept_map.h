@@ -8,15 +8,19 @@
 #include <boost/property_map/property_map.hpp>
 
 #include <map>
+#include <variant>
 #include <vector>
 
 namespace haptic_sculpt::internal {
 
 /// An edit that is under way, as property maps see it.
 struct Edit_under_way {
-  const Change* edit;
+  const Change* change;
   bool is_back;                  ///< whether it is taken back
-  std::array<double, 3> weights; ///< of edit->around, for a vertex that is created in the middle of these
+  std::array<double, 3> weights; ///< of the vertices of the edit, for one that is created in the middle of these
+
+  /// How many these are.
+  std::size_t size() const { return change->edit.kind == Edit_kind::insert_on_face ? 3 : 2; }
 };
 
 /// A property map whose values live through edits: those of what dies are kept for undo and redo, and new elements get
@@ -24,27 +28,22 @@ struct Edit_under_way {
 template <class Mesh>
 class Kept_map {
 public:
+  using Element = std::variant<typename Mesh::Vertex_index, typename Mesh::Halfedge_index, typename Mesh::Edge_index,
+                               typename Mesh::Face_index>;
   virtual ~Kept_map() = default;
-
-  using Ids = Vertex_ids<Mesh>;
 
   /// \name In this order, for each edit; one that is not made ends with the next begin()
   ///@{
   virtual void begin() noexcept = 0;
   /// Each element that will die, while it is in the mesh.
-  virtual void dies(typename Mesh::Vertex_index, const Element_ids&) {}
-  virtual void dies(typename Mesh::Halfedge_index, const Element_ids&) {}
-  virtual void dies(typename Mesh::Edge_index, const Element_ids&) {}
-  virtual void dies(typename Mesh::Face_index, const Element_ids&) {}
+  virtual void dies(const Element& element, const Element_ids& ids) = 0;
   /// The mesh is about to change: what is to be allocated for the record is allocated here.
   /// \param first, number of the oldest edit in the history, and of this one; `no_id` where it is not recorded
   /// \param is_new whether it is made for the first time
   virtual void prepare(std::size_t first, std::size_t number, bool is_new) = 0;
   /// Each element that has been created, when the mesh is complete again.
-  virtual void created(typename Mesh::Vertex_index, const Element_ids&, const Edit_under_way&, const Ids&) {}
-  virtual void created(typename Mesh::Halfedge_index, const Element_ids&, const Edit_under_way&, const Ids&) {}
-  virtual void created(typename Mesh::Edge_index, const Element_ids&, const Edit_under_way&, const Ids&) {}
-  virtual void created(typename Mesh::Face_index, const Element_ids&, const Edit_under_way&, const Ids&) {}
+  virtual void created(const Element& element, const Element_ids& ids, const Edit_under_way& under_way,
+                       const Vertex_ids<Mesh>& vertices) = 0;
   virtual void end() noexcept = 0;
   ///@}
 };
@@ -53,15 +52,18 @@ public:
 /// values back; else what they revive is carried on as what is new
 template <class Mesh, class Map, class Carry, bool is_recorded = true>
 class Kept_map_of : public Kept_map<Mesh> {
+  using Element = typename Kept_map<Mesh>::Element;
   using Key = typename boost::property_traits<Map>::key_type;
   using Value = typename boost::property_traits<Map>::value_type;
   static constexpr bool is_directed = std::is_same<Key, typename Mesh::Halfedge_index>::value;
-  static constexpr bool is_of_vertices = std::is_same<Key, typename Mesh::Vertex_index>::value;
 
 public:
   Kept_map_of(Map map, Carry carry) : map_(map), carry_(std::move(carry)) {}
 
-  void dies(Key key, const Element_ids& ids) override { dead_.push_back({ids, get(map_, key)}); }
+  void dies(const Element& element, const Element_ids& ids) override {
+    if (const Key* key = std::get_if<Key>(&element))
+      dead_.push_back({ids, get(map_, *key)});
+  }
 
   void prepare(std::size_t first, std::size_t number, bool is_new) override {
     std::sort(dead_.begin(), dead_.end(), [](const Entry& a, const Entry& b) { return a.ids < b.ids; });
@@ -73,24 +75,26 @@ public:
     alive_again_ = &store_[number];
   }
 
-  void created(Key key, const Element_ids& ids, const Edit_under_way& under_way,
+  void created(const Element& element, const Element_ids& ids, const Edit_under_way& under_way,
                const Vertex_ids<Mesh>& vertices) override {
+    if (!std::holds_alternative<Key>(element))
+      return;
+    const Key key = std::get<Key>(element);
     if (const Entry* saved = alive_again_ ? find(*alive_again_, ids) : nullptr) {
       put(map_, key, saved->value);
       return;
     }
     Property_origin<Value> origin;
     boost::container::small_vector<Value, 3> around; // values of vertices that stay
-    if constexpr (is_of_vertices) {
+    if constexpr (std::is_same<Key, typename Mesh::Vertex_index>::value) {
       if (under_way.is_back) // the map was given while it was dead, so nothing is known of it
         return;
-      const std::size_t n = under_way.edit->kind == Edit_kind::insert_on_face ? 3 : 2;
-      for (std::size_t k = 0; k < n; ++k)
-        around.push_back(get(map_, vertices.vertex(under_way.edit->around[k])));
-      for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t k = 0; k < under_way.size(); ++k)
+        around.push_back(get(map_, vertices.vertex(under_way.change->edit.vertices[k])));
+      for (std::size_t k = 0; k < under_way.size(); ++k)
         origin.add(around[k], under_way.weights[k]);
     } else {
-      const Edit_lineage lineage(*under_way.edit, under_way.is_back, is_directed);
+      const Edit_lineage lineage(*under_way.change, under_way.is_back, is_directed);
       if (const auto same = lineage.only_origin(ids)) {
         if (const Entry* old = find(dead_, *same))
           origin.add(old->value, 1);

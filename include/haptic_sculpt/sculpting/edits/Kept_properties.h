@@ -32,12 +32,13 @@ public:
   /// this lives
   template <class Visitor>
   void tell_lineage(Visitor& visitor) {
-    if constexpr (Hears_of_faces<Visitor, Face_index>::value)
-      maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_map<Visitor, Face_index>, Copy_property, false>>(
-          Lineage_map<Visitor, Face_index>{&visitor}, Copy_property()));
-    if constexpr (Hears_of_edges<Visitor, Edge_index>::value)
-      maps_.push_back(std::make_unique<Kept_map_of<Mesh, Lineage_map<Visitor, Edge_index>, Copy_property, false>>(
-          Lineage_map<Visitor, Edge_index>{&visitor}, Copy_property()));
+    const auto tell = [&](auto key) {
+      using Hearing_map = Lineage_map<Visitor, decltype(key)>;
+      if constexpr (Hears_of<Visitor, decltype(key)>::value)
+        maps_.push_back(std::make_unique<Kept_map_of<Mesh, Hearing_map, Copy_property, false>>(Hearing_map{&visitor},
+                                                                                             Copy_property()));
+    };
+    tell(Face_index()), tell(Edge_index());
   }
 
   /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_id` where
@@ -49,8 +50,8 @@ public:
 
   /// \name In this order, for each edit
   ///@{
-  void begin(const Change& edit, bool is_back, const Place& place) {
-    under_way_ = {&edit, is_back, {}};
+  void begin(const Change& change, bool is_back, const Place& place) {
+    under_way_ = {&change, is_back, {}};
     place_ = place;
     for (const auto& map : maps_)
       map->begin();
@@ -61,7 +62,7 @@ public:
     if (maps_.empty())
       return;
     for_each_element(ids, v, faces, halfedges,
-                     [](auto& map, auto element, const Element_ids& of) { map.dies(element, of); });
+                     [](auto& map, const Element& element, const Element_ids& of) { map.dies(element, of); });
     for (const auto& map : maps_)
       map->prepare(place_.first, place_.number, place_.is_new);
   }
@@ -72,7 +73,7 @@ public:
       return;
     if (v.is_valid() && !under_way_.is_back)
       under_way_.weights = weights(ids, vertex_coordinates(*mesh_, v));
-    for_each_element(ids, v, faces, halfedges, [&](auto& map, auto element, const Element_ids& of) {
+    for_each_element(ids, v, faces, halfedges, [&](auto& map, const Element& element, const Element_ids& of) {
       map.created(element, of, under_way_, ids);
     });
     for (const auto& map : maps_)
@@ -81,6 +82,8 @@ public:
   ///@}
 
 private:
+  using Element = typename Kept_map<Mesh>::Element;
+
   const Mesh* mesh_;
   std::vector<std::unique_ptr<Kept_map<Mesh>>> maps_;
   Edit_under_way under_way_{nullptr, false, {}};
@@ -107,8 +110,8 @@ private:
 
   /// How near p is to each of the vertices around it: shares of the length of an edge, of the area of a face. Rounded.
   std::array<double, 3> weights(const Vertex_ids<Mesh>& ids, const Coordinates& p) const {
-    const std::vector<std::size_t>& around = under_way_.edit->around;
-    const std::size_t n = under_way_.edit->kind == Edit_kind::insert_on_face ? 3 : 2;
+    const auto& around = under_way_.change->edit.vertices;
+    const std::size_t n = under_way_.size();
     std::array<Vector, 3> way{}; // in units of the longest, lest squares leave the range
     double largest = 0;
     for (std::size_t k = 0; k < n; ++k) {

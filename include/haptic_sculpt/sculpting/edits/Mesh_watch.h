@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/sculpting/Mesh_changed.h>
 #include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/broad_phase/prefetch.h>
+#include <haptic_sculpt/surface/broad_phase/processor.h>
 #include <haptic_sculpt/surface/star.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
