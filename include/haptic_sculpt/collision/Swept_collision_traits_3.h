@@ -2,9 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/collision/Compare_time_3.h>
-#include <haptic_sculpt/collision/Edge_edge_sweep_3.h>
-#include <haptic_sculpt/collision/Face_vertex_sweep_3.h>
-#include <haptic_sculpt/collision/Vertex_face_sweep_3.h>
+#include <haptic_sculpt/collision/Sweep_3.h>
 
 namespace haptic_sculpt {
 

@@ -47,46 +47,25 @@ private:
 
   const Sweep_points& p_;
   Counters& counters_;
+  Exponent_range range_; ///< of all coordinates, as soon as there are integers
   std::variant<std::monostate, Integer_points<Fixed_integer<1>>, Integer_points<Fixed_integer<2>>,
                Integer_points<Fixed_integer<4>>, Integer_points<Big_integer>>
       integers_;
 
-  template <class Integer>
-  void convert(int lowest) {
-    auto& q = integers_.template emplace<Integer_points<Integer>>();
-    for (int i = 0; i < 5; ++i)
-      q[i] = to_integers<Integer>(p_[i], lowest);
-  }
-
   template <class Sign>
   HAPTIC_SCULPT_NOINLINE int exact(const Sign& sign) {
-    if (integers_.index() == 0) {
-      Exponent_range range;
-      for (const Coordinates& point : p_)
-        range.include(point);
-      if (range.spread() <= one_limb_spread)
-        convert<Fixed_integer<1>>(range.lowest);
-      else if (range.spread() <= two_limb_spread)
-        convert<Fixed_integer<2>>(range.lowest);
-      else if (range.spread() <= four_limb_spread)
-        convert<Fixed_integer<4>>(range.lowest);
-      else
-        convert<Big_integer>(range.lowest);
-    }
-    switch (integers_.index()) {
-    case 1:
-      counters_.count_integer_64();
-      return sign(std::get<1>(integers_));
-    case 2:
-      counters_.count_integer_128();
-      return sign(std::get<2>(integers_));
-    case 3:
-      counters_.count_integer_256();
-      return sign(std::get<3>(integers_));
-    default:
-      counters_.count_big_integer();
-      return sign(std::get<4>(integers_));
-    }
+    const bool is_first = integers_.index() == 0;
+    for (std::size_t i = 0; is_first && i < p_.size(); ++i)
+      range_.include(p_[i]);
+    return with_exact_integers(range_, counters_, [&](auto type) {
+      using Points = Integer_points<decltype(type)>;
+      if (is_first) {
+        Points& q = integers_.template emplace<Points>();
+        for (std::size_t i = 0; i < p_.size(); ++i)
+          q[i] = to_integers<decltype(type)>(p_[i], range_.lowest);
+      }
+      return sign(std::get<Points>(integers_));
+    });
   }
 };
 

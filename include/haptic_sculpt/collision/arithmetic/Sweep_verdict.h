@@ -4,6 +4,7 @@
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace haptic_sculpt {
@@ -47,5 +48,25 @@ struct Sweep_verdict {
   Triangle_location location = Triangle_location::face; ///< vertex-face sweeps only
 };
 
+template <class Point_3>
+Coordinates coordinates(const Point_3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+template <class Point_3>
+Sweep_points sweep_points(const Point_3& s, const Point_3& t, const Point_3& a, const Point_3& b, const Point_3& c) {
+  return {coordinates(s), coordinates(t), coordinates(a), coordinates(b), coordinates(c)};
+}
+
+template <std::size_t size>
+bool are_finite(const std::array<Coordinates, size>& points) {
+  for (const Coordinates& p : points)
+    for (double x : p)
+      if (!std::isfinite(x))
+        return false;
+  return true;
+}
+
 } // namespace internal
+
 } // namespace haptic_sculpt

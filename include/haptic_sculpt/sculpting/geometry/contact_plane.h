@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/collision/Impact_3.h>
 #include <haptic_sculpt/collision/arithmetic/Wide_double.h>
-#include <haptic_sculpt/collision/arithmetic/sweep_points.h>
+#include <haptic_sculpt/collision/arithmetic/Sweep_verdict.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 namespace haptic_sculpt::internal {
