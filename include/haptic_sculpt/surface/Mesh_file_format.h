@@ -27,14 +27,9 @@ inline std::optional<Mesh_file_format> mesh_file_format(const std::filesystem::p
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z')
       c = static_cast<char>(c - 'A' + 'a');
-  if (extension == ".off")
-    return Mesh_file_format::off;
-  if (extension == ".ply")
-    return Mesh_file_format::ply;
-  if (extension == ".obj")
-    return Mesh_file_format::obj;
-  if (extension == ".stl")
-    return Mesh_file_format::stl;
+  for (const auto format : {Mesh_file_format::off, Mesh_file_format::ply, Mesh_file_format::obj, Mesh_file_format::stl})
+    if (extension == std::string(".") + name_of(format))
+      return format;
   return std::nullopt;
 }
 

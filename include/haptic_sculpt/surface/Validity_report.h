@@ -92,19 +92,9 @@ struct Validity_report {
   /// What does not make a surface invalid and may be meant or not, in plain words, one kind a line, the first `named`
   /// of each: components inside out. Empty where there are none.
   std::string remarks(std::size_t named = 8) const {
-    std::string text;
-    const auto list = [&](const auto& elements, const std::string& kind) {
-      if (elements.empty())
-        return;
-      text += std::to_string(elements.size()) + ' ' + kind + ':';
-      for (std::size_t i = 0; i < elements.size() && i < named; ++i)
-        text += (i == 0 ? " " : ", ") + name(elements[i]);
-      text += elements.size() > named
-                  ? ", ... (" + std::to_string(named) + " of " + std::to_string(elements.size()) + ")\n"
-                  : "\n";
-    };
-    list(inside_out_components, "component(s) inside out, with the faces");
-    return text;
+    return inside_out_components.empty()
+               ? ""
+               : counted(inside_out_components, "component(s) inside out, with the faces", named) + '\n';
   }
 
   /// To whom `message()` says what repairs a fault.
@@ -115,19 +105,11 @@ struct Validity_report {
 
   /// Says in plain words what is wrong, one kind a line: how many, the first `named` of them, and what repairs it.
   std::string message(std::size_t named = 8, Reader reader = Reader::programmer) const {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(17);
-    const auto list = [&](const auto& elements, const char* kind, const char* cure, const char* by_cgal,
+    std::string text;
+    const auto list = [&](const auto& elements, const std::string& kind, const char* cure, const char* by_cgal,
                           bool has_more = false) {
-      if (elements.empty())
-        return;
-      out << (has_more ? "at least " : "") << elements.size() << ' ' << kind << ':';
-      for (std::size_t i = 0; i < elements.size() && i < named; ++i)
-        out << (i == 0 ? " " : ", ") << name(elements[i]);
-      if (elements.size() > named)
-        out << ", ... (" << named << " of " << (has_more ? "at least " : "") << elements.size() << ')';
-      out << ". " << (reader == Reader::user ? cure : by_cgal) << '\n';
+      if (!elements.empty())
+        text += counted(elements, kind, named, has_more) + ". " + (reader == Reader::user ? cure : by_cgal) + '\n';
     };
     const std::string low = "face(s) with an altitude below delta = " + number(delta);
     list(inconsistent_halfedges, "half-edge(s) with contradictory connectivity", "Make the mesh anew.",
@@ -138,7 +120,7 @@ struct Validity_report {
          "Use PMP::triangulate_faces.");
     list(degenerate_faces, "degenerate face(s) (corners on one line)",
          "Merge corners that are nearly the same, or move them apart.", "Use PMP::remove_degenerate_faces.");
-    list(low_faces, low.c_str(), "Use a smaller delta, or triangles of better shape.",
+    list(low_faces, low, "Use a smaller delta, or triangles of better shape.",
          "Use a smaller delta, or remesh (PMP::isotropic_remeshing).");
     list(boundary_edges, "boundary edge(s), between vertices", "Merge vertices at one point, and fill the holes.",
          "Use PMP::stitch_borders where edges coincide, else PMP::triangulate_hole.");
@@ -159,10 +141,21 @@ struct Validity_report {
          "Unite parts that overlap, and move faces apart where the surface crosses or touches itself.",
          "Use PMP::experimental::remove_self_intersections, or PMP::autorefine and keep the outer surface.",
          has_more_intersections);
-    return out.str();
+    return text;
   }
 
 private:
+  /// How many of what, and the first `named` of them.
+  template <class Elements>
+  static std::string counted(const Elements& elements, const std::string& kind, std::size_t named,
+                             bool has_more = false) {
+    const std::string number = (has_more ? "at least " : "") + std::to_string(elements.size());
+    std::string text = number + ' ' + kind + ':';
+    for (std::size_t i = 0; i < elements.size() && i < named; ++i)
+      text += (i == 0 ? " " : ", ") + name(elements[i]);
+    return elements.size() > named ? text + ", ... (" + std::to_string(named) + " of " + number + ')' : text;
+  }
+
   static std::string number(double value) {
     std::ostringstream out;
     out.imbue(std::locale::classic());

@@ -9,6 +9,8 @@
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/FPU.h>
+#include <CGAL/Interval_nt.h>
 #include <CGAL/Mpzf.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
@@ -32,6 +34,19 @@ using Exact_ring_number = CGAL::Exact_rational;
 #endif
 
 namespace internal {
+
+/// What is certain of `question(Number())` by intervals, else by exact numbers. \pre the question needs sums,
+/// differences and products only
+template <class Question>
+auto by_intervals_or_exactly(const Question& question) {
+  {
+    CGAL::Protect_FPU_rounding<true> upward;
+    const auto answer = question(CGAL::Interval_nt<false>());
+    if (CGAL::is_certain(answer))
+      return CGAL::get_certain(answer);
+  }
+  return CGAL::get_certain(question(Exact_ring_number()));
+}
 
 template <class Map>
 std::optional<Map> optional_of(const std::pair<Map, bool>& found) { // CGAL 5

@@ -4,9 +4,6 @@
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/cgal_compatibility.h>
 
-#include <CGAL/FPU.h>
-#include <CGAL/Interval_nt.h>
-
 namespace haptic_sculpt {
 
 /// The delta rule of the paper (section 3.1): no altitude of a triangle is below `delta`.
@@ -33,13 +30,7 @@ public:
   /// \pre the coordinates are finite
   bool operator()(const Point_3& a, const Point_3& b, const Point_3& c) const {
     const internal::Rounding_to_nearest rounding; // subnormal numbers count
-    {
-      CGAL::Protect_FPU_rounding<true> upward;
-      const auto holds = decide<CGAL::Interval_nt<false>>(a, b, c);
-      if (CGAL::is_certain(holds))
-        return CGAL::get_certain(holds);
-    }
-    return CGAL::get_certain(decide<Exact_ring_number>(a, b, c));
+    return internal::by_intervals_or_exactly([&](auto number) { return decide<decltype(number)>(a, b, c); });
   }
 
 private:

@@ -4,6 +4,8 @@
 #include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
+#include <vector>
+
 namespace haptic_sculpt::internal {
 
 /// The closed star of a vertex: its link in order around it, and its faces.

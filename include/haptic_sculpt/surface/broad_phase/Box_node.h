@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/Part_runner.h>
-#include <haptic_sculpt/surface/broad_phase/bits.h>
+#include <haptic_sculpt/surface/broad_phase/processor.h>
 #include <haptic_sculpt/surface/broad_phase/outward_float.h>
 
 #include <vector>

@@ -5,7 +5,6 @@
 
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 
-#include <CGAL/determinant.h>
 
 #include <array>
 #include <iterator>
@@ -68,22 +67,12 @@ private:
 
   // Loose faces and walls in the inside: closed by faces upon themselves, they enclose nothing, and so meet themselves.
   void find_sheets() {
-    std::map<std::size_t, Exact_ring_number> volume; // six times
-    std::map<std::size_t, Index> apex;
-    for (Index f = 0; f < soup_.number_of_faces(); ++f) {
-      const std::size_t c = component_of_[f];
-      if (crossed_.count(c) == 0)
-        continue;
-      const auto& o = soup_.points[apex.emplace(c, *soup_.begin(f)).first->second];
-      std::array<std::array<Exact_ring_number, 3>, 3> d;
-      for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k)
-          d[i][k] = Exact_ring_number(soup_.points[soup_.begin(f)[i]][k]) - Exact_ring_number(o[k]);
-      Exact_ring_number& sum = volume.emplace(c, Exact_ring_number(0)).first->second;
-      sum = sum + CGAL::determinant(d[0][0], d[0][1], d[0][2], d[1][0], d[1][1], d[1][2], d[2][0], d[2][1], d[2][2]);
-    }
-    for (const auto& [c, sum] : volume)
-      if (CGAL::sign(sum) == CGAL::ZERO)
+    std::map<std::size_t, std::vector<Index>> faces;
+    for (Index f = 0; f < soup_.number_of_faces(); ++f)
+      if (crossed_.count(component_of_[f]) != 0)
+        faces[component_of_[f]].push_back(f);
+    for (const auto& [c, of_component] : faces)
+      if (volume_sign(soup_, of_component) == CGAL::ZERO)
         sheets_.insert(c);
     for (const std::size_t c : sheets_)
       crossed_.erase(c);

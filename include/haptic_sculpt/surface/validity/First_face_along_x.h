@@ -3,9 +3,6 @@
 
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
-#include <CGAL/FPU.h>
-#include <CGAL/Interval_nt.h>
-
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -168,14 +165,9 @@ private:
 
   // Whether the ray meets f before search.face.
   bool is_before(Index f, int side, const Search& search) const {
-    const int sides = side * search.side;
-    {
-      CGAL::Protect_FPU_rounding<true> upward;
-      const auto sign = compare<CGAL::Interval_nt<false>>(f, search, sides);
-      if (sign)
-        return *sign < 0;
-    }
-    return compare<Exact_ring_number>(f, search, sides).value() < 0;
+    return side * search.side *
+               by_intervals_or_exactly([&](auto number) { return compare<decltype(number)>(f, search); }) <
+           0;
   }
 
   // How far along the ray a face is met: over[0] / under, and how this changes with the y and the z of the ray:
@@ -200,18 +192,16 @@ private:
     return {{x * r[0] + y * r[1] + z * r[2], -y, -z}, x};
   }
 
-  // The sign of the difference of the distances of f and search.face; nothing if the numbers do not tell.
+  // The sign of the difference of the distances of f and search.face, where their normals' x have one sign.
   template <class Number>
-  std::optional<int> compare(Index f, const Search& search, int sides) const {
+  CGAL::Uncertain<CGAL::Sign> compare(Index f, const Search& search) const {
     const auto d = distance<Number>(f, search.v), e = distance<Number>(*search.face, search.v);
     for (int k = 0; k < 3; ++k) {
-      const auto sign = CGAL::sign(Number(d.over[k] * e.under - e.over[k] * d.under));
-      if (!CGAL::is_certain(sign))
-        return std::nullopt;
-      if (const int certain = CGAL::get_certain(sign); certain != 0)
-        return certain * sides;
+      const CGAL::Uncertain<CGAL::Sign> sign = CGAL::sign(Number(d.over[k] * e.under - e.over[k] * d.under));
+      if (!sign.is_certain() || sign.make_certain() != CGAL::ZERO)
+        return sign;
     }
-    return 0; // one plane: not on an embedded surface
+    return CGAL::ZERO; // one plane: not on an embedded surface
   }
 
   const Face_soup& soup_;

@@ -5,8 +5,6 @@
 #include <haptic_sculpt/surface/validity/First_face_along_x.h>
 #include <haptic_sculpt/surface/validity/soup_connectivity.h>
 
-#include <CGAL/FPU.h>
-#include <CGAL/Interval_nt.h>
 #include <CGAL/determinant.h>
 
 #include <algorithm>
@@ -17,6 +15,30 @@
 #include <vector>
 
 namespace haptic_sculpt::internal {
+
+/// Six times the signed volume that faces closed upon themselves enclose. From a corner of them, so that intervals stay
+/// narrow far from the origin. \pre there is a face
+template <class Number>
+Number volume(const Face_soup& soup, const std::vector<Face_soup::Index>& faces) {
+  const auto& o = soup.points[*soup.begin(faces.front())];
+  const auto from_o = [&](Face_soup::Index i, std::array<Number, 3>& d) {
+    for (int k = 0; k < 3; ++k)
+      d[k] = Number(soup.points[i][k]) - Number(o[k]);
+  };
+  Number sum(0);
+  std::array<Number, 3> a, b, c;
+  for (const Face_soup::Index f : faces) {
+    const Face_soup::Index* corner = soup.begin(f);
+    from_o(corner[0], a), from_o(corner[1], b), from_o(corner[2], c);
+    sum = sum + CGAL::determinant(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
+  }
+  return sum;
+}
+
+/// Its sign.
+inline CGAL::Sign volume_sign(const Face_soup& soup, const std::vector<Face_soup::Index>& faces) {
+  return by_intervals_or_exactly([&](auto number) { return CGAL::sign(volume<decltype(number)>(soup, faces)); });
+}
 
 /// Finds the components of a valid surface whose normals point into the solid.
 ///
@@ -42,7 +64,7 @@ public:
   explicit Component_orientation(const Face_soup& soup) : soup_(soup), component_of_face_(soup.number_of_faces()) {
     collect_components();
     for (Component& component : components_)
-      component.encloses_positive_volume = volume_sign(component) == CGAL::POSITIVE;
+      component.encloses_positive_volume = volume_sign(soup, component.faces) == CGAL::POSITIVE;
     if (components_.size() > 1)
       locate_components();
   }
@@ -103,37 +125,6 @@ private:
       const bool from_inside = seen->normal_towards_v != other.encloses_positive_volume;
       components_[i].lies_in_odd_number = other.lies_in_odd_number != from_inside;
     }
-  }
-
-  CGAL::Sign volume_sign(const Component& component) const {
-    {
-      CGAL::Protect_FPU_rounding<true> upward;
-      const auto sign = CGAL::sign(volume<CGAL::Interval_nt<false>>(component));
-      if (CGAL::is_certain(sign))
-        return CGAL::get_certain(sign);
-    }
-    return CGAL::sign(volume<Exact_ring_number>(component));
-  }
-
-  // Six times the signed volume, taken from a corner of the component so that intervals stay narrow far from the
-  // origin.
-  template <class Number>
-  Number volume(const Component& component) const {
-    const Point_3& o = soup_.points[*soup_.begin(component.faces.front())];
-    const auto from_o = [&](Index i, std::array<Number, 3>& d) {
-      for (int k = 0; k < 3; ++k)
-        d[k] = Number(soup_.points[i][k]) - Number(o[k]);
-    };
-    Number sum(0);
-    std::array<Number, 3> a, b, c;
-    for (const Index f : component.faces) {
-      const Index* corner = soup_.begin(f);
-      from_o(corner[0], a);
-      from_o(corner[1], b);
-      from_o(corner[2], c);
-      sum = sum + CGAL::determinant(a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
-    }
-    return sum;
   }
 
   const Face_soup& soup_;
