@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_box.h>
-#include <haptic_sculpt/surface/broad_phase/bits.h>
+#include <haptic_sculpt/surface/broad_phase/processor.h>
 
 #include <algorithm>
 #include <vector>

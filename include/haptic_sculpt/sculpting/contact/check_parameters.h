@@ -3,7 +3,6 @@
 
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
-#include <haptic_sculpt/sculpting/geometry/Slide_lengths.h>
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>

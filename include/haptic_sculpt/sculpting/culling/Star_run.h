@@ -4,7 +4,7 @@
 #include <haptic_sculpt/sculpting/culling/Candidate_list.h>
 #include <haptic_sculpt/sculpting/culling/Separating_planes.h>
 #include <haptic_sculpt/sculpting/culling/Spoke_planes.h>
-#include <haptic_sculpt/surface/broad_phase/bits.h>
+#include <haptic_sculpt/surface/broad_phase/processor.h>
 
 namespace haptic_sculpt::internal {
 

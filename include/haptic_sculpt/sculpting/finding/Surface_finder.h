@@ -113,32 +113,15 @@ private:
   }
 
   Hit hit(const Impact& impact) const {
-    using L = Triangle_location;
-    const auto& [a, b, c] = (*corners_of_)(impact.face);
-    const auto edge = [this](Vertex_index v, Vertex_index w) { return mesh_->edge(mesh_->halfedge(v, w)); };
+    const auto& corners = (*corners_of_)(impact.face);
     Hit hit;
     hit.face = impact.face;
-    switch (impact.verdict.location) {
-    case L::vertex_a:
-      hit.vertex = a;
-      break;
-    case L::vertex_b:
-      hit.vertex = b;
-      break;
-    case L::vertex_c:
-      hit.vertex = c;
-      break;
-    case L::edge_ab:
-      hit.edge = edge(a, b);
-      break;
-    case L::edge_bc:
-      hit.edge = edge(b, c);
-      break;
-    case L::edge_ca:
-      hit.edge = edge(c, a);
-      break;
-    default:
-      break;
+    const int location = static_cast<int>(impact.verdict.location); // the face, one of three edges, or of three corners
+    if (location >= static_cast<int>(Triangle_location::vertex_a))
+      hit.vertex = corners[location - static_cast<int>(Triangle_location::vertex_a)];
+    else if (location >= static_cast<int>(Triangle_location::edge_ab)) {
+      const int k = location - static_cast<int>(Triangle_location::edge_ab);
+      hit.edge = mesh_->edge(mesh_->halfedge(corners[k], corners[(k + 1) % 3]));
     }
     hit.feature = hit.vertex.is_valid() ? Surface_feature::vertex
                   : hit.edge.is_valid() ? Surface_feature::edge

@@ -62,11 +62,6 @@ public:
     check_is_whole();
     return editor_;
   }
-  /// What the caller may change without a check. \throw Unfinished_change
-  Sculptor_parameters& settings() {
-    check_is_whole();
-    return parameters;
-  }
 
   /// \throw Unfinished_change if a change was broken off: every way in begins with this.
   void check_is_whole() const { writing_.check(); }

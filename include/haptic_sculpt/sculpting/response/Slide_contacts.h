@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/contact/Facet.h>
-#include <haptic_sculpt/sculpting/geometry/Slide_lengths.h>
+#include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/stop.h>
 #include <haptic_sculpt/sculpting/response/nearest_permitted.h>
 
