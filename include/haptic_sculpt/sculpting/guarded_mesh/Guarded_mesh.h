@@ -206,7 +206,7 @@ public:
     look_for_changes();
     whole_move_.forget();
     const Edited result = edit();
-    if (result && !mesh_->is_removed(*result.vertex))
+    if (result)
       scene_.include(vertex_coordinates(*mesh_, *result.vertex));
     return result;
   }
