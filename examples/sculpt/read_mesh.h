@@ -6,6 +6,9 @@
 
 #include <haptic_sculpt/surface/Validity_report.h>
 
+#include <string>
+#include <vector>
+
 namespace haptic_sculpt::sculpt_program {
 
 /// Reads a surface. With `--triangulate` its faces may have more than three corners, and these are divided into
@@ -14,5 +17,10 @@ namespace haptic_sculpt::sculpt_program {
 /// \param left_out receives what the file has and a mesh has not \param found receives what validate() says of the
 /// result \throw Read_error, Out_of_range; Invalid_surface for faults, before or after it was divided
 Mesh read_mesh(const Arguments& arguments, std::vector<std::string>& left_out, Validity_report& found);
+
+/// Reads what a file holds and repairs it; writes the report that was asked for, whatever comes of it.
+/// \param left_out receives what the file has and a mesh has not, \param told the steps, in words
+/// \throw Read_error, Out_of_range; Read_error also for what cannot be repaired, with what is left; Write_error
+Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_out, std::string& told);
 
 } // namespace haptic_sculpt::sculpt_program

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refusal.h"
 
-#include "faults_json.h"
 
 #include "../common/Result_writer.h"
 #include "../common/numbers.h"

@@ -4,15 +4,18 @@
 #include "../common/mesh_program.h"
 #include "../common/numbers.h"
 #include "../common/output_targets.h"
+#include "../common/Result_writer.h"
+#include "../common/write_file.h"
 #include "Log_file.h"
-#include "Patience.h"
+#include "Progress.h"
+#include "Report.h"
+#include "comparison.h"
 #include "nearest_vertices.h"
+#include "picture.h"
 #include "printable.h"
 #include "read_mesh.h"
-#include "read_repaired.h"
 #include "resume.h"
 #include "sha256_of_file.h"
-#include "write_results.h"
 
 #include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
@@ -98,12 +101,14 @@ Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& 
 
 /// \throw Usage_error
 void check_lengths(const Arguments& arguments) {
-  if (arguments.clearance && !(*arguments.clearance > 0 && is_in_range(*arguments.clearance)))
-    throw Usage_error("--clearance must be a length > 0 and at most 2^1000, about 1.07e301");
-  if (arguments.delta && !(*arguments.delta >= 0 && is_in_range(*arguments.delta)))
-    throw Usage_error("--delta must be a length >= 0 and at most 2^1000, about 1.07e301");
-  if (arguments.repair.gap && !(*arguments.repair.gap >= 0 && is_in_range(*arguments.repair.gap)))
-    throw Usage_error("--repair-gap must be a length >= 0 and at most 2^1000, about 1.07e301");
+  const auto check = [](const char* option, const std::optional<double>& length, bool may_be_0) {
+    if (length && !((may_be_0 ? *length >= 0 : *length > 0) && is_in_range(*length)))
+      throw Usage_error(option + std::string(" must be a length ") + (may_be_0 ? ">= 0" : "> 0") +
+                        " and at most 2^1000, about 1.07e301");
+  };
+  check("--clearance", arguments.clearance, false);
+  check("--delta", arguments.delta, true);
+  check("--repair-gap", arguments.repair.gap, true);
   for (const double x : arguments.nearest.value_or(std::array<double, 3>{}))
     if (!is_in_range(x))
       throw Usage_error("--nearest takes finite coordinates of at most 2^1000, about 1.07e301; " +
@@ -197,6 +202,24 @@ Plan plan_of(const Script& script, const Log_file* log, const Arguments& argumen
                        std::make_move_iterator(plan.rest.commands.end()));
   plan.rest.commands.clear();
   return plan;
+}
+
+/// Writes what was asked for; the report last, with what there is to say of the others.
+void write_all(Result_writer& writer, const Mesh& mesh, const Run_result& result,
+                      const Arguments& arguments, const std::vector<Near_vertex>& nearest,
+                      const drawing::Scene& before, const std::optional<Mesh>& without_guard) {
+  writer.write(arguments.out, [&](const std::string& path) {
+    Write_options options;
+    options.vertex_order = result.vertex_order;
+    return examples::write_mesh(path, mesh, options);
+  });
+  writer.write(arguments.picture,
+          [&](const std::string& path) { return write_picture_of(mesh, result, before, path, arguments.shown); });
+  writer.write(arguments.comparison,
+          [&](const std::string& path) { return write_comparison(*without_guard, mesh, path, arguments.shown.view); });
+  writer.write(arguments.report, [&](const std::string& path) {
+    return examples::write_file(path, report_of(result, writer.notes(), nearest));
+  });
 }
 
 int sculpt(const Arguments& arguments) {
