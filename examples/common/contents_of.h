@@ -13,7 +13,22 @@
 
 namespace haptic_sculpt::examples {
 
-/// Hands a file to `take`, block by block; a pipe, too. \param what how messages call it, e.g. "the script"
+/// Hands what is left of an open file to `take`, block by block. \param named as messages call it \throw Exception
+template <class Exception, class Take>
+void read_to_end(int file, const std::string& named, const Take& take) {
+  std::array<char, 1 << 16> block;
+  for (;;) {
+    const ssize_t got = ::read(file, block.data(), block.size());
+    if (got == 0)
+      return;
+    if (got > 0)
+      take(std::string_view(block.data(), static_cast<std::size_t>(got)));
+    else if (errno != EINTR)
+      throw Exception("reading " + named + " failed: " + std::strerror(errno));
+  }
+}
+
+/// The same of a file by its name; a pipe, too. \param what how messages call it, e.g. "the script"
 /// \throw Exception, which says why it cannot be read: not there, a folder, no permission
 template <class Exception, class Take>
 void read_blocks(const std::string& path, const std::string& what, const Take& take) {
@@ -23,16 +38,7 @@ void read_blocks(const std::string& path, const std::string& what, const Take& t
     throw Exception("cannot open " + named + ": " + std::strerror(errno));
   const auto close = [](const int* file) { ::close(*file); };
   const std::unique_ptr<const int, decltype(close)> closes(&opened, close);
-  std::array<char, 1 << 16> block;
-  for (;;) {
-    const ssize_t got = ::read(opened, block.data(), block.size());
-    if (got == 0)
-      return;
-    if (got > 0)
-      take(std::string_view(block.data(), static_cast<std::size_t>(got)));
-    else if (errno != EINTR)
-      throw Exception("reading " + named + " failed: " + std::strerror(errno));
-  }
+  read_to_end<Exception>(opened, named, take);
 }
 
 /// All of a file. \throw Exception

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Log_file.h"
 
+#include "../common/contents_of.h"
 #include "../common/write_file.h"
 
 #include <haptic_sculpt/surface/Write_error.h>
@@ -41,7 +42,8 @@ Log_file::Log_file(const std::string& path, const std::string& mesh)
                       "; to replay it only, give it as a script (--script)");
   try {
     lock();
-    const std::string text = read_all();
+    std::string text;
+    examples::read_to_end<Write_error>(file_, in_words(path_), [&](std::string_view block) { text += block; });
     if (text.empty())
       return;
     contents_ = read_log(text, path_, mesh_);
@@ -69,20 +71,6 @@ void Log_file::lock() const {
   if (::fstat(file_, &here) != 0 || ::stat(target_.c_str(), &there) != 0 || here.st_ino != there.st_ino ||
       here.st_dev != there.st_dev)
     throw Write_error(in_words(path_) + " has just been replaced by another process; try again");
-}
-
-std::string Log_file::read_all() const {
-  std::string text;
-  char buffer[1 << 16];
-  for (;;) {
-    const ssize_t got = ::read(file_, buffer, sizeof buffer);
-    if (got == 0)
-      return text;
-    if (got > 0)
-      text.append(buffer, static_cast<std::size_t>(got));
-    else if (errno != EINTR)
-      throw Write_error("cannot read " + in_words(path_) + ": " + system_says());
-  }
 }
 
 void Log_file::begin(const Settings& settings) {

@@ -58,7 +58,6 @@ private:
 
   void append(const std::string& lines);
   void lock() const;
-  std::string read_all() const;
   void fail(const std::string& why);
 };
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/Sculptor_parameters.h>
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/broad_phase/Box_3.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/Part_runner.h>
 #include <haptic_sculpt/sculpting/Edit_visitor.h>
 #include <haptic_sculpt/sculpting/edits/Change.h>
 #include <haptic_sculpt/sculpting/edits/Element_room.h>
