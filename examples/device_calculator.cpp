@@ -18,16 +18,6 @@ namespace {
 using namespace haptic_sculpt;
 using nlohmann::json;
 
-/// An answer that is not there, with the code that says why.
-class No_answer : public Error {
-public:
-  No_answer(const char* code, const std::string& message) : Error(message), code_(code) {}
-  const char* code() const { return code_; }
-
-private:
-  const char* code_;
-};
-
 /// Past this condition number the position's rounding, magnified by the condition and then again by the Jacobian's own
 /// sensitivity, costs more digits than a caller of a calculator expects; the answer is then found again in quadruple
 /// precision.
@@ -296,7 +286,7 @@ json answer_line(const Line_reader& reader) {
   json request;
   try {
     request = parse_line(reader.line());
-  } catch (const Line_too_complex& error) {
+  } catch (const No_answer& error) {
     return failure(error.code(), error.what());
   } catch (const json::exception& error) {
     return failure("malformed_json", examples::in_words(error));

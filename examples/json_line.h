@@ -56,10 +56,10 @@ private:
   bool too_long_ = false;
 };
 
-/// A line that nests too deep or says too many values; `code()` is `nested_too_deep` or `too_many_values`.
-class Line_too_complex : public Error {
+/// An answer that is not there, with the code that says why.
+class No_answer : public Error {
 public:
-  Line_too_complex(const char* code, const std::string& message) : Error(message), code_(code) {}
+  No_answer(const char* code, const std::string& message) : Error(message), code_(code) {}
   const char* code() const { return code_; }
 
 private:
@@ -67,18 +67,18 @@ private:
 };
 
 /// The value a line says.
-/// \throw nlohmann::json::exception if it is no JSON; Line_too_complex before anything deeper or more is built;
-/// std::bad_alloc
+/// \throw nlohmann::json::exception if it is no JSON; No_answer, `nested_too_deep` or `too_many_values`, before anything
+/// deeper or more is built; std::bad_alloc
 inline nlohmann::json parse_line(std::string_view line) {
   using Event = nlohmann::json::parse_event_t;
   int values = 0;
   return nlohmann::json::parse(line.begin(), line.end(), [&](int depth, Event event, nlohmann::json&) {
     const bool opens = event == Event::object_start || event == Event::array_start;
     if (opens && depth >= deepest_nesting)
-      throw Line_too_complex("nested_too_deep",
-                             "objects and arrays are nested more than " + std::to_string(deepest_nesting) + " deep");
+      throw No_answer("nested_too_deep",
+                      "objects and arrays are nested more than " + std::to_string(deepest_nesting) + " deep");
     if ((opens || event == Event::value) && ++values > most_values)
-      throw Line_too_complex("too_many_values", "the line says more than " + std::to_string(most_values) + " values");
+      throw No_answer("too_many_values", "the line says more than " + std::to_string(most_values) + " values");
     return true;
   });
 }

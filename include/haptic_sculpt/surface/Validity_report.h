@@ -94,7 +94,9 @@ struct Validity_report {
   std::string remarks(std::size_t named = 8) const {
     return inside_out_components.empty()
                ? ""
-               : counted(inside_out_components, "component(s) inside out, with the faces", named) + '\n';
+               : counted(inside_out_components.size(), "component(s) inside out, with the faces",
+                         names(inside_out_components, named), named) +
+                     '\n';
   }
 
   /// To whom `message()` says what repairs a fault.
@@ -109,7 +111,8 @@ struct Validity_report {
     const auto list = [&](const auto& elements, const std::string& kind, const char* cure, const char* by_cgal,
                           bool has_more = false) {
       if (!elements.empty())
-        text += counted(elements, kind, named, has_more) + ". " + (reader == Reader::user ? cure : by_cgal) + '\n';
+        text += counted(elements.size(), kind, names(elements, named), named, has_more) + ". " +
+                (reader == Reader::user ? cure : by_cgal) + '\n';
     };
     const std::string low = "face(s) with an altitude below delta = " + number(delta);
     list(inconsistent_halfedges, "half-edge(s) with contradictory connectivity", "Make the mesh anew.",
@@ -145,15 +148,18 @@ struct Validity_report {
   }
 
 private:
-  /// How many of what, and the first `named` of them.
-  template <class Elements>
-  static std::string counted(const Elements& elements, const std::string& kind, std::size_t named,
+  /// How many of what, and the names of the first `named` of them.
+  static std::string counted(std::size_t size, const std::string& kind, const std::string& names, std::size_t named,
                              bool has_more = false) {
-    const std::string number = (has_more ? "at least " : "") + std::to_string(elements.size());
-    std::string text = number + ' ' + kind + ':';
-    for (std::size_t i = 0; i < elements.size() && i < named; ++i)
+    const std::string number = (has_more ? "at least " : "") + std::to_string(size), text = number + ' ' + kind + ':';
+    return text + names + (size > named ? ", ... (" + std::to_string(named) + " of " + number + ')' : std::string());
+  }
+  template <class Elements>
+  static std::string names(const Elements& elements, std::size_t most) {
+    std::string text;
+    for (std::size_t i = 0; i < elements.size() && i < most; ++i)
       text += (i == 0 ? " " : ", ") + name(elements[i]);
-    return elements.size() > named ? text + ", ... (" + std::to_string(named) + " of " + number + ')' : text;
+    return text;
   }
 
   static std::string number(double value) {

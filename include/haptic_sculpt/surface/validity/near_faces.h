@@ -62,12 +62,20 @@ public:
       if (!has_hub)
         plain.push_back(box(f, none));
     }
-    const auto call = [&](const Box* a, const Box* b) {
-      do_this(std::min(a->info(), b->info()), std::max(a->info(), b->info()));
+    const auto share_a_hub = [&](Index f, Index g) {
+      return std::any_of(soup_.begin(f), soup_.end(f), [&](Index v) {
+        return is_hub[v] && std::find(soup_.begin(g), soup_.end(g), v) != soup_.end(g);
+      });
     };
-    const auto pairs_between = [&](const Boxes& a, const Boxes& b, const auto& function) {
+    bool are_at_hubs = false; // those that share one are found there
+    const auto call = [&](const Box* a, const Box* b) { // of one type: CGAL's search is compiled once
+      const Index f = std::min(a->info(), b->info()), g = std::max(a->info(), b->info());
+      if (f != g && !(are_at_hubs && share_a_hub(f, g)))
+        do_this(f, g);
+    };
+    const auto pairs_between = [&](const Boxes& a, const Boxes& b) {
       auto to_a = pointers_to(a), to_b = pointers_to(b);
-      CGAL::box_intersection_d(to_a.begin(), to_a.end(), to_b.begin(), to_b.end(), function, cutoff);
+      CGAL::box_intersection_d(to_a.begin(), to_a.end(), to_b.begin(), to_b.end(), call, cutoff);
     };
     pairs_within(plain, call, run);
     if (at_hubs.empty())
@@ -78,20 +86,7 @@ public:
     for (const Face_at_hub& a : at_hubs)
       if (a.is_first)
         add_slices(a, slices, rest);
-    pairs_between(plain, rest, call);
-    const auto share_a_hub = [&](Index f, Index g) {
-      return std::any_of(soup_.begin(f), soup_.end(f), [&](Index v) {
-        return is_hub[v] && std::find(soup_.begin(g), soup_.end(g), v) != soup_.end(g);
-      });
-    };
-    const auto call_apart = [&](const Box* a, const Box* b) {
-      if (!share_a_hub(a->info(), b->info()))
-        call(a, b);
-    };
-    const auto call_together = [&](const Box* a, const Box* b) {
-      if (a->info() != b->info())
-        call(a, b);
-    };
+    pairs_between(plain, rest);
     for (auto begin = at_hubs.begin(); begin != at_hubs.end();) {
       const auto end = std::find_if(begin, at_hubs.end(), [&](const auto& a) { return a.hub != begin->hub; });
       Boxes edges, fan, first, later;
@@ -104,8 +99,10 @@ public:
       for (auto a = end; a != at_hubs.end(); ++a)
         if (a->is_first)
           add_slices(*a, slices, later);
-      pairs_between(edges, fan, call_together);
-      pairs_between(first, later, call_apart);
+      are_at_hubs = false;
+      pairs_between(edges, fan);
+      are_at_hubs = true;
+      pairs_between(first, later);
       begin = end;
     }
   }
