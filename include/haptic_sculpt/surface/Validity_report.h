@@ -106,7 +106,8 @@ struct Validity_report {
   };
 
   /// Says in plain words what is wrong, one kind a line: how many, the first `named` of them, and what repairs it.
-  std::string message(std::size_t named = 8, Reader reader = Reader::programmer) const {
+  // Cold: it is compiled small, which is fast, for no time depends on it.
+  [[gnu::cold]] std::string message(std::size_t named = 8, Reader reader = Reader::programmer) const {
     std::string text;
     const auto list = [&](const auto& elements, const std::string& kind, const char* cure, const char* by_cgal,
                           bool has_more = false) {
@@ -149,13 +150,13 @@ struct Validity_report {
 
 private:
   /// How many of what, and the names of the first `named` of them.
-  static std::string counted(std::size_t size, const std::string& kind, const std::string& names, std::size_t named,
-                             bool has_more = false) {
+  [[gnu::cold]] static std::string counted(std::size_t size, const std::string& kind, const std::string& names,
+                                           std::size_t named, bool has_more = false) {
     const std::string number = (has_more ? "at least " : "") + std::to_string(size), text = number + ' ' + kind + ':';
     return text + names + (size > named ? ", ... (" + std::to_string(named) + " of " + number + ')' : std::string());
   }
   template <class Elements>
-  static std::string names(const Elements& elements, std::size_t most) {
+  [[gnu::cold]] static std::string names(const Elements& elements, std::size_t most) {
     std::string text;
     for (std::size_t i = 0; i < elements.size() && i < most; ++i)
       text += (i == 0 ? " " : ", ") + name(elements[i]);

@@ -28,7 +28,7 @@ namespace haptic_sculpt {
 namespace internal {
 
 /// \throw Read_error
-inline std::string bytes_of_file(const std::filesystem::path& path) {
+[[gnu::cold]] inline std::string bytes_of_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)

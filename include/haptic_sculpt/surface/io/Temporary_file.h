@@ -23,7 +23,7 @@ namespace haptic_sculpt::internal {
 class Temporary_file {
 public:
   /// Makes it, empty. Where that fails, `is_open()` is false and errno says why.
-  explicit Temporary_file(const std::filesystem::path& target) {
+  [[gnu::cold]] explicit Temporary_file(const std::filesystem::path& target) {
     for (int attempt = 0; file_ < 0 && attempt < 1000; ++attempt) {
       // The name of the target says what this is; cut, for names have a greatest length.
       path_ = target.parent_path() / ('.' + target.filename().string().substr(0, 200) + mark +
@@ -59,7 +59,7 @@ public:
   }
 
   /// Removes what killed processes have left in a folder. What cannot be removed stays: it is in nobody's way.
-  static void remove_left(const std::filesystem::path& folder) {
+  [[gnu::cold]] static void remove_left(const std::filesystem::path& folder) {
     std::error_code error;
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {

@@ -16,6 +16,8 @@
 
 namespace haptic_sculpt {
 
+// Cold: what waits for disks is compiled small, which is fast.
+
 namespace internal {
 
 inline std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -26,7 +28,7 @@ inline std::filesystem::path folder_of(const std::filesystem::path& file) {
 
 /// Where a file that is written at `path` comes to lie: the end of the chain of symbolic links that begins there,
 /// whether or not something is there yet. \throw Write_error if the links lead in a circle
-inline std::filesystem::path follow_links(const std::filesystem::path& path) {
+[[gnu::cold]] inline std::filesystem::path follow_links(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   constexpr int most = 40; // as many as Linux follows
   fs::path at = path;
@@ -54,7 +56,7 @@ inline std::string keep_permissions(int new_file, const struct stat& old) {
 
 /// Why no file can be put at a place that `follow_links()` gave, as far as that can be known without writing; empty if
 /// one can.
-inline std::string why_not_replaceable(const std::filesystem::path& target) {
+[[gnu::cold]] inline std::string why_not_replaceable(const std::filesystem::path& target) {
   namespace fs = std::filesystem;
   const auto system_says = [] { return " (" + std::generic_category().message(errno) + ")"; };
   if (target.filename().empty())
@@ -85,7 +87,7 @@ inline std::string why_not_replaceable(const std::filesystem::path& target) {
 /// std::system_error
 /// \return for people: what of the old file could not be kept; empty if all was
 /// \throw Write_error
-inline std::string replace_file(const std::filesystem::path& path, std::string_view bytes,
+[[gnu::cold]] inline std::string replace_file(const std::filesystem::path& path, std::string_view bytes,
                                 std::string (*keep_rights)(int, const struct stat&) = keep_permissions) {
   const auto fail = [&](const std::string& why) { throw Write_error("cannot write '" + path.string() + "': " + why); };
   const auto system_says = [] { return " (" + std::generic_category().message(errno) + ")"; };
