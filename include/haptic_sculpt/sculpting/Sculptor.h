@@ -92,9 +92,8 @@ public:
   /// Takes a vertex in hand. \throw Unknown_vertex, Mesh_changed
   Grab_type grab(Vertex_index v) {
     const internal::Rounding_to_nearest rounding;
-    release();
-    guarded_.hold(v, false);
-    return Grab_type(*this, id(v));
+    guarded_.grab(v);
+    return Grab_type(*this, guarded_.editor().ids().id(v));
   }
 
   /// Drags v as Grab::drag_to() does, without a Grab. Takes v in hand, and contacts that were carried along are

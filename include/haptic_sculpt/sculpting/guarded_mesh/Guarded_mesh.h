@@ -81,6 +81,14 @@ public:
     if (!hand_.holds(v, once))
       hand_.take(v, once, [this] { editor_.prepare_for_moves(); });
   }
+  /// The same anew: without contacts, whoever is held.
+  void grab(Vertex_index v) {
+    check_is_whole();
+    check_vertex(*mesh_, v);
+    watch_.check_counts();
+    probe_.let_go();
+    hand_.take(v, false, [this] { editor_.prepare_for_moves(); });
+  }
 
   Result drag(Vertex_index v, const Point& target, std::vector<Point>* path,
               const std::optional<Drag_parameters>& given) {
