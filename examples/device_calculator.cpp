@@ -6,6 +6,7 @@
 #include "device_json.h"
 #include "json_line.h"
 #include <haptic_sculpt/device.h>
+#include <haptic_sculpt/device/forward_by_all_modes.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
 #include <cstring>
@@ -73,8 +74,8 @@ Outcome<Device_pose<S>> forward_pose(const Device_parameters<S>& parameters, con
   if (parameters.form() == Device_form::ditetrahedral)
     return ditetrahedral_forward(parameters, theta, request.mode);
   if (request.phi_seed)
-    return general_forward_from_seed(parameters, theta, widen<S>(*request.phi_seed));
-  return general_forward(parameters, theta);
+    return forward_by_all_modes(parameters, theta, widen<S>(*request.phi_seed));
+  return forward_by_all_modes(parameters, theta);
 }
 
 template <class S>
@@ -164,7 +165,7 @@ json answer_inverse(const Device_parameters<double>& parameters, const json& req
   }
   const bool seeded = request.contains("theta") && !request["theta"].is_null();
   const Eigen::Vector3d seed = seeded ? json_vector_3(request, "theta") : Eigen::Vector3d(Eigen::Vector3d::Constant(1));
-  const Outcome<Device_pose<double>> start = general_forward(parameters, seed);
+  const Outcome<Device_pose<double>> start = forward_by_all_modes(parameters, seed);
   Outcome<Device_pose<double>> pose(Device_status::unreachable, 0);
   if (start)
     pose = general_inverse(parameters, point, *start);

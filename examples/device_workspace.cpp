@@ -4,6 +4,7 @@
 #include "common/process_state.h"
 #include "device_json.h"
 #include <haptic_sculpt/device.h>
+#include <haptic_sculpt/device/forward_by_all_modes.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdio>
@@ -36,7 +37,9 @@ void figures(Device_description<double> description, const char* name, int per_j
   const Device_parameters<double> parameters(description);
   description.rotor_inertia = 6.3e-5;
   const Device_parameters<double> geared(description);
-  const auto samples = sample_workspace(parameters, per_joint);
+  const auto samples =
+      sample_workspace(parameters, per_joint, Workspace_limits<double>(),
+                       [](const auto& p, const auto& theta) { return forward_by_all_modes(p, theta); });
   Device_vector<double> low = Device_vector<double>::Constant(1), high = -low;
   Range condition, force, light, heavy, model_difference, tilt;
   int inside = 0;

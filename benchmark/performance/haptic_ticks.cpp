@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CPU time of whole ticks of the haptic loop, from joint angles to torques, when a hand goes fast over a fine mesh, a
-// little deep in it: with the probe, with a vertex that it grabs or creates, letting go and removing. Counts
-// allocations, too.
+// little deep in it: with the probe, with a vertex that it grabs or creates, letting go and removing; or with a vertex of
+// a valence of one's choice in hand. Counts allocations, too.
 #include "Shard.h"
 #include "meshes/generated_meshes.h"
 
@@ -32,7 +32,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   int level = 8;
   double radius = 30, speed = 300, rate = 1000, depth = 2, reach = 0.05; ///< mm, mm/s, Hz, mm, mm
-  std::size_t ticks = 1000000, work = 400, runs = 1;
+  std::size_t ticks = 1000000, work = 400, runs = 1, valence = 0;
   bool refuses_allocations = false;
   std::string json;
 };
@@ -44,24 +44,49 @@ std::uint64_t cpu_nanoseconds() {
 }
 
 /// Great circles whose axis turns slowly; every second is half a second of the probe, a quarter with a vertex in hand,
-/// which every other second is removed, and the probe again.
+/// which every other second is removed, and the probe again. With a valence: from the tip up and down, into the sphere
+/// and into the tip's own cone, and from side to side, all at once.
 struct Hand {
   const Options& options;
   Vector3d home;
 
-  Vector3d position(std::size_t tick) const {
+  Vector3d position(std::size_t tick) const { return home + 1e-3 * (options.valence == 0 ? circles(tick) : hops(tick)); }
+  static int button(std::size_t tick) {
+    const std::size_t phase = tick % 1000;
+    return phase >= 500 && phase < 750 ? 1 : phase >= 750 && phase < 760 && tick / 1000 % 2 == 1 ? 2 : 0;
+  }
+
+private:
+  /// mm, from home
+  Vector3d circles(std::size_t tick) const {
     const double angle = options.speed / options.rate / options.radius * static_cast<double>(tick),
                  turn = 0.0137 * angle;
     const Vector3d direction(std::cos(angle), std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn));
     const double above =
         std::fmax(0, 5 - 0.02 * static_cast<double>(tick)); // mm: it comes from outside, as a probe must
-    return home + 1e-3 * (options.radius - options.depth + above) * direction;
+    return (options.radius - options.depth + above) * direction;
   }
-  static int button(std::size_t tick) {
-    const std::size_t phase = tick % 1000;
-    return phase >= 500 && phase < 750 ? 1 : phase >= 750 && phase < 760 && tick / 1000 % 2 == 1 ? 2 : 0;
+  Vector3d hops(std::size_t tick) const {
+    const double angle = options.speed / options.rate / tip_way * static_cast<double>(tick);
+    return {side_way * std::sin(0.71 * angle), side_way * std::sin(0.53 * angle),
+            tip_height - (1 - std::cos(angle)) * (tip_height + options.depth) / 2 + back * std::sin(0.31 * angle)};
   }
+
+public:
+  /// mm: the tip over the sphere; its ways.
+  static constexpr double tip_height = 5, tip_way = 6, side_way = 6, back = 1;
 };
+
+/// The sphere, 60 mm wide; or, with a valence, one of a third of that, and over it a double cone whose lower tip, the
+/// last vertex, has that valence.
+meshes::Triangle_list surface(const Options& options) {
+  meshes::Triangle_list list = meshes::bumpy_sphere(options.level, 0.05);
+  if (options.valence == 0)
+    return list.scale_and_move(options.radius, 0, 0, 0);
+  constexpr double height = 12;
+  list.scale_and_move(options.radius / 3, 0, 0, -options.radius / 3);
+  return list += meshes::bipyramid(options.valence).scale_and_move(height, 0, 0, Hand::tip_height + height);
+}
 
 Json of(const Tick_statistics& s) {
   const auto microseconds = [](std::uint64_t ns) { return static_cast<double>(ns) / 1000; };
@@ -71,6 +96,11 @@ Json of(const Tick_statistics& s) {
           {"p999", microseconds(s.percentile(0.999))},
           {"p9999", microseconds(s.percentile(0.9999))},
           {"max", microseconds(s.largest())}};
+}
+
+Vector3d place_of(const Scene& scene, Mesh::Vertex_index v) {
+  const auto& p = scene.mesh.point(v);
+  return {p.x(), p.y(), p.z()};
 }
 
 /// What the button did in a tick, in the order of Tool_event.
@@ -84,9 +114,8 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   description.viscous_friction = 0.005, description.encoder_step = 1.53e-4;
   const Device_parameters<double> device(description);
   const auto home = home_pose(device);
-  meshes::Triangle_list list = meshes::bumpy_sphere(options.level, 0.05);
   Scene scene(
-      meshes::to_mesh(list.scale_and_move(options.radius, 0, 0, 0)),
+      meshes::to_mesh(surface(options)),
       [&](const Vector3d&, const Vector3d&) {
         return Workspace_map(1000, Vector3d::Zero(), Vector3d::Zero(), home->position);
       },
@@ -104,14 +133,19 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
     std::cerr << "haptic_ticks: the memory cannot be locked: first uses of pages are in the times\n";
   Tick_statistics all, probe, vertex;
   std::array<Tick_statistics, std::size(event_names)> events; // by Tool_event
-  std::size_t allocations = 0, missed = 0, missed_in_last_run = 0, cut_short = 0, blocked = 0;
+  std::size_t allocations = 0, missed = 0, missed_in_last_run = 0, cut_short = 0, blocked = 0, starved = 0;
+  const Mesh::Vertex_index tip(scene.mesh.num_vertices() - 1);
+  if (options.valence > 0)
+    loop.tool().take(tip);
+  double moved = 0; // mm
   Joint_reading reading;
   for (std::size_t tick = 0; tick < options.ticks && !loop.has_stopped(); ++tick) {
     pose = reach_position(device, *pose, hand.position(tick));
     if (!pose)
       throw Error("the hand's path leaves the workspace");
     reading.theta = measured_angles(device, pose->theta);
-    reading.button = Hand::button(tick), reading.elapsed = tick == 0 ? 0 : parameters.tick;
+    reading.button = options.valence == 0 ? Hand::button(tick) : 0, reading.elapsed = tick == 0 ? 0 : parameters.tick;
+    const Vector3d tip_before = place_of(scene, tip);
     const std::size_t before = allocations_so_far;
     const std::uint64_t begin = cpu_nanoseconds();
     const Haptic_tick& made = loop.tick(reading);
@@ -123,13 +157,14 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
     cut_short += made.tool.end == Drag_end::work_limit;
     blocked += !made.tool.reached;
     all.add(taken);
+    starved += made.tool.starved, moved += options.valence == 0 ? 0 : (place_of(scene, tip) - tip_before).norm();
     const auto event = static_cast<std::size_t>(made.tool.event);
     (event != 0 ? events[event] : loop.tool().holds_vertex() ? vertex : probe).add(taken);
     if (made.is_new_fault)
       throw Error(std::string("a fault: ") + name_of(made.fault));
   }
   const Tool_edits& done = loop.tool().edits();
-  if (options.depth > 0 && 4 * blocked < all.number())
+  if (options.depth > 0 && options.valence == 0 && 4 * blocked < all.number())
     throw Error("the hand was held back in " + std::to_string(blocked) +
                 " ticks only: that is not what is measured here");
   if (options.refuses_allocations && allocations != 0)
@@ -139,6 +174,8 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   for (std::size_t event = 1; event < events.size(); ++event)
     of_events[event_names[event]] = of(events[event]);
   return {{"triangles", scene.mesh.number_of_faces()},
+          {"valence", options.valence},
+          {"moved_mm", moved},
           {"cpu_us", of(all)},
           {"cpu_us_probe", of(probe)},
           {"cpu_us_vertex_in_hand", of(vertex)},
@@ -149,6 +186,7 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
           {"allocations", allocations},
           {"blocked", blocked},
           {"cut_short", cut_short},
+          {"starved", starved},
           {"grabbed", done.grabbed},
           {"created", done.created},
           {"removed", done.removed},
@@ -172,6 +210,10 @@ int main(int argc, char** argv) {
                  "itself takes")
       ->capture_default_str();
   app.add_option("--reach", options.reach, "Of a grab, mm; where no vertex is so near, one is created")
+      ->capture_default_str();
+  app.add_option("--valence", options.valence,
+                 "Have a vertex of so many faces in hand: a tip of a double cone that hops on a sphere of a third of the "
+                 "size; 0: none")
       ->capture_default_str();
   app.add_option("--work", options.work, "Pairs that a drag may decide")->capture_default_str();
   app.add_option("--runs", options.runs, "Make the same run so often, and take the least time of each tick")

@@ -3,10 +3,10 @@
 
 /// \file
 /// The three-leg mechanism of the paper: kinematics, statics and dynamics, templated on the scalar. Needs Eigen only.
+/// All assembly modes: device/forward_by_all_modes.h, asked for by itself.
 
 #include <haptic_sculpt/device/Device_parameters.h>
 #include <haptic_sculpt/device/Device_pose.h>
-#include <haptic_sculpt/device/assembly_modes.h>
 #include <haptic_sculpt/device/conditioning.h>
 #include <haptic_sculpt/device/ditetrahedral_kinematics.h>
 #include <haptic_sculpt/device/dynamics.h>

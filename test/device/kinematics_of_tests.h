@@ -6,6 +6,8 @@
 
 #include "device/populations.h"
 
+#include <haptic_sculpt/device/forward_by_all_modes.h>
+
 namespace device_kinematics {
 
 using namespace device_populations;

@@ -45,7 +45,7 @@ bool nine_equation_newton(const Device_parameters<double>& parameters, const Dev
 /// Joint positions of a mode.
 Device_matrix<double> joints_of(const Device_parameters<double>& parameters, const Vector& theta,
                                 const Link_angles<double>& mode) {
-  const auto pose = general_forward_from_seed<double>(parameters, theta, mode.angles());
+  const auto pose = forward_by_all_modes<double>(parameters, theta, mode.angles());
   return pose ? pose->joints : Device_matrix<double>::Constant(1e9);
 }
 
@@ -111,8 +111,69 @@ BOOST_AUTO_TEST_CASE(a_lost_mode_is_said_to_be_lost) {
   const auto lost = general_forward(parameters, nowhere, *home);
   BOOST_TEST((lost.status() == Device_status::mode_lost));
   BOOST_TEST(lost.shortfall() > 0);
-  BOOST_TEST((general_forward(parameters, nowhere).status() == Device_status::no_real_mode));
-  BOOST_TEST(general_forward(parameters, nowhere).shortfall() > 0);
+  const auto straight = general_forward(parameters, nowhere);
+  BOOST_TEST((straight.status() == Device_status::undecided));
+  BOOST_TEST(straight.shortfall() > 0);
+  BOOST_TEST((forward_by_all_modes(parameters, nowhere).status() == Device_status::no_real_mode));
+  BOOST_TEST(forward_by_all_modes(parameters, nowhere).shortfall() > 0);
+}
+
+/// The sign of the determinant of the closure's derivative, by differences.
+bool is_on_home_sheet(const internal::Platform_closure<double>& closure, const Vector& phi) {
+  Device_matrix<double> derivative;
+  for (int j = 0; j < 3; ++j) {
+    const Vector step = 1e-6 * Vector::Unit(j);
+    derivative.col(j) = closure.residual(Link_angles<double>::from(phi + step)) -
+                        closure.residual(Link_angles<double>::from(phi - step));
+  }
+  return derivative.determinant() > 0;
+}
+
+BOOST_AUTO_TEST_CASE(what_is_undecided_is_decided_by_all_modes) {
+  BOOST_TEST_MESSAGE("seed " << seed + 4);
+  Random random(seed + 4);
+  int straight = 0, decided = 0, none = 0, again = 0, twins = 0; // twins: the other mode about a fold
+  for (int k = 0; k < 20000; ++k) {
+    const Device_parameters<double> parameters(k % 2 ? random_design(random, Device_form::general)
+                                                     : named_design<double>(Named_design::D2, Device_form::general));
+    const Vector theta = random_angles(random, -0.5, 2.5);
+    const auto followed = forward_kinematics(parameters, theta), best = forward_by_all_modes(parameters, theta);
+    BOOST_REQUIRE((best.status() != Device_status::undecided));
+    if (followed) {
+      ++straight;
+      BOOST_REQUIRE((best && best->position == followed->position && best->orientation == followed->orientation));
+      continue;
+    }
+    BOOST_REQUIRE((followed.status() == Device_status::undecided));
+    Device_pose<double> pose;
+    internal::place_elbows(parameters, theta, pose);
+    const internal::Platform_closure<double> closure(parameters, pose.elbows);
+    const auto modes = assembly_modes(parameters, theta);
+    BOOST_REQUIRE(static_cast<bool>(modes));
+    int at_home = 0;
+    for (int m = 0; m < modes->count; ++m) {
+      const Vector phi = modes->modes[m].angles();
+      at_home += is_on_home_sheet(closure, phi);
+      const auto there = forward_by_all_modes<double>(parameters, theta, phi); // a mode is the one nearest to itself
+      BOOST_REQUIRE(static_cast<bool>(there));
+      BOOST_TEST(residual(parameters, *there) < 1e-9);
+      const Link_angles<double> found{there->cos_phi, there->sin_phi};
+      ++(internal::angular_distance(found, modes->modes[m]) < 1e-6 ? again : twins);
+    }
+    if (best) {
+      ++decided;
+      BOOST_TEST(residual(parameters, *best) < 1e-9);
+      BOOST_TEST((at_home > 0 && is_on_home_sheet(closure, best->phi())));
+    } else {
+      ++none;
+      BOOST_TEST((best.status() == Device_status::no_real_mode && best.shortfall() > 0));
+      BOOST_TEST(at_home == 0);
+    }
+  }
+  BOOST_TEST_MESSAGE(straight << " straight, " << decided << " by all modes, " << none << " none; " << again
+                              << " modes found again, " << twins << " twins");
+  BOOST_TEST(twins * 1000 < again);
+  BOOST_TEST((straight > 5000 && decided > 500 && none > 1000));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

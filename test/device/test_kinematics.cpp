@@ -18,7 +18,7 @@ BOOST_AUTO_TEST_CASE(nine_equations_hold_in_a_million_random_poses_of_each_form)
     for (int design = 0; design < 1000; ++design) {
       const Device_parameters<double> parameters(random_design(random, form));
       for (int k = 0; k < 1000; ++k) {
-        const auto pose = forward_kinematics(parameters, random_angles(random, -0.5, 2.5));
+        const auto pose = forward_by_all_modes(parameters, random_angles(random, -0.5, 2.5));
         if (!pose) {
           ++failed;
           continue;
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(mirror_case_agrees_with_the_general_solver) {
     const auto closed = mirror_forward(parameters, theta);
     BOOST_REQUIRE(static_cast<bool>(closed));
     const auto iterated =
-        general_forward_from_seed<double>(parameters, theta, Vector(-theta + random_vector(random, 1e-4)));
+        forward_by_all_modes<double>(parameters, theta, Vector(-theta + random_vector(random, 1e-4)));
     BOOST_REQUIRE(static_cast<bool>(iterated));
     BOOST_TEST((closed->position - iterated->position).norm() < 1e-12);
     BOOST_TEST((closed->orientation - iterated->orientation).norm() < 1e-11);

@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(whatever_comes_in_nothing_but_numbers_comes_out) {
     const Device_parameters<double> parameters(d);
     const Vector theta(k % 3 ? uniform(random, -4, 4) : pick(), pick(), pick()),
         rate(pick(), uniform(random, -1, 1), pick());
-    const auto pose = k % 2 ? general_forward(parameters, theta) : ditetrahedral_forward(parameters, theta, 1);
+    const auto pose = k % 2 ? forward_by_all_modes(parameters, theta) : ditetrahedral_forward(parameters, theta, 1);
     BOOST_TEST_REQUIRE(std::isfinite(pose.shortfall()));
     if (pose) {
       ++solved;
@@ -78,8 +78,9 @@ BOOST_AUTO_TEST_CASE(elbows_on_a_line_or_in_one_point_are_named_singular) {
               Device_status::unreachable));
   d.form = Device_form::general;
   const Device_parameters<double> platform(d);
-  BOOST_TEST((general_forward(platform, Vector(inward, outward, outward)).status() == Device_status::singular));
-  BOOST_TEST((general_forward(platform, Vector(inward + 1e-4, outward, outward)).status() == Device_status::success));
+  const Vector in_line(inward, outward, outward), beside(inward + 1e-4, outward, outward);
+  BOOST_TEST((forward_by_all_modes(platform, in_line).status() == Device_status::singular));
+  BOOST_TEST((forward_by_all_modes(platform, beside).status() == Device_status::success));
   d.form = Device_form::ditetrahedral;
   d.primary_length = 0.04; // acos(-1/2): all elbows on the axis
   const double together = 2.0943951023931957;

@@ -11,6 +11,7 @@ enum class Device_status {
   unreachable,  ///< no joint angles (inverse) or no apex (forward) exist; the shortfall says by how much
   no_real_mode, ///< general form: these joint angles have no real assembly mode
   singular,     ///< the answer is not unique or not differentiable here: elbows on a line, a matrix without an inverse
+  undecided,    ///< no mode was followed that far; forward_by_all_modes() (device/forward_by_all_modes.h) decides
   mode_lost,    ///< the way from the previous pose meets a singular pose, where the mode to follow ceases to exist
   diverged      ///< an iteration did not settle; the shortfall is the residual it was left with
 };
@@ -23,6 +24,7 @@ inline const char* name_of(Device_status status) {
   case Device_status::unreachable: return "unreachable";
   case Device_status::no_real_mode: return "no_real_mode";
   case Device_status::singular: return "singular";
+  case Device_status::undecided: return "undecided";
   case Device_status::mode_lost: return "mode_lost";
   case Device_status::diverged: return "diverged";
   }

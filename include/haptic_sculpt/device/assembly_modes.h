@@ -128,13 +128,6 @@ template <class S> int candidate_cosines(const Platform_closure<S>& closure, int
   return count;
 }
 
-/// Modes closer than this are one. Two modes about a fold are farther apart than the rounding of either while their
-/// distance exceeds the square root of the machine precision.
-template <class S> S mode_separation() {
-  using std::sqrt;
-  return S(4) * sqrt(std::numeric_limits<S>::epsilon());
-}
-
 template <class S> bool insert_mode(Assembly_modes<S>& found, const Link_angles<S>& mode) {
   for (int k = 0; k < found.count; ++k)
     if (angular_distance(found.modes[k], mode) <= mode_separation<S>())

@@ -2,10 +2,11 @@
 #ifndef HAPTIC_SCULPT_DEVICE_GENERAL_KINEMATICS_H
 #define HAPTIC_SCULPT_DEVICE_GENERAL_KINEMATICS_H
 
-#include <haptic_sculpt/device/assembly_modes.h>
+#include <haptic_sculpt/device/platform_closure.h>
 
 /// \file
 /// Forward kinematics of the general form: warm (continuing a pose), from a seed, and cold (the home mode).
+/// What these leave undecided, forward_by_all_modes.h decides.
 
 namespace haptic_sculpt {
 namespace internal {
@@ -93,69 +94,12 @@ template <class S> bool symmetric_home(const Device_parameters<S>& parameters, c
   return true;
 }
 
-/// Sign of the closure's determinant: it changes only across a fold, so the modes of one sheet share it.
-template <class S> bool on_home_sheet(const Platform_closure<S>& closure, const Link_angles<S>& x) {
-  Device_matrix<S> adjugate;
-  S determinant;
-  closure.derivative_adjugate(x, adjugate, determinant);
-  return determinant > S(0);
-}
-
 template <class S>
 void finish_general(const Device_parameters<S>& parameters, const Link_angles<S>& x, Outcome<Device_pose<S>>& outcome) {
   if (place_platform(parameters, x, outcome.value_to_fill()))
     outcome.succeed();
   else
     outcome.fail(Device_status::singular, S(0));
-}
-
-/// How far the closure is from having a solution: the least residual (largest of the three, in units of l2^2) that
-/// damped Gauss-Newton steps find from x. Local, so an upper bound of the true distance.
-template <class S> S least_residual(const Platform_closure<S>& closure, Link_angles<S> x) {
-  Device_vector<S> f = closure.residual(x);
-  S damping(0.01);
-  for (int iteration = 0; iteration < 100 && damping < S(1e8); ++iteration) {
-    const Device_matrix<S> g = closure.derivative(x);
-    Device_matrix<S> normal = g.transpose() * g, inverse;
-    normal.diagonal().array() += damping;
-    S determinant;
-    adjugate(normal, inverse, determinant);
-    const Device_vector<S> step = -(inverse * (g.transpose() * f)) / determinant;
-    Link_angles<S> next = x;
-    next.turn(step);
-    next.normalize();
-    const Device_vector<S> trial = closure.residual(next);
-    if (trial.squaredNorm() < f.squaredNorm())
-      x = next, f = trial, damping /= S(4);
-    else
-      damping *= S(4);
-  }
-  return largest_magnitude(f);
-}
-
-/// The mode nearest to a seed. Two modes about a fold that are closer to each other than to the seed cannot be
-/// distinguished by it: then the one on the home sheet is meant.
-template <class S>
-bool nearest_mode(const Platform_closure<S>& closure, const Assembly_modes<S>& modes, const Link_angles<S>& seed,
-                  Link_angles<S>& x) {
-  if (modes.count == 0)
-    return false;
-  int best = 0;
-  S best_distance = angular_distance(modes.modes[0], seed);
-  for (int k = 1; k < modes.count; ++k) {
-    const S distance = angular_distance(modes.modes[k], seed);
-    if (distance < best_distance)
-      best_distance = distance, best = k;
-  }
-  if (!on_home_sheet(closure, modes.modes[best]))
-    for (int k = 0; k < modes.count; ++k)
-      if (k != best && on_home_sheet(closure, modes.modes[k]) &&
-          angular_distance(modes.modes[k], modes.modes[best]) < best_distance) {
-        best = k;
-        break;
-      }
-  x = modes.modes[best];
-  return true;
 }
 
 } // namespace internal
@@ -191,23 +135,6 @@ inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& param
   finish_general(parameters, x, outcome);
   return outcome;
 }
-
-/// The mode nearest to the link angles `phi` (rad). Of two modes about a fold that are closer to each other than to the
-/// seed, the one on the home sheet.
-///
-/// Failures: `not_finite`; `no_real_mode`, shortfall the least residual of the closure found from the seed, as a part
-/// of l2^2; `singular`.
-template <class S>
-inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters<S>& parameters,
-                                                         const Device_vector<S>& theta, const Device_vector<S>& phi);
-
-/// The home mode: platform above the elbows, reached from the symmetric pose at the mean joint angle by moving the
-/// joints straight to `theta`.
-///
-/// If a singular pose stands in that way, the mode of the home sheet (that sign of the closure's determinant) nearest
-/// to the symmetric pose. Mirror designs: the mirror pose, in closed form. Failures as with a seed.
-template <class S>
-inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta);
 
 /// The mirror case R = r, l1 = l2 in closed form: the platform is the base's image in the elbow plane.
 ///
@@ -254,6 +181,10 @@ inline Outcome<Device_pose<S>> mirror_forward(const Device_parameters<S>& parame
   return outcome;
 }
 
+/// The mode that Newton's method is certified to reach from the link angles `phi` (rad): the one beside them.
+///
+/// Failures: `not_finite`; `undecided`: the seed is too far from any mode, or too near a fold; shortfall its largest
+/// residual of the closure, as a part of l2^2; `singular`. forward_by_all_modes() then finds the nearest.
 template <class S>
 inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters<S>& parameters,
                                                          const Device_vector<S>& theta, const Device_vector<S>& phi) {
@@ -268,57 +199,36 @@ inline Outcome<Device_pose<S>> general_forward_from_seed(const Device_parameters
   const Link_angles<S> seed = Link_angles<S>::from(phi);
   Link_angles<S> x = seed;
   if (certified_newton(closure, x) != Newton_end::converged) {
-    const Outcome<Assembly_modes<S>> modes = assembly_modes(parameters, theta);
-    if (!modes) {
-      outcome.fail(modes.status(), modes.shortfall());
-      return outcome;
-    }
-    if (!nearest_mode(closure, *modes, seed, x)) {
-      outcome.fail(Device_status::no_real_mode, least_residual(closure, seed));
-      return outcome;
-    }
+    outcome.fail(Device_status::undecided, largest_magnitude(closure.residual(seed)));
+    return outcome;
   }
   x.normalize();
   finish_general(parameters, x, outcome);
   return outcome;
 }
 
+/// The home mode: platform above the elbows, reached from the symmetric pose at the mean joint angle by moving the
+/// joints straight to `theta`. Mirror designs: the mirror pose, in closed form.
+///
+/// Failures: `not_finite`; `undecided`: a singular pose stands in that way, shortfall how far before `theta` (largest
+/// joint angle left, rad), or the links do not close at the mean angle; `singular`. forward_by_all_modes() then looks
+/// at all modes. At most some tens of microseconds.
 template <class S>
 inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
   using namespace internal;
   if (parameters.is_mirror())
     return mirror_forward(parameters, theta);
   Outcome<Device_pose<S>> outcome;
-  Device_pose<S>& pose = outcome.value_to_fill();
-  if (!place_elbows(parameters, theta, pose)) {
+  if (!place_elbows(parameters, theta, outcome.value_to_fill())) {
     outcome.fail(Device_status::not_finite, S(0));
     return outcome;
   }
   const S mean = (theta[0] + theta[1] + theta[2]) / S(3);
-  Link_angles<S> x;
-  const bool has_home = symmetric_home(parameters, mean, x);
   const Device_vector<S> symmetric = Device_vector<S>::Constant(mean);
-  if (has_home && follow_mode(parameters, symmetric, theta, x, 400) == S(1)) {
-    finish_general(parameters, x, outcome);
-    return outcome;
-  }
-  const Outcome<Assembly_modes<S>> modes = assembly_modes(parameters, theta);
-  if (!modes) {
-    outcome.fail(modes.status(), modes.shortfall());
-    return outcome;
-  }
-  const Platform_closure<S> closure(parameters, pose.elbows);
-  Link_angles<S> seed;
-  if (!symmetric_home(parameters, mean, seed)) {
-    seed.cosine.setZero();
-    seed.sine.setConstant(S(-1));
-  }
-  Assembly_modes<S> home;
-  for (int k = 0; k < modes->count; ++k)
-    if (on_home_sheet(closure, modes->modes[k]))
-      home.modes[home.count++] = modes->modes[k];
-  if (!nearest_mode(closure, home, seed, x))
-    outcome.fail(Device_status::no_real_mode, least_residual(closure, seed));
+  Link_angles<S> x;
+  const S done = symmetric_home(parameters, mean, x) ? follow_mode(parameters, symmetric, theta, x, 400) : S(0);
+  if (done < S(1))
+    outcome.fail(Device_status::undecided, (S(1) - done) * largest_magnitude(Device_vector<S>(theta - symmetric)));
   else
     finish_general(parameters, x, outcome);
   return outcome;

@@ -71,6 +71,13 @@ template <class S> S angular_distance(const Link_angles<S>& a, const Link_angles
   return largest_magnitude(difference);
 }
 
+/// Modes closer than this are one. Two modes about a fold are farther apart than the rounding of either while their
+/// distance exceeds the square root of the machine precision.
+template <class S> S mode_separation() {
+  using std::sqrt;
+  return S(4) * sqrt(std::numeric_limits<S>::epsilon());
+}
+
 /// The three closure equations for given elbows. Equation k is that of the two legs other than k.
 template <class S> struct Platform_closure {
   S linear, constant;                  ///< a, b

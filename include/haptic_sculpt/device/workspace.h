@@ -60,11 +60,12 @@ template <class S> struct Workspace_sample {
       force;                 ///< isotropic force, N
 };
 
-/// Samples the workspace: every triple of `per_joint` (>= 2) equally spaced angles between the joint limits, home mode,
-/// that has a regular pose. Allocates; cost per_joint^3 times some microseconds.
-template <class S>
+/// Samples the workspace: every triple of `per_joint` (>= 2) equally spaced angles between the joint limits that has a
+/// regular pose by `forward(parameters, theta)`. Allocates; cost per_joint^3 times some microseconds.
+/// \param forward forward_kinematics(); where that is `undecided` at some angles forward_by_all_modes() finds more poses
+template <class S, class Forward>
 std::vector<Workspace_sample<S>> sample_workspace(const Device_parameters<S>& parameters, int per_joint,
-                                                  const Workspace_limits<S>& limits = Workspace_limits<S>()) {
+                                                  const Workspace_limits<S>& limits, const Forward& forward) {
   std::vector<Workspace_sample<S>> samples;
   const Device_vector<S> low = parameters.least_angle(), span = parameters.greatest_angle() - low;
   for (int i = 0; i < per_joint; ++i)
@@ -72,7 +73,7 @@ std::vector<Workspace_sample<S>> sample_workspace(const Device_parameters<S>& pa
       for (int k = 0; k < per_joint; ++k) {
         const Device_vector<S> fraction(S(i) / S(per_joint - 1), S(j) / S(per_joint - 1), S(k) / S(per_joint - 1));
         const Device_vector<S> theta = (low + span.cwiseProduct(fraction)).cwiseMin(parameters.greatest_angle());
-        const Outcome<Device_pose<S>> pose = forward_kinematics(parameters, theta);
+        const Outcome<Device_pose<S>> pose = forward(parameters, theta);
         if (!pose)
           continue;
         const Outcome<Device_jacobian<S>> map = jacobian(parameters, *pose);
@@ -82,6 +83,14 @@ std::vector<Workspace_sample<S>> sample_workspace(const Device_parameters<S>& pa
                              isotropic_force(parameters, *map)});
       }
   return samples;
+}
+
+/// The same by forward_kinematics().
+template <class S>
+std::vector<Workspace_sample<S>> sample_workspace(const Device_parameters<S>& parameters, int per_joint,
+                                                  const Workspace_limits<S>& limits = Workspace_limits<S>()) {
+  return sample_workspace(parameters, per_joint, limits,
+                          [](const auto& p, const auto& theta) { return forward_kinematics(p, theta); });
 }
 
 } // namespace haptic_sculpt

@@ -3,6 +3,7 @@
 #define HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_LIMITS_H
 
 #include <haptic_sculpt/device/dynamics.h>
+#include <haptic_sculpt/device/forward_by_all_modes.h>
 #include <haptic_sculpt/haptic_rendering/Force_limit.h>
 #include <haptic_sculpt/haptic_rendering/Acceleration_estimate.h>
 #include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
@@ -62,7 +63,7 @@ Worst_pose rated_pose(const Device_parameters<double>& parameters, const Device_
   Worst_pose rated;
   if (!within_joint_limits(parameters, theta))
     return rated;
-  const auto pose = forward_kinematics(parameters, theta);
+  const auto pose = forward_by_all_modes(parameters, theta); // a hand may come there by another way than straight
   if (!pose || working_mode(parameters, *pose) != working_mode(parameters, home) || !contains(pose->position))
     return rated;
   const auto map = jacobian(parameters, *pose);

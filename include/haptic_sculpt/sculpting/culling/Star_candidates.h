@@ -65,7 +65,7 @@ public:
     list_.clear();
     pairs_.clear();
     patience_ = 1, waited_ = 0;
-    is_crowded_ = false;
+    is_crowded_ = false, room_share_ = 1;
     crowded_way_ = std::numeric_limits<double>::infinity();
   }
 
@@ -155,6 +155,7 @@ private:
   std::size_t looks_ = 0;
   int patience_ = 1, waited_ = 0;
   bool is_crowded_ = false; ///< the last long motion passed over many faces
+  double room_share_ = 1;   ///< less where the room for others held more than a drag's work was for
   double crowded_way_ =
       std::numeric_limits<double>::infinity();          ///< about a probe's motion of half that length many were
   bool is_for_one_motion_ = false, has_looked_ = false; ///< has_looked_: the candidates are those of the motion at hand
@@ -164,6 +165,7 @@ private:
   /// How much larger than the motion, in extents of the link, the region of a list is: of the first, which has to be
   /// filled from memory not seen lately, and of those that follow in one grab.
   static constexpr double first_margin = 0.125, region_margin = 0.5;
+  static constexpr double least_room = 0x1p-9; ///< of these, at least
 
   /// From a vertex to the end of its first region, in extents of a link: half of one and the margin.
   static constexpr double usual_reach = 0.5 + first_margin;
@@ -236,36 +238,55 @@ private:
     return true;
   }
 
-  /// Makes the list complete for a motion that is not long, and `room` around it. Those of one grab share a list.
+  /// Makes the list complete for a motion that is not long, and `room` around it. Those of one grab share a list. Where
+  /// more is in the room than half of the work left the list is for the motion alone, and the next room is smaller: or
+  /// a large star beside a fine surface would never move.
   void look_around(const Coordinates& source, const Coordinates& target, double room = 0) {
-    Box_3 region = Box_3(source).include(target), with_room = region;
-    for (int i = 0; i < 3; ++i)
-      with_room.lower[i] -= room, with_room.upper[i] += room;
-    if (list_.region().contains(with_room))
+    const Box_3 motion = Box_3(source).include(target);
+    if (list_.region().contains(grown(motion, room_share_ * room)))
       return;
-    const double margin = (list_.faces().empty() ? first_margin : region_margin) * link_extent();
-    for (int i = 0; i < 3; ++i) {
-      region.lower[i] -= margin;
-      region.upper[i] += margin;
+    const double margin = room_share_ * (list_.faces().empty() ? first_margin : region_margin) * link_extent();
+    const Box_3 region = grown(motion, margin);
+    const std::size_t portion = work_->left() / 2;
+    if (look_at(anywhere_in(region), portion)) {
+      if (candidates_.size() < portion / 8)
+        room_share_ = std::fmin(1, 2 * room_share_);
+      take_candidates(region);
+      return;
     }
-    Swept_star_3 anywhere = star_.swept(region.lower, region.upper);
-    anywhere.is_box = true;
-    look_at(anywhere);
-    take_candidates(region);
+    room_share_ = std::fmax(least_room, room_share_ / 8);
+    look_at(anywhere_in(motion));
+    take_candidates(motion);
   }
 
+  static Box_3 grown(Box_3 box, double margin) {
+    for (int i = 0; i < 3; ++i)
+      box.lower[i] -= margin, box.upper[i] += margin;
+    return box;
+  }
+  /// All motions of the star's centre within a box.
+  Swept_star_3 anywhere_in(const Box_3& box) const {
+    Swept_star_3 anywhere = star_.swept(box.lower, box.upper);
+    anywhere.is_box = true;
+    return anywhere;
+  }
+
+  void look_at(const Swept_star_3& part) { look_at(part, work_->left()); }
   /// Where more is near than there is work left, the work is spent and what was found is of no use.
-  void look_at(const Swept_star_3& part) {
+  /// \param portion of what is left \return false where more is near than that, and the portion is spent
+  bool look_at(const Swept_star_3& part, std::size_t portion) {
     candidates_.clear();
-    const std::size_t left = work_->left(),
-                      most = left < Work::unbounded - star_.valence() ? left + star_.valence() : left;
+    const std::size_t most = portion < Work::unbounded - star_.valence() ? portion + star_.valence() : portion;
     if (broad_phase_->query_star(part, candidates_, most)) {
       leave_own_faces_out();
-      if (candidates_.size() <= left)
-        return work_->spend(candidates_.size());
+      if (candidates_.size() <= portion) {
+        work_->spend(candidates_.size());
+        return true;
+      }
     }
     candidates_.clear(); // how many were found before it was given up is the broad phase's
-    work_->spend(left + 1);
+    work_->spend(portion == work_->left() ? portion + 1 : portion);
+    return false;
   }
 
   /// Where the star's own faces are the broad phase is not told before the vertex is let go: they do not count.

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_DEVICE_FORWARD_BY_ALL_MODES_H
+#define HAPTIC_SCULPT_DEVICE_FORWARD_BY_ALL_MODES_H
+
+#include <haptic_sculpt/device/assembly_modes.h>
+#include <haptic_sculpt/device/forward_kinematics.h>
+
+/// \file
+/// Forward kinematics that is never `undecided`: where a singular pose stands in the way, all assembly modes are looked
+/// at. Not a part of device.h, since it compiles the eigenvalues, too.
+
+namespace haptic_sculpt {
+namespace internal {
+
+/// Sign of the closure's determinant: it changes only across a fold, so the modes of one sheet share it.
+template <class S> bool on_home_sheet(const Platform_closure<S>& closure, const Link_angles<S>& x) {
+  Device_matrix<S> adjugate;
+  S determinant;
+  closure.derivative_adjugate(x, adjugate, determinant);
+  return determinant > S(0);
+}
+
+/// How far the closure is from having a solution: the least residual (largest of the three, in units of l2^2) that
+/// damped Gauss-Newton steps find from x. Local, so an upper bound of the true distance.
+template <class S> S least_residual(const Platform_closure<S>& closure, Link_angles<S> x) {
+  Device_vector<S> f = closure.residual(x);
+  S damping(0.01);
+  for (int iteration = 0; iteration < 100 && damping < S(1e8); ++iteration) {
+    const Device_matrix<S> g = closure.derivative(x);
+    Device_matrix<S> normal = g.transpose() * g, inverse;
+    normal.diagonal().array() += damping;
+    S determinant;
+    adjugate(normal, inverse, determinant);
+    const Device_vector<S> step = -(inverse * (g.transpose() * f)) / determinant;
+    Link_angles<S> next = x;
+    next.turn(step);
+    next.normalize();
+    const Device_vector<S> trial = closure.residual(next);
+    if (trial.squaredNorm() < f.squaredNorm())
+      x = next, f = trial, damping /= S(4);
+    else
+      damping *= S(4);
+  }
+  return largest_magnitude(f);
+}
+
+/// The mode nearest to a seed. Two modes about a fold that are closer to each other than to the seed cannot be
+/// distinguished by it: then the one on the home sheet is meant.
+template <class S>
+bool nearest_mode(const Platform_closure<S>& closure, const Assembly_modes<S>& modes, const Link_angles<S>& seed,
+                  Link_angles<S>& x) {
+  if (modes.count == 0)
+    return false;
+  int best = 0;
+  S best_distance = angular_distance(modes.modes[0], seed);
+  for (int k = 1; k < modes.count; ++k) {
+    const S distance = angular_distance(modes.modes[k], seed);
+    if (distance < best_distance)
+      best_distance = distance, best = k;
+  }
+  if (!on_home_sheet(closure, modes.modes[best]))
+    for (int k = 0; k < modes.count; ++k)
+      if (k != best && on_home_sheet(closure, modes.modes[k]) &&
+          angular_distance(modes.modes[k], modes.modes[best]) < best_distance) {
+        best = k;
+        break;
+      }
+  x = modes.modes[best];
+  return true;
+}
+
+/// The mode nearest to a seed, among all or among those of the home sheet.
+template <class S>
+Outcome<Device_pose<S>> forward_nearest_to(const Device_parameters<S>& parameters, const Device_vector<S>& theta,
+                                           const Link_angles<S>& seed, bool at_home) {
+  Outcome<Device_pose<S>> outcome;
+  const Outcome<Assembly_modes<S>> all = assembly_modes(parameters, theta);
+  if (!all) {
+    outcome.fail(all.status(), all.shortfall());
+    return outcome;
+  }
+  Device_pose<S>& pose = outcome.value_to_fill();
+  place_elbows(parameters, theta, pose);
+  const Platform_closure<S> closure(parameters, pose.elbows);
+  Assembly_modes<S> candidates;
+  for (int k = 0; k < all->count; ++k)
+    if (!at_home || on_home_sheet(closure, all->modes[k]))
+      candidates.modes[candidates.count++] = all->modes[k];
+  Link_angles<S> x;
+  if (!nearest_mode(closure, candidates, seed, x)) {
+    outcome.fail(Device_status::no_real_mode, least_residual(closure, seed));
+    return outcome;
+  }
+  x.normalize();
+  finish_general(parameters, x, outcome);
+  return outcome;
+}
+
+} // namespace internal
+
+/// The pose in the home mode, as forward_kinematics(); where that is `undecided`, the mode of the home sheet (that sign
+/// of the closure's determinant) nearest to the symmetric pose.
+///
+/// Failures as of the form's own function, but for `undecided`; `no_real_mode`: there is none on the home sheet,
+/// shortfall the least residual of the closure found from the symmetric pose, as a part of l2^2. About 0.1 ms where all
+/// modes are needed.
+template <class S>
+Outcome<Device_pose<S>> forward_by_all_modes(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
+  const Outcome<Device_pose<S>> straight = forward_kinematics(parameters, theta);
+  if (straight.status() != Device_status::undecided)
+    return straight;
+  Link_angles<S> seed;
+  if (!internal::symmetric_home(parameters, S((theta[0] + theta[1] + theta[2]) / S(3)), seed)) {
+    seed.cosine.setZero();
+    seed.sine.setConstant(S(-1));
+  }
+  return internal::forward_nearest_to(parameters, theta, seed, true);
+}
+
+/// The mode nearest to the link angles `phi` (rad). Of two modes about a fold that are closer to each other than to the
+/// seed, the one on the home sheet. Failures: `not_finite`; `no_real_mode`, as above, from the seed; `singular`.
+/// \pre `parameters.form() == Device_form::general`
+template <class S>
+Outcome<Device_pose<S>> forward_by_all_modes(const Device_parameters<S>& parameters, const Device_vector<S>& theta,
+                                             const Device_vector<S>& phi) {
+  const Outcome<Device_pose<S>> beside = general_forward_from_seed(parameters, theta, phi);
+  return beside.status() == Device_status::undecided
+             ? internal::forward_nearest_to(parameters, theta, Link_angles<S>::from(phi), false)
+             : beside;
+}
+
+} // namespace haptic_sculpt
+
+#endif
