@@ -47,7 +47,17 @@ void move(Mesh& mesh, const Command& command) {
         mesh.point(w) = p;
 }
 
-void dab(Mesh& mesh, const Command& command) {
+/// The vertices of components whose normals point into the solid.
+std::vector<bool> inside_out_vertices(const Mesh& mesh) {
+  std::vector<bool> found(mesh.number_of_vertices(), false);
+  for (const auto f : validate(mesh, 0, 1).inside_out_components)
+    for (const Vertex_index v :
+         component_of(mesh, mesh.target(mesh.halfedge(Mesh::Face_index(static_cast<Mesh::size_type>(f))))))
+      found[v] = true;
+  return found;
+}
+
+void dab(Mesh& mesh, const Command& command, const std::vector<bool>& inside_out) {
   std::unordered_map<Vertex_index, Kernel::Point_3> targets;
   const auto brush = dab_of(command);
   Vertex_index nearest;
@@ -58,7 +68,7 @@ void dab(Mesh& mesh, const Command& command) {
   if (nearest.is_valid())
     fill_brush_targets(touched_vertices(mesh, brush, nearest), mesh, brush,
                        boost::associative_property_map<decltype(targets)>(targets),
-                       boost::static_property_map<double, Vertex_index>(1.0));
+                       boost::static_property_map<double, Vertex_index>(1.0), inside_out[nearest]);
   for (const auto& [v, target] : targets)
     if (is_in_range({target.x(), target.y(), target.z()}))
       mesh.point(v) = target;
@@ -105,11 +115,12 @@ std::string told(const char* how, std::size_t pairs) {
 } // namespace
 
 Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
+  const std::vector<bool> inside_out = inside_out_vertices(mesh);
   for (const Command& command : script)
     switch (command.kind) {
     case Kind::drag: drag(mesh, command); break;
     case Kind::move: move(mesh, command); break;
-    case Kind::brush: dab(mesh, command); break;
+    case Kind::brush: dab(mesh, command, inside_out); break;
     case Kind::release: case Kind::response: case Kind::clearance: case Kind::delta: case Kind::mesh: case Kind::probe:
     case Kind::stroke: case Kind::end: break;
     default:

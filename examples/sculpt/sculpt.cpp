@@ -242,8 +242,8 @@ int sculpt(const Arguments& arguments) {
 
   Result_writer writer("sculpt");
   if (const std::string remarks = found.remarks(); !remarks.empty())
-    writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are. --orient turns components "
-                "over that are inside out, of which the brush `inflate` makes less");
+    writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are; --orient turns components over "
+                "that are inside out");
   if (const auto format = mesh_file_format(arguments.out))
     for (const std::string& word : attributes_not_held(mesh, *format))
       if (std::find(left_out.begin(), left_out.end(), word) == left_out.end())

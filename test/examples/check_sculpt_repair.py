@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`sculpt --repair` and `--orient`: what they mend, what they say, what they leave alone."""
 import json
+import os
 import tempfile
 
 from box_mesh import box, off
@@ -66,6 +67,9 @@ def refusals(folder):
     report = json.loads(bytes_of(f"{folder}/sheet.json"))
     check(not report["repaired"] and any(report["left"].values()), f"report of what could not be repaired: {report}")
     vertices, faces = parsed_box()
+    point = write(f"{folder}/point.off", off([(1, 2, 3)] * len(vertices), faces))
+    fails(3, ["cannot repair", "no face is left"], run(point, "--repair", "-o", f"{folder}/no.off"), "all points are one")
+    check(not os.path.exists(f"{folder}/no.off"), "nothing is written of what could not be repaired")
     mesh = write(f"{folder}/hole.off", off(vertices, faces[2:]))
     fails(3, ["boundary edge"], run(mesh, "--repair", "--repair-largest-hole", 3), "a hole too large")
     check(run(mesh, "--repair", "--repair-largest-hole", 4).returncode == 0, "a hole that may be closed")

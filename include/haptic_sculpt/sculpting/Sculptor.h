@@ -129,6 +129,11 @@ public:
   /// Invalid_parameter, Mesh_changed
   Vertex_index nearest_vertex(const Point& p, double within) { return guarded_.nearest_vertex(p, within); }
 
+  /// Whether the normals of v's component point into the solid (doc/use/validity.md). \throw Unknown_vertex,
+  /// Mesh_changed. Cost: constant, but n log n when it is asked for the first time, and after edits where components
+  /// differ.
+  bool is_inside_out(Vertex_index v) { return guarded_.is_inside_out(v); }
+
   /// What of the surface the closed segment from `source` to `target` meets first: a vertex, or the inside of an edge
   /// or of a face. A segment in the plane of a face meets it where it enters it or begins, and one that is a point
   /// meets what it lies on. \throw Out_of_range, Mesh_changed

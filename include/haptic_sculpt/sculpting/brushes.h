@@ -31,6 +31,7 @@ Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_ma
   for (const auto& dab : dabs)
     if (const Vertex_index nearest = sculptor.nearest_vertex(dab.centre, dab.radius); nearest.is_valid())
       internal::for_each_brush_target(touched_vertices(mesh, dab, nearest), mesh, dab, mask,
+                                      dab.kind == Brush_kind::inflate && sculptor.is_inside_out(nearest),
                                       [&](Vertex_index v, const Point& p) { wanted.emplace_back(v, p); });
   std::stable_sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Vertex_index> vertices;

@@ -193,3 +193,85 @@ BOOST_AUTO_TEST_CASE(dabs_that_cannot_be_made_change_nothing) {
   BOOST_TEST((snapshot(sculptor) == before));
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
 }
+
+// A ring and a ball turned over, a ball as it should be, a cavity and one turned over: the solid grows where it is
+// inflated, whatever the faces say; which is so is known by how they were made.
+BOOST_AUTO_TEST_CASE(inflate_lets_solids_grow_that_are_inside_out) {
+  std::vector<std::pair<meshes::Triangle_list, bool>> parts; // and whether it bounds its solid from outside
+  const auto add = [&](meshes::Triangle_list part, double x, bool is_cavity, bool is_turned) {
+    part.scale_and_move(is_cavity ? 0.5 : 1, x, 0, 0);
+    if (is_cavity != is_turned)
+      for (auto& f : part.faces)
+        std::swap(f[1], f[2]);
+    parts.emplace_back(part, !is_cavity);
+  };
+  add(meshes::torus(24, 12), 0, false, true);
+  add(meshes::icosphere(2), 10, false, true);
+  add(meshes::icosphere(2), 20, false, false);
+  add(meshes::icosphere(2), 20, true, false);
+  add(meshes::icosphere(2), 30, false, false);
+  add(meshes::icosphere(2), 30, true, true);
+  const std::vector<bool> turned = {true, true, false, false, false, true};
+  meshes::Triangle_list all;
+  std::vector<std::size_t> part_of;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    all += parts[i].first;
+    part_of.resize(all.points.size(), i);
+  }
+  const Mesh start = meshes::to_mesh(all);
+  const auto volume_of = [&](const Mesh& mesh, std::size_t part) { // as the faces are turned
+    double sum = 0;
+    for (const auto f : mesh.faces()) {
+      std::vector<Vector_3> p;
+      for (const Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f)))
+        if (part_of[v] == part)
+          p.push_back(mesh.point(v) - CGAL::ORIGIN);
+      if (p.size() == 3)
+        sum += CGAL::determinant(p[0], p[1], p[2]) / 6;
+    }
+    return std::fabs(sum);
+  };
+  for (const bool knows : {false, true})
+    for (std::size_t part = 0; part < parts.size(); ++part)
+      BOOST_TEST_CONTEXT("part " << part) {
+        Mesh mesh = start;
+        Sculptor<Mesh> sculptor(mesh, parameters::known_valid(knows));
+        const auto first = Vertex_index(static_cast<Mesh::size_type>(
+            std::find(part_of.begin(), part_of.end(), part) - part_of.begin()));
+        BOOST_TEST(sculptor.is_inside_out(first) == turned[part]);
+        const auto dabbed = apply_brush(sculptor, Dabs{{Brush_kind::inflate, mesh.point(first), 0.4, 0.01, {}}});
+        BOOST_TEST(dabbed.asked > 0u);
+        BOOST_TEST(dabbed.reached == dabbed.asked);
+        const double before = volume_of(start, part), after = volume_of(mesh, part);
+        BOOST_TEST((parts[part].second ? after > before : after < before));
+        apply_brush(sculptor, Dabs{{Brush_kind::inflate, start.point(first), 0.4, -0.02, {}}});
+        BOOST_TEST((parts[part].second ? volume_of(mesh, part) < after : volume_of(mesh, part) > after));
+      }
+  // Indices that removed vertices leave are used again, by other components.
+  Mesh mesh = start;
+  Sculptor<Mesh> sculptor(mesh);
+  const auto check = [&] {
+    for (const Vertex_index v : mesh.vertices()) {
+      const double x = mesh.point(v).x();
+      const bool outer = CGAL::squared_distance(mesh.point(v), Point_3(30, 0, 0)) > 0.5;
+      BOOST_TEST(sculptor.is_inside_out(v) == (x < 15 || (x > 25 && !outer)));
+    }
+  };
+  check();
+  for (const std::size_t part : {0u, 1u, 5u})
+    for (int k = 0; k < 3; ++k)
+      sculptor.remove(Vertex_index(static_cast<Mesh::size_type>(
+          std::find(part_of.begin(), part_of.end(), part) - part_of.begin() + 3 * k + 1)));
+  check();
+  for (int k = 0; k < 9; ++k)
+    for (const auto f : mesh.faces()) {
+      const auto h = mesh.halfedge(f);
+      const Point_3 middle = CGAL::centroid(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
+                                            mesh.point(mesh.target(mesh.next(h))));
+      if (middle.x() > 15 + 10 * (k % 2) && sculptor.insert_on_face(f, middle))
+        break;
+    }
+  check();
+  while (sculptor.undo())
+    check();
+}

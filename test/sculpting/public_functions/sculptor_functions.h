@@ -53,12 +53,14 @@ inline std::vector<Public_function> sculptor_functions() {
                        outcome.impact(first->impact());
                    }
                  }});
-  all.push_back({"Sculptor::nearest_vertex Sculptor::first_hit", [](double unit, Outcome& outcome) {
+  all.push_back({"Sculptor::nearest_vertex Sculptor::first_hit Sculptor::is_inside_out", [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);
                    for (const double within : {0.0, 0.25, 1.0, 4.0, std::numeric_limits<double>::infinity()})
                      for (const double x : {-2.0, -0.5, 0.0, 0.125, 1.25})
                        outcome.index(sculptor.nearest_vertex(scene.at(x, 0.25, -x / 2), scene.length(within)));
+                   for (const Vertex_index v : scene.mesh.vertices())
+                     outcome.number(sculptor.is_inside_out(v));
                    for (const double x : {-1.0, -0.5, 0.0, 0.25, 1.25, 2.0}) {
                      const auto hit = sculptor.first_hit(scene.at(x, 0.25, 2), scene.at(0.125, x, -1.5));
                      outcome.number(hit.has_value());

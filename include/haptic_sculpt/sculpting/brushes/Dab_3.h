@@ -12,7 +12,7 @@ namespace haptic_sculpt {
 /// What a brush does with what it touches.
 enum class Brush_kind {
   grab,    ///< moves it along the direction of the dab, by the strength as a length
-  inflate, ///< moves each vertex along its normal, by the strength as a length
+  inflate, ///< moves each vertex out of the solid along its normal, by the strength as a length
   smooth,  ///< moves each vertex towards the mean of its neighbours, by the strength as a share of the way
   flatten, ///< moves it onto the plane through its mean, across the direction, by the strength as a share of the way
   pinch    ///< moves it towards the line through the centre along the direction, by the strength as a share of the way

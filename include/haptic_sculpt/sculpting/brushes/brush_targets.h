@@ -35,7 +35,7 @@ namespace internal {
 /// Calls `put(v, place)` with each vertex and where a dab wants it.
 template <class Mesh, class Kernel, class Mask_map, class Put>
 void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
-                           const Dab_3<Kernel>& dab, const Mask_map& mask, const Put& put) {
+                           const Dab_3<Kernel>& dab, const Mask_map& mask, bool inside_out, const Put& put) {
   using Vector_3 = typename Kernel::Vector_3;
   const auto weight = [&](typename Mesh::Vertex_index v) {
     const double square = dab.squared_share(mesh.point(v));
@@ -58,7 +58,7 @@ void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& verti
     case Brush_kind::grab:
       return direction;
     case Brush_kind::inflate:
-      return vertex_normal(mesh, v);
+      return inside_out ? -vertex_normal(mesh, v) : vertex_normal(mesh, v);
     case Brush_kind::flatten:
       return -((from_centre - mean) * direction) * direction;
     case Brush_kind::pinch:
@@ -80,12 +80,14 @@ void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& verti
 /// Where a dab wants the vertices that it touches.
 /// \param targets a writable property map from vertices to points; is written for `vertices` only
 /// \param mask a readable property map from vertices to how much they take part, from 0 to 1
+/// \param inside_out whether the normals of the component point into the solid, as Sculptor::is_inside_out() says: a
+/// dab that inflates goes the other way then
 /// Cost: linear in the edges of `vertices`.
 template <class Mesh, class Kernel, class Target_map, class Mask_map>
 void fill_brush_targets(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
-                        const Dab_3<Kernel>& dab, Target_map targets, const Mask_map& mask) {
+                        const Dab_3<Kernel>& dab, Target_map targets, const Mask_map& mask, bool inside_out = false) {
   const internal::Rounding_to_nearest rounding;
-  internal::for_each_brush_target(vertices, mesh, dab, mask,
+  internal::for_each_brush_target(vertices, mesh, dab, mask, inside_out,
                                   [&](auto v, const auto& place) { put(targets, v, place); });
 }
 

@@ -12,6 +12,7 @@
 #include <haptic_sculpt/sculpting/finding/is_inside.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Hand.h>
+#include <haptic_sculpt/sculpting/guarded_mesh/Inside_out_vertices.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt::internal {
@@ -43,7 +44,8 @@ public:
       , finder_(mesh, broad_phase_, corners_, counters_)
       , scene_(mesh, parameters.drag.clearance_length)
       , whole_move_(mesh, counters_)
-      , near_move_(mesh, counters_) {}
+      , near_move_(mesh, counters_)
+      , inside_out_(mesh) {}
   Guarded_mesh(const Guarded_mesh&) = delete; // its parts refer to each other
   Guarded_mesh& operator=(const Guarded_mesh&) = delete;
 
@@ -194,6 +196,13 @@ public:
     return v;
   }
 
+  bool is_inside_out(Vertex_index v) {
+    const Rounding_to_nearest rounding;
+    check_vertex(*mesh_, v);
+    look_at_surface();
+    return inside_out_.contain(v);
+  }
+
   std::optional<Surface_hit<Mesh>> first_hit(const Point& source, const Point& target) {
     const Rounding_to_nearest rounding;
     check_point("the source", source);
@@ -213,6 +222,7 @@ public:
     release();
     look_for_changes();
     whole_move_.forget();
+    inside_out_.forget();
     const Edited result = edit();
     if (result)
       scene_.include(vertex_coordinates(*mesh_, *result.vertex));
@@ -296,7 +306,7 @@ public:
   }
   std::size_t memory() const {
     return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.ids().memory() + whole_move_.memory() +
-           near_move_.memory() + on_the_way_.memory();
+           near_move_.memory() + on_the_way_.memory() + inside_out_.memory();
   }
 
 private:
@@ -313,6 +323,7 @@ private:
   Axis_move<Mesh> whole_move_, near_move_; ///< that look at all faces; at some
   bool are_many_ = false;                  ///< which of them looked around last
   Faces_on_the_way<Mesh> on_the_way_;
+  Inside_out_vertices<Mesh> inside_out_;
   std::vector<Face_index> faces_near_probe_; ///< kept to allocate no more
   Coordinates probe_place_{};                ///< where the last probe was left
   std::uint64_t probe_changes_ = 0;          ///< the changes of the mesh by then

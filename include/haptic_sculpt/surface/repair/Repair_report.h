@@ -79,8 +79,11 @@ struct Repair_report {
   /// where it came to the end.
   Face_soup attempt;
 
+  /// There were faces, and the repair came to none: all lay on a line, or in a point.
+  bool has_vanished = false;
+
   /// Whether the surface is valid now. If not, what was given to repair() is unchanged.
-  bool is_repaired() const { return left.is_valid(); }
+  bool is_repaired() const { return left.is_valid() && !has_vanished; }
 
   /// Says in plain words what was done, one step a line, and what is left.
   std::string message(Validity_report::Reader reader = Validity_report::Reader::programmer) const {
@@ -99,6 +102,8 @@ struct Repair_report {
         text += " could not be done: " + step.failure;
       text += '\n';
     }
+    if (!left.non_finite_vertices.empty()) // no step was tried
+      return "nothing was changed:\n" + left.message(8, reader);
     if (steps.empty())
       text = "nothing to repair\n";
     text += "of " + std::to_string(points_before) + " points none moved farther than " + internal::number(moved);
@@ -106,7 +111,9 @@ struct Repair_report {
       text += "; " + std::to_string(points_removed) + " are gone, and were at most " +
               internal::number(removed_distance) + " from the surface as it is now";
     text += "; " + std::to_string(points_added) + " are new\n";
-    if (!is_repaired())
+    if (has_vanished)
+      text += "no face is left, for all of them lay on a line or in a point, and nothing was changed\n";
+    else if (!is_repaired())
       text += "what is left could not be repaired, and nothing was changed (numbers are those of its attempt):\n" +
               left.message(8, reader);
     return text;

@@ -26,9 +26,13 @@ public:
   Repair_report run() {
     Repair_report report;
     report.points_before = trail_.size();
+    const bool has_faces = soup_.number_of_faces() > 0;
+    Places_of_faces last, now;
     for (int round = 0; round < most_rounds; ++round) {
       std::vector<Repair_step> steps;
       run_round(steps, round == 0);
+      if (round > 0 && (now = places_of_faces()) == last)
+        break; // it undid what it did, and the next one would do so, too
       bool did = false;
       for (Repair_step& step : steps) {
         did = did || step.did_something();
@@ -38,6 +42,7 @@ public:
       }
       if (!did || validate_soup(soup_, 0, 1).is_valid())
         break;
+      last = round > 0 ? std::move(now) : places_of_faces();
     }
     if (const std::size_t turned = turn_components(soup_); turned > 0)
       report.steps.push_back({Repair_kind::orient_solids, {{"components turned", turned}}, 0, {}});
@@ -48,6 +53,7 @@ public:
     report.points_added = trail_.number_of_new(soup_.points);
     scale_.up(soup_);
     report.left = validate_soup(soup_, parameters_.delta_length);
+    report.has_vanished = has_faces && soup_.number_of_faces() == 0;
     return report;
   }
 
@@ -58,6 +64,20 @@ private:
   /// A step may make work for one before it: a union rounds its points, a removal leaves holes. What is not done then
   /// goes round in circles.
   static constexpr int most_rounds = 4;
+
+  using Places_of_faces = std::vector<std::vector<Face_soup::Point_3>>;
+
+  /// Whatever the order of points and faces, and which corner is the first.
+  Places_of_faces places_of_faces() const {
+    Places_of_faces places(soup_.number_of_faces());
+    for (std::size_t f = 0; f < places.size(); ++f) {
+      for (const auto* corner = soup_.begin(f); corner != soup_.end(f); ++corner)
+        places[f].push_back(soup_.points[*corner]);
+      std::rotate(places[f].begin(), std::min_element(places[f].begin(), places[f].end()), places[f].end());
+    }
+    std::sort(places.begin(), places.end());
+    return places;
+  }
 
   void run_round(std::vector<Repair_step>& steps, bool closes_gaps) {
     Polygon_soup polygons(soup_);

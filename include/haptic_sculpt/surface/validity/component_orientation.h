@@ -78,6 +78,16 @@ public:
     return found;
   }
 
+  /// Whether each face is of such a component.
+  std::vector<bool> faces_inside_out() const {
+    std::vector<bool> turned(component_of_face_.size());
+    for (std::size_t f = 0; f < turned.size(); ++f) {
+      const Component& component = components_[component_of_face_[f]];
+      turned[f] = component.encloses_positive_volume == component.lies_in_odd_number;
+    }
+    return turned;
+  }
+
 private:
   bool is_less(Index v, Index w) const {
     return CGAL::compare_lexicographically_xyz(soup_.points[v], soup_.points[w]) == CGAL::SMALLER;
