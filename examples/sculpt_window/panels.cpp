@@ -65,7 +65,8 @@ void Application::draw_state() {
     draw_brush();
   else if (choices_.tool == Tool::probe)
     ImGui::Text("pressed in by %.4g  [ ]", choices_.depth);
-  ImGui::Text("t  what is blocked %s", choices_.slides ? "slides" : "stops");
+  else if (choices_.tool == Tool::drag || choices_.tool == Tool::create)
+    ImGui::Text("t  what is blocked %s", choices_.slides ? "slides" : "stops");
   const auto button = [this](const char* label, const char* key) {
     if (ImGui::Button(label))
       on_key(*key_named(key));
@@ -75,8 +76,11 @@ void Application::draw_state() {
   button("redo  U", "shift+u");
   ImGui::SameLine();
   button("save  s", "s");
+  button("all keys  h", "h");
   ImGui::SameLine();
-  button("keys  h", "h");
+  button("edges  w", "w");
+  ImGui::SameLine();
+  button("see all  f", "f");
   ImGui::Separator();
   ImGui::TextWrapped("%s%s", path_.c_str(), is_unsaved() ? "  (not saved)" : "");
   ImGui::Text("%zu triangles", s.faces);
@@ -112,6 +116,7 @@ void Application::draw_brush() {
     brush.radius = double(size) * whole, brush.strength = double(strength);
     note("brush %s %.17g %.17g", brush_words[int(brush.use)], brush.radius, brush.strength);
   }
+  ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("symmetry");
   for (const char* const key : {"shift+x", "shift+y", "shift+z"}) {
     const int axis = key[6] - 'x';
@@ -120,11 +125,12 @@ void Application::draw_brush() {
     if (ImGui::Checkbox(key + 6, &is_on))
       on_key(*key_named(key));
   }
+  ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("new triangles");
   ImGui::SameLine();
-  if (ImGui::Button("everywhere  D"))
+  if (ImGui::Button("all  D"))
     on_key(*key_named("shift+d"));
-  if (ImGui::Checkbox("wherever the brush goes", &brush.remeshes))
+  if (ImGui::Checkbox("where the brush goes ctrl+d", &brush.remeshes))
     brush.remeshes = !brush.remeshes, on_key(*key_named("ctrl+d"));
   ImGui::Separator();
 }

@@ -79,14 +79,19 @@ public:
   /// \name What functions ask of a Sculptor, and as it does
   /// \pre elements are in the mesh
   ///@{
-  const Mesh_type& mesh() const { return sculptor_->mesh(); }
-  const Sculptor_parameters& parameters() const { return sculptor_->parameters(); }
+  const Mesh_type& mesh() const { return sculptor_->mesh(); }                         ///< that is guarded
+  const Sculptor_parameters& parameters() const { return sculptor_->parameters(); } ///< of the Sculptor
+  /// Of the surface. \throw as there
   Vertex_index nearest_vertex(const Point& p, double within) { return sculptor_->nearest_vertex(p, within); }
+  /// A creation.
   Edited insert_on_edge(Edge_index e, const Point& p) {
     return make(of_ends(Edit_kind::insert_on_edge, mesh().halfedge(e), {p.x(), p.y(), p.z()}));
   }
+  /// Draws the source into the target.
   Edited collapse(Halfedge_index h) { return make(of_ends(Edit_kind::collapse, h)); }
+  /// Of an edge.
   Edited flip(Edge_index e) { return make(of_ends(Edit_kind::flip, mesh().halfedge(e))); }
+  /// All of the way or none.
   bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
     const Point before = mesh().point(v);
     const bool is_there = sculptor_->move_if_free(v, target, drag);
@@ -94,6 +99,7 @@ public:
       add_move(v, target);
     return is_there;
   }
+  /// One drag of a vertex; its legs are reported.
   Result drag(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
     auto grab = sculptor_->grab(v);
     return this->drag(grab, target, drag);
