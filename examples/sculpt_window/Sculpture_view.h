@@ -28,7 +28,7 @@ public:
   drawing::Camera& camera() { return *camera_; }
   /// Sees all of the mesh as it was opened, along the same direction.
   void fit();
-  /// From here on the picture is that of the window without so many pixels on the left. \pre has_mesh()
+  /// From here on the picture is that of the window without its leftmost pixels. \pre has_mesh()
   void frame(double covered);
   bool shows_edges() const { return shows_edges_; }
   void show_edges(bool shows) { shows_edges_ = shows; }
