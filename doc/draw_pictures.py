@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the pictures of the manual that the program `sculpt` makes: draw_pictures.py [BUILD [FOLDER]], by default build and doc/pictures.
+"""Draws the pictures of the manual that the programs `sculpt` and `sculpt_window` make: draw_pictures.py [BUILD [FOLDER]], by default build and doc/pictures.
 
 Needs python3-matplotlib. Charts of measurements are drawn by the scripts beside the benchmarks.
 """
@@ -68,12 +68,20 @@ def brushes(folder):
     figure.savefig(f"{FOLDER}/brushes.png", dpi=100)
 
 
+def window(folder):
+    """By brushes, from the ball; needs xvfb-run."""
+    subprocess.run(["xvfb-run", "-a", os.path.abspath(f"{BUILD}/examples/sculpt_window"), "--no-log", "--size", "1280", "800", "--script",
+                    f"{DATA}/creature.window-script", "--screenshot", os.path.abspath(f"{FOLDER}/window.png")], cwd=folder, check=True,
+                   stdout=subprocess.DEVNULL)
+
+
 def main():
     os.makedirs(FOLDER, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         knot(folder)
         demo()
         brushes(folder)
+        window(folder)
 
 
 main()

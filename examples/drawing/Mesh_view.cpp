@@ -69,7 +69,8 @@ std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::V
 
 Mesh_view::Mesh_view() {
   program_ = linked(vertex_shader, fragment_shader);
-  flat_program_ = linked(flat_vertex_shader, flat_fragment_shader);
+  smooth_program_ = linked(smooth_vertex_shader, smooth_fragment_shader(false));
+  smooth_program_with_edges_ = linked(smooth_vertex_shader, smooth_fragment_shader(true));
   mesh_.create();
   marks_.create();
 }
@@ -77,7 +78,8 @@ Mesh_view::Mesh_view() {
 Mesh_view::~Mesh_view() {
   marks_.destroy();
   mesh_.destroy();
-  glDeleteProgram(flat_program_);
+  glDeleteProgram(smooth_program_with_edges_);
+  glDeleteProgram(smooth_program_);
   glDeleteProgram(program_);
 }
 
@@ -107,7 +109,7 @@ void Mesh_view::use(unsigned program, const Camera& camera) const {
   glUniform1f(glGetUniformLocation(program, "edge_opacity"), edge_opacity_);
 }
 
-void Mesh_view::draw_mesh(const Camera& camera, const Color& background, Faces faces) const {
+void Mesh_view::clear(const Camera& camera, const Color& background) {
   glViewport(0, 0, camera.width(), camera.height());
   glClearColor(background.x(), background.y(), background.z(), 1);
   glDepthMask(GL_TRUE);
@@ -117,13 +119,28 @@ void Mesh_view::draw_mesh(const Camera& camera, const Color& background, Faces f
   glDisable(GL_BLEND);
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
-  if (faces == Faces::outside) {
-    use(flat_program_, camera);
-    glCullFace(GL_BACK);
-    mesh_.draw();
-    glDisable(GL_CULL_FACE);
-    return;
-  }
+}
+
+void Mesh_view::draw_smooth(const Camera& camera, const Color& background, const Smooth_look& look) const {
+  clear(camera, background);
+  const unsigned program = look.shows_edges ? smooth_program_with_edges_ : smooth_program_;
+  use(program, camera);
+  const std::size_t most_brushes = 8; // as the shader has room for
+  const auto brushes = int(std::min(look.brushes.size(), most_brushes));
+  glUniform1i(glGetUniformLocation(program, "brushes"), brushes);
+  if (brushes > 0)
+    glUniform3fv(glGetUniformLocation(program, "brush"), brushes, look.brushes[0].data());
+  glUniform1f(glGetUniformLocation(program, "brush_radius"), look.brush_radius);
+  glUniform3fv(glGetUniformLocation(program, "brush_color"), 1, look.brush_color.data());
+  glUniform1f(glGetUniformLocation(program, "outwards"), look.faces_outwards ? 1.f : -1.f);
+  glCullFace(look.faces_outwards ? GL_BACK : GL_FRONT);
+  mesh_.draw();
+  glDisable(GL_CULL_FACE);
+  draw_marks(camera);
+}
+
+void Mesh_view::draw_mesh(const Camera& camera, const Color& background) const {
+  clear(camera, background);
   use(program_, camera);
   glUniform1f(glGetUniformLocation(program_, "opacity"), 1);
   glUniform1i(glGetUniformLocation(program_, "with_edges"), 1);

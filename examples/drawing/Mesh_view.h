@@ -9,6 +9,15 @@ namespace haptic_sculpt::drawing {
 std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::Vector3d, 3>& points,
                                  const Color& color);
 
+/// How Mesh_view::draw_smooth() shows a mesh.
+struct Smooth_look {
+  bool shows_edges = false;
+  bool faces_outwards = true;           ///< else the backs of faces are what is seen of the mesh
+  std::vector<Eigen::Vector3f> brushes; ///< scaled; a ring about each, and a tint that fades towards it; at most 8
+  float brush_radius = 0;               ///< of the rings, scaled
+  Color brush_color = colors::blue;
+};
+
 /// Draws a scene into the current framebuffer of the current OpenGL 3.3 core context, whoever made it: a file's
 /// off-screen context or a window's.
 ///
@@ -31,26 +40,26 @@ public:
   /// For who changes the mesh triangle by triangle (corners_of()).
   Triangle_buffer& mesh() { return mesh_; }
 
-  /// Which faces are drawn: all of any mesh; or those seen from outside, in about half of the time, where faces are
-  /// flat. Of a closed surface that faces outwards no others are to be seen.
-  enum class Faces { all, outside };
-
   /// Clears the framebuffer to `background` and draws.
-  void draw(const Camera& camera, const Color& background, Faces faces = Faces::all) const {
-    draw_mesh(camera, background, faces);
+  void draw(const Camera& camera, const Color& background) const {
+    draw_mesh(camera, background);
     draw_marks(camera);
   }
   /// Clears and draws the mesh alone.
-  void draw_mesh(const Camera& camera, const Color& background, Faces faces = Faces::all) const;
+  void draw_mesh(const Camera& camera, const Color& background) const;
+  /// As draw(), for a hand that sculpts: of a closed surface the faces that are seen from outside, lit at their corners
+  /// and at their rim, in less than half of the time.
+  void draw_smooth(const Camera& camera, const Color& background, const Smooth_look& look) const;
 
 private:
-  unsigned program_ = 0, flat_program_ = 0; ///< for anything; for flat faces seen from outside
+  unsigned program_ = 0, smooth_program_ = 0, smooth_program_with_edges_ = 0;
   float edge_opacity_ = Scene().edge_opacity;
   Triangle_buffer mesh_, marks_;
 
   /// \pre the mesh has just been drawn
   void draw_marks(const Camera& camera) const;
   void use(unsigned program, const Camera& camera) const;
+  static void clear(const Camera& camera, const Color& background);
 };
 
 } // namespace haptic_sculpt::drawing

@@ -78,24 +78,40 @@ void main() {
 })";
 ///@}
 
-/// \name A mesh of flat faces that are seen from outside: the same picture of it, lit once a corner instead of once a
-/// pixel
+/// \name A mesh that a hand sculpts, seen from outside: lit once a corner instead of once a pixel
 ///@{
-inline const std::string flat_vertex_shader = shader_parts::version + shader_parts::corner + shader_parts::lights + R"(
-flat out vec3 face_color;
+inline const std::string smooth_vertex_shader = shader_parts::version + shader_parts::corner + shader_parts::lights + R"(
+uniform float outwards, brush_radius;
+uniform int brushes;
+uniform vec3 brush[8];
+noperspective out vec3 shaded;
 noperspective out vec2 place;
+noperspective out float reach;
 void main() {
   gl_Position = projection * vec4(position, 1);
-  face_color = lit(color, normalize(rotation * normal));
+  vec3 n = normalize(rotation * normal) * outwards;
+  float away = 1 - clamp(n.z, 0, 1);
+  shaded = lit(color, n) + vec3(0.30, 0.33, 0.38) * (away * away * away);
   place = barycentric().xy;
+  reach = 4;
+  for (int i = 0; i < brushes; ++i)
+    reach = min(reach, distance(position, brush[i]) / brush_radius);
 })";
-inline const std::string flat_fragment_shader = shader_parts::version + shader_parts::edges + R"(
-flat in vec3 face_color;
+/// Under a brush the tint is as strong as what it does there; a line is where it ends.
+inline std::string smooth_fragment_shader(bool with_edges) {
+  return shader_parts::version + shader_parts::edges + R"(
+noperspective in vec3 shaded;
 noperspective in vec2 place;
+noperspective in float reach;
+uniform vec3 brush_color;
 out vec4 result;
 void main() {
-  result = vec4(with_edges_over(face_color, vec3(place, 1 - place.x - place.y)), 1);
+  float share = max(1 - reach * reach, 0);
+  float line = 1 - smoothstep(0.6, 1.6, abs(reach - 1) / max(fwidth(reach), 1e-6));
+  result = vec4(mix()" + (with_edges ? "with_edges_over(shaded, vec3(place, 1 - place.x - place.y))" : "shaded") +
+         R"(, brush_color, max(0.3 * share * share, line)), 1);
 })";
+}
 ///@}
 
 } // namespace haptic_sculpt::drawing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Action.h"
 
+#include "exchange.h"
 #include "keys.h"
 
 #include "../common/contents_of.h"
@@ -75,11 +76,19 @@ public:
     if (const auto more = next())
       fail("'" + *more + "' is more than the line takes");
   }
-  std::string one_of(const std::string& expected, const std::vector<std::string>& words) {
+  /// \return which of them
+  template <class Words>
+  int one_of(const std::string& what, const Words& words) {
+    std::string expected = what + ':';
+    for (const char* const w : words)
+      expected += std::string(w == words[0] ? " " : ", ") + w;
     const std::string found = word(expected);
-    for (const std::string& w : words)
-      if (w == found)
-        return found;
+    int which = 0;
+    for (const char* const w : words)
+      if (found == w)
+        return which;
+      else
+        ++which;
     fail("'" + found + "' is not " + expected);
   }
 
@@ -89,8 +98,8 @@ private:
   std::size_t number_;
 };
 
-const std::vector<std::string> tools = {"drag", "probe", "create", "remove", "brush"},
-                               brushes = {"grab", "inflate", "smooth", "flatten", "pinch"};
+constexpr const char* buttons[] = {"left", "right", "middle"};
+constexpr const char* modifiers[] = {"shift", "ctrl", "alt"};
 
 class Reader {
 public:
@@ -121,9 +130,13 @@ public:
     else if (first == "fit")
       add(Kind::fit);
     else if (first == "tool")
-      add(Kind::tool).word = line_.one_of("a tool: drag, probe, create, remove or brush", tools);
+      add(Kind::tool).which = line_.one_of("a tool", tool_words);
     else if (first == "brush")
       brush();
+    else if (first == "symmetry")
+      symmetry();
+    else if (first == "remesh")
+      remesh();
     else if (first == "depth")
       add(Kind::depth).numbers[0] = line_.number("a length");
     else if (first == "wait")
@@ -165,20 +178,23 @@ private:
       x = line_.number(expected);
   }
   void press() {
-    std::string word = line_.one_of("a button: left, right or middle", {"left", "right", "middle"});
-    while (const auto more = line_.next()) {
-      if (*more != "shift" && *more != "ctrl" && *more != "alt")
-        line_.fail("'" + *more + "' is not shift, ctrl or alt");
-      word += '+' + *more;
-    }
+    std::string word = buttons[line_.one_of("a button", buttons)];
+    while (const auto more = line_.next())
+      word += '+' + modifier(*more);
     add(Kind::press).word = word;
+  }
+  std::string modifier(const std::string& word) {
+    for (const char* const m : modifiers)
+      if (word == m)
+        return word;
+    line_.fail("'" + word + "' is not shift, ctrl or alt");
   }
   void click() {
     add(Kind::move).spot = line_.spot();
     add(Kind::press).word = "left";
     add(Kind::release);
   }
-  /// drag PLACE PLACE [STEPS] [normal]
+  /// drag PLACE PLACE [STEPS] [normal|ctrl|right|middle]
   void drag() {
     const Spot from = line_.spot(), to = line_.spot();
     double steps = 20;
@@ -186,10 +202,12 @@ private:
     while (const auto more = line_.next()) {
       if (*more == "normal")
         button = "left+shift";
+      else if (*more == "ctrl")
+        button = "left+ctrl";
       else if (*more == "right" || *more == "middle")
         button = *more;
       else
-        steps = line_.number("a number of steps, 'normal', 'right' or 'middle'", *more);
+        steps = line_.number("a number of steps, 'normal', 'ctrl', 'right' or 'middle'", *more);
     }
     if (!(steps >= 1 && steps <= 100000))
       line_.fail("a drag has 1 to 100000 steps");
@@ -202,15 +220,12 @@ private:
     add(Kind::settle);
     add(Kind::release);
   }
-  /// scroll NOTCHES [ctrl]
+  /// scroll NOTCHES [ctrl|shift]
   void scroll() {
     Action& action = add(Kind::scroll);
     action.numbers[0] = line_.number("a number of notches");
-    if (const auto more = line_.next()) {
-      if (*more != "ctrl")
-        line_.fail("'" + *more + "' is not ctrl");
-      action.word = *more;
-    }
+    if (const auto more = line_.next())
+      action.word = modifier(*more);
   }
   void key() {
     Action& action = add(Kind::key);
@@ -220,10 +235,25 @@ private:
   }
   void brush() {
     Action& action = add(Kind::brush);
-    action.word = line_.one_of("a brush: grab, inflate, smooth, flatten or pinch", brushes);
+    action.which = line_.one_of("a brush", brush_words);
     action.numbers = {line_.number("a radius"), line_.number_or(0.5, "a strength"), 0};
     if (!(action.numbers[0] > 0))
       line_.fail("the radius must be more than 0");
+  }
+  void symmetry() {
+    Action& action = add(Kind::symmetry);
+    const std::string first = line_.word("x, y or z, or none");
+    for (std::optional<std::string> word = first; word && first != "none"; word = line_.next()) {
+      if (*word != "x" && *word != "y" && *word != "z")
+        line_.fail("'" + *word + "' is not x, y or z");
+      action.which |= 1 << ((*word)[0] - 'x');
+    }
+  }
+  void remesh() {
+    Action& action = add(Kind::remesh);
+    action.numbers[0] = line_.number_or(0, "a length");
+    if (!(action.numbers[0] >= 0))
+      line_.fail("the length must be more than 0");
   }
 };
 

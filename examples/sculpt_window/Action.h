@@ -30,6 +30,8 @@ struct Action {
     fit,
     tool,
     brush,
+    symmetry,
+    remesh,
     depth, // what it sets
     wait,
     settle, // until the time has passed; until all that was asked for is done and shown
@@ -46,7 +48,8 @@ struct Action {
   std::size_t line = 0;
   Spot spot, to; ///< move: from `spot` by `share` of the way to `to`
   double share = 0;
-  std::string word; ///< key, file, tool, kind of brush; press: button and modifiers; scroll: its modifier
+  std::string word; ///< key, file; press: button and modifiers; scroll: its modifier
+  int which = 0;    ///< of the tools or brushes; symmetry: a bit for each axis
   std::array<double, 3> numbers{};
 };
 

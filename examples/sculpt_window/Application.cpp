@@ -8,7 +8,6 @@
 
 namespace haptic_sculpt::window_program {
 
-using Kind = Request::Kind;
 using Hold = Status::Hold;
 
 Application::Application(const Options& options, std::vector<Action> script)
@@ -30,16 +29,16 @@ void Application::open_first(int width, int height) {
 
 void Application::enter(Opened opened) {
   keeps_log_ = keeps_log();
-  view_.show(opened.faces, view_size_[0], view_size_[1]);
+  view_.show(opened.faces, opened.middle, view_size_[0], view_size_[1]);
+  frame();
   const double extent = view_.camera().unscaled(2.0);
-  choices_.brush.radius = 0.15 * extent;
+  choices_.brush.radius = 0.12 * extent;
   choices_.depth = 0.03 * extent;
   path_ = opened.path, log_ = opened.log, resumed_ = opened.resumed;
   is_saved_ = false, saved_edits_ = 0;
-  Request request;
-  request.kind = Kind::enter, request.model = opened.model;
   ++scene_;
-  ask(request);
+  thread_.enter(opened.model);
+  frames_due_ = 3;
   say("opened " + path_);
   if (resumed_ > 0)
     say("made " + std::to_string(resumed_) + " lines of " + log_ + " again");
@@ -68,30 +67,10 @@ void Application::fail_to_write(const std::string& what) {
   has_failed_to_write_ = true;
 }
 
-void Application::ask(const Request& request) {
-  waiting_.push_back(request);
-  ask_waiting();
-  frames_due_ = 3;
-}
-
-void Application::ask_waiting() {
-  while (!waiting_.empty() && thread_.ask(waiting_.front()))
-    waiting_.pop_front();
-}
-
 Pointer Application::pointer_here() const {
   Pointer pointer = view_.pointer_at(mouse_);
   pointer.along_normal = is_along_normal_;
   return pointer;
-}
-
-Request Application::request_here(Kind kind) const {
-  Request request;
-  request.kind = kind;
-  request.pointer = pointer_here();
-  request.tool = choices_.tool, request.brush = choices_.brush;
-  request.response = choices_.response;
-  return request;
 }
 
 void Application::point() {
@@ -108,12 +87,14 @@ void Application::on_move(double x, double y) {
   const Eigen::Vector2d way = mouse_ - before;
   if (button_ == 2 || (button_ == 1 && shifts_)) {
     view_.camera().shift(way);
-  } else if (button_ == 1) {
+  } else if (button_ == 1 || turns_) {
     const double angle = 0.008; // a pixel, in radians
     view_.camera().turn(angle * way.x(), angle * way.y(), pivot_);
   }
   frames_due_ = 3;
   point();
+  if (is_playing() && thread_.has_stroke())
+    thread_.go_on(pointer_here());
 }
 
 void Application::on_press(int button, bool shift, bool ctrl, bool alt) {
@@ -124,11 +105,18 @@ void Application::on_press(int button, bool shift, bool ctrl, bool alt) {
        : button == 1 ? "right"
                      : "middle",
        shift ? " shift" : "", ctrl ? " ctrl" : "", alt ? " alt" : "");
-  button_ = button, shifts_ = ctrl;
+  button_ = button, shifts_ = ctrl, turns_ = false;
+  choices_.shows_hints = false;
   is_along_normal_ = button == 0 && (shift || alt);
   if (button == 0) {
     last_refusal_.clear();
-    ask(request_here(Kind::press));
+    Brush brush = choices_.brush;
+    if (shift && brush.use < Brush_use::mask)
+      brush.use = Brush_use::smooth, brush.strength = std::fabs(brush.strength);
+    if (ctrl)
+      brush.strength = -brush.strength;
+    thread_.press(pointer_here(), choices_.tool, brush);
+    pivot_.setZero(); // of turning, where it is beside the mesh
   } else if (status_.pointed.size > 0) {
     pivot_ = view_.camera().scaled(vector(status_.pointed.at));
   }
@@ -139,17 +127,19 @@ void Application::on_release(int button) {
     return; // another one, or pressed on a panel
   note("release");
   if (button == 0)
-    ask(request_here(Kind::let_go));
+    thread_.let_go();
   button_ = -1;
-  is_along_normal_ = false;
+  is_along_normal_ = turns_ = false;
 }
 
-void Application::on_scroll(double notches, bool ctrl) {
-  note("scroll %.17g%s", notches, ctrl ? " ctrl" : "");
+void Application::on_scroll(double notches, bool ctrl, bool shift) {
+  note("scroll %.17g%s", notches, ctrl ? " ctrl" : shift ? " shift" : "");
   if (!view_.has_mesh())
     return;
   if (ctrl)
     scale_tool(std::pow(1.1, notches));
+  else if (shift)
+    strengthen(0.05 * notches);
   else
     view_.camera().magnify(std::pow(1.15, notches), mouse_);
   point();
@@ -175,7 +165,7 @@ void Application::on_close() {
 void Application::on_resize(int width, int height) {
   view_size_ = {width, height};
   if (view_.has_mesh() && width > 0 && height > 0)
-    view_.camera().resize(width, height);
+    view_.camera().resize(width, height), frame();
   frames_due_ = 3;
 }
 
@@ -185,7 +175,7 @@ void Application::leave(Model* model, bool keeps_log) {
 }
 
 void Application::take_reports() {
-  for (Face_change change; thread_.take(change);)
+  for (Seen_face change; thread_.take(change);)
     if (change.scene + 1 == scene_)
       view_.change(change), frames_due_ = 3;
   for (Report report; thread_.take(report);) {
@@ -194,6 +184,9 @@ void Application::take_reports() {
       last_refusal_ = report.text;
       say("refused: " + last_refusal_);
       break;
+    case Report::Kind::beside:
+      turns_ = button_ == 0;
+      break;
     case Report::Kind::left:
       left_.push_back(report.model);
       break;
@@ -201,7 +194,7 @@ void Application::take_reports() {
       background_.save(report.copy, to_save_.front().path, report.edits, to_save_.front().quits);
       to_save_.pop_front();
       if (!to_save_.empty())
-        ask(request_here(Kind::copy));
+        thread_.copy();
       break;
     }
   }
@@ -229,7 +222,6 @@ void Application::take_reports() {
 }
 
 void Application::step() {
-  ask_waiting();
   const Status before = status_;
   status_ = thread_.status();
   if (status_.hold != Hold::nothing || before.hold != Hold::nothing)
@@ -237,7 +229,17 @@ void Application::step() {
   if (status_.waits_for_disk && !before.waits_for_disk)
     say("the disk is behind with the log: the hand waits for it");
   take_reports();
+  // What is held still goes on, a frame a dab; in a script only while that waits, so that it does the same each time.
+  const bool is_live = !is_playing() || script_[next_action_].kind == Action::Kind::wait;
+  if (is_live && thread_.has_stroke() && !thread_.is_stroke_waiting())
+    thread_.go_on(pointer_here());
   play();
+}
+
+/// The mesh is seen in what the panel leaves free, if that is most of the window.
+void Application::frame() {
+  if (view_.has_mesh())
+    view_.frame(choices_.shows_panels && view_size_[0] >= 3 * panel_width ? panel_width : 0);
 }
 
 bool Application::needs_frame() {
@@ -252,8 +254,8 @@ bool Application::needs_frame() {
 
 void Application::draw() {
   Sculpture_view::Hand_marks marks;
-  marks.shows_brush = choices_.tool == Tool::brush;
-  marks.brush_radius = choices_.brush.radius;
+  marks.shows_brush = choices_.tool == Tool::brush && !turns_;
+  marks.brush = choices_.brush;
   view_.draw(status_, marks);
 }
 

@@ -19,11 +19,11 @@ namespace haptic_sculpt::window_program {
 
 /// What the hand has chosen, and what the window shows of it.
 struct Choices {
-  Tool tool = Tool::drag;
+  Tool tool = Tool::brush;
   Brush brush;
   double depth = 0; ///< of the probe
-  int response = 0; ///< 0: slide, 1: stop
-  bool shows_help = false, shows_panels = true;
+  bool slides = true; ///< what is blocked; else it stops
+  bool shows_help = false, shows_panels = true, shows_figures = false, shows_hints = true;
   /// What the window asks before it goes on.
   enum class Question { none, leave_unsaved, name_to_save, name_to_open } question = Question::none;
   std::array<char, 1024> name{};
@@ -46,12 +46,15 @@ public:
   void on_move(double x, double y);
   void on_press(int button, bool shift, bool ctrl, bool alt); ///< 0: left, 1: right, 2: middle
   void on_release(int button);
-  void on_scroll(double notches, bool ctrl);
+  void on_scroll(double notches, bool ctrl, bool shift);
   void on_key(const Key& key);
   void on_drop(const std::string& path);
   void on_close();
   void on_resize(int width, int height);
   ///@}
+
+  /// What the panel takes of the window's width, in pixels.
+  static constexpr int panel_width = 250;
 
   /// Takes what has come from the loop and the files, goes on with the script. To be called before each frame.
   void step();
@@ -99,7 +102,6 @@ private:
     bool quits; ///< once it is written
   };
   std::deque<Saving> to_save_;
-  std::deque<Request> waiting_;           ///< requests that found the queue full
   std::vector<Model*> left_;
   bool keeps_log_ = true; ///< that of the mesh shown before
 
@@ -110,6 +112,7 @@ private:
   Eigen::Vector2d mouse_ = Eigen::Vector2d::Zero();
   int button_ = -1; ///< that is down
   bool shifts_ = false, is_along_normal_ = false;
+  bool turns_ = false; ///< the left button was pressed beside the mesh
   Eigen::Vector3d pivot_ = Eigen::Vector3d::Zero();
 
   std::deque<std::pair<Clock::time_point, std::string>> messages_;
@@ -132,10 +135,7 @@ private:
   bool is_unsaved() const;
   /// Of the mesh that is shown: one that was asked for, or that has what nothing else has.
   bool keeps_log() const;
-  void ask(const Request& request);
-  void ask_waiting();
   Pointer pointer_here() const;
-  Request request_here(Request::Kind kind) const;
   void point();
   void enter(Opened opened);
   void take_reports();
@@ -146,7 +146,12 @@ private:
   void quit();
   void obey(Order order);
   void choose(Tool tool);
+  void choose(Brush_use use);
+  void choose_symmetry(const std::array<bool, 3>& axes);
   void scale_tool(double factor);
+  void strengthen(double more);
+  void remesh(bool all, double length = 0);
+  void frame();
   void look(const Eigen::Vector3d& direction);
   void play();
   bool is_settled() const;
@@ -157,6 +162,9 @@ private:
   void record(const std::string& path);
   void note(const char* format, ...);
   void draw_state();
+  void draw_brush();
+  void draw_figures();
+  void draw_hints();
   void draw_help();
   void draw_question();
 };

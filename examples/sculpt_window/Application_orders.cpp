@@ -9,13 +9,32 @@
 
 namespace haptic_sculpt::window_program {
 
-using Kind = Request::Kind;
-
 void Application::choose(Tool tool) {
   if (button_ == 0)
     on_release(0);
   choices_.tool = tool;
   point();
+}
+
+void Application::choose(Brush_use use) {
+  choices_.brush.use = use;
+  choose(Tool::brush);
+}
+
+void Application::choose_symmetry(const std::array<bool, 3>& axes) {
+  if (button_ == 0)
+    on_release(0);
+  choices_.brush.symmetry = axes;
+}
+
+void Application::strengthen(double more) {
+  double& strength = choices_.brush.strength;
+  strength = std::fmin(1, std::fmax(-1, strength + more));
+}
+
+void Application::remesh(bool all, double length) {
+  thread_.remesh(pointer_here(), all ? std::nullopt : std::optional(choices_.brush), length);
+  frames_due_ = 3;
 }
 
 void Application::scale_tool(double factor) {
@@ -31,25 +50,32 @@ void Application::obey(Order order) {
   const double turn = 0.1; // rad
   drawing::Camera& camera = view_.camera();
   frames_due_ = 3;
+  const auto counted_from = [order](Order first) { return static_cast<int>(order) - static_cast<int>(first); };
+  if (order <= Order::tool_object)
+    return choose(static_cast<Tool>(counted_from(Order::tool_drag)));
+  if (order <= Order::brush_unmask)
+    return choose(static_cast<Brush_use>(counted_from(Order::brush_grab)));
+  if (order <= Order::symmetry_z) {
+    auto axes = choices_.brush.symmetry;
+    bool& axis = axes[static_cast<std::size_t>(counted_from(Order::symmetry_x))];
+    axis = !axis;
+    return choose_symmetry(axes);
+  }
   switch (order) {
-  case Order::tool_drag:
-    choose(Tool::drag);
-    break;
-  case Order::tool_probe:
-    choose(Tool::probe);
-    break;
-  case Order::tool_create:
-    choose(Tool::create);
-    break;
-  case Order::tool_remove:
-    choose(Tool::remove);
-    break;
-  case Order::tool_brush:
-    choose(Tool::brush);
-    break;
   case Order::next_brush:
-    choices_.brush.kind = static_cast<Brush_kind>((static_cast<int>(choices_.brush.kind) + 1) % 5);
-    choose(Tool::brush);
+    choose(static_cast<Brush_use>((static_cast<int>(choices_.brush.use) + 1) % brush_uses));
+    break;
+  case Order::unmask_all:
+    thread_.unmask_all();
+    break;
+  case Order::remesh_here:
+    remesh(false);
+    break;
+  case Order::remesh_all:
+    remesh(true);
+    break;
+  case Order::remesh_always:
+    choices_.brush.remeshes = !choices_.brush.remeshes;
     break;
   case Order::larger:
     scale_tool(1.25), point();
@@ -58,30 +84,30 @@ void Application::obey(Order order) {
     scale_tool(0.8), point();
     break;
   case Order::stronger:
-    choices_.brush.strength = std::fmin(1, choices_.brush.strength + 0.1);
+    strengthen(0.1);
     break;
   case Order::weaker:
-    choices_.brush.strength = std::fmax(-1, choices_.brush.strength - 0.1);
+    strengthen(-0.1);
     break;
   case Order::flip:
-    ask(request_here(Kind::flip));
+    thread_.edit_edge(pointer_here(), true);
     break;
   case Order::collapse:
-    ask(request_here(Kind::collapse));
+    thread_.edit_edge(pointer_here(), false);
     break;
   case Order::undo:
-    ask(request_here(Kind::undo));
+    thread_.take_back(true);
     break;
   case Order::redo:
-    ask(request_here(Kind::redo));
+    thread_.take_back(false);
     break;
   case Order::let_go:
     choices_.question = Choices::Question::none, choices_.shows_help = false;
-    ask(request_here(Kind::let_go));
+    thread_.let_go();
     break;
   case Order::response:
-    choices_.response = 1 - choices_.response;
-    ask(request_here(Kind::response));
+    choices_.slides = !choices_.slides;
+    thread_.choose_response(choices_.slides);
     break;
   case Order::save:
     std::snprintf(choices_.name.data(), choices_.name.size(), "%s", options_.out.c_str());
@@ -104,7 +130,7 @@ void Application::obey(Order order) {
     quit();
     break;
   case Order::fit:
-    view_.fit();
+    view_.fit(), frame();
     break;
   case Order::view_x:
     look({-1, 0, 0});
@@ -141,7 +167,16 @@ void Application::obey(Order order) {
     break;
   case Order::panels:
     choices_.shows_panels = !choices_.shows_panels;
+    frame();
     break;
+  case Order::figures:
+    choices_.shows_figures = !choices_.shows_figures;
+    break;
+  case Order::edges:
+    view_.show_edges(!view_.shows_edges());
+    break;
+  default:
+    break; // a tool, a brush or a symmetry, done above
   }
 }
 
@@ -173,7 +208,7 @@ void Application::save(const std::string& path, bool quits) {
     return;
   to_save_.push_back({path, quits});
   if (to_save_.size() == 1)
-    ask(request_here(Kind::copy));
+    thread_.copy();
 }
 
 void Application::open(const std::string& path) {

@@ -36,7 +36,7 @@ Eigen::Vector2d Application::pixel_of(const Spot& spot) const {
 }
 
 bool Application::is_settled() const {
-  return waiting_.empty() && thread_.is_idle() && status_.dirty_faces == 0 && to_save_.empty() &&
+  return thread_.is_idle() && status_.dirty_faces == 0 && to_save_.empty() &&
          !background_.is_opening() && !background_.is_saving();
 }
 
@@ -67,6 +67,8 @@ void Application::play() {
 bool Application::act(const Action& action) {
   using Kind = Action::Kind;
   const auto& n = action.numbers;
+  if (thread_.is_stroke_waiting() && action.kind != Kind::wait)
+    return false; // a place a dab
   switch (action.kind) {
   case Kind::move: {
     const Eigen::Vector2d from = pixel_of(action.spot);
@@ -85,7 +87,7 @@ bool Application::act(const Action& action) {
       on_release(button_);
     return true;
   case Kind::scroll:
-    on_scroll(n[0], action.word == "ctrl");
+    on_scroll(n[0], action.word == "ctrl", action.word == "shift");
     return true;
   case Kind::key:
     on_key(*key_named(action.word));
@@ -100,23 +102,20 @@ bool Application::act(const Action& action) {
     view_.camera().magnify(n[0], {view_.camera().width() / 2., view_.camera().height() / 2.});
     return true;
   case Kind::fit:
-    view_.fit();
+    view_.fit(), frame();
     return true;
   case Kind::tool:
-    choose(action.word == "drag"     ? Tool::drag
-           : action.word == "probe"  ? Tool::probe
-           : action.word == "create" ? Tool::create
-           : action.word == "remove" ? Tool::remove
-                                     : Tool::brush);
+    choose(static_cast<Tool>(action.which));
     return true;
   case Kind::brush:
-    choices_.brush.kind = action.word == "grab"      ? Brush_kind::grab
-                          : action.word == "inflate" ? Brush_kind::inflate
-                          : action.word == "smooth"  ? Brush_kind::smooth
-                          : action.word == "flatten" ? Brush_kind::flatten
-                                                     : Brush_kind::pinch;
     choices_.brush.radius = n[0], choices_.brush.strength = n[1];
-    choose(Tool::brush);
+    choose(static_cast<Brush_use>(action.which));
+    return true;
+  case Kind::symmetry:
+    choose_symmetry({(action.which & 1) != 0, (action.which & 2) != 0, (action.which & 4) != 0});
+    return true;
+  case Kind::remesh:
+    remesh(true, n[0]);
     return true;
   case Kind::depth:
     choices_.depth = n[0];
@@ -176,7 +175,7 @@ bool Application::act(const Action& action) {
 
 void Application::print_status() const {
   const Status& s = status_;
-  const char* const holds[] = {"nothing", "vertex", "probe", "brush"};
+  const char* const holds[] = {"nothing", "vertex", "probe", "brush", "object"};
   Json contacts = Json::array();
   for (int i = 0; i < s.contacts; ++i) {
     const Contact_view& c = s.contact[std::size_t(i)];
@@ -243,9 +242,6 @@ void Application::note(const char* format, ...) {
 int Application::finish() {
   const Status last = status_;
   const bool keeps = keeps_log();
-  for (const Request& request : waiting_)
-    if (request.model != nullptr)
-      destroy(request.model, keeps);
   const std::vector<Model*> models = thread_.end();
   for (Model* const model : models)
     leave(model, model == models.back() ? keeps : keeps_log_);

@@ -23,7 +23,7 @@ public:
   Command_queue<Scene> queue;
   Latest<Mouse_reading> mouse;
   Latest<Status> latest;
-  Scene_feed feed{std::size_t(1) << 16, 1}; ///< faces alone: of ticks the newest Status counts
+  Basic_scene_feed<Seen_face> feed{std::size_t(1) << 16, 1}; ///< faces alone: of ticks the newest Status counts
 
   /// For tasks: what the mouse says in the tick under way.
   const Mouse_reading& reading() const { return reading_; }
@@ -110,9 +110,8 @@ private:
       reading_ = newest; // else what is held is yet to be let go of, and stays where it is
     reading_.pose.elapsed = 1e-9 * tick_time; // a mouse has no clock of its own, and has said nothing yet at first
     const Pose_tick& made = session.tick(reading_.pose);
-    if (&session.scene() != model_)
-      model_ = &static_cast<Model&>(session.scene());
-    model_->end_tick();
+    model_ = &session.scene();
+    model_->end_tick(loop.tool().vertex());
     tell(made, loop.tool());
     status_.made = session.ticks(), status_.mouse = reading_.number;
   }

@@ -11,8 +11,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include <memory>
-
 namespace haptic_sculpt::window_program {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -20,12 +18,10 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex_index = Mesh::Vertex_index;
 using Face_index = Mesh::Face_index;
 
-using Scene = Loop_scene<Mesh>;
-
 /// A mesh, its Sculptor and its log. Made by a thread that may take its time, then the loop's alone.
-struct Model : Scene {
-  /// Where a brush wants the vertices of a dab.
-  using Targets = Mesh::Property_map<Vertex_index, Kernel::Point_3>;
+struct Model : Loop_scene<Mesh> {
+  using Face_type = Seen_face;
+  using Mask = Mesh::Property_map<Vertex_index, double>;
 
   std::string path;
   std::string log_path; ///< empty: there is none
@@ -33,23 +29,41 @@ struct Model : Scene {
   std::size_t resumed = 0; ///< edits of the log that were there
   std::string note;        ///< for people: what of the log was not made again
   std::uint64_t edits = 0; ///< ticks that changed the mesh
-  Targets targets = mesh.add_property_map<Vertex_index, Kernel::Point_3>("v:target_of_brush").first;
+  /// How much of a vertex brushes leave alone, from 0 to 1. Nothing of the mesh: it is not undone, saved or logged.
+  Mask mask = mesh.add_property_map<Vertex_index, double>("v:mask_of_brushes", 0.0).first;
+  double edge_length = 0; ///< mean, of the mesh as it came
 
   /// \throw what reading meshes and logs throws
   Model(const std::string& path, const std::string& log);
 
-  /// After each tick: counts those that changed something.
-  void end_tick() {
+  /// Lit by the faces about each corner that differ by less than a crease.
+  Seen_face face(std::uint32_t index) const;
+  /// What is seen of these faces has changed, not the mesh.
+  void show_again(Vertex_index v) {
+    for (const Face_index f : mesh.faces_around_target(mesh.halfedge(v)))
+      sculptor.visitor().changed.add(static_cast<std::uint32_t>(f)), ++changes_;
+  }
+
+  /// After each tick: counts those that changed something. \param held the vertex in hand, if any: how faces near it
+  /// are lit changes, too
+  void end_tick(Vertex_index held) {
     const std::uint64_t changes = sculptor.visitor().changed.number();
     edits += changes != changes_;
-    changes_ = changes;
+    if (std::exchange(changes_, changes) != changes && held.is_valid())
+      for (const Vertex_index v : mesh.vertices_around_target(mesh.halfedge(held)))
+        show_again(v);
   }
 
   double extent() const { return (upper - lower).stableNorm(); }
 
 private:
   std::uint64_t changes_ = 0; ///< of the mesh, before the tick under way
+  double unit_ = 1;           ///< a power of two that brings lengths of the mesh near 1: so are squares of them
+
+  Eigen::Vector3d normal_of(Face_index f) const;
 };
+
+using Scene = Model;
 
 } // namespace haptic_sculpt::window_program
 

@@ -27,9 +27,10 @@ std::string lists() {
   return text +
          "Script, one action a line; # comments; PLACE is X Y in pixels from the upper left, or @X,Y,Z of the mesh:\n"
          "  move PLACE | press left|right|middle [shift|ctrl|alt] | release | click PLACE\n"
-         "  drag PLACE PLACE [STEPS] [normal|right|middle] | scroll NOTCHES [ctrl] | key NAME\n"
+         "  drag PLACE PLACE [STEPS] [normal|ctrl|right|middle] | scroll NOTCHES [ctrl|shift] | key NAME\n"
          "  view X Y Z | orbit DEGREES DEGREES | zoom FACTOR | fit\n"
-         "  tool drag|probe|create|remove|brush | brush KIND RADIUS [STRENGTH] | depth LENGTH\n"
+         "  tool drag|probe|create|remove|brush|object | brush KIND RADIUS [STRENGTH] | depth LENGTH\n"
+         "  symmetry x|y|z... | symmetry none | remesh [LENGTH]\n"
          "  wait SECONDS | settle | screenshot FILE | save FILE | open FILE | record FILE\n"
          "  print | where PLACE | close | quit\n"
          "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 script error, 5 cannot "
@@ -61,7 +62,9 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
   const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
   app.set_version_flag("--version", std::string("sculpt_window of haptic_sculpt ") + HAPTIC_SCULPT_VERSION);
   app.footer(lists());
-  app.add_option("MESH", options.mesh, "Input: .off .ply .obj .stl")->required()->check(named);
+  app.add_option("MESH", options.mesh,
+                 "Input: .off .ply .obj .stl; by default sculpt_window_ball.off, a ball that is written there")
+      ->check(named);
   app.add_option("-o,--output", options.out,
                  "Where the key s saves to: .off .ply .obj .stl; by default MESH_sculpted with its extension")
       ->check(named);
@@ -91,6 +94,9 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0;
   }
+  options.makes_ball = options.mesh.empty() && !std::filesystem::exists(Options::ball());
+  if (options.mesh.empty())
+    options.mesh = Options::ball();
   if (options.out.empty()) {
     const std::filesystem::path mesh(options.mesh);
     options.out = (mesh.parent_path() / (mesh.stem().string() + "_sculpted" + mesh.extension().string())).string();

@@ -12,6 +12,7 @@ namespace haptic_sculpt::window_program {
 struct Options {
   std::string mesh, out, log, script, screenshot, report, record;
   bool without_log = false;
+  bool makes_ball = false; ///< no mesh was given, and the one to begin with is not there yet
   std::vector<int> size = {1200, 900};
   std::optional<int> samples; ///< none: as the driver is
 
@@ -19,6 +20,7 @@ struct Options {
   std::string log_of(const std::string& path) const {
     return without_log ? "" : !log.empty() && path == mesh ? log : log_beside(path);
   }
+  static std::string ball() { return "sculpt_window_ball.off"; }
   static std::string log_beside(const std::string& path) { return path + ".log"; }
 };
 

@@ -3,10 +3,12 @@
 
 #include "Brush_task.h"
 #include "Loop_thread.h"
+#include "Object_task.h"
 #include "Options.h"
 
 #include "../common/write_file.h"
 
+#include <deque>
 #include <functional>
 
 namespace haptic_sculpt::window_program {
@@ -23,99 +25,85 @@ struct Sculpting_thread::Parts {
 
   std::optional<Loop_thread> loop;
   Mouse mouse;
+  std::deque<Command> waiting; ///< that found the queue full
   std::vector<Asked> asked;
   std::uint64_t answered = 0; ///< ticks before the last answer
   Status status;
   Pointed pointed;
   bool is_picking = false, is_pick_due = false; ///< another place, or maybe another face there
-  Brush_task* brush = nullptr;                  ///< in the hand
+  Stroke_task* stroke = nullptr;                ///< in the hand: a brush or an object
+  Hold stroke_hold = Hold::brush;               ///< which of them
   const Press* pressing = nullptr;              ///< asked for, and the button still down
   std::size_t vertices = 0, faces = 0;          ///< slots of the model entered last
   std::uint64_t failures = 0;                   ///< that were reported
   std::vector<Model*> models;                   ///< the loop's, in the order in which they are entered
 
-  bool ask(Command::Kind kind, Edit_kind edit = Edit_kind::none) {
+  void ask(const Command& command) {
+    waiting.push_back(command);
+    ask_waiting();
+  }
+  void ask_waiting() {
+    while (!waiting.empty() && loop->queue.ask(waiting.front()))
+      waiting.pop_front();
+  }
+  void ask(Command::Kind kind, Edit_kind edit = Edit_kind::none) {
     Command command;
     command.kind = kind, command.edit.kind = edit;
-    return loop->queue.ask(command);
+    ask(command);
   }
   template <class Task, class Tell>
-  bool ask(std::shared_ptr<Task> task, const Tell& tell) {
+  void ask(std::shared_ptr<Task> task, const Tell& tell) {
     Command command;
     command.kind = Command::Kind::task, command.task = task.get();
-    if (!loop->queue.ask(command))
-      return false;
     Task* const raw = task.get();
     asked.push_back({std::move(task), [raw, tell](Report& report) { return tell(*raw, report); }});
-    return true;
+    ask(command);
   }
+  void ask(std::shared_ptr<Window_task> task) { ask(std::move(task), tell_refusal); }
 
   static bool tell_refusal(const Window_task& task, Report& report) {
     report.text = task.refusal;
-    return !task.refusal.empty();
-  }
-
-  bool enter(Model* model) {
-    vertices = model->mesh.num_vertices(), faces = model->mesh.num_faces();
-    const Workspace_map map = model->map; // from here on the model is the loop's
-    if (!loop) {
-      loop.emplace(model);
-    } else {
-      Command command;
-      command.kind = Command::Kind::enter, command.scene = model, command.journal = model->log.journal();
-      if (!loop->queue.ask(command))
-        return false;
-    }
-    models.push_back(model);
-    let_go();
-    mouse.enter(map);
-    return true;
+    report.kind = task.is_beside ? Report::Kind::beside : Report::Kind::refused;
+    return task.is_beside || !task.refusal.empty();
   }
 
   /// What the hand holds is the loop's to let go of; here nothing follows the mouse from now on.
   void let_go() {
-    if (brush != nullptr)
-      brush->end();
-    brush = nullptr, pressing = nullptr;
+    if (stroke != nullptr)
+      stroke->end();
+    stroke = nullptr, pressing = nullptr;
     mouse.let_go();
     is_pick_due = true;
   }
 
-  bool press(const Request& request) {
-    mouse.point(request.pointer);
-    mouse.press();
-    const Mouse_reading reading = mouse.reading(); // the handle is at home before anything is anchored to it
-    loop->mouse.put(reading);
-    if (request.tool == Tool::brush) {
-      const auto task = std::make_shared<Brush_task>(reading, request.brush, pointed.at, loop->reading());
-      if (!ask(task, [this](const Brush_task& done, Report& report) {
-            if (brush == &done)
-              brush = nullptr;
-            return tell_refusal(done, report);
-          }))
-        return false;
-      brush = task.get();
-      return true;
-    }
-    const auto task = std::make_shared<Press>(reading, request.tool, loop->reading());
-    if (!ask(task, [this](const Press& done, Report& report) {
-          if (pressing == &done) {
-            pressing = nullptr;
-            mouse.take(done.held);
-            loop->mouse.put(mouse.reading());
-          }
-          return tell_refusal(done, report);
-        }))
-      return false;
-    pressing = task.get();
-    return true;
+  void begin_stroke(std::shared_ptr<Stroke_task> task, Hold hold) {
+    stroke = task.get(), stroke_hold = hold;
+    ask(std::move(task), [this](const Stroke_task& done, Report& report) {
+      if (stroke == &done)
+        stroke = nullptr;
+      return tell_refusal(done, report);
+    });
   }
 
-  bool may_pick() const { return loop && brush == nullptr && pressing == nullptr && mouse.hold() != Hold::vertex; }
+  void press(const Mouse_reading& reading, Tool tool) {
+    const auto task = std::make_shared<Press>(reading, tool, loop->reading());
+    pressing = task.get();
+    ask(task, [this](const Press& done, Report& report) {
+      if (pressing == &done) {
+        pressing = nullptr;
+        mouse.take(done.held);
+        loop->mouse.put(mouse.reading());
+      }
+      return tell_refusal(done, report);
+    });
+  }
+
+  bool may_pick() const { return loop && stroke == nullptr && pressing == nullptr && mouse.hold() != Hold::vertex; }
   void pick() {
     if (!is_pick_due || is_picking || !may_pick())
       return;
-    is_picking = ask(std::make_shared<Pick>(mouse.pointer()), [this](const Pick& done, Report&) {
+    is_picking = true, is_pick_due = false;
+    ask(std::make_shared<Pick>(mouse.pointer()), [this](const Pick& done, Report&) {
       is_picking = false;
       pointed = done.pointed;
       if (mouse.hold() == Hold::probe && pointed.size > 0) {
@@ -123,19 +111,6 @@ struct Sculpting_thread::Parts {
         loop->mouse.put(mouse.reading());
       }
       return false;
-    });
-    is_pick_due = !is_picking;
-  }
-
-  bool save() {
-    // While it is filled, and while this request waits, each tick may create a vertex, and two faces with it.
-    const std::size_t v = std::max(vertices, status.vertex_slots), f = std::max(faces, status.face_slots);
-    const std::size_t ticks = (v + f) / Save::copied_a_tick + 2048;
-    auto task = std::make_shared<Save>(v + ticks, f + 2 * ticks);
-    return ask(task, [weak = std::weak_ptr<Save>(task)](const Save& done, Report& report) {
-      report.kind = Report::Kind::copied, report.edits = done.edits;
-      report.copy = Saved_copy(weak.lock(), &done.copy);
-      return true;
     });
   }
 
@@ -151,7 +126,7 @@ struct Sculpting_thread::Parts {
       return done.tell(report);
     }
     if (answer.left != nullptr) {
-      report.kind = Report::Kind::left, report.model = &static_cast<Model&>(*answer.left);
+      report.kind = Report::Kind::left, report.model = answer.left;
       models.erase(std::find(models.begin(), models.end(), report.model));
       return true;
     }
@@ -170,31 +145,78 @@ Sculpting_thread::~Sculpting_thread() {
     destroy(model, true);
 }
 
-bool Sculpting_thread::ask(const Request& request) {
-  using Kind = Request::Kind;
-  using Asked_kind = Parts::Command::Kind;
+void Sculpting_thread::enter(Model* model) {
   Parts& p = *parts_;
-  if (request.kind == Kind::enter)
-    return p.enter(request.model);
-  if (request.kind == Kind::copy)
-    return p.save();
-  p.let_go();
-  switch (request.kind) {
-  case Kind::press:
-    return p.press(request);
-  case Kind::flip:
-  case Kind::collapse:
-    return p.ask(std::make_shared<Edge_edit>(request.pointer, request.kind == Kind::flip), Parts::tell_refusal);
-  case Kind::response:
-    return p.ask(std::make_shared<Choose_response>(request.response == 0 ? Response::slide : Response::stop),
-                 Parts::tell_refusal);
-  case Kind::undo:
-    return p.ask(Asked_kind::edit, Edit_kind::undo);
-  case Kind::redo:
-    return p.ask(Asked_kind::edit, Edit_kind::redo);
-  default:
-    return p.ask(Asked_kind::let_go);
+  p.vertices = model->mesh.num_vertices(), p.faces = model->mesh.num_faces();
+  const Workspace_map map = model->map; // from here on the model is the loop's
+  p.models.push_back(model);
+  if (!p.loop) {
+    p.loop.emplace(model);
+  } else {
+    Parts::Command command;
+    command.kind = Parts::Command::Kind::enter, command.scene = model, command.journal = model->log.journal();
+    p.ask(command);
   }
+  p.let_go();
+  p.mouse.enter(map);
+}
+
+void Sculpting_thread::press(const Pointer& pointer, Tool tool, const Brush& brush) {
+  Parts& p = *parts_;
+  p.let_go();
+  p.mouse.point(pointer);
+  p.mouse.press();
+  const Mouse_reading reading = p.mouse.reading(); // the handle is at home before anything is anchored to it
+  p.loop->mouse.put(reading);
+  if (tool == Tool::brush)
+    p.begin_stroke(std::make_shared<Brush_task>(pointer, brush, p.pointed), Hold::brush);
+  else if (tool == Tool::object)
+    p.begin_stroke(std::make_shared<Object_task>(pointer, p.pointed), Hold::object);
+  else
+    p.press(reading, tool);
+}
+
+void Sculpting_thread::let_go() {
+  parts_->let_go();
+  parts_->ask(Parts::Command::Kind::let_go);
+}
+
+void Sculpting_thread::edit_edge(const Pointer& pointer, bool flips) {
+  parts_->let_go();
+  parts_->ask(std::make_shared<Edge_edit>(pointer, flips));
+}
+
+void Sculpting_thread::take_back(bool undo) {
+  parts_->let_go();
+  parts_->ask(Parts::Command::Kind::edit, undo ? Edit_kind::undo : Edit_kind::redo);
+}
+
+void Sculpting_thread::choose_response(bool slides) {
+  parts_->let_go();
+  parts_->ask(std::make_shared<Choose_response>(slides ? Response::slide : Response::stop));
+}
+
+void Sculpting_thread::remesh(const Pointer& pointer, const std::optional<Brush>& brush, double length) {
+  parts_->let_go();
+  parts_->ask(std::make_shared<Remesh>(pointer, brush, length));
+}
+
+void Sculpting_thread::unmask_all() {
+  parts_->let_go();
+  parts_->ask(std::make_shared<Unmask_all>());
+}
+
+void Sculpting_thread::copy() {
+  const Parts& p = *parts_;
+  // While it is filled, and while this waits, each tick may create a vertex, and two faces with it.
+  const std::size_t v = std::max(p.vertices, p.status.vertex_slots), f = std::max(p.faces, p.status.face_slots);
+  const std::size_t ticks = (v + f) / Save::copied_a_tick + 2048;
+  auto task = std::make_shared<Save>(v + ticks, f + 2 * ticks);
+  parts_->ask(task, [weak = std::weak_ptr<Save>(task)](const Save& done, Report& report) {
+    report.kind = Report::Kind::copied, report.edits = done.edits;
+    report.copy = weak.lock();
+    return true;
+  });
 }
 
 void Sculpting_thread::point(const Pointer& pointer, double depth) {
@@ -206,21 +228,31 @@ void Sculpting_thread::point(const Pointer& pointer, double depth) {
   p.pick();
 }
 
+bool Sculpting_thread::has_stroke() const {
+  return parts_->stroke != nullptr;
+}
+
+bool Sculpting_thread::is_stroke_waiting() const {
+  return has_stroke() && parts_->stroke->is_waiting();
+}
+
+void Sculpting_thread::go_on(const Pointer& pointer) {
+  parts_->stroke->add(pointer);
+}
+
 const Status& Sculpting_thread::status() {
   Parts& p = *parts_;
   if (!p.loop)
     return p.status;
   p.status = p.loop->latest.get();
-  if (p.brush != nullptr) {
-    p.status.hold = Hold::brush, p.status.brush_left = p.brush->left();
-    p.status.pointed.at = p.brush->centre();
-  } else if (p.status.hold == Hold::nothing) {
+  if (p.stroke != nullptr)
+    p.status.hold = p.stroke_hold, p.status.pointed = p.stroke->spot();
+  else if (p.status.hold == Hold::nothing)
     p.status.pointed = p.pointed;
-  }
   return p.status;
 }
 
-bool Sculpting_thread::take(Face_change& change) {
+bool Sculpting_thread::take(Seen_face& change) {
   return parts_->loop && parts_->loop->feed.take(change);
 }
 
@@ -228,6 +260,7 @@ bool Sculpting_thread::take(Report& report) {
   Parts& p = *parts_;
   if (!p.loop)
     return false;
+  p.ask_waiting();
   for (Loop_answer<Scene> answer; p.loop->queue.take(answer);)
     if (p.take(answer, report))
       return true;
@@ -243,7 +276,8 @@ bool Sculpting_thread::take(Report& report) {
 
 bool Sculpting_thread::is_idle() const {
   const Parts& p = *parts_;
-  return p.loop && p.loop->queue.waiting() == (p.brush != nullptr) && !(p.is_pick_due && p.may_pick()) &&
+  return p.loop && p.waiting.empty() && !is_stroke_waiting() &&
+         p.loop->queue.waiting() == (p.stroke != nullptr) && !(p.is_pick_due && p.may_pick()) &&
          p.status.mouse == p.mouse.number() && p.status.made > p.answered;
 }
 
@@ -279,6 +313,7 @@ Opened open(const std::string& path, const std::string& log) {
   Opened opened;
   opened.path = path, opened.log = log;
   opened.resumed = model->resumed, opened.note = model->note;
+  opened.middle = place(0.5 * model->lower + 0.5 * model->upper);
   opened.faces.reserve(model->mesh.num_faces());
   for (std::uint32_t f = 0; f < model->mesh.num_faces(); ++f)
     opened.faces.push_back(model->face(f));
@@ -296,10 +331,14 @@ std::string destroy(Model* model, bool keeps_log) {
   return failure;
 }
 
-std::string write_copy(const Scene_copy& copy, const std::string& path) {
-  if (!copy.is_whole())
+std::string write_copy(const Save& saved, const std::string& path) {
+  if (!saved.copy.is_whole())
     throw Error("the copy of the mesh, which was to be saved as '" + path + "', has no room for all of it; save again");
-  return examples::write_mesh(path, copy.mesh<Mesh>());
+  const Mesh mesh = saved.mesh();
+  std::string lost = examples::write_mesh(path, mesh);
+  for (const std::string& word : attributes_not_held(mesh, *mesh_file_format(path)))
+    lost += (lost.empty() ? "" : "; ") + std::string("it cannot hold ") + word;
+  return lost;
 }
 
 } // namespace haptic_sculpt::window_program

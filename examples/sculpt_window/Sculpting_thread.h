@@ -5,22 +5,21 @@
 #include "exchange.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace haptic_sculpt {
-class Scene_copy;
-}
-
 namespace haptic_sculpt::window_program {
 
-/// A copy of the mesh, to be written by any thread.
-using Saved_copy = std::shared_ptr<const Scene_copy>;
+class Save;
 
-/// What came of a request, where there is something to tell.
+/// A copy of the mesh, to be written by any thread.
+using Saved_copy = std::shared_ptr<const Save>;
+
+/// What came of what was asked for, where there is something to tell.
 struct Report {
-  enum class Kind : std::uint8_t { refused, left, copied };
-  Kind kind = Kind::refused;
+  enum class Kind : std::uint8_t { refused, beside, left, copied };
+  Kind kind = Kind::refused; ///< beside: the button was pressed, and the mouse did not point at the mesh
   std::string text;
   Model* model = nullptr;
   Saved_copy copy;
@@ -37,14 +36,33 @@ public:
   Sculpting_thread(const Sculpting_thread&) = delete;
   Sculpting_thread& operator=(const Sculpting_thread&) = delete;
 
-  /// The loop begins with the first model that is entered. \return false where the queue is full: then ask later
-  bool ask(const Request& request);
+  /// \name Asking; all but `copy()` let go of what is in hand
+  ///@{
+  /// The loop begins with the first. The model is the loop's until it comes back as Report::Kind::left.
+  void enter(Model* model);
+  void press(const Pointer& pointer, Tool tool, const Brush& brush);
+  void let_go();
+  void edit_edge(const Pointer& pointer, bool flips); ///< else collapses
+  void take_back(bool undo);                          ///< else makes again
+  void choose_response(bool slides);                  ///< else what is blocked stops
+  void remesh(const Pointer& pointer, const std::optional<Brush>& brush, double length);
+  void unmask_all();
+  void copy();
+  ///@}
+
   /// Where the mouse is, and by how much a probe is pressed in.
   void point(const Pointer& pointer, double depth);
+  /// \name Of a brush or an object in hand
+  ///@{
+  bool has_stroke() const;
+  bool is_stroke_waiting() const; ///< what was asked for last has not been done yet
+  void go_on(const Pointer& pointer); ///< \pre has_stroke() and not is_stroke_waiting()
+  ///@}
+
   const Status& status();
-  bool take(Face_change& change);
+  bool take(Seen_face& change);
   bool take(Report& report);
-  /// Whether all that was asked for is done and in status(); a brush in the hand makes dab after dab.
+  /// Whether all that was asked for is done and in status(); a stroke is done when it waits for nothing.
   bool is_idle() const;
   /// Ends the loop. \return all models that have not come back, the one that was asked for last at the end
   std::vector<Model*> end();
@@ -58,9 +76,10 @@ private:
 struct Opened {
   Model* model = nullptr; ///< to be entered, or destroyed
   std::string path, log;
-  std::size_t resumed = 0;        ///< edits of the log that were made again
-  std::string note;               ///< for people: what of the log was not
-  std::vector<Face_change> faces; ///< all, by index
+  std::size_t resumed = 0;      ///< edits of the log that were made again
+  std::string note;             ///< for people: what of the log was not
+  std::vector<Seen_face> faces; ///< all, by index
+  Place middle{};               ///< of its box as it came: where planes of symmetry are
 };
 
 /// Takes its time. \param log the path of an edit log that is replayed if it exists; empty: none
@@ -70,8 +89,8 @@ Opened open(const std::string& path, const std::string& log);
 /// \return why the log does not hold all; empty if it does
 std::string destroy(Model* model, bool keeps_log);
 
-/// Writes by the rules of `sculpt -o`. \return what of an old file could not be kept \throw Write_error
-std::string write_copy(const Scene_copy& copy, const std::string& path);
+/// Writes by the rules of `sculpt -o`. \return for people: what could not be kept \throw Write_error
+std::string write_copy(const Save& saved, const std::string& path);
 
 } // namespace haptic_sculpt::window_program
 

@@ -8,20 +8,26 @@
 namespace haptic_sculpt::window_program {
 namespace {
 
-std::array<drawing::Corner, 3> corners_of(const Face_change& face, const drawing::Camera& camera) {
-  if (!face.is_there) {
-    const drawing::Corner none{{0, 0, 0}, {0, 0, 1}, {0, 0, 0}};
-    return {none, none, none};
+const drawing::Color clay{0.80f, 0.71f, 0.64f}, background{0.16f, 0.18f, 0.21f};
+
+std::array<drawing::Corner, 3> corners_of(const Seen_face& face, const drawing::Camera& camera) {
+  std::array<drawing::Corner, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& n = face.normals[i];
+    const float mask = face.masks[i];
+    corners[i] = {face.is_there ? Eigen::Vector3f(camera.scaled(vector(face.corners[i])).cast<float>())
+                                : Eigen::Vector3f(0, 0, 0),
+                  {n[0], n[1], n[2]},
+                  (1 - mask) * clay + mask * mark_colors::mask};
   }
-  return drawing::corners_of(camera, {vector(face.corners[0]), vector(face.corners[1]), vector(face.corners[2])},
-                             drawing::colors::surface);
+  return corners;
 }
 
 } // namespace
 
-void Sculpture_view::show(const std::vector<Face_change>& faces, int width, int height) {
+void Sculpture_view::show(const std::vector<Seen_face>& faces, const Place& middle, int width, int height) {
   drawing::Scene scene;
-  for (const Face_change& face : faces)
+  for (const Seen_face& face : faces)
     if (face.is_there) {
       const int first = int(scene.points.size());
       for (const Place& corner : face.corners)
@@ -34,10 +40,11 @@ void Sculpture_view::show(const std::vector<Face_change>& faces, int width, int 
   camera_.emplace(scene, view);
   camera_->make_turnable();
   first_camera_ = camera_;
+  covered_ = 0, middle_ = middle;
   std::vector<drawing::Corner> corners;
   corners.reserve(3 * faces.size());
   double volume = 0; // six times
-  for (const Face_change& face : faces) {
+  for (const Seen_face& face : faces) {
     const auto at = corners_of(face, *camera_);
     corners.insert(corners.end(), at.begin(), at.end());
     volume += double(at[0].position.dot(at[1].position.cross(at[2].position)));
@@ -56,6 +63,15 @@ void Sculpture_view::fit() {
   camera_ = first_camera_;
   camera_->resize(width, height);
   camera_->look(-rotation.row(2), rotation.row(1));
+  covered_ = 0;
+}
+
+void Sculpture_view::frame(double covered) {
+  const double width = camera_->width(), height = camera_->height();
+  const auto side = [&](double taken) { return std::fmin(width - taken, height); };
+  camera_->magnify(side(covered) / side(covered_), {(width + covered_) / 2, height / 2});
+  camera_->shift({(covered - covered_) / 2, 0});
+  covered_ = covered;
 }
 
 void Sculpture_view::upload() {
@@ -63,7 +79,7 @@ void Sculpture_view::upload() {
     return;
   // Of several changes of a face the last one counts; faces with successive indices are written at once.
   std::stable_sort(changes_.begin(), changes_.end(),
-                   [](const Face_change& a, const Face_change& b) { return a.index < b.index; });
+                   [](const Seen_face& a, const Seen_face& b) { return a.index < b.index; });
   drawing::Triangle_buffer& mesh = view_->mesh();
   if (const std::size_t needed = std::size_t(changes_.back().index) + 1; needed > mesh.size()) {
     const std::size_t room = needed + needed / 8 + 1024;
@@ -96,14 +112,37 @@ void Sculpture_view::upload() {
 void Sculpture_view::draw(const Status& status, const Hand_marks& marks) {
   upload();
   view_->set_marks(marks_of(status, marks), *camera_);
-  view_->draw(*camera_, drawing::colors::white,
-              faces_outwards_ ? drawing::Mesh_view::Faces::outside : drawing::Mesh_view::Faces::all);
+  drawing::Smooth_look look;
+  look.shows_edges = shows_edges_, look.faces_outwards = faces_outwards_;
+  look.brush_color = mark_colors::brush;
+  if (marks.shows_brush)
+    for (const auto& spot : brush_spots(status.pointed, marks.brush))
+      look.brushes.push_back(camera_->scaled(spot[0]).cast<float>());
+  look.brush_radius = float(marks.brush.radius / camera_->unscaled(1.0));
+  view_->draw_smooth(*camera_, background, look);
+}
+
+/// Where a brush is, on all sides where it is symmetric, and the normals there.
+std::vector<std::array<Eigen::Vector3d, 2>> Sculpture_view::brush_spots(const Pointed& pointed,
+                                                                        const Brush& brush) const {
+  if (vector(pointed.normal).isZero(0))
+    return {};
+  std::vector<std::array<Eigen::Vector3d, 2>> spots;
+  spots.push_back({vector(pointed.at), vector(pointed.normal)});
+  for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t i = brush.symmetry[std::size_t(axis)] ? spots.size() : 0; i > 0; --i) {
+      auto spot = spots[i - 1];
+      spot[0][axis] = 2 * middle_[std::size_t(axis)] - spot[0][axis];
+      spot[1][axis] = -spot[1][axis];
+      spots.push_back(spot);
+    }
+  return spots;
 }
 
 drawing::Scene Sculpture_view::marks_of(const Status& status, const Hand_marks& marks) const {
   using Hold = Status::Hold;
   drawing::Scene scene;
-  if (status.pointed.size > 0)
+  if (status.pointed.size > 0 && !marks.shows_brush)
     scene.balls.push_back({vector(status.pointed.at),
                            status.pointed.size == 1 ? drawing::colors::orange : drawing::colors::blue,
                            status.pointed.size == 1 ? 6. : 3.5});
@@ -132,18 +171,10 @@ drawing::Scene Sculpture_view::marks_of(const Status& status, const Hand_marks& 
       scene.arrows.push_back(
           {proxy, force, mark_colors::force, std::min(150.0, 70 + 80 * force.norm() / Force_limits().largest)});
   }
-  if (marks.shows_brush && (status.pointed.size > 0 || status.hold == Hold::brush)) {
-    // A circle across the view about where the mouse points, of the brush's size.
-    const Eigen::Vector3d centre = vector(status.pointed.at);
-    const Eigen::Matrix3d axes = camera_->rotation();
-    const int sides = 40;
-    const auto at = [&](int i) -> Eigen::Vector3d {
-      const double angle = 2 * EIGEN_PI * i / sides;
-      return centre + marks.brush_radius * (std::cos(angle) * axes.row(0) + std::sin(angle) * axes.row(1)).transpose();
-    };
-    for (int i = 0; i < sides; ++i)
-      scene.segments.push_back({at(i), at(i + 1), mark_colors::brush, 1.2});
-  }
+  if (marks.shows_brush) // by its length, how strong it is
+    for (const auto& [at, normal] : brush_spots(status.pointed, marks.brush))
+      scene.segments.push_back(
+          {at, at + marks.brush.radius * marks.brush.strength * normal.stableNormalized(), mark_colors::brush, 1.2});
   return scene;
 }
 

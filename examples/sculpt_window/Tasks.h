@@ -19,7 +19,8 @@ using Hit = std::optional<Surface_hit<Mesh>>;
 /// A task whose refusal people hear of.
 class Window_task : public Loop_task<Scene> {
 public:
-  std::string refusal; ///< why nothing was done; empty: it was
+  std::string refusal;    ///< why nothing was done; empty: it was
+  bool is_beside = false; ///< nothing was done, for the mouse does not point at the mesh
 
   bool go_on(Scene& scene, Tool_type& tool) final {
     try {
@@ -40,11 +41,20 @@ protected:
       return std::nullopt;
     return scene.sculptor.first_hit(point(pointer.from), point(pointer.to));
   }
+  /// Of the face, of any length.
+  static Place normal_at(const Scene& scene, const Surface_hit<Mesh>& hit) {
+    const auto h = scene.mesh.halfedge(hit.face);
+    return place(drawing::to_eigen(vertex_normal(scene.mesh, scene.mesh.source(h)) +
+                                   vertex_normal(scene.mesh, scene.mesh.target(h)) +
+                                   vertex_normal(scene.mesh, scene.mesh.target(scene.mesh.next(h)))));
+  }
   /// \return always true: it is done
   bool refuse(const std::string& why) {
     refusal = why;
     return true;
   }
+  /// \return always true: it is done
+  bool miss() { return is_beside = true; }
   bool refuse_unless(const Edit_result<Mesh>& made, const Scene& scene, const std::string& text) {
     if (made)
       return true;
@@ -56,23 +66,6 @@ protected:
   static Edit edit_of(Edit_kind kind, const Scene& scene, Vertex_index a, Vertex_index b) {
     return Edit::of(kind, {scene.sculptor.id(a), scene.sculptor.id(b), 0});
   }
-};
-
-/// What a press of the button begins.
-class Press_task : public Window_task {
-protected:
-  /// \param press what the mouse said when the button was pressed \param now what it says in the tick, the loop's
-  Press_task(const Mouse_reading& press, const Mouse_reading& now)
-      : pointer_(press.pointer), press_(press.press), now_(&now) {}
-
-  Pointer pointer_; ///< of the press
-  /// Else the tick has begun before the handle was at home: what is taken now would be anchored elsewhere.
-  bool is_at_home() const { return now_->press >= press_; }
-  const Pointer& pointer_now() const { return now_->pointer; }
-
-private:
-  std::uint64_t press_;
-  const Mouse_reading* now_;
 };
 
 /// What of the surface the mouse points at.
@@ -89,7 +82,7 @@ private:
     if (!hit)
       return true;
     pointed.feature = name_of(hit->feature);
-    pointed.at = place(drawing::to_eigen(hit->point));
+    pointed.at = place(drawing::to_eigen(hit->point)), pointed.normal = normal_at(scene, *hit);
     const auto add = [&](Vertex_index v) {
       pointed.ids[static_cast<std::size_t>(pointed.size++)] = scene.sculptor.id(v);
     };
@@ -104,24 +97,29 @@ private:
   }
 };
 
-/// The button is pressed with a tool other than a brush: takes, creates, removes.
-class Press : public Press_task {
+/// The button is pressed with a tool that holds one vertex or the probe, or removes a vertex.
+class Press : public Window_task {
 public:
-  Press(const Mouse_reading& press, Tool which, const Mouse_reading& now) : Press_task(press, now), which_(which) {}
+  /// \param press what the mouse said when the button was pressed \param now what it says in the tick, the loop's
+  Press(const Mouse_reading& press, Tool which, const Mouse_reading& now)
+      : pointer_(press.pointer), press_(press.press), now_(&now), which_(which) {}
   Held held;
 
 private:
+  Pointer pointer_;
+  std::uint64_t press_;
+  const Mouse_reading* now_;
   Tool which_;
 
   bool work(Scene& scene, Tool_type& tool) override {
-    if (!is_at_home())
-      return false;
+    if (now_->press < press_)
+      return false; // the handle is not at home yet: what is taken now would be anchored elsewhere
     tool.let_go();
     const Hit hit = hit_of(scene, pointer_);
-    if (which_ == Tool::probe)
-      return take_probe(scene, tool, hit);
     if (!hit)
-      return refuse("there is nothing to take hold of: point at the surface");
+      return miss();
+    if (which_ == Tool::probe)
+      return take_probe(scene, tool, *hit);
     const Vertex_index nearest = nearest_corner(scene.mesh, *hit);
     if (which_ == Tool::remove)
       return refuse_unless(tool.edit(edit_of(Edit_kind::remove, scene, nearest, nearest)), scene,
@@ -141,12 +139,10 @@ private:
   }
 
   /// In front of the surface, nearer to it than the eye.
-  bool take_probe(Scene& scene, Tool_type& tool, const Hit& hit) {
-    if (!hit)
-      return refuse("there is nothing to touch: point at the surface");
-    const Eigen::Vector3d aim = drawing::to_eigen(hit->point), back = vector(pointer_.from) - aim;
+  bool take_probe(Scene& scene, Tool_type& tool, const Surface_hit<Mesh>& hit) {
+    const Eigen::Vector3d aim = drawing::to_eigen(hit.point), back = vector(pointer_.from) - aim;
     const Eigen::Vector3d front =
-        aim + std::fmin(0.1 * static_cast<Model&>(scene).extent(), 0.5 * back.stableNorm()) * back.stableNormalized();
+        aim + std::fmin(0.1 * scene.extent(), 0.5 * back.stableNorm()) * back.stableNormalized();
     if (!tool.take_probe(front))
       return refuse("there is no room for the probe in front of the surface");
     held.hold = Status::Hold::probe;
@@ -241,16 +237,48 @@ private:
   }
 };
 
-/// The mesh, to be saved.
+/// The mesh, to be saved, with what its file had for each vertex.
 class Save : public Copy_task<Scene> {
 public:
   using Copy_task<Scene>::Copy_task;
   std::uint64_t edits = 0; ///< that are in it
 
-  bool go_on(Scene& scene, Tool_type& tool) override {
-    edits = static_cast<Model&>(scene).edits;
-    return Copy_task<Scene>::go_on(scene, tool);
+  /// \pre it is done, and the copy is whole
+  Mesh mesh() const {
+    Mesh mesh = copy.mesh<Mesh>();
+    std::vector<std::size_t> order; // the mesh's vertices are in that of their numbers
+    for (std::size_t v = 0; v < copy.ids.size(); ++v)
+      if (copy.ids[v] != Scene_copy::absent)
+        order.push_back(v);
+    std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) { return copy.ids[a] < copy.ids[b]; });
+    for (const Attribute& attribute : attributes_) {
+      auto map = add_vertex_attribute(mesh, attribute.name, attribute.type).map;
+      for (const Vertex_index v : mesh.vertices())
+        map[v] = attribute.values[order[static_cast<std::size_t>(v)]];
+    }
+    return mesh;
   }
+
+  /// Attributes, which no drag changes, all in the last tick.
+  bool go_on(Scene& scene, Tool_type& tool) override {
+    edits = scene.edits;
+    if (!Copy_task<Scene>::go_on(scene, tool))
+      return false;
+    for (const auto& [name, type, map] : vertex_attributes(scene.mesh)) {
+      attributes_.push_back({name, type, {}});
+      for (std::size_t v = 0; v < scene.mesh.num_vertices(); ++v)
+        attributes_.back().values.push_back(map[Vertex_index(static_cast<Mesh::size_type>(v))]);
+    }
+    return true;
+  }
+
+private:
+  struct Attribute {
+    std::string name;
+    Vertex_attribute::Type type;
+    std::vector<double> values; ///< by index of vertex
+  };
+  std::vector<Attribute> attributes_;
 };
 
 } // namespace haptic_sculpt::window_program

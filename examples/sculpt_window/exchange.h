@@ -29,7 +29,8 @@ inline Place place(const Eigen::Vector3d& v) {
   return {v[0], v[1], v[2]};
 }
 
-enum class Tool : std::uint8_t { drag, probe, create, remove, brush };
+enum class Tool : std::uint8_t { drag, probe, create, remove, brush, object };
+inline constexpr const char* tool_words[] = {"drag", "probe", "create", "remove", "brush", "object"}; ///< of scripts
 
 /// Where the mouse is: it points along the segment from the eye to beyond the mesh.
 struct Pointer {
@@ -45,10 +46,19 @@ inline Eigen::Vector3d on_plane(const Pointer& pointer, const Eigen::Vector3d& p
   return slope > 0 ? Eigen::Vector3d(from + (p - from).dot(across) / slope * way) : p;
 }
 
+/// What a brush is for: what the library's brushes do, in their order, and what the window does by itself.
+enum class Brush_use : std::uint8_t { grab, inflate, smooth, flatten, pinch, mask, unmask };
+inline constexpr int brush_uses = 7;
+inline constexpr const char* brush_words[] = {"grab", "inflate", "smooth", "flatten", "pinch", "mask", "unmask"};
+
 struct Brush {
-  Brush_kind kind = Brush_kind::inflate;
+  Brush_use use = Brush_use::inflate;
   double radius = 0;
-  double strength = 0.5; ///< of what the brush can do in a dab, from -1 (the other way) to 1
+  double strength = 0.5;            ///< of what the brush can do in a dab, from -1 (the other way) to 1
+  std::array<bool, 3> symmetry{};   ///< each dab is made on the other side of the plane across x, y, z, too
+  bool remeshes = false;            ///< triangles under it keep to its size
+
+  double edge_length() const { return radius / 12; } ///< of triangles that it can work with
 };
 
 /// What the device says: on its way to the loop the newest counts.
@@ -59,15 +69,10 @@ struct Mouse_reading {
   std::uint64_t press = 0;  ///< of the button, that it belongs to: the handle begins anew with each
 };
 
-/// What the window asks of the loop.
-struct Request {
-  enum class Kind : std::uint8_t { press, let_go, flip, collapse, undo, redo, response, copy, enter };
-  Kind kind = Kind::press;
-  Pointer pointer;
-  Tool tool = Tool::drag;
-  Brush brush;
-  int response = 0;       ///< 0: slide, 1: stop
-  Model* model = nullptr; ///< enter: it is the loop's until it comes back as Report::Kind::left
+/// A face, and how it is to be lit and tinted.
+struct Seen_face : Face_change {
+  std::array<std::array<float, 3>, 3> normals{}; ///< at the corners, of length 1: of the faces that go on smoothly
+  std::array<float, 3> masks{};                  ///< at the corners: 1 is held still
 };
 
 struct Contact_view {
@@ -85,14 +90,14 @@ struct Percentiles {
 /// What the mouse points at.
 struct Pointed {
   const char* feature = ""; ///< vertex, edge or face; empty: nothing
-  Place at{};
+  Place at{}, normal{};     ///< of the face, of any length
   std::array<std::size_t, 3> ids{};
   int size = 0; ///< how many ids
 };
 
 /// What there is to see, as of one tick.
 struct Status {
-  enum class Hold : std::uint8_t { nothing, vertex, probe, brush };
+  enum class Hold : std::uint8_t { nothing, vertex, probe, brush, object };
   static constexpr int most_contacts = 8;
 
   std::uint64_t ticks = 0, missed_by_work = 0, woken_late = 0;
@@ -109,14 +114,13 @@ struct Status {
   const char* end = "";
   int contacts = 0; ///< shown: at most most_contacts
   std::array<Contact_view, most_contacts> contact{};
-  Pointed pointed; ///< while nothing is held; else where a brush is
+  Pointed pointed; ///< while nothing is held; else where a brush or an object is
 
   std::size_t vertices = 0, faces = 0;
   std::size_t vertex_slots = 0, face_slots = 0; ///< removed ones included
   std::size_t undo_steps = 0, redo_steps = 0;
   std::uint64_t edits = 0;     ///< ticks that changed the mesh, since it was entered; undo and redo count
   std::size_t dirty_faces = 0; ///< not told yet
-  std::size_t brush_left = 0;  ///< vertices of the dab under way
 
   std::uint64_t failures = 0;      ///< ticks that ended by an error, and let go
   std::array<char, 200> failure{}; ///< the last of them, for people

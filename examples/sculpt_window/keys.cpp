@@ -12,8 +12,23 @@ const std::vector<Key>& keys() {
       {"2", GLFW_KEY_2, false, false, Order::tool_probe, "tool: touch with a probe"},
       {"3", GLFW_KEY_3, false, false, Order::tool_create, "tool: create a vertex and drag it"},
       {"4", GLFW_KEY_4, false, false, Order::tool_remove, "tool: remove a vertex"},
-      {"5", GLFW_KEY_5, false, false, Order::tool_brush, "tool: brush over many"},
+      {"5", GLFW_KEY_5, false, false, Order::tool_brush, "tool: brush"},
+      {"6", GLFW_KEY_6, false, false, Order::tool_object, "tool: move an object"},
+      {"g", GLFW_KEY_G, false, false, Order::brush_grab, "brush: grab"},
+      {"i", GLFW_KEY_I, false, false, Order::brush_inflate, "brush: inflate"},
+      {"a", GLFW_KEY_A, false, false, Order::brush_smooth, "brush: smooth"},
+      {"l", GLFW_KEY_L, false, false, Order::brush_flatten, "brush: flatten"},
+      {"k", GLFW_KEY_K, false, false, Order::brush_pinch, "brush: pinch"},
+      {"m", GLFW_KEY_M, false, false, Order::brush_mask, "brush: mask, what other brushes leave alone"},
+      {"shift+m", GLFW_KEY_M, false, true, Order::brush_unmask, "brush: unmask"},
+      {"ctrl+m", GLFW_KEY_M, true, false, Order::unmask_all, "mask nothing"},
       {"b", GLFW_KEY_B, false, false, Order::next_brush, "next brush"},
+      {"shift+x", GLFW_KEY_X, false, true, Order::symmetry_x, "symmetry in x on and off"},
+      {"shift+y", GLFW_KEY_Y, false, true, Order::symmetry_y, "symmetry in y"},
+      {"shift+z", GLFW_KEY_Z, false, true, Order::symmetry_z, "symmetry in z"},
+      {"d", GLFW_KEY_D, false, false, Order::remesh_here, "new triangles under the brush, of its size"},
+      {"shift+d", GLFW_KEY_D, false, true, Order::remesh_all, "new triangles everywhere, of the size at first"},
+      {"ctrl+d", GLFW_KEY_D, true, false, Order::remesh_always, "new triangles wherever the brush goes, on and off"},
       {"]", GLFW_KEY_RIGHT_BRACKET, false, false, Order::larger, "larger brush; a probe is pressed in deeper"},
       {"[", GLFW_KEY_LEFT_BRACKET, false, false, Order::smaller, "smaller brush; a probe is pressed in less"},
       {".", GLFW_KEY_PERIOD, false, false, Order::stronger, "stronger brush"},
@@ -45,7 +60,9 @@ const std::vector<Key>& keys() {
       {"-", GLFW_KEY_MINUS, false, false, Order::zoom_out, "zoom out"},
       {"h", GLFW_KEY_H, false, false, Order::help, "this list"},
       {"f1", GLFW_KEY_F1, false, false, Order::help, "this list"},
-      {"tab", GLFW_KEY_TAB, false, false, Order::panels, "panels on and off"}};
+      {"tab", GLFW_KEY_TAB, false, false, Order::panels, "panels on and off"},
+      {"f2", GLFW_KEY_F2, false, false, Order::figures, "figures of the loop on and off"},
+      {"w", GLFW_KEY_W, false, false, Order::edges, "edges of triangles on and off"}};
   return all;
 }
 
@@ -64,12 +81,14 @@ std::optional<Key> key_pressed(int code, bool ctrl, bool shift) {
 }
 
 const std::vector<Mouse_use>& mouse_uses() {
-  static const std::vector<Mouse_use> all = {{"left", "the tool; a drag goes across the view"},
-                                             {"shift or alt + left", "a drag goes along the vertex's normal"},
+  static const std::vector<Mouse_use> all = {{"left", "the tool; beside the mesh: turn"},
+                                             {"shift + left", "a brush smooths; a vertex goes along its normal"},
+                                             {"ctrl + left", "a brush works the other way"},
                                              {"right", "turn"},
                                              {"middle, ctrl + right", "shift the picture"},
                                              {"wheel", "zoom"},
-                                             {"ctrl + wheel", "size of the brush, depth of the probe"}};
+                                             {"ctrl + wheel", "size of the brush, depth of the probe"},
+                                             {"shift + wheel", "strength of the brush"}};
   return all;
 }
 

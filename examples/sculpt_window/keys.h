@@ -15,7 +15,22 @@ enum class Order {
   tool_create,
   tool_remove,
   tool_brush,
+  tool_object, // as Tool has them
+  brush_grab,
+  brush_inflate,
+  brush_smooth,
+  brush_flatten,
+  brush_pinch,
+  brush_mask,
+  brush_unmask, // as Brush_use has them
+  symmetry_x,
+  symmetry_y,
+  symmetry_z,
   next_brush,
+  unmask_all,
+  remesh_here,
+  remesh_all,
+  remesh_always,
   larger,
   smaller,
   stronger,
@@ -43,7 +58,9 @@ enum class Order {
   zoom_in,
   zoom_out,
   help,
-  panels
+  panels,
+  figures,
+  edges
 };
 
 struct Key {

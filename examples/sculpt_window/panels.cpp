@@ -16,9 +16,9 @@ ImVec4 color_of(const drawing::Color& c) {
   return {c.x(), c.y(), c.z(), 1};
 }
 
-const char* const tool_names[] = {"drag a vertex", "touch with a probe", "create a vertex", "remove a vertex", "brush"};
-const char* const tool_words[] = {"drag", "probe", "create", "remove", "brush"}; // of scripts
-const char* const brush_names[] = {"grab", "inflate", "smooth", "flatten", "pinch"};
+const char* const tool_names[] = {"drag a vertex",   "touch with a probe", "create a vertex",
+                                  "remove a vertex", "brush",              "move an object"};
+const char* const brush_names[] = {"grab  g", "inflate  i", "smooth  a", "flatten  l", "pinch  k", "mask  m", "unmask  M"};
 
 double ms(std::uint64_t ns) {
   return double(ns) / 1e6;
@@ -34,6 +34,7 @@ void Application::draw_panels() {
   draw_question();
   if (!choices_.shows_panels)
     return;
+  draw_hints();
   const auto now = Clock::now();
   while (!messages_.empty() && now - messages_.front().first > std::chrono::seconds(8))
     messages_.pop_front();
@@ -48,44 +49,105 @@ void Application::draw_panels() {
 
 void Application::draw_state() {
   const Status& s = status_;
-  ImGui::SetNextWindowPos({8, 8});
-  ImGui::Begin("state", nullptr, fixed);
-  ImGui::Text("%s%s", path_.c_str(), is_unsaved() ? "  (not saved)" : "");
-  ImGui::Text("%zu vertices, %zu faces; undo %zu, redo %zu", s.vertices, s.faces, s.undo_steps, s.redo_steps);
-  ImGui::Separator();
-  for (int i = 0; i < 5; ++i) {
+  const float margin = 8;
+  ImGui::SetNextWindowPos({margin, margin});
+  ImGui::SetNextWindowSize({panel_width - margin, 0});
+  ImGui::Begin("state", nullptr, fixed & ~ImGuiWindowFlags_AlwaysAutoResize);
+  for (int i = 0; i < 6; ++i) {
     const std::string label = std::to_string(i + 1) + "  " + tool_names[i];
     if (ImGui::RadioButton(label.c_str(), int(choices_.tool) == i)) {
       note("tool %s", tool_words[i]);
       choose(static_cast<Tool>(i));
     }
   }
-  if (choices_.tool == Tool::brush) {
-    int kind = int(choices_.brush.kind);
-    float strength = float(choices_.brush.strength);
-    ImGui::SetNextItemWidth(110);
-    bool changes = ImGui::Combo("b", &kind, brush_names, 5);
-    ImGui::SetNextItemWidth(110);
-    changes = ImGui::SliderFloat("strength  , .", &strength, -1, 1, "%.1f") || changes;
-    if (changes) {
-      choices_.brush.kind = static_cast<Brush_kind>(kind), choices_.brush.strength = double(strength);
-      note("brush %s %.17g %.17g", brush_names[kind], choices_.brush.radius, choices_.brush.strength);
-    }
-    ImGui::Text("radius %.4g  [ ]", choices_.brush.radius);
-  } else if (choices_.tool == Tool::probe) {
-    ImGui::Text("pressed in by %.4g  [ ]", choices_.depth);
-  }
-  ImGui::Text("t  what is blocked %s", choices_.response == 0 ? "slides" : "stops");
-  ImGui::Text("h  all keys");
   ImGui::Separator();
+  if (choices_.tool == Tool::brush)
+    draw_brush();
+  else if (choices_.tool == Tool::probe)
+    ImGui::Text("pressed in by %.4g  [ ]", choices_.depth);
+  else if (choices_.tool == Tool::drag || choices_.tool == Tool::create)
+    ImGui::Text("t  what is blocked %s", choices_.slides ? "slides" : "stops");
+  const auto button = [this](const char* label, const char* key) {
+    if (ImGui::Button(label))
+      on_key(*key_named(key));
+  };
+  button("undo  u", "u");
+  ImGui::SameLine();
+  button("redo  U", "shift+u");
+  ImGui::SameLine();
+  button("save  s", "s");
+  button("all keys  h", "h");
+  ImGui::SameLine();
+  button("edges  w", "w");
+  ImGui::SameLine();
+  button("see all  f", "f");
+  ImGui::Separator();
+  ImGui::TextWrapped("%s%s", path_.c_str(), is_unsaved() ? "  (not saved)" : "");
+  ImGui::Text("%zu triangles", s.faces);
+  if (!last_refusal_.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, {1, 0.55f, 0.4f, 1});
+    ImGui::TextWrapped("refused: %s", last_refusal_.c_str());
+    ImGui::PopStyleColor();
+  }
+  if (record_ != nullptr)
+    ImGui::TextColored({1, 0.3f, 0.3f, 1}, "recording");
+  if (choices_.shows_figures)
+    draw_figures();
+  ImGui::End();
+}
+
+void Application::draw_brush() {
+  Brush& brush = choices_.brush;
+  for (int i = 0; i < brush_uses; ++i) {
+    if (i % 2 != 0)
+      ImGui::SameLine(panel_width / 2.f - 4);
+    if (ImGui::RadioButton(brush_names[i], int(brush.use) == i)) {
+      note("brush %s %.17g %.17g", brush_words[i], brush.radius, brush.strength);
+      choose(static_cast<Brush_use>(i));
+    }
+  }
+  const double whole = view_.camera().unscaled(1.0);
+  float size = float(brush.radius / whole), strength = float(brush.strength);
+  ImGui::SetNextItemWidth(110);
+  bool changes = ImGui::SliderFloat("size  [ ]", &size, 0.01f, 1, "%.2f", ImGuiSliderFlags_Logarithmic);
+  ImGui::SetNextItemWidth(110);
+  changes = ImGui::SliderFloat("strength  , .", &strength, -1, 1, "%.2f") || changes;
+  if (changes) {
+    brush.radius = double(size) * whole, brush.strength = double(strength);
+    note("brush %s %.17g %.17g", brush_words[int(brush.use)], brush.radius, brush.strength);
+  }
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("symmetry");
+  for (const char* const key : {"shift+x", "shift+y", "shift+z"}) {
+    const int axis = key[6] - 'x';
+    bool is_on = brush.symmetry[std::size_t(axis)];
+    ImGui::SameLine();
+    if (ImGui::Checkbox(key + 6, &is_on))
+      on_key(*key_named(key));
+  }
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("new triangles");
+  ImGui::SameLine();
+  if (ImGui::Button("all  D"))
+    on_key(*key_named("shift+d"));
+  if (ImGui::Checkbox("where the brush goes ctrl+d", &brush.remeshes))
+    brush.remeshes = !brush.remeshes, on_key(*key_named("ctrl+d"));
+  ImGui::Separator();
+}
+
+/// What the loop and the hand do, for who wants to know.
+void Application::draw_figures() {
+  const Status& s = status_;
+  ImGui::Separator();
+  ImGui::Text("%zu vertices; undo %zu, redo %zu", s.vertices, s.undo_steps, s.redo_steps);
   if (s.hold == Status::Hold::vertex || s.hold == Status::Hold::probe) {
     if (s.hold == Status::Hold::vertex)
       ImGui::Text("vertex %zu: %s", s.vertex, s.end);
     else
       ImGui::Text("probe: %s", s.end);
-    ImGui::Text("at      %.6g %.6g %.6g", s.proxy[0], s.proxy[1], s.proxy[2]);
-    ImGui::Text("target  %.6g %.6g %.6g", s.target[0], s.target[1], s.target[2]);
-    ImGui::TextColored(color_of(mark_colors::force * 1.4f), "force   %.3f N", vector(s.force).norm());
+    ImGui::Text("at %.4g %.4g %.4g", s.proxy[0], s.proxy[1], s.proxy[2]);
+    ImGui::Text("target %.4g %.4g %.4g", s.target[0], s.target[1], s.target[2]);
+    ImGui::TextColored(color_of(mark_colors::force * 1.4f), "force %.3f N", vector(s.force).norm());
     for (int i = 0; i < s.contacts; ++i) {
       const Contact_view& c = s.contact[std::size_t(i)];
       std::string names;
@@ -93,27 +155,31 @@ void Application::draw_state() {
         names += ' ' + std::to_string(c.ids[std::size_t(j)]);
       ImGui::TextColored({1, 0.45f, 0.8f, 1}, "%s:%s", c.kind, names.c_str());
     }
-  } else if (s.hold == Status::Hold::brush) {
-    ImGui::Text("brush: %zu vertices to go", s.brush_left);
   } else if (s.pointed.size > 0) {
     std::string names;
     for (int i = 0; i < s.pointed.size; ++i)
       names += ' ' + std::to_string(s.pointed.ids[std::size_t(i)]);
-    ImGui::Text("points at %s%s", s.pointed.feature, names.c_str());
-  } else {
-    ImGui::TextUnformatted("points at nothing");
+    ImGui::Text("at %s%s", s.pointed.feature, names.c_str());
   }
-  if (!last_refusal_.empty())
-    ImGui::TextColored({1, 0.55f, 0.4f, 1}, "refused: %s", last_refusal_.c_str());
-  ImGui::Separator();
-  ImGui::Text("loop   p50 %.3f  p99 %.3f  max %.2f ms", ms(s.work.p50), ms(s.work.p99), ms(s.work.largest));
-  ImGui::Text("late   p50 %.3f  p99 %.3f  max %.2f ms", ms(s.lateness.p50), ms(s.lateness.p99), ms(s.lateness.largest));
-  ImGui::Text("ticks %llu, missed %llu by work, %llu woken late", static_cast<unsigned long long>(s.ticks),
-              static_cast<unsigned long long>(s.missed_by_work), static_cast<unsigned long long>(s.woken_late));
-  ImGui::Text("frame  p50 %.1f  p99 %.1f ms", ms(frames_.percentile(0.5)), ms(frames_.percentile(0.99)));
-  ImGui::Text("log    %s", log_.empty() ? "none" : log_.c_str());
-  if (record_ != nullptr)
-    ImGui::TextColored({1, 0.3f, 0.3f, 1}, "recording");
+  ImGui::TextUnformatted("ms: median, 99 %, longest");
+  ImGui::Text("loop %.3f  %.3f  %.2f", ms(s.work.p50), ms(s.work.p99), ms(s.work.largest));
+  ImGui::Text("late %.3f  %.3f  %.2f", ms(s.lateness.p50), ms(s.lateness.p99), ms(s.lateness.largest));
+  ImGui::Text("frame %.1f  %.1f", ms(frames_.percentile(0.5)), ms(frames_.percentile(0.99)));
+  ImGui::Text("%llu ticks, %llu too long", static_cast<unsigned long long>(s.ticks),
+              static_cast<unsigned long long>(s.missed_by_work));
+  ImGui::TextWrapped("log %s", log_.empty() ? "none" : log_.c_str());
+}
+
+/// Until the first press of a button.
+void Application::draw_hints() {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  if (!choices_.shows_hints || size.x < 3 * panel_width)
+    return;
+  ImGui::SetNextWindowPos({(size.x + panel_width) / 2, size.y - 8}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::Begin("hints", nullptr, fixed | ImGuiWindowFlags_NoInputs);
+  ImGui::TextUnformatted("Left button on the mesh: sculpt.  Shift: smooth.  Ctrl: carve.\n"
+                         "Left button beside it, or right button: turn.  Wheel: zoom.\n"
+                         "Ctrl + wheel: size of the brush.  Shift + wheel: strength.");
   ImGui::End();
 }
 

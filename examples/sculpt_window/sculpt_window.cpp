@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A window to sculpt in. See --help; what the mouse and the keys do, scripts, limits: doc/use/window.md.
 #include "Application.h"
+#include "write_ball.h"
 
 #include "../common/contents_of.h"
 #include "../common/mesh_program.h"
@@ -152,9 +153,12 @@ private:
                                    (mods & GLFW_MOD_ALT) != 0);
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double notches) {
+      const auto is_down = [w](int left, int right) {
+        return glfwGetKey(w, left) == GLFW_PRESS || glfwGetKey(w, right) == GLFW_PRESS;
+      };
       if (!ImGui::GetIO().WantCaptureMouse)
-        application_of(w).on_scroll(notches, glfwGetKey(w, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
-                                                 glfwGetKey(w, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS);
+        application_of(w).on_scroll(notches, is_down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
+                                    is_down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT));
     });
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int code, int, int action, int mods) {
       if (action == GLFW_RELEASE || (ImGui::GetIO().WantTextInput && code != GLFW_KEY_ESCAPE))
@@ -189,6 +193,8 @@ int run(const Options& options) {
     script = read_actions(examples::contents_of<Action_error>(options.script, "the script"), options.script);
   check_files(options);
   Window window(options);
+  if (options.makes_ball)
+    write_ball(options.mesh);
   Application application(options, std::move(script)); // destroyed first: it has parts in the window's context
   window.serve(application);
   const auto [width, height] = window.size();

@@ -5,100 +5,14 @@ import colorsys
 import json
 import math
 import os
-import resource
 import shutil
 import signal
-import struct
 import subprocess
-import sys
-import tempfile
 import time
-import zlib
 
 from box_mesh import box
-from program_runs import SCULPT, SOURCE, TETRAHEDRON, check, end, run, write, bytes_of, points
-from virtual_display import Display
-
-WINDOW = os.path.abspath(sys.argv[4])
-folder = tempfile.mkdtemp()
-at = lambda name: os.path.join(folder, name)
-
-
-display = Display()
-
-
-def start(*arguments, script="", display=display.name, disk=None):
-    environment = dict(os.environ, LP_NUM_THREADS="1")
-    environment.pop("DISPLAY", None)
-    environment.pop("WAYLAND_DISPLAY", None)
-    if display:
-        environment["DISPLAY"] = display
-    path = write(at("script.txt"), script)
-    return subprocess.Popen([WINDOW, *map(str, arguments), "--script", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env=environment, cwd=folder, preexec_fn=disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk))))
-
-
-def window(*arguments, script="", code=0, what="window", display=display.name, disk=None):
-    process = start(*arguments, script=script, display=display, disk=disk)
-    try:
-        out, err = process.communicate(timeout=120)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        out, err = process.communicate()
-        check(False, f"{what}: has not ended after 120 s: {out[-500:]} {err}")
-        return [], err
-    check(process.returncode == code, f"{what}: exit {process.returncode}, expected {code}: {err}")
-    return [json.loads(line) for line in out.splitlines() if line.startswith("{")], err
-
-
-def replayed(mesh, log, saved, what):
-    """The log makes the same mesh again, bit for bit, by sculpt; and what was edited is not what was there."""
-    done = run(mesh, "--log", log, "-o", at("again.off"))
-    check(done.returncode == 0, f"{what}: sculpt does not replay the log: {done.stderr}")
-    check(os.path.exists(saved) and bytes_of(saved) == bytes_of(at("again.off")), f"{what}: the replayed mesh is another one")
-    check("blocked 0, " in done.stdout and "refused 0\n" in done.stdout, f"{what}: a line of the log is not made whole: {done.stdout[:500]}")
-
-
-def read_png(path):
-    """Width and rows of red, green, blue bytes, of a picture of eight bits without interlacing, as all of ours are."""
-    data = bytes_of(path)
-    width, height, depth, kind, _, _, interlaced = struct.unpack(">IIBBBBB", data[16:29])
-    check((depth, kind, interlaced) == (8, 2, 0), f"{path}: a picture of another kind")
-    packed, position = b"", 8
-    while position < len(data):
-        length, name = struct.unpack(">I4s", data[position:position + 8])
-        packed += data[position + 8:position + 8 + length] if name == b"IDAT" else b""
-        position += length + 12
-    raw, rows, above = zlib.decompress(packed), [], bytearray(3 * width)
-    for y in range(height):
-        begin = y * (3 * width + 1)
-        how, row = raw[begin], bytearray(raw[begin + 1:begin + 1 + 3 * width])
-        for i in range(3 * width if how else 0):
-            left, up, corner = row[i - 3] if i >= 3 else 0, above[i], above[i - 3] if i >= 3 else 0
-            if how == 4:
-                guess = left + up - corner
-                near = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))[2]
-            else:
-                near = {1: left, 2: up, 3: (left + up) // 2}[how]
-            row[i] = (row[i] + near) & 255
-        rows.append(row)
-        above = row
-    return width, rows
-
-
-def pixels_of(path, hue, spread=0.05):
-    """Those whose hue is this, and which are not pale, as x and y from the upper left."""
-    width, rows = read_png(path)
-    found = []
-    for y, row in enumerate(rows):
-        for x in range(width):
-            r, g, b = row[3 * x:3 * x + 3]
-            high, chroma = max(r, g, b), max(r, g, b) - min(r, g, b)
-            if chroma > 64 and chroma > 0.35 * high:
-                apart = abs((colorsys.rgb_to_hsv(r / 255, g / 255, b / 255)[0] - hue + 0.5) % 1 - 0.5)
-                if apart < spread:
-                    found.append((x + 0.5, y + 0.5))
-    return found
+from program_runs import SOURCE, TETRAHEDRON, bytes_of, check, end, points, run, write
+from window_runs import WINDOW, at, pixels_of, read_png, replayed, start, window
 
 
 def mean(points):
@@ -180,6 +94,7 @@ else:
 WORK = """
 key tab
 settle
+tool drag
 drag 150 107.5 190 75 6
 drag 140 115 150 62.5 6 normal
 tool create
@@ -187,21 +102,29 @@ drag 160 130 175 107.5 6
 tool brush
 key .
 drag 125 120 160 120 6
-key b
-key b
-key b
-key b
+drag 140 110 160 110 3 ctrl
+key a
 drag 150 112.5 175 95 6
-key b
-key b
+key shift+x
+key g
 drag 140 105 160 117.5 6
-key b
+key shift+x
+key l
 drag 155 105 140 117.5 6
-key b
+key k
 drag 155 115 145 107.5 6
 key u
 key u
 key shift+u
+key m
+drag 140 105 150 105 3
+key i
+move 150 108
+key d
+drag 150 108 160 110 4
+key ctrl+m
+key shift+m
+drag 140 105 150 105 3
 move 152 108
 key e
 move 140 120
@@ -211,6 +134,8 @@ key e
 tool remove
 click 147.5 112.5
 orbit 70 20
+tool object
+drag 150 112.5 152 110 3
 tool drag
 drag 150 112.5 75 115 6
 drag 152.5 110 225 110 6
@@ -246,7 +171,7 @@ for name, mesh in MESHES:
         check(report["uploaded"]["faces"] > 0 and report["uploaded"]["bytes"] < 108 * (report["uploaded"]["faces"] + 1100 + lines[0]["faces"] // 8),
               f"{name}: uploads: {report['uploaded']}")
 
-missing = {"drag", "insert_face", "flip", "collapse", "undo", "redo", "stroke", "end"} - made
+missing = {"drag", "insert_face", "insert_edge", "flip", "collapse", "shift", "undo", "redo", "stroke", "end"} - made
 check(not missing, f"the logs have no line {missing}: {made}")
 
 # A removal is logged as the collapse that it was, whatever a probe near by has barred.
@@ -341,22 +266,19 @@ check("full.log" in err and lines and lines[0]["edits"] > 0, f"a full disk: {err
 done = run(BALL, "--log", at("full.log"), "-o", at("again.off"))
 check(done.returncode == 0 and "blocked 0, " in done.stdout, f"the log on a full disk: {done.stderr}")
 
-# Refusals, errors, recordings.
+# Refusals, errors, recordings; beside the mesh the left button turns it, whatever the tool.
+turns = "".join(f"tool {tool}\nmove 1195 5\npress left\nsettle\nwhere @0,0,0.5\nmove 1150 50\nwhere @0,0,0.5\nrelease\nsettle\nprint\n"
+                for tool in ("drag", "probe", "create", "remove", "brush", "object"))
 lines, _ = window(BALL, "--no-log", "--samples", 0, "--record", at("recorded.actions"), script=f"""
 settle
-tool drag
-move 5 5
-press left
-settle
-print
-release
-key u
+{turns}key u
 settle
 print
 wait 0.1
-move 600 450
+tool drag
+move 700 450
 press left
-move 640 420
+move 740 420
 settle
 release
 settle
@@ -364,7 +286,10 @@ save {at("recorded.off")}
 settle
 quit
 """, what="refusals")
-check(len(lines) == 2 and "nothing to take hold of" in lines[0]["refused"] and "nothing-to-undo" in lines[1]["refused"], f"refusals: {lines}")
+check(len(lines) == 19 and "nothing-to-undo" in lines[-1]["refused"], f"refusals: {lines[-1:]}")
+for i in range(0, 18, 3):
+    before, after, state = lines[i:i + 3]
+    check(math.dist(before["where"], after["where"]) > 5 and state["edits"] == 0 and state["refused"] == "", f"turned: {lines[i:i + 3]}")
 recorded = open(at("recorded.actions")).read()
 check("press left" in recorded and "wait 0." in recorded, f"a recording: {recorded}")
 window(BALL, "--no-log", "--samples", 0, script=recorded + f"settle\nsave {at('played.off')}\nsettle\nquit\n", what="a recording played")
@@ -383,7 +308,7 @@ for option in ("--help", "--version"):
     check(done.returncode == 0 and "sculpt_window" in done.stdout, option)
 described = open(os.path.join(SOURCE, "doc/use/window.md")).read()
 help_text = subprocess.run([WINDOW, "--help"], capture_output=True, text=True).stdout
-for action in ("move", "press", "release", "click", "drag", "scroll", "key", "view", "orbit", "zoom", "fit", "tool", "brush", "depth", "wait", "settle",
+for action in ("move", "press", "release", "click", "drag", "scroll", "key", "view", "orbit", "zoom", "fit", "tool", "brush", "symmetry", "remesh", "depth", "wait", "settle",
                "screenshot", "save", "open", "record", "print", "where", "close", "quit"):
     check(f"`{action}" in described and f" {action}" in help_text, f"the action {action} is described")
 
@@ -414,7 +339,7 @@ check("holes" in err and "PMP" not in err, f"advice for people: {err}")
 # A terminal that is closed, and being asked to end: the log keeps what is not saved.
 for which in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT):
     ended = write(at(f"ended_{int(which)}.off"), box(3))
-    process = start(ended, "--samples", 0, "--report", at("ended.json"), script="settle\ndrag 600 450 700 350 6\nsettle\nprint\nwait 100\n")
+    process = start(ended, "--samples", 0, "--report", at("ended.json"), script="settle\ntool drag\ndrag 700 450 800 350 6\nsettle\nprint\nwait 100\n")
     process.stdout.readline()
     process.send_signal(which)
     process.communicate(timeout=60)

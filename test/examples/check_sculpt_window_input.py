@@ -48,6 +48,7 @@ where @0,0,1
 where @{GOAL[0]!r},{GOAL[1]!r},{GOAL[2]!r}
 where @0.5,-0.5,1
 where @0.5,-0.5,1.5
+where @-0.5,-0.5,1
 """)
 environment = dict(os.environ, DISPLAY=display.name, LP_NUM_THREADS="1")
 environment.pop("WAYLAND_DISPLAY", None)
@@ -56,8 +57,8 @@ hand.move(SIZE[0] - 5, SIZE[1] - 5)
 process = subprocess.Popen([WINDOW, mesh, "--log", log, "-o", saved, "--record", record, "--size", *map(str, SIZE), "--samples", "0", "--script", script],
                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, cwd=folder)
 atexit.register(process.kill)
-places = [json.loads(process.stdout.readline())["where"] for _ in range(4)]
-vertex, goal, second, above = places
+places = [json.loads(process.stdout.readline())["where"] for _ in range(5)]
+vertex, goal, second, above, third = places
 time.sleep(0.1)  # the script's last action has been done: from the next frame on the hand's motions count
 
 
@@ -84,6 +85,7 @@ def dragged(begin, to, button=1):
 
 # A vertex is pressed, drawn, and let go.
 identity = next(iter(hand.windows()))
+hand.key("1")
 check(title() == f"sculpt_window {mesh}", f"the title of a mesh just opened: {title()}")
 dragged(vertex, goal)
 log_has(1, "end", "a drag by the hand is one step of undo")
@@ -115,6 +117,16 @@ drag = last_drag()
 moved = tuple(map(float.fromhex, drag[2:5]))
 check(moved[:2] == (0.5, -0.5) and abs(moved[2] - 1.5) < 4 * pixel, f"shift drags along the normal: {drag}")
 
+# A brush in the hand goes on as long as the button is down, one step of undo.
+hand.key("i")
+hand.move(*third)
+shifts = lambda: sum(line.startswith("shift") for line in lines_of(log))
+hand.button(1, True)
+eventually(lambda: shifts() >= 10, "a brush held still goes on")
+hand.button(1, False)
+log_has(3, "end", "a stroke of a brush is one step of undo")
+hand.key("1")
+
 # What is seen: the wheel makes it larger, the right button turns it, h shows and hides the keys.
 # Beside the panel, whose figures change.
 VIEW, KEYS = (340, 100, 260, 400), (SIZE[0] - 300, 20, 280, 300)
@@ -122,9 +134,9 @@ seen = lambda rectangle: display.seen(*rectangle)
 
 
 def covered():
-    """How much is not white where no panel comes."""
+    """How much is not of the colour of the corner, where no panel comes."""
     picture = seen((340, 0, SIZE[0] - 340, SIZE[1] - 120))
-    return len(picture) // 4 - picture.count(b"\xff\xff\xff")
+    return sum(picture[i:i + 3] != picture[-4:-1] for i in range(0, len(picture), 4))
 
 
 def still(rectangle):
@@ -156,11 +168,14 @@ time.sleep(0.4)  # a panel that has gone lets go of the mouse with the next fram
 plain = still(VIEW)
 dragged(vertex, (vertex[0] + 60, vertex[1]), button=3)
 eventually(lambda: seen(VIEW) != plain, "the right button turns")
-log_has(2, "end", "turning changes nothing")
+plain = still(VIEW)
+dragged((SIZE[0] - 20, SIZE[1] - 20), (SIZE[0] - 90, SIZE[1] - 40))
+eventually(lambda: seen(VIEW) != plain, "the left button turns, beside the mesh")
+log_has(3, "end", "turning changes nothing")
 
 # A panel takes the mouse: a tool is chosen, nothing behind it is dragged.
 before_panel = len(lines_of(log))
-hand.move(30, 87)
+hand.move(30, 52)
 time.sleep(0.4)  # the panel takes the mouse, or lets go of it, with the next frame
 hand.click()
 eventually(lambda: any(line.startswith("tool ") for line in lines_of(record)), "a tool is chosen by its button")
@@ -171,6 +186,12 @@ hand.key_goes("Control_L", True)
 hand.click(4)
 eventually(lambda: "scroll 1 ctrl" in lines_of(record), "ctrl and the wheel")
 hand.key_goes("Control_L", False)
+hand.key_goes("Shift_L", True)
+hand.click(5)
+eventually(lambda: "scroll -1 shift" in lines_of(record), "shift and the wheel")
+hand.key_goes("Shift_L", False)
+hand.key("Shift_L", "x")
+eventually(lambda: "key shift+x" in lines_of(record), "shift and x")
 hand.key("1")
 
 # Closing asks while there is unsaved work; escape goes on; a second file is not opened over unsaved work at once.

@@ -176,8 +176,13 @@ BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_
         }
         const std::size_t steps = sculptor.history().number_of_undo_steps();
         bench.tool.begin_stroke();
-        const Move_report first = bench.tool.move_many(std::vector(vertices.begin(), vertices.begin() + 2), targets);
-        const Move_report second = bench.tool.move_many(std::vector(vertices.begin() + 2, vertices.end()), targets);
+        const auto moved = [&](auto first, auto last) {
+          return bench.tool.edit_by([&](auto& edits) {
+            return move_vertices(edits, std::vector(first, last), targets, Move_parameters().drags(false));
+          });
+        };
+        const Move_report first = moved(vertices.begin(), vertices.begin() + 2),
+                          second = moved(vertices.begin() + 2, vertices.end());
         bench.tool.let_go();
         BOOST_TEST(sculptor.history().number_of_undo_steps() <= steps + 1);
         done[3] += first.reached + second.reached;
@@ -189,6 +194,42 @@ BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_
       BOOST_TEST(n >= 10u);
     BOOST_TEST(bench.is_made_again());
   }
+}
+
+BOOST_AUTO_TEST_CASE(functions_that_take_a_sculptor_take_edits_of_a_tool_and_are_made_again) {
+  using Kernel = CGAL::Kernel_traits<Mesh::Point>::Kernel;
+  Bench bench;
+  auto& sculptor = bench.scene->sculptor;
+  const Mesh& mesh = bench.scene->mesh;
+  const auto steps = [&] { return sculptor.history().number_of_undo_steps(); };
+  const auto remeshed = bench.tool.edit_by([&](auto& edits) { return isotropic_remeshing(edits, 0.2); });
+  BOOST_TEST((remeshed.splits.done > 20 && remeshed.flips.done > 20 && remeshed.moves.done > 20));
+  const auto coarser = bench.tool.edit_by([&](auto& edits) {
+    return isotropic_remeshing(std::vector(mesh.faces().begin(), std::next(mesh.faces().begin(), 100)), edits, 0.5);
+  });
+  BOOST_TEST(coarser.collapses.done > 5);
+  BOOST_TEST(steps() == 2u); // each is one
+  bench.tool.begin_stroke();
+  const Dab_3<Kernel> dab{Brush_kind::inflate, {0, 0, 1}, 0.7, 0.2};
+  for (int k = 0; k < 3; ++k)
+    bench.tool.edit_by([&](auto& edits) { return apply_brush(edits, std::vector{dab, dab}); });
+  bench.tool.let_go();
+  BOOST_TEST(steps() == 3u); // a stroke is one, too
+  const std::vector<Mesh::Vertex_index> all(mesh.vertices().begin(), mesh.vertices().end());
+  const auto turned = bench.tool.edit_by([&](auto& edits) {
+    return move_rigidly(edits, all, CGAL::Aff_transformation_3<Kernel>(0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0));
+  });
+  BOOST_TEST(turned.share == 1);
+  const std::vector<Mesh::Vertex_index> half(all.begin(), std::next(all.begin(), all.size() / 2));
+  const auto jammed = bench.tool.edit_by([&](auto& edits) {
+    return move_rigidly(edits, half,
+                        CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, Kernel::Vector_3(-2, 1, 1)));
+  });
+  BOOST_TEST((jammed.share < 1 && !jammed.contacts.empty()));
+  BOOST_TEST(bool(bench.tool.edit(Edit::of(Edit_kind::undo))));
+  BOOST_TEST(bool(bench.tool.edit(Edit::of(Edit_kind::undo))));
+  BOOST_TEST(bool(bench.tool.edit(Edit::of(Edit_kind::redo))));
+  BOOST_TEST(bench.is_made_again());
 }
 
 } // namespace

@@ -107,18 +107,19 @@ public:
     let_go();
     return mesh_edits_.make(wanted);
   }
-  /// What move_many() does from here on is one step of undo, until something lets go.
+  /// What edit_by() does from here on is one step of undo, until something lets go.
   void begin_stroke() {
     let_go();
     mesh_edits_.begin_stroke();
   }
-  /// Moves many vertices towards their targets, all at once along each axis, as far as that is free (move_vertices()
-  /// without drags). A stroke under way goes on. \throw what move_vertices() throws
-  template <class Vertex_range, class Target_map>
-  Move_report move_many(const Vertex_range& vertices, const Target_map& targets) {
+  /// Has a function make many edits, through what takes the place of a Sculptor: `function(edits)` may give it to
+  /// move_vertices(), apply_brush(), move_rigidly() or isotropic_remeshing(). They are in the journal. One step of undo
+  /// each, but a stroke under way goes on. \return what the function gives \throw what it throws
+  template <class Function>
+  auto edit_by(const Function& function) {
     grab_.reset();
     is_anchored_ = is_anchored_ && carries_probe_;
-    return mesh_edits_.move_many(vertices, targets);
+    return function(mesh_edits_);
   }
   /// At first the probe is in hand wherever no vertex is. false: only from take_probe() until something lets go.
   void carry_probe(bool does) { carries_probe_ = does; }

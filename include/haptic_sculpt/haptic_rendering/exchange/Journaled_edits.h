@@ -11,19 +11,27 @@
 namespace haptic_sculpt {
 
 /// What a tool does to the mesh: edits, drags of vertices and strokes, each told to a journal, if there is one.
+///
+/// It takes the place of a Sculptor in functions that change many elements: move_vertices() without drags,
+/// apply_brush(), move_rigidly(), isotropic_remeshing().
 template <class Sculptor>
 class Journaled_edits {
 public:
-  using Vertex_index = typename Sculptor::Vertex_index; ///< of the mesh
-  using Point = typename Sculptor::Point;               ///< in the scene
-  using Grab_type = typename Sculptor::Grab_type;       ///< what holds a vertex
-  using Edited = Applied<typename Sculptor::Mesh_type>; ///< what an edit gives
-  using Result = typename Sculptor::Result;             ///< what a drag gives
+  using Mesh_type = typename Sculptor::Mesh_type;           ///< of the surface
+  using Vertex_index = typename Sculptor::Vertex_index;     ///< of the mesh
+  using Edge_index = typename Sculptor::Edge_index;         ///< of the mesh
+  using Halfedge_index = typename Sculptor::Halfedge_index; ///< of the mesh
+  using Face_index = typename Sculptor::Face_index;         ///< of the mesh
+  using Point = typename Sculptor::Point;                   ///< in the scene
+  using Grab_type = typename Sculptor::Grab_type;           ///< what holds a vertex
+  using Edited = Applied<Mesh_type>;                        ///< what an edit gives
+  using Result = typename Sculptor::Result;                 ///< what a drag gives
 
   /// Without a journal
-  explicit Journaled_edits(Sculptor& sculptor) : sculptor_(&sculptor) {
-    legs_.reserve(most_legs);
-  }
+  explicit Journaled_edits(Sculptor& sculptor) : sculptor_(&sculptor), guarded_(*this) { legs_.reserve(most_legs); }
+  Journaled_edits(const Journaled_edits&) = delete;
+  Journaled_edits& operator=(const Journaled_edits&) = delete;
+
   /// From here on in another scene, without a journal. \pre no stroke is under way
   void enter(Sculptor& sculptor) { sculptor_ = &sculptor, journal_ = nullptr; }
   void keep_journal(Edit_journal* journal) { journal_ = journal; } ///< nullptr: none
@@ -68,43 +76,107 @@ public:
     return result;
   }
 
-  /// Moves many towards their targets, all at once along each axis, as far as that is free. \throw what move_vertices()
-  /// throws; what has been moved is reported
-  template <class Vertex_range, class Target_map>
-  Move_report move_many(const Vertex_range& vertices, const Target_map& targets) {
-    Places before;
-    for (const Vertex_index v : vertices)
-      before.emplace_back(v, vertex_coordinates(sculptor_->mesh(), v));
-    try {
-      const Move_report report = move_vertices(*sculptor_, vertices, targets, Move_parameters().drags(false));
-      add_shifts(before);
-      return report;
-    } catch (...) {
-      add_shifts(before);
-      throw;
-    }
+  /// \name What functions ask of a Sculptor, and as it does
+  /// \pre elements are in the mesh
+  ///@{
+  const Mesh_type& mesh() const { return sculptor_->mesh(); }                         ///< that is guarded
+  const Sculptor_parameters& parameters() const { return sculptor_->parameters(); } ///< of the Sculptor
+  /// Of the surface. \throw as there
+  Vertex_index nearest_vertex(const Point& p, double within) { return sculptor_->nearest_vertex(p, within); }
+  /// A creation.
+  Edited insert_on_edge(Edge_index e, const Point& p) {
+    return make(of_ends(Edit_kind::insert_on_edge, mesh().halfedge(e), {p.x(), p.y(), p.z()}));
+  }
+  /// Draws the source into the target.
+  Edited collapse(Halfedge_index h) { return make(of_ends(Edit_kind::collapse, h)); }
+  /// Of an edge.
+  Edited flip(Edge_index e) { return make(of_ends(Edit_kind::flip, mesh().halfedge(e))); }
+  /// All of the way or none.
+  bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
+    const Point before = mesh().point(v);
+    const bool is_there = sculptor_->move_if_free(v, target, drag);
+    if (mesh().point(v) != before)
+      add_move(v, target);
+    return is_there;
+  }
+  /// One drag of a vertex; its legs are reported.
+  Result drag(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
+    auto grab = sculptor_->grab(v);
+    return this->drag(grab, target, drag);
   }
 
+  /// Ends what it began.
+  class [[nodiscard]] Stroke_type {
+  public:
+    explicit Stroke_type(Journaled_edits* edits) : edits_(edits) {} ///< nullptr: it has joined another one
+    ~Stroke_type() {
+      if (edits_ != nullptr)
+        edits_->end_stroke();
+    }
+    Stroke_type(const Stroke_type&) = delete;
+    Stroke_type& operator=(const Stroke_type&) = delete;
+
+  private:
+    Journaled_edits* edits_;
+  };
+  /// Joins the one under way, or begins one.
+  Stroke_type stroke() {
+    if (stroke_)
+      return Stroke_type(nullptr);
+    begin_stroke();
+    return Stroke_type(this);
+  }
+  ///@}
+
 private:
-  using Places = std::vector<std::pair<Vertex_index, std::array<double, 3>>>;
+  /// What a Sculptor guards, for functions that shift many vertices at once.
+  class Guarded {
+  public:
+    explicit Guarded(Journaled_edits& edits) : edits_(&edits) {}
+    const Mesh_type& mesh() const { return edits_->mesh(); }
+    void look_around(const internal::Vertex_targets<Mesh_type>& targets) { guarded().look_around(targets); }
+    bool shift(int axis, const internal::Axis_ways<Mesh_type>& ways, std::size_t most_held, const Part_runner& run) {
+      std::vector<double> before;
+      for (const auto& [v, end] : ways)
+        before.push_back(vertex_coordinates(mesh(), v)[axis]);
+      try {
+        const bool is_done = guarded().shift(axis, ways, most_held, run);
+        tell_shift(axis, ways, before);
+        return is_done;
+      } catch (...) { // the visitor's, when all has moved
+        tell_shift(axis, ways, before);
+        throw;
+      }
+    }
+    const auto& obstacles_to(int axis, const internal::Axis_ways<Mesh_type>& ways, const Part_runner& run) {
+      return guarded().obstacles_to(axis, ways, run);
+    }
+
+  private:
+    Journaled_edits* edits_;
+
+    auto& guarded() { return internal::Sculptor_access::guarded(*edits_->sculptor_); }
+    void tell_shift(int axis, const internal::Axis_ways<Mesh_type>& ways, const std::vector<double>& before) {
+      Edit made = Edit::of(Edit_kind::shift);
+      made.axis = axis;
+      for (std::size_t k = 0; k < ways.size(); ++k)
+        if (const double now = vertex_coordinates(mesh(), ways[k].first)[axis]; now != before[k])
+          made.ways.emplace_back(edits_->sculptor_->id(ways[k].first), now);
+      if (!made.ways.empty())
+        edits_->add(made);
+    }
+  };
+  friend struct internal::Sculptor_access;
 
   Sculptor* sculptor_;
+  Guarded guarded_;
   Edit_journal* journal_ = nullptr;
   static constexpr std::size_t most_legs = 64; ///< of a drag, and more: room that is made for them
   std::optional<typename Sculptor::Stroke_type> stroke_;
   std::vector<Point> legs_; ///< of the last drag
 
-  /// What many vertices have moved by, as three shifts: all of a coordinate's changes were one.
-  void add_shifts(const Places& before) {
-    for (int axis = 0; axis < 3; ++axis) {
-      Edit shift = Edit::of(Edit_kind::shift);
-      shift.axis = axis;
-      for (const auto& [v, p] : before)
-        if (const double now = vertex_coordinates(sculptor_->mesh(), v)[axis]; now != p[axis])
-          shift.ways.emplace_back(sculptor_->id(v), now);
-      if (!shift.ways.empty())
-        add(shift);
-    }
+  Edit of_ends(Edit_kind kind, Halfedge_index h, const std::array<double, 3>& p = {}) const {
+    return Edit::of(kind, {sculptor_->id(mesh().source(h)), sculptor_->id(mesh().target(h)), 0}, p);
   }
   void add_move(Vertex_index v, const Point& to) {
     add(Edit::of(Edit_kind::move, {sculptor_->id(v), 0, 0}, {to.x(), to.y(), to.z()}));

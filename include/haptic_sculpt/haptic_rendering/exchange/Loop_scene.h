@@ -17,6 +17,8 @@ namespace haptic_sculpt {
 template <class Mesh_>
 struct Loop_scene {
   using Mesh = Mesh_; ///< a `CGAL::Surface_mesh`
+  /// What viewers are passed of a face. A class derived from this may hide it, and face(), to pass on more.
+  using Face_type = Face_change;
   /// Viewers and copies know of its edits.
   using Sculptor_type = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Scene_visitor<Mesh>>;
 

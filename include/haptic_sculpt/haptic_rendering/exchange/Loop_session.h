@@ -18,13 +18,14 @@ template <class Loop, class Scene>
 class Loop_session {
 public:
   using Kind = typename Loop_command<Scene>::Kind; ///< of commands
+  using Feed = Basic_scene_feed<typename Scene::Face_type>; ///< to a viewer
   /// Tasks under way at once; while there are this many no other command is taken.
   static constexpr std::size_t most_tasks = 16;
   /// Changed faces that are passed on by a tick, about 50 microseconds.
   static constexpr std::size_t faces_a_tick = 1000;
 
   /// All must outlive this; queue, feed and journal may be null.
-  Loop_session(Loop& loop, Scene& scene, Command_queue<Scene>* queue, Scene_feed* feed, Edit_journal* journal)
+  Loop_session(Loop& loop, Scene& scene, Command_queue<Scene>* queue, Feed* feed, Edit_journal* journal)
       : loop_(&loop), scene_(&scene), queue_(queue), feed_(feed), journal_(journal) {
     loop.tool().keep_journal(journal);
     tasks_.reserve(most_tasks);
@@ -75,7 +76,7 @@ private:
   Loop* loop_;
   Scene* scene_;
   Command_queue<Scene>* queue_;
-  Scene_feed* feed_;
+  Feed* feed_;
   Edit_journal* journal_;
   std::uint64_t ticks_ = 0;
   std::uint32_t scenes_ = 0;               ///< entered before the one that is sculpted now
@@ -185,8 +186,8 @@ private:
       answer.reason = made.refusal->reason;
   }
 
-  Face_change face(std::uint32_t index) const {
-    Face_change face = scene_->face(index);
+  auto face(std::uint32_t index) const {
+    auto face = scene_->face(index);
     face.scene = scenes_;
     return face;
   }

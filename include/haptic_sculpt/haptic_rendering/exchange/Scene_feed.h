@@ -41,17 +41,20 @@ struct Tick_view {
 
 /// A way from the loop's thread to one viewer or logger, which never stops the loop. No change is lost: a face that
 /// finds no room is passed on later, as it is then. Ticks that find no room are lost, and counted.
-class Scene_feed {
+///
+/// \tparam Face what is passed on of a face: Face_change, or what is derived from it (`Loop_scene::Face_type`)
+template <class Face>
+class Basic_scene_feed {
 public:
   /// \param faces, ticks room for this many that have not been taken; allocated here
-  explicit Scene_feed(std::size_t faces = std::size_t{1} << 16, std::size_t ticks = 4096)
+  explicit Basic_scene_feed(std::size_t faces = std::size_t{1} << 16, std::size_t ticks = 4096)
       : faces_(faces), ticks_(ticks) {}
 
   /// \name The loop's thread
   ///@{
 
   /// Passes a face on. \return false where there is no room: then again, later
-  bool tell(const Face_change& face) { return faces_.push(face) && ++passed_on_ != 0; }
+  bool tell(const Face& face) { return faces_.push(face) && ++passed_on_ != 0; }
   /// Passes a tick on.
   void tell(const Tick_view& tick) {
     if (!ticks_.push(tick))
@@ -63,18 +66,21 @@ public:
   /// \name The viewer's thread
   ///@{
 
-  bool take(Face_change& face) { return faces_.pop(face); } ///< the next; false where there is none yet
+  bool take(Face& face) { return faces_.pop(face); } ///< the next; false where there is none yet
   bool take(Tick_view& tick) { return ticks_.pop(tick); }   ///< the next; false where there is none yet
   /// Ticks that found no room so far.
   std::uint64_t lost_ticks() const { return lost_ticks_.load(std::memory_order_relaxed); }
   ///@}
 
 private:
-  boost::lockfree::spsc_queue<Face_change> faces_;
+  boost::lockfree::spsc_queue<Face> faces_;
   boost::lockfree::spsc_queue<Tick_view> ticks_;
   std::uint64_t passed_on_ = 0;
   std::atomic<std::uint64_t> lost_ticks_{0};
 };
+
+/// Of scenes whose viewers need no more than corners.
+using Scene_feed = Basic_scene_feed<Face_change>;
 
 } // namespace haptic_sculpt
 

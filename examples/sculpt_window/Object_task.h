@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_OBJECT_TASK_H
+#define HAPTIC_SCULPT_EXAMPLES_WINDOW_OBJECT_TASK_H
+
+#include "Stroke_task.h"
+
+#include "../sculpt/many_vertices_lines.h"
+
+namespace haptic_sculpt::window_program {
+
+/// An object in the hand: what is connected to where the mouse pointed goes with it, as far as nothing is in its way.
+class Object_task : public Stroke_task {
+public:
+  using Stroke_task::Stroke_task;
+
+private:
+  std::vector<Vertex_index> object_;
+
+  void begin(Scene& scene, Tool_type&, const Surface_hit<Mesh>& hit) override {
+    object_ = sculpt_program::component_of(scene.mesh, scene.mesh.source(scene.mesh.halfedge(hit.face)));
+  }
+
+  void work_at(const Pointer& pointer, Scene&, Tool_type& tool) override {
+    const Eigen::Vector3d way = way_to(pointer);
+    if (way.isZero(0))
+      return;
+    const auto report = tool.edit_by([&](auto& edits) {
+      return move_rigidly(edits, object_,
+                          CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION,
+                                                             Kernel::Vector_3(way[0], way[1], way[2])));
+    });
+    centre_ += report.share * way;
+  }
+};
+
+} // namespace haptic_sculpt::window_program
+
+#endif

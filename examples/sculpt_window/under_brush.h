@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_UNDER_BRUSH_H
+#define HAPTIC_SCULPT_EXAMPLES_WINDOW_UNDER_BRUSH_H
+
+#include "Tasks.h"
+
+#include <boost/property_map/function_property_map.hpp>
+
+#include <thread>
+
+/// \file
+/// What is under a brush, on all sides where it is symmetric; and remeshing of that, or of all.
+
+namespace haptic_sculpt::window_program {
+
+/// A dab and its mirror images, in planes through the middle of the mesh's box as it came.
+inline std::vector<Dab_3<Kernel>> with_mirrored(const Scene& scene, const Dab_3<Kernel>& dab,
+                                                const std::array<bool, 3>& symmetry) {
+  const Eigen::Vector3d middle = 0.5 * scene.lower + 0.5 * scene.upper;
+  std::vector<Dab_3<Kernel>> dabs{dab};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Kernel::Plane_3 plane(Kernel::Point_3(middle[0], middle[1], middle[2]),
+                                Kernel::Vector_3(axis == 0, axis == 1, axis == 2));
+    for (std::size_t i = symmetry[std::size_t(axis)] ? dabs.size() : 0; i > 0; --i)
+      dabs.push_back(mirrored(dabs[i - 1], plane));
+  }
+  return dabs;
+}
+
+/// Calls `function(v, square)` for the vertices that dabs touch, with how far each is from the centre, in radii,
+/// squared; for each dab.
+template <class Function>
+void for_each_touched(Scene& scene, const std::vector<Dab_3<Kernel>>& dabs, const Function& function) {
+  for (const auto& dab : dabs)
+    if (const Vertex_index nearest = scene.sculptor.nearest_vertex(dab.centre, dab.radius); nearest.is_valid())
+      for (const Vertex_index v : touched_vertices(scene.mesh, dab, nearest))
+        function(v, dab.squared_share(scene.mesh.point(v)));
+}
+
+/// Faces of which a dab touches all corners, each once.
+inline std::vector<Face_index> faces_under(Scene& scene, const std::vector<Dab_3<Kernel>>& dabs) {
+  std::vector<Face_index> faces; // once for each corner
+  for_each_touched(scene, dabs, [&](Vertex_index v, double) {
+    for (const Face_index f : scene.mesh.faces_around_target(scene.mesh.halfedge(v)))
+      faces.push_back(f);
+  });
+  std::sort(faces.begin(), faces.end());
+  std::vector<Face_index> whole;
+  for (std::size_t i = 0; i + 2 < faces.size(); ++i)
+    if (faces[i] == faces[i + 2] && (whole.empty() || whole.back() != faces[i]))
+      whole.push_back(faces[i]);
+  return whole;
+}
+
+/// How much of a vertex takes part in what brushes do.
+inline auto share_left_free(const Scene& scene) {
+  return boost::make_function_property_map<Vertex_index>([&mask = scene.mask](Vertex_index v) { return 1 - mask[v]; });
+}
+
+/// Remeshes faces to edges of about a length; masked vertices stay. Waits for the disk where the log has no room.
+/// \throw Invalid_parameter where it would be more triangles than can be shown
+inline void remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, const std::vector<Face_index>& faces,
+                          double length) {
+  constexpr std::size_t most_faces = 5000000;
+  const auto may_go_on = [journal = scene.log.journal()](const Remeshing_progress&) {
+    const std::size_t room = 8 * Remeshing_parameters::operations_between_calls;
+    while (journal != nullptr && journal->room() < room && !journal->has_overrun())
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return true;
+  };
+  const auto is_masked =
+      boost::make_function_property_map<Vertex_index>([&mask = scene.mask](Vertex_index v) { return mask[v] > 0; });
+  tool.edit_by([&](auto& edits) {
+    return isotropic_remeshing(faces, edits, length,
+                               CGAL::parameters::number_of_iterations(2).vertex_is_constrained_map(is_masked),
+                               Remeshing_parameters().most_faces(most_faces).progress(may_go_on));
+  });
+}
+
+/// Remeshes what is under a brush, or all of the mesh.
+class Remesh : public Window_task {
+public:
+  /// \param brush under it, where the mouse points; none: all \param length of edges; 0: as the brush needs them, of
+  /// all as they were when the mesh came
+  Remesh(const Pointer& pointer, const std::optional<Brush>& brush, double length)
+      : pointer_(pointer), brush_(brush), length_(length) {}
+
+private:
+  Pointer pointer_;
+  std::optional<Brush> brush_;
+  double length_;
+
+  bool work(Scene& scene, Tool_type& tool) override {
+    tool.let_go();
+    if (!brush_) {
+      remesh(scene, tool, {scene.mesh.faces().begin(), scene.mesh.faces().end()},
+             length_ > 0 ? length_ : scene.edge_length);
+      return true;
+    }
+    const Hit hit = hit_of(scene, pointer_);
+    if (!hit)
+      return refuse("there is nothing to remesh here: point at the surface");
+    const Dab_3<Kernel> dab{Brush_kind::smooth, hit->point, brush_->radius, 0};
+    remesh(scene, tool, faces_under(scene, with_mirrored(scene, dab, brush_->symmetry)),
+           length_ > 0 ? length_ : brush_->edge_length());
+    return true;
+  }
+};
+
+/// Nothing is masked any more.
+class Unmask_all : public Window_task {
+  bool work(Scene& scene, Tool_type&) override {
+    for (const Vertex_index v : scene.mesh.vertices())
+      if (std::exchange(scene.mask[v], 0) > 0)
+        scene.show_again(v);
+    return true;
+  }
+};
+
+} // namespace haptic_sculpt::window_program
+
+#endif
