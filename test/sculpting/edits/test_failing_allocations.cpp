@@ -115,6 +115,15 @@ std::vector<Case<World>> all_cases() {
   const auto drag = [](World& w) { w.drag(8, 0.1); };
   const auto push = [](World& w) { w.drag(8, -40); };
   const auto move = [](World& w) { w.sculptor.move_if_free(Vertex_index(8), w.beside(8, 0.05)); };
+  // All along x: a little farther, and through each other, which is refused.
+  const auto shift_by = [](World& w, double factor) {
+    std::vector<std::pair<Vertex_index, double>> ways;
+    for (const auto v : w.mesh.vertices())
+      ways.emplace_back(v, w.mesh.point(v).x() * factor);
+    w.sculptor.shift(0, ways);
+  };
+  const auto shift = [shift_by](World& w) { shift_by(w, 1.25); };
+  const auto mirror = [shift_by](World& w) { shift_by(w, -1); };
   const auto take = [](World& w) { w.grab.emplace(w.sculptor.grab(Vertex_index(8))); };
   const auto undo = [](World& w) { w.sculptor.undo(); };
   const auto redo = [](World& w) { w.sculptor.redo(); };
@@ -158,7 +167,9 @@ std::vector<Case<World>> all_cases() {
                                              {"remove", remove},
                                              {"collapse", collapse},
                                              {"flip", flip},
-                                             {"move if free", move}};
+                                             {"move if free", move},
+                                             {"shift", shift},
+                                             {"shift that is refused", mirror}};
   for (const auto& [name, edit] : edits) {
     cases.push_back({name, nothing<World>, edit});
     cases.push_back({name, begin_stroke, edit});
