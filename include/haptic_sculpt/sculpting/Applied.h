@@ -15,7 +15,7 @@ namespace haptic_sculpt {
 template <class Mesh>
 struct Applied : Edit_result<Mesh> {
   /// As it can be done again: a slide as its legs, a removal as the collapse that it was. Of kind `none` where it was
-  /// refused, or nothing has moved.
+  /// refused, or nothing has moved; but an undo or redo that was refused and has ended a stroke is itself.
   Edit edit;
   std::optional<Drag_result<Mesh>> drag; ///< of a move: the last leg's
 
@@ -57,9 +57,9 @@ public:
     case Edit_kind::shift:
       return shift(sculptor, edit);
     case Edit_kind::undo:
-      return done(edit, sculptor.undo());
+      return restored(sculptor, edit, [&] { return sculptor.undo(); });
     case Edit_kind::redo:
-      return done(edit, sculptor.redo());
+      return restored(sculptor, edit, [&] { return sculptor.redo(); });
     case Edit_kind::stroke:
       strokes_.push_back(sculptor.stroke());
       break;
@@ -86,6 +86,16 @@ private:
     if (done)
       done.edit = edit;
     return done;
+  }
+
+  /// One that is refused has ended the stroke under way all the same, and does so again.
+  template <class Restore>
+  static Done restored(Sculptor& sculptor, const Edit& edit, const Restore& restore) {
+    const bool ends_stroke = Sculptor_access::guarded(sculptor).editor().history().is_in_stroke();
+    Done result = done(edit, restore());
+    if (ends_stroke)
+      result.edit = edit;
+    return result;
   }
 
   /// Contacts are carried on from the last edit, if that was a move of the same vertex.
