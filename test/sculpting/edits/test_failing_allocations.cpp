@@ -124,6 +124,7 @@ std::vector<Case<World>> all_cases() {
   };
   const auto shift = [shift_by](World& w) { shift_by(w, 1.25); };
   const auto mirror = [shift_by](World& w) { shift_by(w, -1); };
+  const auto by_value = [](auto edit) { return [edit](World& w) { w.sculptor.apply(edit(w)); }; };
   const auto take = [](World& w) { w.grab.emplace(w.sculptor.grab(Vertex_index(8))); };
   const auto undo = [](World& w) { w.sculptor.undo(); };
   const auto redo = [](World& w) { w.sculptor.redo(); };
@@ -169,7 +170,17 @@ std::vector<Case<World>> all_cases() {
                                              {"flip", flip},
                                              {"move if free", move},
                                              {"shift", shift},
-                                             {"shift that is refused", mirror}};
+                                             {"shift that is refused", mirror},
+                                             {"drag by value", by_value([](World& w) {
+                                                const Point_3 p = w.beside(8, -40);
+                                                return Edit::of(Edit_kind::move, {8, 0, 0}, {p.x(), p.y(), p.z()});
+                                              })},
+                                             {"shift by value", by_value([](World& w) {
+                                                Edit edit = Edit::of(Edit_kind::shift);
+                                                for (std::size_t v = 0; v < 20; ++v)
+                                                  edit.ways.emplace_back(v, w.beside(v, 0).x() + 0.125);
+                                                return edit;
+                                              })}};
   for (const auto& [name, edit] : edits) {
     cases.push_back({name, nothing<World>, edit});
     cases.push_back({name, begin_stroke, edit});
