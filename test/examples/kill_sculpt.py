@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""kill -9 while `sculpt` edits and logs, with options, directives and strokes mixed in; the same command goes on until it is through.
+"""kill -9, and other signals, while `sculpt` edits and logs, with options, directives and strokes mixed in; the same command goes on
+until it is through.
 
 Whenever it is killed, its log is the beginning of the log of a run that is not killed, byte for byte; replayed, it gives what its lines
 give as a script; a stroke it was killed in is taken back by one undo; and in the end log and result are those of the run that is not
 killed. HAPTIC_SCULPT_KILLS says how often (12)."""
 import os
 import random
+import signal
 import subprocess
 import tempfile
 import time
@@ -16,6 +18,7 @@ from program_runs import SCULPT, SOURCE, before_open_stroke, bytes_of, check, en
 MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
 KILLS = int(os.environ.get("HAPTIC_SCULPT_KILLS", "12"))
 SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "7"))
+SIGNALS = [signal.SIGKILL] * 5 + [signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGUSR1, signal.SIGALRM]
 
 
 def random_script(rng, lines):
@@ -83,12 +86,12 @@ def main():
                 if attempt < 11 and kills < KILLS:
                     # Often near the end, where the results are written.
                     time.sleep(takes * (rng.uniform(0.85, 1.02) if rng.random() < 0.3 else rng.uniform(0, 1)))
-                    process.kill()
+                    process.send_signal(rng.choice(SIGNALS))
                 code = process.wait()
                 left = bytes_of(log) if os.path.exists(log) else b""
                 check(sound.startswith(left), f"the log of a killed run is not the beginning of a whole one (seed {SEED}, kill {kills})")
                 check(not os.path.exists(out) or bytes_of(out) == result, "a part of a result, or another")
-                if code != -9:
+                if code >= 0:
                     break
                 kills += 1
                 within_a_line += not left.endswith(b"\n") and left != b""

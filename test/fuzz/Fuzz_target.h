@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@
 /// sanitizer.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-/// Good inputs to be damaged. The first byte, which says what kind of input it is, is never damaged.
-std::vector<std::string> fuzz_seeds();
+/// An input that is likely to lead far.
+std::string fuzz_input(std::mt19937_64& random);
 
 /// What became of the inputs so far, for people.
 std::string fuzz_summary();

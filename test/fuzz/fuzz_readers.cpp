@@ -4,7 +4,10 @@
 /// Whatever bytes a mesh file holds, `read_surface()` throws an `Error`, or returns a valid surface that comes back to
 /// the bit from every format it can be written to. The first byte of the input tells the format.
 
+#include <fuzz/Damage.h>
 #include <fuzz/Fuzz_target.h>
+#include <fuzz/require.h>
+#include <fuzz/temporary_folder.h>
 #include <meshes/generated_meshes.h>
 
 #include <haptic_sculpt/surface/read_surface.h>
@@ -15,42 +18,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
-
-#include <unistd.h>
 
 namespace {
 
 using namespace haptic_sculpt;
+using fuzz::require;
+using fuzz::temporary_folder;
 using meshes::Mesh;
 using Encoding = Write_options::Encoding;
 
 constexpr std::array<const char*, 4> extensions{"off", "ply", "obj", "stl"};
 std::array<std::size_t, 4> accepted{}, refused{};
-
-/// A folder of this process in the folder for temporary files.
-const std::filesystem::path& folder() {
-  struct Folder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("haptic_sculpt_fuzz_" + std::to_string(::getpid()));
-    Folder() { std::filesystem::create_directory(path); }
-    ~Folder() {
-      std::error_code ignored; // what cannot be removed is left to the system
-      std::filesystem::remove_all(path, ignored);
-    }
-  };
-  static const Folder the_folder;
-  return the_folder.path;
-}
-
-void require(bool holds, const char* promise) {
-  if (holds)
-    return;
-  std::fprintf(stderr, "broken promise: %s\n", promise);
-  std::abort();
-}
 
 bool same_bits(const Mesh& a, const Mesh& b) {
   const Face_soup s = face_soup(a), t = face_soup(b);
@@ -78,7 +58,7 @@ bool same_attributes(const Mesh& a, const Mesh& b) {
 void check_way_back(const Mesh& mesh, const char* extension, Encoding encoding) {
   Write_options options;
   options.encoding = encoding;
-  const auto path = folder() / (std::string("back.") + extension);
+  const auto path = temporary_folder() / (std::string("back.") + extension);
   write_surface(path, mesh, options);
   const Mesh back = read_surface<Mesh>(path);
   require(same_bits(back, mesh), "what is written comes back to the bit");
@@ -93,14 +73,42 @@ bool all_floats(const Mesh& mesh) {
   });
 }
 
+/// Good files, the format first.
+std::vector<std::string> good_files() {
+  auto two = meshes::tetrahedron(), second = meshes::tetrahedron();
+  two += second.scale_and_move(0.125, 0.0625, 0.125, 0.25).turn_inside_out();
+  std::vector<std::string> seeds;
+  for (const auto& list : {meshes::tetrahedron(), two, meshes::cube()})
+    for (std::size_t format = 0; format < extensions.size(); ++format)
+      for (const Encoding encoding : {Encoding::ascii, Encoding::binary}) {
+        if (encoding == Encoding::binary && format % 2 == 0)
+          continue; // OFF and OBJ are text
+        Write_options options;
+        options.encoding = encoding;
+        const auto path = temporary_folder() / (std::string("seed.") + extensions[format]);
+        write_surface(path, meshes::to_mesh(list), options);
+        std::ifstream file(path, std::ios::binary);
+        seeds.push_back(std::string(1, char(format)) +
+                        std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()));
+      }
+  seeds.push_back(char(1) + std::string("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty char x\n"
+                                        "property float y\nproperty float z\nproperty uchar red\nproperty float heat\n"
+                                        "property uchar red\nproperty list uchar int more\nelement face 4\n"
+                                        "property list uchar int vertex_indices\nend_header\n0 0 0 0 255 nan 1 0\n"
+                                        "0 1 0 0 3 -1e30 1 1 5\n0 0 1 0 4 2 1 0\n0 0 0 1 5 1 1 0\n3 0 2 1\n3 0 1 3\n"
+                                        "3 1 2 3\n3 2 0 3\n"));
+  seeds.push_back(char(2) + std::string("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 1 0.2 0.3 4\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
+                                        "f 2 3 4\nf 3 1 4\n"));
+  return seeds;
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0)
     return 0;
   const std::size_t format = data[0] % extensions.size();
-  const auto path = folder() / (std::string("in.") + extensions[format]);
-  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(data + 1), std::streamsize(size - 1));
+  const auto path = fuzz::temporary_file(std::string("in.") + extensions[format], data + 1, size - 1);
   Mesh mesh;
   try {
     mesh = read_surface<Mesh>(path);
@@ -121,32 +129,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-std::vector<std::string> fuzz_seeds() {
-  auto two = meshes::tetrahedron(), second = meshes::tetrahedron();
-  two += second.scale_and_move(0.125, 0.0625, 0.125, 0.25).turn_inside_out();
-  std::vector<std::string> seeds;
-  for (const auto& list : {meshes::tetrahedron(), two, meshes::cube()})
-    for (std::size_t format = 0; format < extensions.size(); ++format)
-      for (const Encoding encoding : {Encoding::ascii, Encoding::binary}) {
-        if (encoding == Encoding::binary && format % 2 == 0)
-          continue; // OFF and OBJ are text
-        Write_options options;
-        options.encoding = encoding;
-        const auto path = folder() / (std::string("seed.") + extensions[format]);
-        write_surface(path, meshes::to_mesh(list), options);
-        std::ifstream file(path, std::ios::binary);
-        seeds.push_back(std::string(1, char(format)) +
-                        std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()));
-      }
-  seeds.push_back(char(1) + std::string("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty char x\n"
-                                        "property float y\nproperty float z\nproperty uchar red\nproperty float heat\n"
-                                        "property uchar red\nproperty list uchar int more\nelement face 4\n"
-                                        "property list uchar int vertex_indices\nend_header\n0 0 0 0 255 nan 1 0\n"
-                                        "0 1 0 0 3 -1e30 1 1 5\n0 0 1 0 4 2 1 0\n0 0 0 1 5 1 1 0\n3 0 2 1\n3 0 1 3\n"
-                                        "3 1 2 3\n3 2 0 3\n"));
-  seeds.push_back(char(2) + std::string("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 1 0.2 0.3 4\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
-                                        "f 2 3 4\nf 3 1 4\n"));
-  return seeds;
+std::string fuzz_input(std::mt19937_64& random) {
+  static const std::vector<std::string> seeds = good_files();
+  return fuzz::Damage(random, seeds)();
 }
 
 std::string fuzz_summary() {

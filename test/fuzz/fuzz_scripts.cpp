@@ -5,6 +5,8 @@
 #include "sculpt/Log_text.h"
 #include "sculpt/Run_result.h"
 
+#include <fuzz/Fuzz_target.h>
+#include <fuzz/Random_scripts.h>
 #include <meshes/generated_meshes.h>
 
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
@@ -23,6 +25,7 @@ using namespace haptic_sculpt;
 using namespace haptic_sculpt::sculpt_program;
 
 const std::string any_hash(64, 'a');
+std::size_t carried_out = 0, not_parsed = 0;
 
 [[noreturn]] void fault(const std::string& what, const std::string& script) {
   std::fprintf(stderr, "FAULT: %s\nscript (%zu bytes):\n%s\n", what.c_str(), script.size(), script.c_str());
@@ -93,10 +96,6 @@ void check_change(std::string log, std::size_t at, unsigned char by, const std::
   fault("byte " + std::to_string(at % log.size()) + " of the log can be changed unnoticed", script + "\nlog:\n" + log);
 }
 
-} // namespace
-
-namespace {
-
 /// A remeshing to short edges of what was drawn far out takes minutes, which finds nothing more.
 bool takes_long(const std::vector<Command>& commands) {
   const auto is = [&](const auto& condition) { return std::any_of(commands.begin(), commands.end(), condition); };
@@ -120,6 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const Script_error& error) {
     if (std::strncmp(error.what(), "the script: line ", 17) != 0)
       fault(std::string("the message names no line: ") + error.what(), script);
+    ++not_parsed;
     return 0;
   }
   if (commands.empty() || commands.size() > 40 || takes_long(commands))
@@ -140,6 +140,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string log = writer.head(any_hash, settings);
   log += writer.pass(any_hash, 0);
 
+  ++carried_out;
   Mesh mesh = mesh_of(choice);
   const bool is_done = carry_out(mesh, commands, parameters,
                                  [&](const Command& command) { log += writer.command(command, command.line); });
@@ -149,4 +150,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_log(log, mesh, choice, commands.size(), script);
   check_change(log, data[2] * std::size_t(256) + data[3], static_cast<unsigned char>(data[2] ^ (data[3] << 4)), script);
   return 0;
+}
+
+std::string fuzz_input(std::mt19937_64& random) {
+  return fuzz::Random_scripts(random).next();
+}
+
+std::string fuzz_summary() {
+  return std::to_string(carried_out) + " scripts carried out, " + std::to_string(not_parsed) + " refused";
 }

@@ -7,6 +7,7 @@
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
+#include <haptic_sculpt/sculpting/response/Slide_path.h>
 
 namespace haptic_sculpt {
 
@@ -14,7 +15,7 @@ namespace haptic_sculpt {
 template <class Mesh>
 struct Applied : Edit_result<Mesh> {
   /// As it can be done again: a slide as its legs, a removal as the collapse that it was. Of kind `none` where it was
-  /// refused, or nothing has moved.
+  /// refused, or nothing has moved; but an undo or redo that was refused and has ended a stroke is itself.
   Edit edit;
   std::optional<Drag_result<Mesh>> drag; ///< of a move: the last leg's
 
@@ -32,45 +33,45 @@ public:
 
   Done apply(Sculptor& sculptor, const Edit& edit) {
     const Rounding_to_nearest rounding;
+    if (edit.kind == Edit_kind::move)
+      return move(sculptor, edit);
+    Edit made = edit; // before anything is changed: memory may run out
     const auto& v = edit.vertices;
     const Point p = point(edit.point);
-    if (edit.kind != Edit_kind::move)
-      sculptor.release();
+    sculptor.release();
     switch (edit.kind) {
-    case Edit_kind::move:
-      return move(sculptor, edit);
     case Edit_kind::insert_on_face:
-      return done(edit, sculptor.insert_on_face(sculptor.face_of(v[0], v[1], v[2]), p));
+      return done(std::move(made), sculptor.insert_on_face(sculptor.face_of(v[0], v[1], v[2]), p));
     case Edit_kind::insert_on_edge:
-      return done(edit, sculptor.insert_on_edge(sculptor.edge_of(v[0], v[1]), p));
+      return done(std::move(made), sculptor.insert_on_edge(sculptor.edge_of(v[0], v[1]), p));
     case Edit_kind::remove: {
-      Done result = done(edit, sculptor.remove(sculptor.vertex(v[0])));
+      Done result = done(std::move(made), sculptor.remove(sculptor.vertex(v[0])));
       if (result)
         result.edit = Edit::of(Edit_kind::collapse, {v[0], sculptor.id(*result.vertex), 0});
       return result;
     }
     case Edit_kind::collapse:
-      return done(edit, sculptor.collapse(sculptor.halfedge_of(v[0], v[1])));
+      return done(std::move(made), sculptor.collapse(sculptor.halfedge_of(v[0], v[1])));
     case Edit_kind::flip:
-      return done(edit, sculptor.flip(sculptor.edge_of(v[0], v[1])));
+      return done(std::move(made), sculptor.flip(sculptor.edge_of(v[0], v[1])));
     case Edit_kind::shift:
-      return shift(sculptor, edit);
+      return shift(sculptor, edit, std::move(made));
     case Edit_kind::undo:
-      return done(edit, sculptor.undo());
+      return restored(sculptor, std::move(made), [&] { return sculptor.undo(); });
     case Edit_kind::redo:
-      return done(edit, sculptor.redo());
+      return restored(sculptor, std::move(made), [&] { return sculptor.redo(); });
     case Edit_kind::stroke:
       strokes_.push_back(sculptor.stroke());
       break;
     case Edit_kind::end:
       if (strokes_.empty())
-        return done(edit, Edit_result<Mesh>::refused(Refusal_reason::no_stroke));
+        return done({}, Edit_result<Mesh>::refused(Refusal_reason::no_stroke));
       strokes_.pop_back();
       break;
-    case Edit_kind::none:
+    default: // none
       break;
     }
-    return done(edit, {});
+    return done(std::move(made), {});
   }
 
 private:
@@ -79,22 +80,34 @@ private:
 
   static Point point(const std::array<double, 3>& p) { return Point(p[0], p[1], p[2]); }
 
-  static Done done(const Edit& edit, Edit_result<Mesh>&& result) {
+  static Done done(Edit&& made, Edit_result<Mesh>&& result) {
     Done done;
     static_cast<Edit_result<Mesh>&>(done) = std::move(result);
     if (done)
-      done.edit = edit;
+      done.edit = std::move(made);
     return done;
+  }
+
+  /// One that is refused has ended the stroke under way all the same, and does so again.
+  template <class Restore>
+  static Done restored(Sculptor& sculptor, Edit&& made, const Restore& restore) {
+    const bool ends_stroke = Sculptor_access::guarded(sculptor).editor().history().is_in_stroke();
+    Done result;
+    static_cast<Edit_result<Mesh>&>(result) = restore();
+    if (result || ends_stroke)
+      result.edit = std::move(made);
+    return result;
   }
 
   /// Contacts are carried on from the last edit, if that was a move of the same vertex.
   Done move(Sculptor& sculptor, const Edit& edit) {
     const auto v = sculptor.vertex(edit.vertices[0]);
     if (!v.is_valid())
-      return done(edit, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
+      return done({}, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
     Done result;
     result.vertex = v;
     const auto drag_to = [&](const std::array<double, 3>& p) {
+      result.edit.legs.reserve(result.edit.legs.size() + Slide_path::most_legs); // before it: memory may run out
       result.drag = Sculptor_access::guarded(sculptor).drag(v, point(p), &path_, std::nullopt);
       for (std::size_t k = 1; k < path_.size(); ++k)
         if (path_[k] != path_[k - 1]) // +0 and -0 are one place
@@ -114,15 +127,15 @@ private:
     return result;
   }
 
-  static Done shift(Sculptor& sculptor, const Edit& edit) {
+  static Done shift(Sculptor& sculptor, const Edit& edit, Edit&& made) {
     std::vector<std::pair<typename Mesh::Vertex_index, double>> ways;
     ways.reserve(edit.ways.size());
     for (const auto& [id, end] : edit.ways) {
       ways.emplace_back(sculptor.vertex(id), end);
       if (!ways.back().first.is_valid())
-        return done(edit, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
+        return done({}, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
     }
-    return done(edit, sculptor.shift(edit.axis, ways));
+    return done(std::move(made), sculptor.shift(edit.axis, ways));
   }
 };
 

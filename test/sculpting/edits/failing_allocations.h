@@ -26,6 +26,9 @@ public:
       throw std::bad_alloc();
     if (left_ != 0 && --left_ == 0)
       throw std::bad_alloc();
+    return allocate_always(size, alignment);
+  }
+  static void* allocate_always(std::size_t size, std::size_t alignment) {
     void* const p = alignment == 0 ? std::malloc(size != 0 ? size : 1)
                                    : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
     if (p == nullptr)
@@ -40,14 +43,39 @@ private:
 
 } // namespace haptic_sculpt::test
 
-// Not inlined, or g++ sees free() meet operator new and warns. The array and nothrow forms call these.
-__attribute__((noinline)) void* operator new(std::size_t size) {
-  return haptic_sculpt::test::Failing_allocations::allocate(size, 0);
-}
-__attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {
+// Not inlined, or g++ sees free() meet operator new and warns. All forms: AddressSanitizer has its own of each, which do
+// not call these. Arrays are always given: only CGAL's Mpzf asks for them, which frees what it never had where memory
+// runs out in it.
+#define HAPTIC_SCULPT_NEW __attribute__((noinline)) void* operator
+HAPTIC_SCULPT_NEW new(std::size_t size) { return haptic_sculpt::test::Failing_allocations::allocate(size, 0); }
+HAPTIC_SCULPT_NEW new[](std::size_t size) { return haptic_sculpt::test::Failing_allocations::allocate_always(size, 0); }
+HAPTIC_SCULPT_NEW new(std::size_t size, std::align_val_t alignment) {
   return haptic_sculpt::test::Failing_allocations::allocate(size, static_cast<std::size_t>(alignment));
 }
-__attribute__((noinline)) void operator delete(void* p) noexcept { std::free(p); }
-__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-__attribute__((noinline)) void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-__attribute__((noinline)) void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+HAPTIC_SCULPT_NEW new[](std::size_t size, std::align_val_t alignment) {
+  return haptic_sculpt::test::Failing_allocations::allocate_always(size, static_cast<std::size_t>(alignment));
+}
+HAPTIC_SCULPT_NEW new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return haptic_sculpt::test::Failing_allocations::allocate(size, 0);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+HAPTIC_SCULPT_NEW new[](std::size_t size, const std::nothrow_t&) noexcept {
+  return std::malloc(size != 0 ? size : 1);
+}
+#undef HAPTIC_SCULPT_NEW
+#define HAPTIC_SCULPT_DELETE __attribute__((noinline)) void operator
+HAPTIC_SCULPT_DELETE delete(void* p) noexcept { std::free(p); }
+HAPTIC_SCULPT_DELETE delete[](void* p) noexcept { std::free(p); }
+HAPTIC_SCULPT_DELETE delete(void* p, std::size_t) noexcept { std::free(p); }
+HAPTIC_SCULPT_DELETE delete[](void* p, std::size_t) noexcept { std::free(p); }
+HAPTIC_SCULPT_DELETE delete(void* p, std::align_val_t) noexcept { std::free(p); }
+HAPTIC_SCULPT_DELETE delete[](void* p, std::align_val_t) noexcept { std::free(p); }
+HAPTIC_SCULPT_DELETE delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+HAPTIC_SCULPT_DELETE delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+HAPTIC_SCULPT_DELETE delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
+HAPTIC_SCULPT_DELETE delete[](void* p, const std::nothrow_t&) noexcept { std::free(p); }
+#undef HAPTIC_SCULPT_DELETE
+

@@ -53,7 +53,8 @@ BOOST_AUTO_TEST_CASE(what_was_applied_can_be_done_again) {
   const std::size_t edits = count_from_environment("HAPTIC_SCULPT_APPLIED_EDITS", 4000);
   Random random(seed_from_environment(61));
   std::map<Edit_kind, std::size_t> done, refused;
-  std::size_t legs = 0, different = 0, not_again = 0, changed_by_refusal = 0, other_steps = 0, misplaced = 0;
+  std::size_t legs = 0, ended_strokes = 0, different = 0, not_again = 0, changed_by_refusal = 0, other_steps = 0;
+  std::size_t misplaced = 0;
   for (std::size_t i = 0; i < edits;) {
     Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05)), copy = mesh;
     Sculptor<Mesh> sculptor(mesh), other(copy, parameters::response(Response::stop));
@@ -62,16 +63,18 @@ BOOST_AUTO_TEST_CASE(what_was_applied_can_be_done_again) {
       const Mesh_snapshot before = snapshot(sculptor);
       const auto result = sculptor.apply(wanted);
       ++(result ? done : refused)[wanted.kind];
-      if (!result)
-        changed_by_refusal += snapshot(sculptor) != before || result.edit.kind != Edit_kind::none;
       const bool has_place = result && wanted.kind != Edit_kind::stroke && wanted.kind != Edit_kind::end;
       misplaced += result.vertex.has_value() != has_place ||
                    (has_place && (!mesh.has_valid_index(*result.vertex) || mesh.is_removed(*result.vertex)));
       const Edit again = result; // by value
       legs += again.legs.size();
       // Undo and redo end the stroke under way, refused or not.
-      const bool has_ended_stroke = !result && (wanted.kind == Edit_kind::undo || wanted.kind == Edit_kind::redo);
-      const auto second = other.apply(has_ended_stroke ? wanted : again);
+      const bool has_ended_stroke = !result && again.kind != Edit_kind::none;
+      ended_strokes += has_ended_stroke;
+      if (!result)
+        changed_by_refusal += snapshot(sculptor) != before ||
+                              (has_ended_stroke && wanted.kind != Edit_kind::undo && wanted.kind != Edit_kind::redo);
+      const auto second = other.apply(again);
       not_again += bool(second) == has_ended_stroke || (second.drag && !second.drag->reached);
       different += snapshot(sculptor) != snapshot(other);
       other_steps += sculptor.history().number_of_undo_steps() != other.history().number_of_undo_steps() ||
@@ -89,6 +92,7 @@ BOOST_AUTO_TEST_CASE(what_was_applied_can_be_done_again) {
   }
   BOOST_TEST_MESSAGE(legs << " legs before the last ones");
   BOOST_TEST(is_enough(legs, edits / 50));
+  BOOST_TEST(is_enough(ended_strokes, edits / 500));
   BOOST_TEST(changed_by_refusal == 0u);
   BOOST_TEST(misplaced == 0u); // where an edit was done is a vertex of the mesh
   BOOST_TEST(not_again == 0u);

@@ -115,6 +115,16 @@ std::vector<Case<World>> all_cases() {
   const auto drag = [](World& w) { w.drag(8, 0.1); };
   const auto push = [](World& w) { w.drag(8, -40); };
   const auto move = [](World& w) { w.sculptor.move_if_free(Vertex_index(8), w.beside(8, 0.05)); };
+  // All along x: a little farther, and through each other, which is refused.
+  const auto shift_by = [](World& w, double factor) {
+    std::vector<std::pair<Vertex_index, double>> ways;
+    for (const auto v : w.mesh.vertices())
+      ways.emplace_back(v, w.mesh.point(v).x() * factor);
+    w.sculptor.shift(0, ways);
+  };
+  const auto shift = [shift_by](World& w) { shift_by(w, 1.25); };
+  const auto mirror = [shift_by](World& w) { shift_by(w, -1); };
+  const auto by_value = [](auto edit) { return [edit](World& w) { w.sculptor.apply(edit(w)); }; };
   const auto take = [](World& w) { w.grab.emplace(w.sculptor.grab(Vertex_index(8))); };
   const auto undo = [](World& w) { w.sculptor.undo(); };
   const auto redo = [](World& w) { w.sculptor.redo(); };
@@ -158,7 +168,19 @@ std::vector<Case<World>> all_cases() {
                                              {"remove", remove},
                                              {"collapse", collapse},
                                              {"flip", flip},
-                                             {"move if free", move}};
+                                             {"move if free", move},
+                                             {"shift", shift},
+                                             {"shift that is refused", mirror},
+                                             {"drag by value", by_value([](World& w) {
+                                                const Point_3 p = w.beside(8, -40);
+                                                return Edit::of(Edit_kind::move, {8, 0, 0}, {p.x(), p.y(), p.z()});
+                                              })},
+                                             {"shift by value", by_value([](World& w) {
+                                                Edit edit = Edit::of(Edit_kind::shift);
+                                                for (std::size_t v = 0; v < 20; ++v)
+                                                  edit.ways.emplace_back(v, w.beside(v, 0).x() + 0.125);
+                                                return edit;
+                                              })}};
   for (const auto& [name, edit] : edits) {
     cases.push_back({name, nothing<World>, edit});
     cases.push_back({name, begin_stroke, edit});

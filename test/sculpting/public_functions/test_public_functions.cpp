@@ -3,15 +3,12 @@
 // may be in. check_public_functions.py sees to it that none is missing.
 #include <boost/test/unit_test.hpp>
 
+#include "sculpting/public_functions/Callers_mode.h"
 #include "sculpting/public_functions/free_functions.h"
 #include "sculpting/public_functions/sculptor_functions.h"
 
-#include <cfenv>
 #include <set>
 #include <string>
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -24,43 +21,6 @@ std::vector<Public_function> public_functions() {
     all.push_back(std::move(function));
   return all;
 }
-
-/// As long as it lives, doubles are rounded so, and subnormal numbers are zeros or not, as a caller's program may have
-/// it.
-class Callers_mode {
-public:
-  Callers_mode(int rounding, bool flushes) {
-    std::fesetround(rounding);
-#if defined(__SSE2__)
-    if (flushes)
-      _mm_setcsr(_mm_getcsr() | 0x8040);
-#else
-    (void)flushes;
-#endif
-    at_first_ = control();
-  }
-  ~Callers_mode() {
-#if defined(__SSE2__)
-    _mm_setcsr(_mm_getcsr() & ~0x8040u);
-#endif
-    std::fesetround(FE_TONEAREST);
-  }
-
-  /// Whether all is as it was: the bits for what is rounded how, and what is flushed, not those that tell what has
-  /// happened.
-  bool stands() const { return control() == at_first_; }
-
-private:
-  std::pair<int, unsigned> at_first_;
-
-  static std::pair<int, unsigned> control() {
-#if defined(__SSE2__)
-    return {std::fegetround(), _mm_getcsr() & ~0x3fu};
-#else
-    return {std::fegetround(), 0};
-#endif
-  }
-};
 
 } // namespace
 

@@ -23,12 +23,13 @@ public:
   /// \param faces near ones side by side \param are_all whether these are all; else at least those that move and all
   /// that these could meet. Cost: linear in what is taken
   void take(const std::vector<Face_index>& faces, bool are_all) {
+    forget();
     scale_ = Box_scale([&](const auto& visit) {
       for (const Face_index f : faces)
         visit(vertex_coordinates(*mesh_, mesh_->target(mesh_->halfedge(f))));
     });
-    scene_.take(faces, are_all);
     tree_.resize(faces.size());
+    scene_.take(faces, are_all); // last: then all has been taken
   }
 
   /// Connectivity is to change: what was taken is of no use any more.

@@ -48,7 +48,7 @@ public:
 
   /// As Axis_move::take().
   void take(const std::vector<Face_index>& faces, bool are_all) {
-    are_all_ = are_all;
+    are_all_ = false; // until all have been taken: memory may run out
     items_.clear();
     items_.reserve(faces.size());
     if (slot_of_face_.size() < mesh_->num_faces())
@@ -59,6 +59,7 @@ public:
       slot_of_face_[f] = static_cast<std::uint32_t>(items_.size());
       items_.push_back(item_of(f));
     }
+    are_all_ = are_all;
   }
   void forget() { are_all_ = false; } ///< connectivity is to change
 

@@ -1,54 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs the fuzz target of scripts where there is no libFuzzer: on files (a fault found), or on random scripts, half of
-// them put together from what scripts are made of, half of those with bytes changed.
+#ifndef HAPTIC_SCULPT_TEST_FUZZ_RANDOM_SCRIPTS_H
+#define HAPTIC_SCULPT_TEST_FUZZ_RANDOM_SCRIPTS_H
+
 #include <array>
-#include <chrono>
-#include <cmath>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
-#include <limits>
 #include <random>
 #include <string>
-#include <vector>
 
-#include <fcntl.h>
-#include <unistd.h>
+namespace haptic_sculpt::fuzz {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-
-// A sanitizer's finding, too, has to come to `keep_input()`.
-extern "C" const char* __asan_default_options() {
-  return "abort_on_error=1";
-}
-extern "C" const char* __ubsan_default_options() {
-  return "abort_on_error=1:print_stacktrace=1";
-}
-
-namespace {
-
-std::string input; ///< the one being tried
-constexpr const char* fault_file = "fuzz_scripts.fault";
-
-/// Keeps the input that crashed, or took more than a minute.
-void keep_input(int signal) {
-  // Nothing but system calls: the process is in an unknown state.
-  const int file = ::creat(fault_file, 0666);
-  const char* text =
-      signal == SIGALRM ? "an input takes too long; kept in fuzz_scripts.fault\n" : "kept in fuzz_scripts.fault\n";
-  if (file < 0 || ::write(file, input.data(), input.size()) < 0 || ::write(STDERR_FILENO, text, std::strlen(text)) < 0)
-    ::_exit(3);
-  ::_exit(1);
-}
-
+/// Scripts of all that scripts can say, some of them spoiled.
 class Random_scripts {
 public:
-  /// \param largest no number is larger, other than by a changed byte
-  Random_scripts(std::uint64_t seed, double largest) : random_(seed), largest_(largest) {}
+  explicit Random_scripts(std::mt19937_64& random) : random_(random) {}
 
   std::string next() {
     std::string bytes;
@@ -62,8 +28,7 @@ public:
   }
 
 private:
-  std::mt19937_64 random_;
-  double largest_;
+  std::mt19937_64& random_;
 
   std::size_t below(std::size_t n) { return random_() % n; }
 
@@ -73,11 +38,6 @@ private:
   }
 
   std::string number() {
-    const std::string text = any_number();
-    return std::abs(std::strtod(text.c_str(), nullptr)) > largest_ ? "1" : text;
-  }
-
-  std::string any_number() {
     static constexpr std::array<const char*, 24> special = {"0",
                                                             "-0",
                                                             "1",
@@ -199,55 +159,6 @@ private:
   }
 };
 
-int run_file(const char* name) {
-  std::ifstream file(name, std::ios::binary);
-  input.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file) {
-    std::fprintf(stderr, "cannot read %s\n", name);
-    return 2;
-  }
-  return LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
-}
+} // namespace haptic_sculpt::fuzz
 
-} // namespace
-
-int main(int argc, char** argv) {
-  std::uint64_t runs = 10000, seed = 1;
-  double largest = std::numeric_limits<double>::infinity();
-  std::vector<const char*> files;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strncmp(argv[i], "--runs=", 7) == 0)
-      runs = std::strtoull(argv[i] + 7, nullptr, 10);
-    else if (std::strncmp(argv[i], "--seed=", 7) == 0)
-      seed = std::strtoull(argv[i] + 7, nullptr, 10);
-    else if (std::strncmp(argv[i], "--largest=", 10) == 0)
-      largest = std::strtod(argv[i] + 10, nullptr);
-    else if (argv[i][0] == '-') {
-      std::fprintf(stderr,
-                   "usage: fuzz_scripts [--runs=N] [--seed=N] [--largest=X] | FILE...\nWith files: tries these. A "
-                   "fault is kept in %s.\n",
-                   fault_file);
-      return 2;
-    } else
-      files.push_back(argv[i]);
-  }
-  for (const int fatal : {SIGFPE, SIGSEGV, SIGABRT, SIGBUS, SIGILL, SIGALRM})
-    std::signal(fatal, files.empty() ? keep_input : SIG_DFL);
-  for (const char* name : files)
-    if (const int code = run_file(name); code != 0)
-      return code;
-  if (!files.empty())
-    return 0;
-  std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
-  std::fflush(stdout);
-  Random_scripts scripts(seed, largest);
-  const auto start = std::chrono::steady_clock::now();
-  for (std::uint64_t i = 0; i < runs; ++i) {
-    input = scripts.next();
-    if (i % 64 == 0)
-      ::alarm(60);
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
-  }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  std::printf("%llu scripts in %.1f s, no fault\n", static_cast<unsigned long long>(runs), took.count());
-}
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef HAPTIC_SCULPT_TEST_FUZZ_REQUIRE_H
+#define HAPTIC_SCULPT_TEST_FUZZ_REQUIRE_H
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace haptic_sculpt::fuzz {
+
+/// Ends the program unless what was promised holds.
+inline void require(bool holds, const char* promise) {
+  if (holds)
+    return;
+  std::fprintf(stderr, "broken promise: %s\n", promise);
+  std::abort();
+}
+
+} // namespace haptic_sculpt::fuzz
+
+#endif
