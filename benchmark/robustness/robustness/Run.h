@@ -37,9 +37,9 @@ enum Exit {
 };
 
 struct Options {
-  std::string folder, json, dump, response = "slide";
+  std::string folder, json, dump, response = "slide", motion = "odd";
   std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000,
-              edit_batch = 5000;
+              edit_batch = 5000, least_faces = 0;
   std::uint64_t seed = 1;
   std::vector<std::string> refuse;
   bool has_hard_meshes = false, repairs = false;
@@ -57,6 +57,8 @@ public:
 
   /// \param is_hard short drags may be held with reason: they are not counted among those that have to arrive
   void mesh(const std::string& name, const Mesh& mesh, bool is_hard = false) {
+    if (mesh.number_of_faces() < options_.least_faces)
+      return;
     is_hard_ = is_hard;
     Json row = {{"unit", shard_.next_unit()}, {"mesh", name}, {"faces", mesh.number_of_faces()}};
     const bool has_drags = drag(name, mesh, row), has_edits = edit(name, mesh, row);
@@ -108,7 +110,7 @@ public:
     const benchmark::Promises promises = kept_promises();
     const int exit = promises.exit();
     std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, "
-              << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response
+              << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response << ", motion " << options_.motion
               << ", seed " << options_.seed << ", exit " << exit << '\n';
     for (const auto& [kind, counts] : edits_.rows) {
       std::cout << "  " << kind << ": " << counts.asked << " asked, " << counts.done << " done";
@@ -121,6 +123,7 @@ public:
                    Json{{"seed", options_.seed},
                         {"shard", shard_.text()},
                         {"response", options_.response},
+                        {"motion", options_.motion},
                         {"meshes", rows_},
                         {"total", drags_.json()},
                         {"total_of_edits", edits_.json()},
@@ -167,7 +170,8 @@ private:
     for (std::size_t done = 0; done < drags; done += options_.batch)
       if (is_ours()) {
         Drag_batch batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100);
-        const Drag_tally made = batch.run(std::min(options_.batch, drags - done));
+        const std::size_t asked = std::min(options_.batch, drags - done);
+        const Drag_tally made = options_.motion == "hand" ? batch.run_strokes(asked) : batch.run_odd_drags(asked);
         tally += made;
         if (!options_.dump.empty() && made.is_any_promise_broken())
           batch.write(options_.dump, "batch_" + std::to_string(shard_.next_unit() - 1));

@@ -46,6 +46,11 @@ int main(int argc, char** argv) {
   app.add_option("--response", options.response, "What a blocked vertex does")
       ->check(CLI::IsMember({"slide", "stop", "paper"}))
       ->capture_default_str();
+  app.add_option("--motion", options.motion,
+                 "odd: single drags, many of them degenerate; hand: strokes of a hundred short steps with one vertex")
+      ->check(CLI::IsMember({"odd", "hand"}))
+      ->capture_default_str();
+  app.add_option("--least-faces", options.least_faces, "Leave out meshes with fewer faces");
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
   app.add_flag("--hard", options.has_hard_meshes,
                "On meshes, too, that are an ulp thick, almost flat, nested, crumpled and so on");
