@@ -5,7 +5,7 @@ from steps import Effort, Step
 STEPS = [
     Step("drags_and_edits", "robustness",
          tiny=Effort("--hard --drags 60 --edits 60 --batch 20 --edit-batch 20 --seed {seed}", shards=3),
-         quick=Effort("--hard --drags 2000 --edits 500 --drags-on-large 200 --edits-on-large 20 --dump failures --seed {seed}", 10, shards=2),
+         quick=Effort("--hard --drags 2000 --edits 500 --drags-on-large 50 --edits-on-large 10 --dump failures --seed {seed}", 10, shards=2),
          full=Effort("--hard --drags 4200000 --edits 100000 --extreme 20000 --dump failures --seed {seed}", 480, shards=1024),
          with_meshes="--meshes {meshes}", with_repair="--repair"),
     *(Step(f"drags_with_{response}", "robustness",

@@ -46,8 +46,15 @@ struct Options {
   benchmark::Shard shard;
 };
 
-constexpr std::size_t large =
-    200000; ///< faces: from here on drags_on_large and edits_on_large, and one validation a batch
+/// Faces and valence: from here on drags_on_large and edits_on_large, and one validation a batch.
+constexpr std::size_t large = 200000, large_valence = 4000;
+
+inline bool is_large(const Mesh& mesh) {
+  std::vector<std::size_t> valence(mesh.num_vertices());
+  for (const auto h : mesh.halfedges())
+    ++valence[mesh.target(h)];
+  return mesh.number_of_faces() >= large || *std::max_element(valence.begin(), valence.end()) >= large_valence;
+}
 
 /// All batches on all meshes, or a shard of them; sums them up.
 class Run {
@@ -164,12 +171,12 @@ private:
   std::uint64_t seed_of_batch() const { return options_.seed * 1000003 + shard_.next_unit(); }
 
   bool drag(const std::string& name, const Mesh& mesh, Json& row) {
-    const bool is_large = mesh.number_of_faces() >= large;
-    const std::size_t drags = is_large ? options_.drags_on_large : options_.drags;
+    const bool has_few = is_large(mesh);
+    const std::size_t drags = has_few ? options_.drags_on_large : options_.drags;
     Drag_tally tally;
     for (std::size_t done = 0; done < drags; done += options_.batch)
       if (is_ours()) {
-        Drag_batch batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100);
+        Drag_batch batch(mesh, response_, seed_of_batch(), has_few ? 0 : 100);
         const std::size_t asked = std::min(options_.batch, drags - done);
         const Drag_tally made = options_.motion == "hand" ? batch.run_strokes(asked) : batch.run_odd_drags(asked);
         tally += made;
@@ -192,12 +199,12 @@ private:
   }
 
   bool edit(const std::string& name, const Mesh& mesh, Json& row) {
-    const bool is_large = mesh.number_of_faces() >= large;
-    const std::size_t edits = is_large ? options_.edits_on_large : options_.edits;
+    const bool has_few = is_large(mesh);
+    const std::size_t edits = has_few ? options_.edits_on_large : options_.edits;
     Edit_tally tally;
     for (std::size_t done = 0; done < edits; done += options_.edit_batch)
       if (is_ours())
-        tally += Edit_batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100)
+        tally += Edit_batch(mesh, response_, seed_of_batch(), has_few ? 0 : 100)
                      .run(std::min(options_.edit_batch, edits - done));
     if (tally.edits == 0)
       return false;
