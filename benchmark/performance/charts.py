@@ -108,4 +108,19 @@ def ticks(report):
                     "Times of ticks by quantile", [Table("Ticks", ["what", "p50", "p99", "p99.9", "p99.99", "max"], rows)])]
 
 
-CHARTS = {"drags": drags, "edits": edits, "hand": hand, "ticks": ticks}
+def validation(report):
+    series = {}
+    for r in report["rows"]:
+        series.setdefault(r["mesh"], []).append((r["triangles"], r["validate_seconds"]))
+        if r["mesh"] == "torus":
+            series.setdefault("torus, does_self_intersect", []).append((r["triangles"], r["does_self_intersect_seconds"]))
+    last = [r for r in report["rows"] if r["mesh"] == "torus"][-1]
+    table = Table("Validation", ["mesh", "triangles", "validate()", "does_self_intersect", "a vertex pulled through"],
+                  [[r["mesh"], f"{r['triangles']:,}", seconds_text(r["validate_seconds"]), seconds_text(r["does_self_intersect_seconds"]),
+                    "refused" if r["pulled_through_is_refused"] else "valid"] for r in report["rows"]])
+    return [Finding("validation", f"A torus of {last['triangles']:,} triangles is validated in {seconds_text(last['validate_seconds'])}; CGAL's test for intersections alone takes {seconds_text(last['does_self_intersect_seconds'])}.",
+                    seconds_text(last["validate_seconds"]), f"validation, {last['triangles']:,} triangles", lines(series, "triangles", "time"),
+                    "Time of validation against triangles", [table])]
+
+
+CHARTS = {"drags": drags, "edits": edits, "hand": hand, "ticks": ticks, "validation": validation}

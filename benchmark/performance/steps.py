@@ -16,6 +16,10 @@ STEPS = [
     Step("dabs", "brush_dabs",
          quick=Effort("--level 6 --dabs 50 --seed {seed}", 5),
          full=Effort("--level 7 --dabs 1000 --seed {seed}", 60, memory=4000)),
+    Step("validation", "validation",
+         tiny=Effort("--largest 1000", shards=2),
+         quick=Effort("--largest 100000", 5),
+         full=Effort("--largest 10000000", 60, memory=12000)),
     Step("threads", "threads", full=Effort("--level 8 --threads 1,2,4 --seed {seed}", 30, memory=6000)),
     Step("ticks", "haptic_ticks", full=Effort("--runs 3", 60, memory=4000)),
 ]

@@ -62,12 +62,8 @@ Vector_3 normal(const Mesh& mesh, Vertex_index v) {
 
 /// Plates 2^-35 apart: every second one is drawn out.
 Motion combs(int level) {
-  constexpr int teeth = 16;
-  meshes::Triangle_list list;
-  for (int tooth = 0; tooth < teeth; ++tooth)
-    list += meshes::box(std::size_t{1} << level).transform([tooth](const Point_3& p) {
-      return Point_3(p.x(), p.y(), 0.125 * p.z() + tooth * (0.125 + 0x1p-35));
-    });
+  constexpr std::size_t teeth = 16;
+  const meshes::Triangle_list list = meshes::comb(teeth, std::size_t{1} << level);
   return motion("combs 2^-35 apart", meshes::to_mesh(list), [&](Vertex_index v) {
     const Point_3& p = list.points[v];
     return v * teeth / list.points.size() % 2 == 1 ? p + Vector_3(0.7, 0.3, 0) : p;

@@ -3,8 +3,8 @@
 #include "Mpfr_number.h"
 #include "Query_timer.h"
 #include "Shard.h"
-#include "cgal_sweep.h"
 #include "determinant_sweep.h"
+#include "oracle/cgal_sweep.h"
 #include "oracle/sweep_oracle.h"
 #include "paper_sweep.h"
 #include "populations/sweep_populations.h"
@@ -26,6 +26,7 @@
 
 namespace haptic_sculpt::benchmark {
 
+using test::Cgal_sweep;
 using Kernel = Cgal_sweep::Kernel;
 using Points = std::array<Kernel::Point_3, 5>;
 using Lazy_number = CGAL::Exact_predicates_exact_constructions_kernel::FT;

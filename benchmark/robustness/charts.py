@@ -26,9 +26,11 @@ def drags_and_edits(report):
     tables = [Table("Meshes", ["mesh", "faces", "drags", "blocked", "mixed edits", "not valid after", "largest stop error, clearances", "mean drag"], rows)]
     if report["refused"]:
         tables.append(Table("Meshes refused", ["file", "had to be", "repaired", "reason"], [[r["file"], *("yes" if r[key] else "no" for key in ("has_to_be", "repaired")), r["reason"]] for r in report["refused"]]))
-    how = "" if report["response"] == "slide" else f", response {report['response']},"
+    how = " by strokes of a hand" if report["motion"] == "hand" else ""
+    how += "" if report["response"] == "slide" else f", response {report['response']},"
     said = "no promise broke" if not broken else "broken: " + "; ".join(p["promise"] for p in broken)
-    return [of_promises("drags", report, f"In {drags:,} drags and {edits:,} mixed edits of {meshes} hard meshes{how} {said}.", str(len(broken)),
+    name = "drags" + ("_of_a_hand" if report["motion"] == "hand" else "") + ("" if report["response"] == "slide" else f"_{report['response']}")
+    return [of_promises(name, report, f"In {drags:,} drags and {edits:,} mixed edits of {meshes} hard meshes{how} {said}.", str(len(broken)),
                         f"broken promises of {len(report['promises'])}", tables)]
 
 
@@ -46,10 +48,24 @@ def sweeps_by_oracle(report):
                         f"{p['asked']:,}", "sweeps asked twice", [])]
 
 
+def sweeps_by_cgal(report):
+    p = report["promises"][0]
+    return [of_promises("sweeps_by_cgal", report, f"{p['asked']:,} sweeps were asked of CGAL's predicates; {'all agree' if p['broken'] == 0 else 'some differ'}.",
+                        f"{p['asked']:,}", "sweeps asked twice", [])]
+
+
+def drags_by_oracle(report):
+    p = report["promises"][0]
+    return [of_promises("drags_by_oracle", report, f"{p['asked']:,} drags were decided once more, in integers over all pairs of faces; {'all agree' if p['broken'] == 0 else 'some differ'}.",
+                        f"{p['asked']:,}", "drags decided twice", [])]
+
+
 def axis_moves_by_oracle(report):
     p = report["promises"][0]
     return [of_promises("axis_moves_by_oracle", report, f"{p['asked']:,} axis moves were looked at on the way, exactly; {'all free ones are embedded' if p['broken'] == 0 else 'some are not'}.",
                         f"{p['asked']:,}", "axis moves looked at", [])]
 
 
-CHARTS = {"drags_and_edits": drags_and_edits, "drags_with_stop": drags_and_edits, "drags_with_paper": drags_and_edits, "ends": ends, "sweeps_by_oracle": sweeps_by_oracle, "axis_moves_by_oracle": axis_moves_by_oracle}
+CHARTS = {"drags_and_edits": drags_and_edits, "drags_with_stop": drags_and_edits, "drags_with_paper": drags_and_edits, "drags_of_a_hand": drags_and_edits, "drags_of_a_hand_with_stop": drags_and_edits,
+          "ends": ends, "sweeps_by_oracle": sweeps_by_oracle, "sweeps_by_cgal": sweeps_by_cgal, "drags_by_oracle": drags_by_oracle,
+          "axis_moves_by_oracle": axis_moves_by_oracle}

@@ -93,4 +93,14 @@ inline Triangle_list swiss_cheese(std::size_t n = 2, double wall = 0.02, int lev
   return list;
 }
 
+/// Plates of a comb, 2^-35 apart.
+inline Triangle_list comb(std::size_t teeth, std::size_t n) {
+  Triangle_list list;
+  for (std::size_t tooth = 0; tooth < teeth; ++tooth)
+    list += box(n).transform([tooth](const Point_3& p) {
+      return Point_3(p.x(), p.y(), 0.125 * p.z() + static_cast<double>(tooth) * (0.125 + 0x1p-35));
+    });
+  return list;
+}
+
 } // namespace meshes

@@ -26,7 +26,8 @@ public:
       , places_(mesh_, seed)
       , validate_every_(validate_every) {}
 
-  Drag_tally run(std::size_t drags) {
+  /// Single drags, many of them degenerate.
+  Drag_tally run_odd_drags(std::size_t drags) {
     // Short steps first: once the mesh is crumpled by long pushes, most vertices are in contact and held with reason.
     while (tally_.drags < drags / 3) {
       const Vertex_index v = places_.vertex();
@@ -48,22 +49,39 @@ public:
       else
         drag(v, places_.odd_target(v), Kind::other);
     }
-    check();
-    try {
-      sculptor_.check_unchanged();
-    } catch (const Mesh_changed&) {
-      ++tally_.changed;
+    return finish();
+  }
+
+  /// As a hand drags: a vertex is held for a hundred short steps in a slowly turning direction, contacts carried along.
+  Drag_tally run_strokes(std::size_t drags) {
+    while (tally_.drags < drags) {
+      const Vertex_index v = places_.vertex();
+      auto grab = sculptor_.grab(v);
+      Point_3 hand = mesh_.point(v);
+      Vector_3 step = 0.1 * places_.edge_length(v) * places_.number() * places_.direction();
+      for (int i = 0; i < 100 && tally_.drags < drags; ++i) {
+        const double length = std::sqrt(step.squared_length());
+        step = step + 0.1 * length * places_.direction();
+        hand = hand + step;
+        drag(grab, v, hand, Kind::other);
+      }
+      grabs_end_at_.push_back(made_.size());
     }
-    return tally_;
+    return finish();
   }
 
   /// NAME.off and NAME.script, a script for `sculpt` that makes the same drags. \throw Error
   void write(const std::filesystem::path& folder, const std::string& name) const {
     std::ostringstream script;
     script << std::hexfloat << "response " << name_of(response_) << '\n';
-    for (const auto& [v, target] : made_)
+    auto end = grabs_end_at_.begin();
+    for (std::size_t i = 0; i < made_.size(); ++i) {
+      const auto& [v, target] = made_[i];
       script << "drag " << static_cast<std::size_t>(v) << ' ' << target.x() << ' ' << target.y() << ' ' << target.z()
-             << "\nrelease\n";
+             << '\n';
+      if (end != grabs_end_at_.end() && *end == i + 1)
+        script << "release\n", ++end;
+    }
     std::filesystem::create_directories(folder);
     write_surface(folder / (name + ".off"), input_);
     replace_file(folder / (name + ".script"), script.str());
@@ -75,6 +93,7 @@ private:
   const Mesh& input_;
   Response response_;
   std::vector<std::pair<Vertex_index, Point_3>> made_;
+  std::vector<std::size_t> grabs_end_at_; ///< how many drags had been made when the vertex was let go
   Mesh mesh_;
   Sculptor<Mesh> sculptor_;
   Random_places places_;
@@ -82,10 +101,16 @@ private:
   Drag_tally tally_;
 
   void drag(Vertex_index v, const Point_3& target, Kind kind) {
+    auto grab = sculptor_.grab(v);
+    drag(grab, v, target, kind);
+    grabs_end_at_.push_back(made_.size());
+  }
+
+  void drag(Grab<Sculptor<Mesh>>& grab, Vertex_index v, const Point_3& target, Kind kind) {
     made_.emplace_back(v, target);
     const Point_3 start = mesh_.point(v);
     const auto begin = std::chrono::steady_clock::now();
-    const Drag_result<Mesh> result = sculptor_.grab(v).drag_to(target);
+    const Drag_result<Mesh> result = grab.drag_to(target);
     tally_.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
     ++tally_.drags;
     tally_.contradictions += result.position != mesh_.point(v) || test::contradiction(result, start, target) != nullptr;
@@ -109,6 +134,16 @@ private:
     }
     if (validate_every_ != 0 && tally_.drags % validate_every_ == 0)
       check();
+  }
+
+  Drag_tally finish() {
+    check();
+    try {
+      sculptor_.check_unchanged();
+    } catch (const Mesh_changed&) {
+      ++tally_.changed;
+    }
+    return tally_;
   }
 
   void check() {

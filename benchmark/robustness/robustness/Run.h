@@ -36,17 +36,24 @@ enum Exit {
 };
 
 struct Options {
-  std::string folder, json, dump, response = "slide";
+  std::string folder, json, dump, response = "slide", motion = "odd";
   std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000,
-              edit_batch = 5000;
+              edit_batch = 5000, least_faces = 0;
   std::uint64_t seed = 1;
   std::vector<std::string> refuse;
   bool has_hard_meshes = false, repairs = false;
   benchmark::Shard shard;
 };
 
-constexpr std::size_t large =
-    200000; ///< faces: from here on drags_on_large and edits_on_large, and one validation a batch
+/// Faces and valence: from here on drags_on_large and edits_on_large, and one validation a batch.
+constexpr std::size_t large = 200000, large_valence = 4000;
+
+inline bool is_large(const Mesh& mesh) {
+  std::vector<std::size_t> valence(mesh.num_vertices());
+  for (const auto h : mesh.halfedges())
+    ++valence[mesh.target(h)];
+  return mesh.number_of_faces() >= large || *std::max_element(valence.begin(), valence.end()) >= large_valence;
+}
 
 /// All batches on all meshes, or a shard of them; sums them up.
 class Run {
@@ -56,6 +63,8 @@ public:
 
   /// \param is_hard short drags may be held with reason: they are not counted among those that have to arrive
   void mesh(const std::string& name, const Mesh& mesh, bool is_hard = false) {
+    if (mesh.number_of_faces() < options_.least_faces)
+      return;
     is_hard_ = is_hard;
     Json row = {{"unit", shard_.next_unit()}, {"mesh", name}, {"faces", mesh.number_of_faces()}};
     const bool has_drags = drag(name, mesh, row), has_edits = edit(name, mesh, row);
@@ -107,7 +116,7 @@ public:
     const benchmark::Promises promises = kept_promises();
     const int exit = promises.exit();
     std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, "
-              << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response
+              << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response << ", motion " << options_.motion
               << ", seed " << options_.seed << ", exit " << exit << '\n';
     for (const auto& [kind, counts] : edits_.rows) {
       std::cout << "  " << kind << ": " << counts.asked << " asked, " << counts.done << " done";
@@ -120,6 +129,7 @@ public:
                    Json{{"seed", options_.seed},
                         {"shard", shard_.text()},
                         {"response", options_.response},
+                        {"motion", options_.motion},
                         {"meshes", rows_},
                         {"total", drags_.json()},
                         {"total_of_edits", edits_.json()},
@@ -160,13 +170,14 @@ private:
   std::uint64_t seed_of_batch() const { return options_.seed * 1000003 + shard_.next_unit(); }
 
   bool drag(const std::string& name, const Mesh& mesh, Json& row) {
-    const bool is_large = mesh.number_of_faces() >= large;
-    const std::size_t drags = is_large ? options_.drags_on_large : options_.drags;
+    const bool has_few = is_large(mesh);
+    const std::size_t drags = has_few ? options_.drags_on_large : options_.drags;
     Drag_tally tally;
     for (std::size_t done = 0; done < drags; done += options_.batch)
       if (is_ours()) {
-        Drag_batch batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100);
-        const Drag_tally made = batch.run(std::min(options_.batch, drags - done));
+        Drag_batch batch(mesh, response_, seed_of_batch(), has_few ? 0 : 100);
+        const std::size_t asked = std::min(options_.batch, drags - done);
+        const Drag_tally made = options_.motion == "hand" ? batch.run_strokes(asked) : batch.run_odd_drags(asked);
         tally += made;
         if (!options_.dump.empty() && made.is_any_promise_broken())
           batch.write(options_.dump, "batch_" + std::to_string(shard_.next_unit() - 1));
@@ -187,12 +198,12 @@ private:
   }
 
   bool edit(const std::string& name, const Mesh& mesh, Json& row) {
-    const bool is_large = mesh.number_of_faces() >= large;
-    const std::size_t edits = is_large ? options_.edits_on_large : options_.edits;
+    const bool has_few = is_large(mesh);
+    const std::size_t edits = has_few ? options_.edits_on_large : options_.edits;
     Edit_tally tally;
     for (std::size_t done = 0; done < edits; done += options_.edit_batch)
       if (is_ours())
-        tally += Edit_batch(mesh, response_, seed_of_batch(), is_large ? 0 : 100)
+        tally += Edit_batch(mesh, response_, seed_of_batch(), has_few ? 0 : 100)
                      .run(std::min(options_.edit_batch, edits - done));
     if (tally.edits == 0)
       return false;

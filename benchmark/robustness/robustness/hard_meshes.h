@@ -54,6 +54,8 @@ inline std::vector<std::pair<std::string, Mesh>> hard_meshes() {
   list.emplace_back("plate of one ulp", to_mesh(plate_of_one_ulp()));
   list.emplace_back("dihedral angles of 1e-10", to_mesh(bipyramid(32, 1e-10)));
   list.emplace_back("valence 256", to_mesh(bipyramid(256)));
+  list.emplace_back("valence 20,000", to_mesh(bipyramid(20000)));
+  list.emplace_back("comb, plates 2^-35 apart", to_mesh(comb(6, 3)));
   list.emplace_back("layers 2^-39 thick", to_mesh(sliver_stack(12, 0x1p-39)));
   list.emplace_back("cubes 2^-52 apart", to_mesh(cubes_almost_touching()));
   list.emplace_back("nested spheres", to_mesh(nested_spheres(5)));

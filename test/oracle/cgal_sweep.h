@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-namespace haptic_sculpt::benchmark {
+namespace haptic_sculpt::test {
 
 /// The verdict put together from CGAL's own predicates: what one does without this library.
 /// Degenerate hulls, which `do_intersect` does not take, are distinguished first.
@@ -20,10 +20,10 @@ public:
   using Segment_3 = Kernel::Segment_3;
   using Triangle_3 = Kernel::Triangle_3;
 
-  bool operator()(test::Sweep_kind kind, const std::array<Point_3, 5>& p) const {
+  bool operator()(Sweep_kind kind, const std::array<Point_3, 5>& p) const {
     switch (kind) {
-    case test::Sweep_kind::vertex_face: return meet(p[0], p[1], Triangle_3(p[2], p[3], p[4]));
-    case test::Sweep_kind::edge_edge:
+    case Sweep_kind::vertex_face: return meet(p[0], p[1], Triangle_3(p[2], p[3], p[4]));
+    case Sweep_kind::edge_edge:
       if (CGAL::collinear(p[0], p[1], p[2]))
         return meet_collinear(p[0], p[1], p[2], Segment_3(p[3], p[4]));
       return CGAL::do_intersect(Triangle_3(p[0], p[1], p[2]), Segment_3(p[3], p[4]));
@@ -66,4 +66,4 @@ private:
   }
 };
 
-} // namespace haptic_sculpt::benchmark
+} // namespace haptic_sculpt::test
