@@ -19,6 +19,7 @@ struct Axis_findings {
   Filter_counters counters;
   std::vector<Axis_obstacle> obstacles;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> put_off; ///< pairs of slots to be looked at last
+  std::size_t work = 0; ///< faces and pairs counted
 
   void add(Axis_obstacle::Kind kind, const std::array<std::uint32_t, 4>& vertices) {
     obstacles.push_back({kind, vertices});
@@ -27,6 +28,7 @@ struct Axis_findings {
     counters = Filter_counters();
     obstacles.clear();
     put_off.clear();
+    work = 0;
   }
 };
 
@@ -135,6 +137,19 @@ public:
     return vertices_[v[0]].is_pulled && vertices_[v[1]].is_pulled && vertices_[v[2]].is_pulled;
   }
 
+  /// Whether a pair counts as work: neither side by side nor with intervals that are apart. Told by the two faces and
+  /// their motion alone, in doubles: it does not depend on what else is looked at, nor on the tree that found the pair.
+  bool does_count(const Axis_item& f, const Axis_item& g) const {
+    const unsigned shared = shared_corners(f, g);
+    if (shared != 0)
+      return !are_side_by_side(f, g, shared);
+    const Bounds a = bounds_of(f), b = bounds_of(g);
+    const auto is_below = [](const Bounds& x, const Bounds& y, int k) { return x.largest[k] < y.least[k]; };
+    const auto are_apart = [&](int k) { return is_below(a, b, k) || is_below(b, a, k); };
+    return !are_apart(0) && !are_apart(1) && !(is_below(a, b, 2) && is_below(a, b, 3)) &&
+           !(is_below(b, a, 2) && is_below(b, a, 3));
+  }
+
   void decide_face(const Axis_item& f, Axis_findings& found) const {
     if (f.side != 0 && delta_ == 0)
       return;
@@ -178,6 +193,11 @@ public:
   }
 
 private:
+  /// Of the two coordinates across the axis, of that along it at the start, and at the end.
+  struct Bounds {
+    std::array<double, 4> least, largest;
+  };
+
   const Mesh* mesh_;
   double delta_ = 0;
   int axis_ = 0;
@@ -185,6 +205,19 @@ private:
   std::vector<Axis_item> items_;
   std::vector<std::uint32_t> slot_of_face_; ///< of those taken
   std::vector<Vertex> vertices_;            ///< corners of what is taken; others are as they were left
+
+  Bounds bounds_of(const Axis_item& item) const {
+    Bounds bounds;
+    for (int i = 0; i < 3; ++i) {
+      const Coordinates p = point(item.corners[i]);
+      const std::array<double, 4> x{p[(axis_ + 1) % 3], p[(axis_ + 2) % 3], p[axis_], end_of(item.corners[i])};
+      for (int k = 0; k < 4; ++k) {
+        bounds.least[k] = i == 0 || x[k] < bounds.least[k] ? x[k] : bounds.least[k];
+        bounds.largest[k] = i == 0 || x[k] > bounds.largest[k] ? x[k] : bounds.largest[k];
+      }
+    }
+    return bounds;
+  }
 
   /// Each vertex and each edge is looked at with one of its faces.
   Axis_item item_of(Face_index f) const {
