@@ -36,7 +36,7 @@ public:
                          const std::array<double, 3>& heights) const {
     using namespace internal;
     const Axis_motion<3> motion(axis, {coordinates(a), coordinates(b), coordinates(c)}, heights);
-    CGAL_precondition(0 <= axis && axis < 3 && are_finite(motion.start) && are_finite(motion.end));
+    CGAL_precondition(0 <= axis && axis < 3 && motion.are_finite());
     Counters ignored;
     return Axis_sweep<3, Counters>(motion, counters_ != nullptr ? *counters_ : ignored).is_face_degenerate(0, 1, 2);
   }

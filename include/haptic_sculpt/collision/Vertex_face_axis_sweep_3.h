@@ -36,7 +36,7 @@ public:
                          const std::array<double, 4>& heights) const {
     using namespace internal;
     const Axis_motion<4> motion(axis, {coordinates(v), coordinates(a), coordinates(b), coordinates(c)}, heights);
-    CGAL_precondition(0 <= axis && axis < 3 && are_finite(motion.start) && are_finite(motion.end));
+    CGAL_precondition(0 <= axis && axis < 3 && motion.are_finite());
     Counters ignored;
     return Axis_sweep<4, Counters>(motion, counters_ != nullptr ? *counters_ : ignored)
         .do_vertex_and_face_meet(0, 1, 2, 3);

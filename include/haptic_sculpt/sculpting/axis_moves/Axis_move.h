@@ -55,7 +55,7 @@ public:
     tree_.begin_round();
     active_.clear();
     for (std::uint32_t slot = 0; slot < items().size(); ++slot)
-      if (scene_.does_move(items()[slot]))
+      if (items()[slot].moves)
         active_.push_back(slot);
     if (budget_ != nullptr && active_.size() > budget_->left()) {
       is_too_much_ = true;
@@ -63,7 +63,7 @@ public:
     }
     look_at(items().size(), slots_a_part, [this](std::size_t k, Axis_findings& found) {
       const auto slot = static_cast<std::uint32_t>(k);
-      tree_.put(slot, box_of(scene_.look_along(slot, found.counters)), scene_.does_move(items()[slot]));
+      tree_.put(slot, Axis_box(scale_, scene_.look_along(slot, found.counters)), items()[slot].moves);
     });
     tree_.refit_all(run_);
     scene_.tell_corners();
@@ -128,13 +128,6 @@ private:
   std::vector<Axis_obstacle> obstacles_;
   std::vector<std::uint32_t> pulled_; ///< vertices for which shares are proposed in this round
   std::vector<std::pair<std::uint32_t, std::uint32_t>> put_off_; ///< pairs of slots
-
-  Axis_box box_of(const Axis_motion<3>& motion) const {
-    std::array<double, 3> ends;
-    for (int k = 0; k < 3; ++k)
-      ends[k] = motion.end[k][motion.axis];
-    return Axis_box(scale_, motion.axis, motion.start, ends);
-  }
 
   bool is_given_up() const { return held_ > most_ || is_too_much_; }
 
@@ -246,18 +239,18 @@ private:
 
   void shorten(std::uint32_t k) {
     auto& v = scene_.vertex(k);
-    const double start = scene_.height(k), end = std::fma(v.share, v.end - start, start);
-    v.end = v.end < start ? std::fmin(std::fmax(end, v.end), start) : std::fmax(std::fmin(end, v.end), start);
+    const double start = scene_.height(k), all = scene_.end_of(k), part = std::fma(v.share, all - start, start);
+    const double end = all < start ? std::fmin(std::fmax(part, all), start) : std::fmax(std::fmin(part, all), start);
     v.share = 1;
-    if (++v.pulls == most_pulls || v.end == start)
-      v.moves = false;
+    v.moves = ++v.pulls != most_pulls && end != start;
+    scene_.set_end(k, v.moves ? end : start);
   }
 
   void activate_around(std::uint32_t k) {
     for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(Vertex_index(k))))
       if (f != mesh_->null_face()) {
         const std::uint32_t slot = scene_.slot(f);
-        tree_.set(slot, box_of(scene_.motion_of(items()[slot].corners)), true);
+        tree_.set(slot, Axis_box(scale_, scene_.motion_of(items()[slot].corners)), true);
         active_.push_back(slot);
       }
   }

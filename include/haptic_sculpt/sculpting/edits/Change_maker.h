@@ -169,7 +169,7 @@ private:
   template <class Noted>
   Vertex_index put_all(const Change& edit, int end, const Noted& noted, const Part_runner& run) {
     // All that allocates comes before the first point is written.
-    collect_faces_around(*mesh_, ids_, edit.around, is_taken_, faces_);
+    collect_faces_around(*mesh_, *corners_of_, ids_, edit.around, is_taken_, faces_);
     is_ready_ = true;
     writing_->begin();
     for (std::size_t k = 0; k < edit.around.size(); ++k) {
@@ -178,7 +178,7 @@ private:
       p[edit.vertex] = edit.ways[k][end];
       mesh_->point(v) = to_point(p);
     }
-    broad_phase_->many_faces_moved(faces_, run);
+    broad_phase_->many_faces_moved(faces_, *corners_of_, run);
     noted(Vertex_index());
     writing_->end();
     if constexpr (has_visitor)
