@@ -63,6 +63,7 @@ public:
     }
     look_at(items().size(), slots_a_part, [this](std::size_t k, Axis_findings& found) {
       const auto slot = static_cast<std::uint32_t>(k);
+      scene_.fetch_ahead(slot);
       tree_.put(slot, Axis_box(scale_, scene_.look_along(slot, found.counters)), items()[slot].moves);
     });
     tree_.refit_all(run_);

@@ -6,6 +6,7 @@
 #include <haptic_sculpt/sculpting/axis_moves/Axis_item.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_obstacle.h>
 #include <haptic_sculpt/sculpting/axis_moves/axis_delta.h>
+#include <haptic_sculpt/surface/broad_phase/prefetch.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <cstring>
@@ -90,6 +91,12 @@ public:
       item.moves = does_move(item);
   }
 
+  /// Asks for the memory that look_along() will read a few slots on: its corners are all over the mesh.
+  void fetch_ahead(std::uint32_t slot) const {
+    if (slot + ahead < items_.size())
+      for (const std::uint32_t v : items_[slot + ahead].corners)
+        internal::prefetch(&places_[v], sizeof(Axis_place));
+  }
   /// Finds from which side a face is seen. Threads may share the slots. \return its motion
   Axis_motion<3> look_along(std::uint32_t slot, Filter_counters& counters) {
     const Axis_motion<3> motion = motion_of(items_[slot].corners);
@@ -200,6 +207,8 @@ public:
   }
 
 private:
+  static constexpr std::uint32_t ahead = 8; ///< slots
+
   const Mesh* mesh_;
   double delta_ = 0;
   bool are_all_ = false;
