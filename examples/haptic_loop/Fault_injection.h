@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_FAULT_INJECTION_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_FAULT_INJECTION_H
+#pragma once
 
 #include "Settings.h"
 
@@ -80,5 +79,3 @@ private:
 };
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_HAPPENINGS_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_HAPPENINGS_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Tool_step.h>
 
@@ -107,5 +106,3 @@ private:
 };
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_JOURNAL_WRITER_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_JOURNAL_WRITER_H
+#pragma once
 
 #include "../sculpt/Log_file.h"
 
@@ -43,5 +42,3 @@ private:
 };
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_LOOP_REPORT_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_LOOP_REPORT_H
+#pragma once
 
 #include "Run.h"
 
@@ -15,5 +14,3 @@ std::string report_of(const Run_result& result, const Settings& settings, const 
 void print_summary(std::ostream& out, const Run_result& result, const Settings& settings);
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_REAL_TIME_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_REAL_TIME_H
+#pragma once
 
 #include <cerrno>
 #include <cstring>
@@ -38,5 +37,3 @@ inline void leave_real_time() {
 }
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RECORDING_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RECORDING_H
+#pragma once
 
 #include "Settings.h"
 
@@ -63,5 +62,3 @@ inline Recording Recording::read(const std::string& path) {
 }
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

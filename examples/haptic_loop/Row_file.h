@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_ROW_FILE_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_ROW_FILE_H
+#pragma once
 
 #include <haptic_sculpt/surface/Write_error.h>
 
@@ -50,5 +49,3 @@ private:
 };
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_H
+#pragma once
 
 #include "Happenings.h"
 #include "Recording.h"
@@ -59,5 +58,3 @@ struct Run_result {
 Run_result run_loop(const Plan& plan, examples::Result_writer& writer, const std::atomic<bool>& is_interrupted);
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_LOG_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_RUN_LOG_H
+#pragma once
 
 #include "Journal_writer.h"
 #include "replay_log.h"
@@ -98,5 +97,3 @@ private:
 };
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

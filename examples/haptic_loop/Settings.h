@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_SETTINGS_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_SETTINGS_H
+#pragma once
 
 #include "../common/run_program.h"
 
@@ -68,5 +67,3 @@ struct Bad_setting {
 std::optional<Bad_setting> bad_setting(const Settings& settings);
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_TRACE_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_TRACE_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering.h>
 
@@ -31,5 +30,3 @@ inline void write_row(std::FILE* file, const Joint_reading& reading, const Hapti
 }
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

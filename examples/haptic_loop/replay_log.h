@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_REPLAY_LOG_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_REPLAY_LOG_H
+#pragma once
 
 #include "../sculpt/Log_text.h"
 #include "../sculpt/many_vertices_lines.h"
@@ -84,5 +83,3 @@ private:
 };
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

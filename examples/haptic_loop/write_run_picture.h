@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_WRITE_RUN_PICTURE_H
-#define HAPTIC_SCULPT_EXAMPLES_HAPTIC_LOOP_WRITE_RUN_PICTURE_H
+#pragma once
 
 #include "Run_samples.h"
 
@@ -30,5 +29,3 @@ inline std::string write_run_picture(drawing::Scene scene, const Run_samples& sa
 }
 
 } // namespace haptic_sculpt::loop_program
-
-#endif

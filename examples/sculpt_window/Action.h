@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_ACTION_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_ACTION_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 
@@ -62,5 +61,3 @@ struct Action_error : Error {
 std::vector<Action> read_actions(const std::string& text, const std::string& name);
 
 } // namespace haptic_sculpt::window_program
-
-#endif

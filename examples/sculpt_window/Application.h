@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_APPLICATION_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_APPLICATION_H
+#pragma once
 
 #include "Action.h"
 #include "Background.h"
@@ -170,5 +169,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

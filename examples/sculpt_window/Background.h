@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_BACKGROUND_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_BACKGROUND_H
+#pragma once
 
 #include "Sculpting_thread.h"
 
@@ -36,5 +35,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_BRUSH_TASK_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_BRUSH_TASK_H
+#pragma once
 
 #include "Stroke_task.h"
 #include "under_brush.h"
@@ -68,5 +67,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_LOOP_THREAD_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_LOOP_THREAD_H
+#pragma once
 
 #include "Tasks.h"
 
@@ -165,5 +164,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_MODEL_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_MODEL_H
+#pragma once
 
 #include "Mouse.h"
 
@@ -66,5 +65,3 @@ private:
 using Scene = Model;
 
 } // namespace haptic_sculpt::window_program
-
-#endif

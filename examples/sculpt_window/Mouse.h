@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_MOUSE_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_MOUSE_H
+#pragma once
 
 #include "exchange.h"
 
@@ -92,5 +91,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_OBJECT_TASK_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_OBJECT_TASK_H
+#pragma once
 
 #include "Stroke_task.h"
 
@@ -34,5 +33,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

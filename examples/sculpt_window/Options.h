@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_OPTIONS_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_OPTIONS_H
+#pragma once
 
 #include <optional>
 #include <string>
@@ -31,5 +30,3 @@ void check_files(const Options& options);
 std::optional<bool> read_options(int argc, char** argv, Options& options);
 
 } // namespace haptic_sculpt::window_program
-
-#endif

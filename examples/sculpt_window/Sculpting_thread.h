@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_SCULPTING_THREAD_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_SCULPTING_THREAD_H
+#pragma once
 
 #include "exchange.h"
 
@@ -93,5 +92,3 @@ std::string destroy(Model* model, bool keeps_log);
 std::string write_copy(const Save& saved, const std::string& path);
 
 } // namespace haptic_sculpt::window_program
-
-#endif

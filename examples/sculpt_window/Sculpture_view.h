@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_SCULPTURE_VIEW_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_SCULPTURE_VIEW_H
+#pragma once
 
 #include "exchange.h"
 
@@ -65,5 +64,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_STROKE_TASK_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_STROKE_TASK_H
+#pragma once
 
 #include "Tasks.h"
 
@@ -71,5 +70,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_TASKS_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_TASKS_H
+#pragma once
 
 #include "Model.h"
 
@@ -282,5 +281,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_EXCHANGE_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_EXCHANGE_H
+#pragma once
 
 /// \file
 /// What the window's thread and the loop's thread tell each other, all of it by value. Lengths are in the mesh's unit.
@@ -148,5 +147,3 @@ private:
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_KEYS_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_KEYS_H
+#pragma once
 
 #include <optional>
 #include <string>
@@ -85,5 +84,3 @@ struct Mouse_use {
 const std::vector<Mouse_use>& mouse_uses();
 
 } // namespace haptic_sculpt::window_program
-
-#endif

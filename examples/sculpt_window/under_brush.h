@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_UNDER_BRUSH_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_UNDER_BRUSH_H
+#pragma once
 
 #include "Tasks.h"
 
@@ -118,5 +117,3 @@ class Unmask_all : public Window_task {
 };
 
 } // namespace haptic_sculpt::window_program
-
-#endif

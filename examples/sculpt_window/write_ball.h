@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_EXAMPLES_WINDOW_WRITE_BALL_H
-#define HAPTIC_SCULPT_EXAMPLES_WINDOW_WRITE_BALL_H
+#pragma once
 
 #include "../common/write_file.h"
 
@@ -47,5 +46,3 @@ inline void write_ball(const std::string& path, int n = 71) {
 }
 
 } // namespace haptic_sculpt::window_program
-
-#endif

@@ -42,6 +42,21 @@ def vector(row, *names):
 folder = tempfile.mkdtemp()
 at = lambda name: os.path.join(folder, name)
 
+# What OUT loses is said once, as sculpt says it; nothing where nothing is lost.
+LINES = open(MESH).read().split("\n")
+COUNT = int(LINES[1].split()[0])
+with open(at("coloured.off"), "w") as file:
+    file.write("\n".join(["COFF", LINES[1], *(line + " 255 0 0" for line in LINES[2:2 + COUNT]), *LINES[2 + COUNT:]]))
+COLOURED = at("coloured.off")
+with open(at("coloured.obj"), "w") as file:
+    file.write("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nv 0.1 0.1 1 1 1 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+for mesh, out, loses in ((COLOURED, "lost.off", True), (COLOURED, "", False), (at("coloured.obj"), "lost.off", True),
+                         (at("coloured.obj"), "kept.ply", False), (at("coloured.obj"), "kept.obj", False), (MESH, "kept.off", False)):
+    done = run(mesh, "--no-wait", "--seconds", 0.02, "--report", at("lost.json"), *(["-o", at(out)] if out else []))
+    notes = json.load(open(at("lost.json")))["notes"]
+    check(("besides its faces: colours" in done.stderr) == loses and done.stderr.count("besides") == loses, f"what {mesh} loses in '{out}': {done.stderr}")
+    check(any("colours" in note for note in notes) == loses, f"notes: {notes}")
+
 run(MESH, "--no-wait", "-o", at("a.off"), "--report", at("a.json"), "--trace", at("a.csv"), "--record", at("a.rec"), "--picture", at("a.png"))
 check(open(at("a.png"), "rb").read(8) == b"\x89PNG\r\n\x1a\n", "a picture")
 DRAW = os.path.join(SOURCE, "examples/haptic_loop/draw_trace.py")

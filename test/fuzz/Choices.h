@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FUZZ_CHOICES_H
-#define HAPTIC_SCULPT_TEST_FUZZ_CHOICES_H
+#pragma once
 
 #include <cmath>
 #include <cstddef>
@@ -71,5 +70,3 @@ inline std::string random_bytes(std::mt19937_64& random, std::size_t most) {
 }
 
 } // namespace haptic_sculpt::fuzz
-
-#endif

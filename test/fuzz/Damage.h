@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FUZZ_DAMAGE_H
-#define HAPTIC_SCULPT_TEST_FUZZ_DAMAGE_H
+#pragma once
 
 #include <algorithm>
 #include <cstdint>
@@ -94,5 +93,3 @@ private:
 };
 
 } // namespace haptic_sculpt::fuzz
-
-#endif

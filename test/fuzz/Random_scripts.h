@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FUZZ_RANDOM_SCRIPTS_H
-#define HAPTIC_SCULPT_TEST_FUZZ_RANDOM_SCRIPTS_H
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -160,5 +159,3 @@ private:
 };
 
 } // namespace haptic_sculpt::fuzz
-
-#endif

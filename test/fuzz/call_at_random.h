@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FUZZ_CALL_AT_RANDOM_H
-#define HAPTIC_SCULPT_TEST_FUZZ_CALL_AT_RANDOM_H
+#pragma once
 
 #include <fuzz/Choices.h>
 #include <fuzz/tiny_scenes.h>
@@ -36,5 +35,3 @@ bool call_at_random(Choices& choices, const meshes::Mesh& mesh, double unit, con
                     Call_tally& tally);
 
 } // namespace haptic_sculpt::fuzz
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FUZZ_REQUIRE_H
-#define HAPTIC_SCULPT_TEST_FUZZ_REQUIRE_H
+#pragma once
 
 #include <cstdio>
 #include <cstdlib>
@@ -16,5 +15,3 @@ inline void require(bool holds, const char* promise) {
 }
 
 } // namespace haptic_sculpt::fuzz
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FUZZ_TEMPORARY_FOLDER_H
-#define HAPTIC_SCULPT_TEST_FUZZ_TEMPORARY_FOLDER_H
+#pragma once
 
 #include <cstdint>
 #include <filesystem>
@@ -35,5 +34,3 @@ inline std::filesystem::path temporary_file(const std::string& name, const std::
 }
 
 } // namespace haptic_sculpt::fuzz
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_FUZZ_TINY_SCENES_H
-#define HAPTIC_SCULPT_TEST_FUZZ_TINY_SCENES_H
+#pragma once
 
 #include <fuzz/Choices.h>
 #include <meshes/generated_meshes.h>
@@ -43,5 +42,3 @@ inline double unit_length(Choices& choices) {
 }
 
 } // namespace haptic_sculpt::fuzz
-
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether a result contradicts itself: the one list of what its members have to do with each other.
-#ifndef HAPTIC_SCULPT_TEST_RESULT_CONTRADICTION_H
-#define HAPTIC_SCULPT_TEST_RESULT_CONTRADICTION_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 
@@ -49,5 +48,3 @@ const char* contradiction(const Drag_result<Mesh>& r, const Point& source, const
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

@@ -29,7 +29,7 @@ protected:
   bool decide(int axis, const std::array<Coordinates, points>& start, const std::array<double, points>& heights,
               const Decide& question) const {
     const Axis_motion<points> motion(axis, start, heights);
-    CGAL_precondition(0 <= axis && axis < 3 && are_finite(motion.start) && are_finite(motion.end));
+    CGAL_precondition(0 <= axis && axis < 3 && motion.are_finite());
     Counters ignored;
     return question(Axis_sweep<points, Counters>(motion, counters_ != nullptr ? *counters_ : ignored));
   }

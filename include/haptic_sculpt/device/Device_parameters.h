@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_DEVICE_PARAMETERS_H
-#define HAPTIC_SCULPT_DEVICE_DEVICE_PARAMETERS_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/device/leg_frame.h>
@@ -220,5 +219,3 @@ template <class S = double> Device_description<S> named_design(Named_design desi
 }
 
 } // namespace haptic_sculpt
-
-#endif

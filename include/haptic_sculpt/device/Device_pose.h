@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_DEVICE_POSE_H
-#define HAPTIC_SCULPT_DEVICE_DEVICE_POSE_H
+#pragma once
 
 #include <haptic_sculpt/device/Device_parameters.h>
 #include <haptic_sculpt/device/Outcome.h>
@@ -98,5 +97,3 @@ template <class S = double> struct Device_state {
 };
 
 } // namespace haptic_sculpt
-
-#endif

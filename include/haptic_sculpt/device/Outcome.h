@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_OUTCOME_H
-#define HAPTIC_SCULPT_DEVICE_OUTCOME_H
+#pragma once
 
 namespace haptic_sculpt {
 
@@ -74,5 +73,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_ASSEMBLY_MODES_H
-#define HAPTIC_SCULPT_DEVICE_ASSEMBLY_MODES_H
+#pragma once
 
 #include <haptic_sculpt/device/ditetrahedral_kinematics.h>
 #include <haptic_sculpt/device/linear_algebra/hessenberg_eigenvalues.h>
@@ -255,5 +254,3 @@ inline Outcome<Assembly_modes<S>> assembly_modes(const Device_parameters<S>& par
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_CONDITIONING_H
-#define HAPTIC_SCULPT_DEVICE_CONDITIONING_H
+#pragma once
 
 #include <haptic_sculpt/device/jacobian.h>
 #include <haptic_sculpt/device/linear_algebra/singular_values.h>
@@ -87,5 +86,3 @@ template <class S> Translation_conditioning<S> translation_conditioning(const De
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_DITETRAHEDRAL_KINEMATICS_H
-#define HAPTIC_SCULPT_DEVICE_DITETRAHEDRAL_KINEMATICS_H
+#pragma once
 
 #include <haptic_sculpt/device/Device_pose.h>
 
@@ -8,8 +7,7 @@
 /// Closed-form kinematics of the di-tetrahedral form (paper section 2, Fig. 2): the apex is at distance l2 from three
 /// elbows.
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The next wider built-in number, to recompute what cancellation has eaten; user-defined scalars stay themselves.
 template <class S> struct Wider { using type = S; };
@@ -267,5 +265,3 @@ inline int ditetrahedral_mode(const Device_parameters<S>& parameters, const Devi
 }
 
 } // namespace haptic_sculpt
-
-#endif

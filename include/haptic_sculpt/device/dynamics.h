@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_DYNAMICS_H
-#define HAPTIC_SCULPT_DEVICE_DYNAMICS_H
+#pragma once
 
 #include <haptic_sculpt/device/planar_dynamics.h>
 #include <haptic_sculpt/device/spatial_dynamics.h>
@@ -53,5 +52,3 @@ Outcome<Joint_accelerations<S>> forward_dynamics(const Device_parameters<S>& par
 }
 
 } // namespace haptic_sculpt
-
-#endif

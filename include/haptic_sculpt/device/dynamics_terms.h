@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_DYNAMICS_TERMS_H
-#define HAPTIC_SCULPT_DEVICE_DYNAMICS_TERMS_H
+#pragma once
 
 #include <haptic_sculpt/device/jacobian.h>
 #include <haptic_sculpt/device/linear_algebra/Small_lu.h>
@@ -112,7 +111,4 @@ template <class S> Device_matrix<S> single_column(const Device_vector<S>& column
   return m;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

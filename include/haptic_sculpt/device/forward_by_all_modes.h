@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_FORWARD_BY_ALL_MODES_H
-#define HAPTIC_SCULPT_DEVICE_FORWARD_BY_ALL_MODES_H
+#pragma once
 
 #include <haptic_sculpt/device/assembly_modes.h>
 #include <haptic_sculpt/device/forward_kinematics.h>
@@ -9,8 +8,7 @@
 /// Forward kinematics that is never `undecided`: where a singular pose stands in the way, all assembly modes are looked
 /// at. Not a part of device.h, since it compiles the eigenvalues, too.
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Sign of the closure's determinant: it changes only across a fold, so the modes of one sheet share it.
 template <class S> bool on_home_sheet(const Platform_closure<S>& closure, const Link_angles<S>& x) {
@@ -130,5 +128,3 @@ Outcome<Device_pose<S>> forward_by_all_modes(const Device_parameters<S>& paramet
 }
 
 } // namespace haptic_sculpt
-
-#endif

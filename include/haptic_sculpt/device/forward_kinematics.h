@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_FORWARD_KINEMATICS_H
-#define HAPTIC_SCULPT_DEVICE_FORWARD_KINEMATICS_H
+#pragma once
 
 #include <haptic_sculpt/device/general_kinematics.h>
 
@@ -25,5 +24,3 @@ Outcome<Device_pose<S>> forward_kinematics(const Device_parameters<S>& parameter
 }
 
 } // namespace haptic_sculpt
-
-#endif

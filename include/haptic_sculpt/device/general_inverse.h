@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_GENERAL_INVERSE_H
-#define HAPTIC_SCULPT_DEVICE_GENERAL_INVERSE_H
+#pragma once
 
 #include <haptic_sculpt/device/general_kinematics.h>
 #include <vector>
@@ -9,8 +8,7 @@
 /// Inverse kinematics of the general form from the platform's position: joint angles and platform rotation together are
 /// six unknowns for the three link lengths and the three right angles between links and platform axes.
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Newton's method at a fixed platform position from the angles and rotation in `pose`; steps are cut to 0.3 rad. On
 /// success the pose is complete. False if it does not settle within `most_iterations`.
@@ -249,5 +247,3 @@ Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device_parameters<S>& par
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_GENERAL_KINEMATICS_H
-#define HAPTIC_SCULPT_DEVICE_GENERAL_KINEMATICS_H
+#pragma once
 
 #include <haptic_sculpt/device/platform_closure.h>
 
@@ -8,8 +7,7 @@
 /// Forward kinematics of the general form: warm (continuing a pose), from a seed, and cold (the home mode).
 /// What these leave undecided, forward_by_all_modes.h decides.
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Completes a pose whose elbows and link angles are known: the one rotation and translation that lay the elbow
 /// triangle, as seen from the platform, on the elbow triangle in the world. False where the elbows are on a line.
@@ -235,5 +233,3 @@ inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& param
 }
 
 } // namespace haptic_sculpt
-
-#endif

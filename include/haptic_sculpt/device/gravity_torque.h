@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_GRAVITY_TORQUE_H
-#define HAPTIC_SCULPT_DEVICE_GRAVITY_TORQUE_H
+#pragma once
 
 #include <haptic_sculpt/device/jacobian.h>
 
@@ -25,5 +24,3 @@ Device_vector<S> gravity_torque(const Device_parameters<S>& parameters, const De
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_JACOBIAN_H
-#define HAPTIC_SCULPT_DEVICE_JACOBIAN_H
+#pragma once
 
 #include <haptic_sculpt/device/velocity_map.h>
 
@@ -162,5 +161,3 @@ Outcome<Device_motion<S>> device_motion(const Device_parameters<S>& parameters, 
 }
 
 } // namespace haptic_sculpt
-
-#endif

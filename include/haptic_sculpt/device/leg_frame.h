@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_LEG_FRAME_H
-#define HAPTIC_SCULPT_DEVICE_LEG_FRAME_H
+#pragma once
 
 #include <haptic_sculpt/no_fast_math.h>
 
@@ -84,7 +83,4 @@ template <class S> void adjugate(const Device_matrix<S>& a, Device_matrix<S>& ad
   determinant = adjugate.row(0).dot(a.col(0).transpose());
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

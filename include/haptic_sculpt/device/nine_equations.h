@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_NINE_EQUATIONS_H
-#define HAPTIC_SCULPT_DEVICE_NINE_EQUATIONS_H
+#pragma once
 
 #include <haptic_sculpt/device/Device_pose.h>
 
@@ -27,5 +26,3 @@ Eigen::Matrix<S, 9, 1> nine_equation_residual(const Device_parameters<S>& parame
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_PLANAR_DYNAMICS_H
-#define HAPTIC_SCULPT_DEVICE_PLANAR_DYNAMICS_H
+#pragma once
 
 #include <haptic_sculpt/device/dynamics_terms.h>
 
@@ -91,5 +90,3 @@ Outcome<Dynamics_terms<S>> planar_dynamics(const Device_parameters<S>& parameter
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_PLATFORM_CLOSURE_H
-#define HAPTIC_SCULPT_DEVICE_PLATFORM_CLOSURE_H
+#pragma once
 
 #include <haptic_sculpt/device/Device_pose.h>
 
@@ -211,7 +210,4 @@ template <class S> inline bool free_newton(const Platform_closure<S>& closure, L
   return false;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_SPATIAL_DYNAMICS_H
-#define HAPTIC_SCULPT_DEVICE_SPATIAL_DYNAMICS_H
+#pragma once
 
 #include <haptic_sculpt/device/dynamics_terms.h>
 
@@ -110,5 +109,3 @@ Outcome<Joint_torques<S>> spatial_inverse_dynamics(const Device_parameters<S>& p
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_VELOCITY_MAP_H
-#define HAPTIC_SCULPT_DEVICE_VELOCITY_MAP_H
+#pragma once
 
 #include <haptic_sculpt/device/Device_pose.h>
 #include <haptic_sculpt/device/linear_algebra/Small_lu.h>
@@ -117,5 +116,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

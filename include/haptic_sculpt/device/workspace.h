@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_WORKSPACE_H
-#define HAPTIC_SCULPT_DEVICE_WORKSPACE_H
+#pragma once
 
 #include <haptic_sculpt/device/conditioning.h>
 #include <haptic_sculpt/device/forward_kinematics.h>
@@ -94,5 +93,3 @@ std::vector<Workspace_sample<S>> sample_workspace(const Device_parameters<S>& pa
 }
 
 } // namespace haptic_sculpt
-
-#endif

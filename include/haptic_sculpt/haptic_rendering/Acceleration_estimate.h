@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_ACCELERATION_ESTIMATE_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_ACCELERATION_ESTIMATE_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -65,5 +64,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

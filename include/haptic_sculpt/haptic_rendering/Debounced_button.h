@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_DEBOUNCED_BUTTON_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_DEBOUNCED_BUTTON_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/loop/require_number.h>
 
@@ -39,5 +38,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

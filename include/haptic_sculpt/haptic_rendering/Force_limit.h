@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_FORCE_LIMIT_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_FORCE_LIMIT_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
 
@@ -96,5 +95,3 @@ inline double share_in_room(const Eigen::Vector3d& torque, const Eigen::Vector3d
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_FORCE_RENDERER_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_FORCE_RENDERER_H
+#pragma once
 
 #include <haptic_sculpt/device/gravity_torque.h>
 #include <haptic_sculpt/device/spatial_dynamics.h>
@@ -105,5 +104,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

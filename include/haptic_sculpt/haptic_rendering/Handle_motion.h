@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_HANDLE_MOTION_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_HANDLE_MOTION_H
+#pragma once
 
 #include <haptic_sculpt/device/conditioning.h>
 #include <haptic_sculpt/device/forward_kinematics.h>
@@ -63,5 +62,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_HAPTIC_LOOP_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_HAPTIC_LOOP_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/loop/Interaction_loop.h>
 #include <haptic_sculpt/haptic_rendering/check_coupling.h>
@@ -48,5 +47,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

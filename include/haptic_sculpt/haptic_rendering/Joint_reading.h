@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_JOINT_READING_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_JOINT_READING_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -15,5 +14,3 @@ struct Joint_reading {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_CONTROLLER_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_CONTROLLER_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
 
@@ -41,5 +40,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_LIMITS_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_LIMITS_H
+#pragma once
 
 #include <haptic_sculpt/device/dynamics.h>
 #include <haptic_sculpt/device/forward_by_all_modes.h>
@@ -199,5 +198,3 @@ inline Passivity_limits passivity_limits(const Device_parameters<double>& parame
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_OBSERVER_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_PASSIVITY_OBSERVER_H
+#pragma once
 
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
 
@@ -51,5 +50,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

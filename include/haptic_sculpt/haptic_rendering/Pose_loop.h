@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_POSE_LOOP_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_POSE_LOOP_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/loop/Interaction_loop.h>
 #include <haptic_sculpt/haptic_rendering/loop/Pose_side.h>
@@ -92,5 +91,3 @@ public:
 };
 
 } // namespace haptic_sculpt
-
-#endif

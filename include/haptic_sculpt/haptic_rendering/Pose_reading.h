@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_POSE_READING_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_POSE_READING_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -14,5 +13,3 @@ struct Pose_reading {
 };
 
 } // namespace haptic_sculpt
-
-#endif

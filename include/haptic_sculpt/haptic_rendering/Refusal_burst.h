@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_REFUSAL_BURST_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_REFUSAL_BURST_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -74,5 +73,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_TICK_STATISTICS_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_TICK_STATISTICS_H
+#pragma once
 
 #include <array>
 #include <cmath>
@@ -63,5 +62,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Tool_step.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Journaled_edits.h>
@@ -324,5 +323,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

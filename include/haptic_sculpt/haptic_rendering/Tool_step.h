@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_STEP_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_TOOL_STEP_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
 #include <haptic_sculpt/sculpting/Drag_result.h>
@@ -36,5 +35,3 @@ struct Tool_edits {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_VERTEX_SNAP_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_VERTEX_SNAP_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/loop/require_number.h>
 
@@ -43,5 +42,3 @@ struct Vertex_snap {
 };
 
 } // namespace haptic_sculpt
-
-#endif

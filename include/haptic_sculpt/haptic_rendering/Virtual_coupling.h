@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_VIRTUAL_COUPLING_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_VIRTUAL_COUPLING_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Workspace_map.h>
 #include <haptic_sculpt/haptic_rendering/loop/require_number.h>
@@ -66,5 +65,3 @@ struct Virtual_coupling {
 };
 
 } // namespace haptic_sculpt
-
-#endif

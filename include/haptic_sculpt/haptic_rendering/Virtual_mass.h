@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_VIRTUAL_MASS_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_VIRTUAL_MASS_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Acceleration_estimate.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
@@ -66,5 +65,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

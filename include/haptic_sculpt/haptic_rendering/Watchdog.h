@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_WATCHDOG_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_WATCHDOG_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
 #include <haptic_sculpt/haptic_rendering/loop/require_number.h>
@@ -119,5 +118,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

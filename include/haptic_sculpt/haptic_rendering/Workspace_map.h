@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_WORKSPACE_MAP_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_WORKSPACE_MAP_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/collision/arithmetic/unit_of.h>
@@ -78,5 +77,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_CHECK_COUPLING_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_CHECK_COUPLING_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/loop/Haptic_parameters.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
@@ -53,5 +52,3 @@ inline void check_limits(const Passivity_limits& limits, const Device_parameters
 }
 
 } // namespace haptic_sculpt
-
-#endif

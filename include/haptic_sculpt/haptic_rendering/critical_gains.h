@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_CRITICAL_GAINS_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_CRITICAL_GAINS_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Acceleration_estimate.h>
 #include <haptic_sculpt/haptic_rendering/Velocity_estimate.h>
@@ -9,8 +8,7 @@
 /// Where a free mass that is given its own acceleration, velocity or place begins to swing by itself
 /// (doc/proofs/haptic_stability.md, "What a free mass carries").
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The response of a free mass of 1 kg to a force that is held from tick to tick and late by `delay` ticks: its place
 /// over the force, m/N, at q = exp(-i angle), angle being that of one tick.
@@ -83,5 +81,3 @@ inline double largest_damping_rate(double tick, double delay, double cutoff = Ve
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_FINDING_AND_PLACING_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_FINDING_AND_PLACING_H
+#pragma once
 
 #include <haptic_sculpt/collision/arithmetic/unit_of.h>
 #include <haptic_sculpt/sculpting.h>
@@ -10,8 +9,7 @@
 /// \file
 /// How the tool finds vertices and says where it creates, in the vectors of the device.
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 template <class Point>
 Eigen::Vector3d vector_of(const Point& p) {
@@ -61,5 +59,3 @@ Edit creation_at(const Sculptor& sculptor, const std::array<typename Sculptor::V
 }
 
 } // namespace haptic_sculpt
-
-#endif

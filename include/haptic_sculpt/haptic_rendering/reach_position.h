@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_REACH_POSITION_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_REACH_POSITION_H
+#pragma once
 
 #include <haptic_sculpt/device/conditioning.h>
 #include <haptic_sculpt/device/forward_kinematics.h>
@@ -78,5 +77,3 @@ inline double workspace_radius(const Device_parameters<double>& parameters, cons
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace haptic_sculpt {
@@ -15,6 +16,7 @@ struct Move_report {
   /// How many motions were asked for, those that took steps back included; of an axis move one for each vertex.
   std::size_t drags = 0;
   std::size_t counted = 0; ///< the same, but a slide counts by its work: what Move_parameters::most_drags() bounds
+  std::size_t pairs = 0;   ///< decided, where Move_parameters::most_pairs() bounds them, and no more than that; else 0
 
   /// How many vertices are not at their targets; left_l2 and left_max tell how far they are from there.
   std::size_t left() const { return asked - reached; }
@@ -25,7 +27,7 @@ struct Move_report {
   double left_max = 0;  ///< the largest distance after; never more than asked_max
 
   bool cancelled = false;   ///< the progress function asked to stop
-  bool out_of_work = false; ///< as much as `most_drags` was made, and some vertex was still to go on
+  bool out_of_work = false; ///< `most_drags` or `most_pairs` has ended it, and some vertex was still to go on
 };
 
 /// How far a call that moves many vertices has come.
@@ -39,6 +41,7 @@ struct Move_progress {
 /// The options of move_vertices(), named and chained: `Move_parameters().most_drags(1000000).progress(f)`.
 struct Move_parameters {
   std::size_t drag_limit = std::numeric_limits<std::size_t>::max(); ///< most_drags(); at first without limit
+  std::optional<std::size_t> pair_limit;                            ///< most_pairs(); unset: not counted
 
   /// A slide counts as one drag for this many pairs that it decides, or part of them: as many as a drag that is
   /// stopped at its first impact decides, or a little more (doc/use/many_vertices.md).
@@ -53,6 +56,14 @@ struct Move_parameters {
   /// was left. No clock is asked: the same call does the same again, with any broad phase.
   Move_parameters& most_drags(std::size_t n) {
     drag_limit = n;
+    return *this;
+  }
+  /// This many pairs are decided at most: a bound on the time that does not depend on how many pairs a vertex takes. It
+  /// is asked before each round of an axis move, which is made whole or not at all, and goes to each drag as the bound
+  /// on its work. Then the call ends with what stood; the same call goes on. Counted, never timed: the same with any
+  /// broad phase and any number of threads (doc/use/work.md). Cost: each axis move searches its pairs twice.
+  Move_parameters& most_pairs(std::optional<std::size_t> n) {
+    pair_limit = n;
     return *this;
   }
   /// Called before each axis move and every `drags_between_calls` drags, counted in the same way; false ends the call,

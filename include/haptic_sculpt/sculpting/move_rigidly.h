@@ -15,6 +15,8 @@ namespace haptic_sculpt {
 /// \param vertices a range of vertices; one that is given again counts once
 /// \param transformation of the kernel of the mesh's points. Where all of the way is gone, each vertex is at what
 /// `transformation.transform()` makes of its point, to the bit
+/// \param parameters as of move_vertices(): `most_drags`, `most_pairs` and `progress` end it where it stands; the others
+/// are of no account
 ///
 /// The way is a straight one or an arc. It is gone in steps of at least a 1024th, made by all vertices or by none; each
 /// is an axis move along x, one along y and one along z to places on the way, so that between steps what moves may be
@@ -25,7 +27,8 @@ namespace haptic_sculpt {
 template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Vertex_range>
 Rigid_move_report<typename Sculptor::Mesh_type> move_rigidly(
     Sculptor& sculptor, const Vertex_range& vertices,
-    const CGAL::Aff_transformation_3<typename CGAL::Kernel_traits<typename Sculptor::Point>::Kernel>& transformation) {
+    const CGAL::Aff_transformation_3<typename CGAL::Kernel_traits<typename Sculptor::Point>::Kernel>& transformation,
+    const Move_parameters& parameters = Move_parameters()) {
   const internal::Rounding_to_nearest rounding;
   std::array<internal::Vector, 3> linear;
   internal::Vector shift;
@@ -40,7 +43,7 @@ Rigid_move_report<typename Sculptor::Mesh_type> move_rigidly(
   Rigid_move_report<typename Sculptor::Mesh_type> report;
   report.asked = moving.size();
   const auto stroke = sculptor.stroke();
-  internal::Rigid_mover<Sculptor>(sculptor, moving, way, Part_runner::by<Concurrency_tag>()).run(report);
+  internal::Rigid_mover<Sculptor>(sculptor, moving, way, parameters, report, Part_runner::by<Concurrency_tag>()).run();
   return report;
 }
 

@@ -62,6 +62,7 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
       ++report.reached;
     else
       *left_behind++ = v.vertex;
+  report.out_of_work = report.out_of_work && report.left() > 0; // drags may have done what an axis move was not to
   return report;
 }
 

@@ -24,6 +24,7 @@ public:
     round_of_[number] = round_;
     return is_new;
   }
+  bool is_marked(std::size_t number) const { return round_of_[number] == round_; }
   /// Bytes held, capacity included.
   std::size_t memory() const { return round_of_.capacity() * sizeof(std::uint32_t); }
 

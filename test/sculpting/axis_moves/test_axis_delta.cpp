@@ -19,7 +19,7 @@ mpq_class excess(const Motion& motion, const mpq_class& delta, int side, const m
   std::array<std::array<mpq_class, 3>, 3> p;
   for (int v = 0; v < 3; ++v)
     for (int k = 0; k < 3; ++k)
-      p[v][k] = (1 - t) * mpq_class(motion.start[v][k]) + t * mpq_class(motion.end[v][k]);
+      p[v][k] = (1 - t) * mpq_class(motion.start(v)[k]) + t * mpq_class(motion.end(v)[k]);
   mpq_class normal = 0, length = 0;
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3, m = (k + 2) % 3;

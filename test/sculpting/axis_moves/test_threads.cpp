@@ -67,6 +67,12 @@ void move_about(Threads_outcome& outcome, const meshes::Triangle_list& list, dou
                                           std::back_inserter(left));
     left.push_back(moved.drags);
     note(outcome, mesh, left);
+    Mesh other = mesh; // a bound on the pairs is asked of sums of what threads have counted
+    Sculptor<Mesh> bounded(other, parameters::delta(delta));
+    for (const std::size_t most : {20000, 100000}) {
+      const auto report = move_vertices<Tag>(bounded, mesh.vertices(), targets, Move_parameters().most_pairs(most));
+      note(outcome, other, {report.pairs, report.reached, report.out_of_work});
+    }
   }
   const CGAL::Aff_transformation_3<meshes::Kernel> up(CGAL::TRANSLATION, {size, 20 * size, 0});
   std::vector<Vertex_index> half;

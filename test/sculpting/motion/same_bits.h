@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether two results are the same to the bit.
-#ifndef HAPTIC_SCULPT_TEST_SAME_BITS_H
-#define HAPTIC_SCULPT_TEST_SAME_BITS_H
+#pragma once
 
 #include "sculpting/Random_scene.h"
 
@@ -46,5 +45,3 @@ inline bool same_bits(const Mesh& a, const Mesh& b) {
 }
 
 } // namespace haptic_sculpt::test
-
-#endif

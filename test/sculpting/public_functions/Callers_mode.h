@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_CALLERS_MODE_H
-#define HAPTIC_SCULPT_TEST_PUBLIC_FUNCTIONS_CALLERS_MODE_H
+#pragma once
 
 #include <cfenv>
 #include <utility>
@@ -48,5 +47,3 @@ private:
 };
 
 } // namespace haptic_sculpt::test
-
-#endif

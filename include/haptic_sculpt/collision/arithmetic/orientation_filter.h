@@ -80,16 +80,20 @@ inline Enclosed_determinant enclosed_orientation_3(const Coordinates& a, const C
   return enclosed_determinant_3(difference(b, a), difference(c, a), difference(d, a));
 }
 
-inline Enclosed_determinant enclosed_orientation_2(const Coordinates& a, const Coordinates& b, const Coordinates& c,
-                                                   int axis) {
-  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-  const double bi = b[i] - a[i], bj = b[j] - a[j], ci = c[i] - a[i], cj = c[j] - a[j];
+/// The 2x2 determinant of rows b, c of differences.
+HAPTIC_SCULPT_ALWAYS_INLINE Enclosed_determinant enclosed_determinant_2(double bi, double bj, double ci, double cj) {
   const double mi = std::max(std::abs(bi), std::abs(ci)), mj = std::max(std::abs(bj), std::abs(cj));
   const double least = std::min(mi, mj), largest = std::max(mi, mj);
   if (least == 0)
     return {0, 0, true};
   return {bi * cj - bj * ci, orientation_2_error * (mi * mj),
           least >= least_safe_difference && largest <= largest_safe_difference};
+}
+
+inline Enclosed_determinant enclosed_orientation_2(const Coordinates& a, const Coordinates& b, const Coordinates& c,
+                                                   int axis) {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  return enclosed_determinant_2(b[i] - a[i], b[j] - a[j], c[i] - a[i], c[j] - a[j]);
 }
 
 /// The second stage of the filter: |computed - exact| <= this times the sum of the magnitudes of all six products,
@@ -183,12 +187,9 @@ int orientation_3(const Coordinates& a, const Coordinates& b, const Coordinates&
                                   : orientation_3_past_the_filter(a, b, c, d, determinant.is_safe, counters);
 }
 
-/// Sign of the determinant of (b - a, c - a) in the projection that drops coordinate `axis`.
 template <class Counters>
-int orientation_2(const Coordinates& a, const Coordinates& b, const Coordinates& c, int axis, Counters& counters) {
-  const Enclosed_determinant determinant = enclosed_orientation_2(a, b, c, axis);
-  if (determinant.is_certain())
-    return determinant.sign();
+HAPTIC_SCULPT_NOINLINE int exact_orientation_2(const Coordinates& a, const Coordinates& b, const Coordinates& c,
+                                               int axis, Counters& counters) {
   Exponent_range range;
   for (const Coordinates* p : {&a, &b, &c})
     range.include((*p)[(axis + 1) % 3]), range.include((*p)[(axis + 2) % 3]);
@@ -201,6 +202,13 @@ int orientation_2(const Coordinates& a, const Coordinates& b, const Coordinates&
     };
     return sign_of(orientation_determinant_2<Integer>(integer(a), integer(b), integer(c), axis));
   });
+}
+
+/// Sign of the determinant of (b - a, c - a) in the projection that drops coordinate `axis`.
+template <class Counters>
+int orientation_2(const Coordinates& a, const Coordinates& b, const Coordinates& c, int axis, Counters& counters) {
+  const Enclosed_determinant determinant = enclosed_orientation_2(a, b, c, axis);
+  return determinant.is_certain() ? determinant.sign() : exact_orientation_2(a, b, c, axis, counters);
 }
 
 } // namespace haptic_sculpt::internal

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_SMALL_LU_H
-#define HAPTIC_SCULPT_DEVICE_SMALL_LU_H
+#pragma once
 
 #include <Eigen/Core>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// The LU factors of a small square matrix, rows pivoted: the operations of Eigen's PartialPivLU one by one, so that
 /// the bits are its bits, but on scalars. Eigen's expressions for them compile for two seconds a size and number type.
@@ -98,7 +96,4 @@ private:
   int pivots_[size];
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

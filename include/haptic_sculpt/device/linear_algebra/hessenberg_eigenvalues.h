@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_HESSENBERG_EIGENVALUES_H
-#define HAPTIC_SCULPT_DEVICE_HESSENBERG_EIGENVALUES_H
+#pragma once
 
 #include <Eigen/Core>
 #include <array>
@@ -14,8 +13,7 @@
 /// program that asks for a pose contains them, and Eigen's solver compiles for 12 seconds for one size of matrix and
 /// one number type.
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 template <class S, int size>
 class Hessenberg_eigenvalues {
@@ -233,7 +231,4 @@ private:
   S scale_, least_, shifted_;
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

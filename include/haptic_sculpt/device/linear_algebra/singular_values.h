@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_SINGULAR_VALUES_H
-#define HAPTIC_SCULPT_DEVICE_SINGULAR_VALUES_H
+#pragma once
 
 #include <Eigen/Core>
 #include <cmath>
@@ -12,8 +11,7 @@
 /// The operations are those of Eigen's JacobiSVD one by one, so that the bits are its bits, but on scalars: Eigen's
 /// expressions for them compile for two to five seconds a number type.
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// A plane rotation: x becomes c x + s y, and y becomes c y - s x.
 template <class S>
@@ -113,7 +111,4 @@ Eigen::Matrix<S, size, 1> singular_values(const Eigen::Matrix<S, size, size>& ma
   return values;
 }
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

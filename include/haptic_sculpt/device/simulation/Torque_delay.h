@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_TORQUE_DELAY_H
-#define HAPTIC_SCULPT_DEVICE_TORQUE_DELAY_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/device/leg_frame.h>
@@ -53,5 +52,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

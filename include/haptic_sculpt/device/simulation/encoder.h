@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_ENCODER_H
-#define HAPTIC_SCULPT_DEVICE_ENCODER_H
+#pragma once
 
 #include <haptic_sculpt/device/Device_parameters.h>
 
@@ -21,5 +20,3 @@ Device_vector<S> measured_angles(const Device_parameters<S>& parameters, const D
 }
 
 } // namespace haptic_sculpt
-
-#endif

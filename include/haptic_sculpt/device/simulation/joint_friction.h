@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_JOINT_FRICTION_H
-#define HAPTIC_SCULPT_DEVICE_JOINT_FRICTION_H
+#pragma once
 
 #include <haptic_sculpt/device/Device_parameters.h>
 
@@ -34,5 +33,3 @@ Device_vector<S> joint_friction(const Device_parameters<S>& parameters, const De
 }
 
 } // namespace haptic_sculpt
-
-#endif

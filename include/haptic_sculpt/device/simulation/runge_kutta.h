@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_RUNGE_KUTTA_H
-#define HAPTIC_SCULPT_DEVICE_RUNGE_KUTTA_H
+#pragma once
 
 #include <haptic_sculpt/device/dynamics.h>
 #include <haptic_sculpt/device/forward_kinematics.h>
@@ -97,5 +96,3 @@ Outcome<Coupled_state<S, count>> runge_kutta_step(const Device_parameters<S>& pa
 }
 
 } // namespace haptic_sculpt
-
-#endif

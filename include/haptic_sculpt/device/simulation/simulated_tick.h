@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_SIMULATED_TICK_H
-#define HAPTIC_SCULPT_DEVICE_SIMULATED_TICK_H
+#pragma once
 
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
 #include <haptic_sculpt/device/simulation/encoder.h>
@@ -52,5 +51,3 @@ Outcome<Coupled_state<S, count>> simulate_tick(const Device_parameters<S>& param
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_DEVICE_SIMULATION_H
-#define HAPTIC_SCULPT_DEVICE_SIMULATION_H
+#pragma once
 
 #include <haptic_sculpt/device/simulation/runge_kutta.h>
 
@@ -27,5 +26,3 @@ Outcome<Device_state<S>> runge_kutta_step(const Device_parameters<S>& parameters
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_CHANGED_FACES_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_CHANGED_FACES_H
+#pragma once
 
 #include <boost/circular_buffer.hpp>
 
@@ -52,5 +51,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

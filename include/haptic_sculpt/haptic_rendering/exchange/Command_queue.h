@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COMMAND_QUEUE_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COMMAND_QUEUE_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Tool.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
@@ -100,5 +99,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

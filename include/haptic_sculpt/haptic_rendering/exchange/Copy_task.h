@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COPY_TASK_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_COPY_TASK_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/exchange/Command_queue.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_copy.h>
@@ -36,5 +35,3 @@ public:
 };
 
 } // namespace haptic_sculpt
-
-#endif

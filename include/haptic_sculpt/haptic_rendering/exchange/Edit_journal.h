@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_EDIT_JOURNAL_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_EDIT_JOURNAL_H
+#pragma once
 
 #include <haptic_sculpt/sculpting/Edit.h>
 
@@ -81,5 +80,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_JOURNALED_EDITS_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_JOURNALED_EDITS_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
 #include <haptic_sculpt/sculpting.h>
@@ -202,5 +201,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

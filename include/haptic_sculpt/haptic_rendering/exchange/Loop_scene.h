@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_SCENE_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_SCENE_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Workspace_map.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_visitor.h>
@@ -74,5 +73,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

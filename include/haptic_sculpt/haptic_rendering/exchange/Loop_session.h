@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_SESSION_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_LOOP_SESSION_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/exchange/Copy_task.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
@@ -208,5 +207,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_COPY_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_COPY_H
+#pragma once
 
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
@@ -113,5 +112,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

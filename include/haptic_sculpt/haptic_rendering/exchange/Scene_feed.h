@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_FEED_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_FEED_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Tool_step.h>
 #include <haptic_sculpt/haptic_rendering/Watchdog.h>
@@ -83,5 +82,3 @@ private:
 using Scene_feed = Basic_scene_feed<Face_change>;
 
 } // namespace haptic_sculpt
-
-#endif

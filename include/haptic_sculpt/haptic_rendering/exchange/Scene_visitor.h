@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_VISITOR_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_EXCHANGE_SCENE_VISITOR_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/exchange/Changed_faces.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_copy.h>
@@ -72,5 +71,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

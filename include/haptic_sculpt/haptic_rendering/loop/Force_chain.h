@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_FORCE_CHAIN_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_FORCE_CHAIN_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Force_limit.h>
 #include <haptic_sculpt/haptic_rendering/Refusal_burst.h>
@@ -64,5 +63,3 @@ public:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_HAPTIC_PARAMETERS_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_HAPTIC_PARAMETERS_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
 #include <haptic_sculpt/haptic_rendering/Vertex_snap.h>
@@ -51,5 +50,3 @@ struct Haptic_parameters {
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_INTERACTION_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_INTERACTION_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/loop/Joint_side.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
@@ -117,5 +116,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

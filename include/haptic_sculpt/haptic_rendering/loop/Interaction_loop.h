@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_INTERACTION_LOOP_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_INTERACTION_LOOP_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/loop/Interaction.h>
 #include <haptic_sculpt/haptic_rendering/Tool.h>
@@ -187,5 +186,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

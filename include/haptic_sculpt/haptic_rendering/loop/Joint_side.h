@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_JOINT_SIDE_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_JOINT_SIDE_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/loop/Haptic_parameters.h>
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
@@ -59,5 +58,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

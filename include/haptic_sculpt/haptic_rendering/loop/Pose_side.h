@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_POSE_SIDE_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_POSE_SIDE_H
+#pragma once
 
 #include <haptic_sculpt/haptic_rendering/loop/Haptic_parameters.h>
 #include <haptic_sculpt/haptic_rendering/Pose_reading.h>
@@ -83,5 +82,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

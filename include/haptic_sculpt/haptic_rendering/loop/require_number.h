@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_REQUIRE_NUMBER_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_LOOP_REQUIRE_NUMBER_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 
@@ -17,5 +16,3 @@ inline void require_number(const char* what, const char* unit, double x, double 
 }
 
 } // namespace haptic_sculpt::internal
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATION_HAND_PATH_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATION_HAND_PATH_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 
@@ -114,5 +113,3 @@ inline Hand_path Hand_path::parse(std::string_view text, const std::string& name
 }
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATION_SIMULATED_DEVICE_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATION_SIMULATED_DEVICE_H
+#pragma once
 
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
 #include <haptic_sculpt/device/simulation/encoder.h>
@@ -120,5 +119,3 @@ private:
 };
 
 } // namespace haptic_sculpt
-
-#endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATION_SIMULATED_HAND_H
-#define HAPTIC_SCULPT_HAPTIC_RENDERING_SIMULATION_SIMULATED_HAND_H
+#pragma once
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/device/leg_frame.h>
@@ -101,5 +100,3 @@ struct Simulated_hand {
 };
 
 } // namespace haptic_sculpt
-
-#endif

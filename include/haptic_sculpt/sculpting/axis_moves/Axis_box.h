@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/collision/arithmetic/axis_sweep.h>
 #include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 
 #include <array>
@@ -8,8 +9,32 @@
 
 namespace haptic_sculpt::internal {
 
-/// Where a face is in a motion along one axis: the intervals of the two other coordinates, which do not change, and
-/// those along the axis at the start and at the end. Floats in a unit of the scene's own, rounded outward.
+/// The intervals of a face in a motion along one axis, in doubles: of the two other coordinates, which do not change, and
+/// of that along the axis at the start and at the end.
+struct Axis_bounds {
+  Axis_place least, largest;
+
+  explicit Axis_bounds(const Axis_motion<3>& motion) : least(motion.places[0]), largest(least) {
+    for (int i = 1; i < 3; ++i)
+      for (int k = 0; k < 4; ++k) {
+        const double x = motion.places[i][k];
+        least[k] = x < least[k] ? x : least[k];
+        largest[k] = x > largest[k] ? x : largest[k];
+      }
+  }
+
+  /// Whether nothing of the one can meet anything of the other: as Axis_box_node::meeting() has it.
+  bool are_apart(const Axis_bounds& other) const {
+    const auto is_below = [](const Axis_bounds& x, const Axis_bounds& y, int k) { return x.largest[k] < y.least[k]; };
+    const auto is_below_all_along = [&](const Axis_bounds& x, const Axis_bounds& y) {
+      return is_below(x, y, 2) && is_below(x, y, 3);
+    };
+    return is_below(*this, other, 0) || is_below(other, *this, 0) || is_below(*this, other, 1) ||
+           is_below(other, *this, 1) || is_below_all_along(*this, other) || is_below_all_along(other, *this);
+  }
+};
+
+/// The same in floats, in a unit of the scene's own, rounded outward.
 struct Axis_box {
   std::array<float, 4> lower, upper; ///< of the next coordinate, of the one after, at the start, at the end
 
@@ -18,21 +43,11 @@ struct Axis_box {
     upper.fill(-std::numeric_limits<float>::infinity());
   }
 
-  /// Corners at the start, and their coordinates along the axis at the end.
-  template <std::size_t corners>
-  Axis_box(const Box_scale& scale, int axis, const std::array<std::array<double, 3>, corners>& start,
-           const std::array<double, corners>& end)
-  {
+  Axis_box(const Box_scale& scale, const Axis_motion<3>& motion) {
+    const Axis_bounds bounds(motion);
     for (int k = 0; k < 4; ++k) {
-      const auto coordinate = [&](std::size_t i) { return k < 3 ? start[i][(axis + 1 + k) % 3] : end[i]; };
-      double least = coordinate(0), largest = least;
-      for (std::size_t i = 1; i < corners; ++i) {
-        const double x = coordinate(i);
-        least = x < least ? x : least;
-        largest = x > largest ? x : largest;
-      }
-      lower[k] = scale.below(least);
-      upper[k] = scale.above(largest);
+      lower[k] = scale.below(bounds.least[k]);
+      upper[k] = scale.above(bounds.largest[k]);
     }
   }
 };

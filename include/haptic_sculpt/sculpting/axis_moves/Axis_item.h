@@ -12,6 +12,7 @@ struct Axis_item {
   std::uint8_t owned;        ///< bits: of the corners 0, 1, 2 and the edges after them, those looked at with this face
   std::int8_t side;          ///< the orientation as seen along the axis
   std::uint8_t unfolded = 0; ///< bits: of the corners, those whose stars are seen along the axis without a fold
+  bool moves = false;        ///< at the start of the motion
 };
 
 /// Bits: which corners of f are corners of g. Without a branch: most pairs found are neighbours, in no order that a

@@ -4,6 +4,7 @@
 #include <haptic_sculpt/sculpting/Mesh_changed.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_box_tree.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_scene.h>
+#include <haptic_sculpt/sculpting/axis_moves/Pair_budget.h>
 
 namespace haptic_sculpt::internal {
 
@@ -36,18 +37,33 @@ public:
   void forget() { scene_.forget(); }
 
   /// A motion of the vertices given, each once. \param delta 0: no rule \param run who shares the work of the motion
-  /// \param most it is given up as soon as it is known that more would be held back; the search ends then. \pre every
-  /// face of theirs has been taken
+  /// \param most it is given up as soon as it is known that more would be held back; the search ends then
+  /// \param work where it is not null, it is given up before anything is decided that would pass it, and what is
+  /// decided is taken from it \pre every face of theirs has been taken
   void begin(int axis, const Axis_ways<Mesh>& ways, double delta, const Part_runner& run = Part_runner(),
-             std::size_t most = std::numeric_limits<std::size_t>::max()) {
+             std::size_t most = std::numeric_limits<std::size_t>::max(), Pair_budget* work = nullptr) {
     run_ = run;
     held_ = 0;
     most_ = most;
+    budget_ = work;
+    counted_ = 0;
+    is_too_much_ = false;
+    obstacles_.clear();
+    pulled_.clear();
     scene_.begin(axis, ways, delta);
     tree_.begin_round();
+    active_.clear();
+    for (std::uint32_t slot = 0; slot < items().size(); ++slot)
+      if (items()[slot].moves)
+        active_.push_back(slot);
+    if (budget_ != nullptr && active_.size() > budget_->left()) {
+      is_too_much_ = true;
+      return;
+    }
     look_at(items().size(), slots_a_part, [this](std::size_t k, Axis_findings& found) {
       const auto slot = static_cast<std::uint32_t>(k);
-      tree_.put(slot, box_of(scene_.look_along(slot, found.counters)), scene_.does_move(items()[slot]));
+      scene_.fetch_ahead(slot);
+      tree_.put(slot, Axis_box(scale_, scene_.look_along(slot, found.counters)), items()[slot].moves);
     });
     tree_.refit_all(run_);
     scene_.tell_corners();
@@ -55,14 +71,12 @@ public:
       for (std::size_t slot = first; slot < end; ++slot)
         scene_.find_folds(static_cast<std::uint32_t>(slot));
     });
-    active_.clear();
-    for (std::uint32_t slot = 0; slot < items().size(); ++slot)
-      if (scene_.does_move(items()[slot]))
-        active_.push_back(slot);
     decide();
   }
 
-  bool is_free() const { return obstacles_.empty(); }
+  bool is_free() const { return obstacles_.empty() && !is_too_much_; }
+  /// Whether it was given up because more would have been decided than may be.
+  bool is_too_much() const { return is_too_much_; }
   /// All of the last round; where the motion was given up, those that were found till then.
   const std::vector<Axis_obstacle>& obstacles() const { return obstacles_; }
 
@@ -74,10 +88,10 @@ public:
   /// it was given up \throw Mesh_changed where the mesh cannot have been embedded
   bool hold_back() {
     while (!is_free()) {
-      if (pulled_.empty())
-        throw Mesh_changed("faces that do not move meet each other");
       if (is_given_up())
         return false;
+      if (pulled_.empty())
+        throw Mesh_changed("faces that do not move meet each other");
       pull();
       decide();
     }
@@ -104,6 +118,9 @@ private:
   Box_scale scale_;
   std::size_t held_ = 0; ///< vertices that have been pulled, or are to be in this round
   std::size_t most_ = 0;
+  Pair_budget* budget_ = nullptr;
+  std::size_t counted_ = 0; ///< faces and pairs of this round
+  bool is_too_much_ = false;
   Axis_scene<Mesh> scene_;
   Axis_box_tree tree_;
   std::vector<std::uint32_t> active_; ///< slots to be looked at in this round
@@ -112,14 +129,7 @@ private:
   std::vector<std::uint32_t> pulled_; ///< vertices for which shares are proposed in this round
   std::vector<std::pair<std::uint32_t, std::uint32_t>> put_off_; ///< pairs of slots
 
-  Axis_box box_of(const Axis_motion<3>& motion) const {
-    std::array<double, 3> ends;
-    for (int k = 0; k < 3; ++k)
-      ends[k] = motion.end[k][motion.axis];
-    return Axis_box(scale_, motion.axis, motion.start, ends);
-  }
-
-  bool is_given_up() const { return held_ > most_; }
+  bool is_given_up() const { return held_ > most_ || is_too_much_; }
 
   /// Looks at n things, until it is known that the motion is given up: in waves, twice as many parts in each as in the
   /// one before. What a wave finds depends on how all was before it, and so not on who shares its parts.
@@ -138,12 +148,28 @@ private:
       });
       for (std::size_t k = 0; k * things_a_part < size; ++k) {
         *counters_ += parts_[k].counters;
+        counted_ += parts_[k].work;
         for (const Axis_obstacle& obstacle : parts_[k].obstacles)
           add(obstacle);
         put_off_.insert(put_off_.end(), parts_[k].put_off.begin(), parts_[k].put_off.end());
       }
       begin += size;
+      is_too_much_ = is_too_much_ || (budget_ != nullptr && counted_ > budget_->left());
     }
+  }
+
+  /// Takes what this round is to decide from what may be, or finds that it is too much: counted before anything is
+  /// decided, so that it does not depend on the order of the tree when a round is given up half-way.
+  void count_round() {
+    counted_ = active_.size();
+    const auto& joins = tree_.joins();
+    look_at(joins.size(), joins_a_part, [&](std::size_t k, Axis_findings& found) {
+      tree_.for_each_pair(joins[k], [&](std::uint32_t a, std::uint32_t b) {
+        found.work += scene_.does_count(items()[a], items()[b]);
+      });
+    });
+    if (!is_too_much_)
+      budget_->take(std::exchange(counted_, 0));
   }
 
   /// One round: finds all obstacles and what they propose, or enough to give up. Pairs of which one face is to be held
@@ -152,11 +178,13 @@ private:
     obstacles_.clear();
     pulled_.clear();
     put_off_.clear();
+    tree_.refit();
+    if (budget_ != nullptr)
+      count_round();
     look_at(active_.size(), slots_a_part,
             [this](std::size_t k, Axis_findings& found) { scene_.decide_face(items()[active_[k]], found); });
     if (is_given_up())
       return;
-    tree_.refit();
     const auto& joins = tree_.joins();
     look_at(joins.size(), joins_a_part, [&](std::size_t k, Axis_findings& found) {
       tree_.for_each_pair(joins[k], [&](std::uint32_t a, std::uint32_t b) {
@@ -211,18 +239,18 @@ private:
 
   void shorten(std::uint32_t k) {
     auto& v = scene_.vertex(k);
-    const double start = scene_.height(k), end = std::fma(v.share, v.end - start, start);
-    v.end = v.end < start ? std::fmin(std::fmax(end, v.end), start) : std::fmax(std::fmin(end, v.end), start);
+    const double start = scene_.height(k), all = scene_.end_of(k), part = std::fma(v.share, all - start, start);
+    const double end = all < start ? std::fmin(std::fmax(part, all), start) : std::fmax(std::fmin(part, all), start);
     v.share = 1;
-    if (++v.pulls == most_pulls || v.end == start)
-      v.moves = false;
+    v.moves = ++v.pulls != most_pulls && end != start;
+    scene_.set_end(k, v.moves ? end : start);
   }
 
   void activate_around(std::uint32_t k) {
     for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(Vertex_index(k))))
       if (f != mesh_->null_face()) {
         const std::uint32_t slot = scene_.slot(f);
-        tree_.set(slot, box_of(scene_.motion_of(items()[slot].corners)), true);
+        tree_.set(slot, Axis_box(scale_, scene_.motion_of(items()[slot].corners)), true);
         active_.push_back(slot);
       }
   }

@@ -47,12 +47,12 @@ struct Axis_pull {
 /// vertical planes, all go half their ways.
 inline Axis_pull pull_for(Axis_obstacle::Kind kind, const Axis_motion<4>& motion) {
   Axis_pull pull{{true, true, true, true}, 0.5};
-  const int i = (motion.axis + 1) % 3, j = (motion.axis + 2) % 3, h = motion.axis;
-  const auto& p = motion.start;
+  constexpr int i = 0, j = 1, h = 2, end = 3;
+  const auto& p = motion.places;
   double across = 0, along = 0; // the largest differences, lest products leave the range
   for (int k = 0; k < 4; ++k) {
     across = std::fmax(across, std::fmax(std::abs(p[k][i] - p[0][i]), std::abs(p[k][j] - p[0][j])));
-    along = std::fmax(along, std::fmax(std::abs(p[k][h] - p[0][h]), std::abs(motion.end[k][h] - p[k][h])));
+    along = std::fmax(along, std::fmax(std::abs(p[k][h] - p[0][h]), std::abs(p[k][end] - p[k][h])));
   }
   const double unit_across = unit_of(across), unit_along = unit_of(along);
   // Each product-sum is a fused one, so that compilers cannot choose.
@@ -74,7 +74,7 @@ inline Axis_pull pull_for(Axis_obstacle::Kind kind, const Axis_motion<4>& motion
   double closing = 0, opening = 0;
   Axis_pull proposed = pull;
   for (int k = 0; k < 4; ++k) {
-    const double change = std::copysign(1.0, gap) * weights[k] * ((motion.end[k][h] - p[k][h]) * unit_along);
+    const double change = std::copysign(1.0, gap) * weights[k] * ((p[k][end] - p[k][h]) * unit_along);
     proposed.is_pulled[k] = change < 0;
     (change < 0 ? closing : opening) += std::abs(change);
   }

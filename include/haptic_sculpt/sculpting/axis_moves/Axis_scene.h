@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/sculpting/axis_moves/Axis_box.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_item.h>
 #include <haptic_sculpt/sculpting/axis_moves/Axis_obstacle.h>
 #include <haptic_sculpt/sculpting/axis_moves/axis_delta.h>
+#include <haptic_sculpt/surface/broad_phase/processor.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
+
+#include <cstring>
 
 namespace haptic_sculpt::internal {
 
@@ -17,6 +21,7 @@ struct Axis_findings {
   Filter_counters counters;
   std::vector<Axis_obstacle> obstacles;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> put_off; ///< pairs of slots to be looked at last
+  std::size_t work = 0; ///< faces and pairs counted
 
   void add(Axis_obstacle::Kind kind, const std::array<std::uint32_t, 4>& vertices) {
     obstacles.push_back({kind, vertices});
@@ -25,6 +30,7 @@ struct Axis_findings {
     counters = Filter_counters();
     obstacles.clear();
     put_off.clear();
+    work = 0;
   }
 };
 
@@ -37,7 +43,6 @@ public:
   using Face_index = typename Mesh::Face_index;
 
   struct Vertex {
-    double end = 0;         ///< where it moves
     double share = 1;       ///< proposed in this round
     std::uint8_t sides = 0; ///< bits: whether a face around it is seen from below, on edge, from above
     std::uint8_t pulls = 0;
@@ -54,7 +59,7 @@ public:
     if (slot_of_face_.size() < mesh_->num_faces())
       slot_of_face_.resize(mesh_->num_faces());
     if (vertices_.size() < mesh_->num_vertices())
-      vertices_.resize(mesh_->num_vertices());
+      vertices_.resize(mesh_->num_vertices()), places_.resize(mesh_->num_vertices());
     for (const Face_index f : faces) {
       slot_of_face_[f] = static_cast<std::uint32_t>(items_.size());
       items_.push_back(item_of(f));
@@ -65,19 +70,32 @@ public:
 
   /// As Axis_move::begin(); look_along() each face next.
   void begin(int axis, const Axis_ways<Mesh>& ways, double delta) {
-    axis_ = axis;
     delta_ = delta;
+    const auto begin_with = [&](std::uint32_t v) {
+      const Coordinates p = vertex_coordinates(*mesh_, Vertex_index(v));
+      places_[v] = {p[(axis + 1) % 3], p[(axis + 2) % 3], p[axis], p[axis]};
+      vertices_[v] = Vertex{};
+    };
     if (are_all_)
-      vertices_.assign(vertices_.size(), Vertex{});
+      for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+        begin_with(v);
     else
       for (const Axis_item& item : items_)
         for (const std::uint32_t v : item.corners)
-          vertices_[v] = Vertex{};
+          begin_with(v);
     for (const auto& [v, end] : ways)
       if (end != height(index(v)))
-        vertices_[index(v)].end = end, vertices_[index(v)].moves = true;
+        places_[index(v)][3] = end, vertices_[index(v)].moves = true;
+    for (Axis_item& item : items_)
+      item.moves = does_move(item);
   }
 
+  /// Asks for the memory that look_along() will read a few slots on: its corners are all over the mesh.
+  void fetch_ahead(std::uint32_t slot) const {
+    if (slot + ahead < items_.size())
+      for (const std::uint32_t v : items_[slot + ahead].corners)
+        internal::prefetch(&places_[v], sizeof(Axis_place));
+  }
   /// Finds from which side a face is seen. Threads may share the slots. \return its motion
   Axis_motion<3> look_along(std::uint32_t slot, Filter_counters& counters) {
     const Axis_motion<3> motion = motion_of(items_[slot].corners);
@@ -97,7 +115,6 @@ public:
                                               is_unfolded(item.corners[2]) << 2);
   }
 
-  int axis() const { return axis_; }
   bool has_taken_all() const { return are_all_; }
   const std::vector<Axis_item>& items() const { return items_; } ///< by slot, in the order of space
   Vertex& vertex(std::uint32_t v) { return vertices_[v]; }
@@ -105,33 +122,35 @@ public:
   /// Bytes held, capacity included.
   std::size_t memory() const {
     return items_.capacity() * sizeof(Axis_item) + slot_of_face_.capacity() * sizeof(std::uint32_t) +
-           vertices_.capacity() * sizeof(Vertex);
+           vertices_.capacity() * sizeof(Vertex) + places_.capacity() * sizeof(Axis_place);
   }
 
   static std::uint32_t index(Vertex_index v) { return static_cast<std::uint32_t>(v); }
-  Coordinates point(std::uint32_t v) const { return vertex_coordinates(*mesh_, Vertex_index(v)); }
-  double height(std::uint32_t v) const { return point(v)[axis_]; }
-  double end_of(std::uint32_t v) const { return vertices_[v].moves ? vertices_[v].end : height(v); }
-  bool does_move(const Axis_item& item) const {
-    const auto& v = item.corners;
-    return vertices_[v[0]].moves || vertices_[v[1]].moves || vertices_[v[2]].moves;
-  }
+  double height(std::uint32_t v) const { return places_[v][2]; } ///< along the axis, at the start
+  double end_of(std::uint32_t v) const { return places_[v][3]; }  ///< the same at the end
+  void set_end(std::uint32_t v, double end) { places_[v][3] = end; }
 
   template <std::size_t n>
   Axis_motion<n> motion_of(const std::array<std::uint32_t, n>& v) const {
-    std::array<Coordinates, n> start;
-    std::array<double, n> ends;
-    for (std::size_t k = 0; k < n; ++k) {
-      start[k] = point(v[k]);
-      ends[k] = vertices_[v[k]].moves ? vertices_[v[k]].end : start[k][axis_];
-    }
-    return {axis_, start, ends};
+    std::array<Axis_place, n> places;
+    for (std::size_t k = 0; k < n; ++k)
+      places[k] = places_[v[k]];
+    return Axis_motion<n>(places);
   }
 
   /// Whether all corners are to be held back.
   bool is_pulled(const Axis_item& item) const {
     const auto& v = item.corners;
     return vertices_[v[0]].is_pulled && vertices_[v[1]].is_pulled && vertices_[v[2]].is_pulled;
+  }
+
+  /// Whether a pair counts as work: neither side by side nor with intervals that are apart. Told by the two faces and
+  /// their motion alone, in doubles: it does not depend on what else is looked at, nor on the tree that found the pair.
+  bool does_count(const Axis_item& f, const Axis_item& g) const {
+    const unsigned shared = shared_corners(f, g);
+    if (shared != 0)
+      return !are_side_by_side(f, g, shared);
+    return !Axis_bounds(motion_of(f.corners)).are_apart(Axis_bounds(motion_of(g.corners)));
   }
 
   void decide_face(const Axis_item& f, Axis_findings& found) const {
@@ -152,14 +171,24 @@ public:
                                          g.corners[0], g.corners[1], g.corners[2]};
     const Axis_motion<6> motion = motion_of(v);
     const Axis_sweep<6, Filter_counters> sweep(motion, found.counters);
-    if (shared_of_f == 0 && (sweep.is_seen_beside(f.side, 0, 3) || sweep.is_seen_beside(g.side, 3, 0)))
+    // Of an edge, by its first end, and a corner of the other face: the tests ask for most of these several times.
+    constexpr std::int8_t unknown = 2;
+    std::int8_t known[6][6];
+    std::memset(known, unknown, sizeof known);
+    const auto sign = [&](int a, int b, int c) -> int {
+      std::int8_t& s = known[a][c];
+      if (s == unknown)
+        s = static_cast<std::int8_t>(sweep.seen(a, b, c));
+      return s;
+    };
+    if (shared_of_f == 0 && (sweep.is_seen_beside(f.side, 0, 3, sign) || sweep.is_seen_beside(g.side, 3, 0, sign)))
       return;
     const unsigned shared = shared_of_f | shared_corners(g, f) << 3;
     const auto is_shared = [shared](int k) { return (shared >> k & 1) != 0; };
     for (int i = 0; i < 3; ++i) {
-      if ((f.owned >> i & 1) != 0 && !is_shared(i) && sweep.do_vertex_and_face_meet(i, 3, 4, 5))
+      if ((f.owned >> i & 1) != 0 && !is_shared(i) && sweep.do_vertex_and_face_meet(i, 3, 4, 5, g.side, sign))
         found.add(Axis_obstacle::Kind::vertex_face, {v[i], v[3], v[4], v[5]});
-      if ((g.owned >> i & 1) != 0 && !is_shared(3 + i) && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2))
+      if ((g.owned >> i & 1) != 0 && !is_shared(3 + i) && sweep.do_vertex_and_face_meet(3 + i, 0, 1, 2, f.side, sign))
         found.add(Axis_obstacle::Kind::vertex_face, {v[3 + i], v[0], v[1], v[2]});
     }
     for (int i = 0; i < 3; ++i) {
@@ -170,20 +199,27 @@ public:
         const int c = 3 + k, d = 3 + (k + 1) % 3;
         if ((g.owned >> k & 8) == 0 || v[a] == v[c] || v[a] == v[d] || v[b] == v[c] || v[b] == v[d])
           continue;
-        if (sweep.do_edges_meet(a, b, c, d))
+        if (sweep.do_edges_meet(a, b, c, d, sign))
           found.add(Axis_obstacle::Kind::edge_edge, {v[a], v[b], v[c], v[d]});
       }
     }
   }
 
 private:
+  static constexpr std::uint32_t ahead = 8; ///< slots
+
   const Mesh* mesh_;
   double delta_ = 0;
-  int axis_ = 0;
   bool are_all_ = false;
   std::vector<Axis_item> items_;
   std::vector<std::uint32_t> slot_of_face_; ///< of those taken
   std::vector<Vertex> vertices_;            ///< corners of what is taken; others are as they were left
+  std::vector<Axis_place> places_;          ///< theirs
+
+  bool does_move(const Axis_item& item) const {
+    const auto& v = item.corners;
+    return vertices_[v[0]].moves || vertices_[v[1]].moves || vertices_[v[2]].moves;
+  }
 
   /// Each vertex and each edge is looked at with one of its faces.
   Axis_item item_of(Face_index f) const {

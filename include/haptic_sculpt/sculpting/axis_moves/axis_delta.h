@@ -25,10 +25,11 @@ CGAL::Uncertain<bool> is_delta_kept_in(const Axis_motion<3>& motion, double delt
       c += factor * x.start * x.start;
     }
   };
-  const int k = motion.axis, i = (k + 1) % 3, j = (k + 2) % 3;
+  constexpr int i = 0, j = 1, k = 2;
   const auto difference = [&](int from, int to, int coordinate) {
-    const Number start = Number(motion.start[to][coordinate]) - Number(motion.start[from][coordinate]);
-    return Affine{start, Number(motion.end[to][coordinate]) - Number(motion.end[from][coordinate]) - start};
+    const auto now = [&](int at) { return Number(motion.places[to][at]) - Number(motion.places[from][at]); };
+    const Number start = now(coordinate);
+    return Affine{start, coordinate == k ? Number(now(k + 1) - start) : Number(0)};
   };
   const Number one(1), square = Number(delta) * Number(delta);
   // Of the normal: the two affine coordinates and the constant one.

@@ -254,40 +254,38 @@ public:
 
   /// Moves vertices at once along one axis as far as that is free, as one change; each vertex is given once.
   /// \pre they have been told to look_around(), and nothing else has moved since
-  /// \param run who shares the work \return false where more than `most_held` would be held back: then nothing has
-  /// changed, and axis_move() knows why \throw Mesh_changed
-  bool shift(int axis, const Axis_ways<Mesh>& ways, std::size_t most_held, const Part_runner& run) {
+  /// \param run who shares the work \param work of what may be decided, where it is not null \return false where more
+  /// than `most_held` would be held back, or more be decided: then nothing has changed, and axis_move() knows why
+  /// \throw Mesh_changed
+  bool shift(int axis, const Axis_ways<Mesh>& ways, std::size_t most_held, const Part_runner& run,
+             Pair_budget* work = nullptr) {
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
+    check_looked_at();
     Axis_move<Mesh>& move = axis_move();
-    if (move.has_taken_all())
-      for (const Vertex_index v : mesh_->vertices())
-        watch_.check(v);
-    else
-      for (const Axis_item& item : move.items())
-        for (const std::uint32_t v : item.corners)
-          watch_.check(Vertex_index(v));
-    move.begin(axis, ways, parameters.delta_length, run, most_held);
+    move.begin(axis, ways, parameters.delta_length, run, most_held, work);
     if (!move.hold_back())
       return false;
-    Axis_ways<Mesh> made;
-    for (const auto& [v, end] : ways)
-      if (Coordinates p = vertex_coordinates(*mesh_, v); move.end(v) != p[axis]) {
-        p[axis] = move.end(v);
-        made.emplace_back(v, p[axis]);
-        scene_.include(p);
-      }
-    if (!made.empty())
-      editor_.shift(axis, made, run);
+    write_shift(axis, ways, [&move](Vertex_index v, double) { return move.end(v); }, run);
     return true;
+  }
+  /// The same motion back, which is free: no state of it is another.
+  /// \param before where the vertices were \pre nothing else has moved since
+  void shift_back(int axis, const Axis_ways<Mesh>& before, const Part_runner& run) {
+    const Rounding_to_nearest rounding;
+    release();
+    look_for_changes();
+    check_looked_at();
+    write_shift(axis, before, [](Vertex_index, double end) { return end; }, run);
   }
   /// The last one.
   Axis_move<Mesh>& axis_move() { return are_many_ ? whole_move_ : near_move_; }
   /// All that is in the way of a motion, not only what was found until it was given up. \pre as of shift()
-  const std::vector<Axis_obstacle>& obstacles_to(int axis, const Axis_ways<Mesh>& ways, const Part_runner& run) {
+  const std::vector<Axis_obstacle>& obstacles_to(int axis, const Axis_ways<Mesh>& ways, const Part_runner& run,
+                                                 Pair_budget* work = nullptr) {
     const Rounding_to_nearest rounding;
-    axis_move().begin(axis, ways, parameters.delta_length, run);
+    axis_move().begin(axis, ways, parameters.delta_length, run, std::numeric_limits<std::size_t>::max(), work);
     return axis_move().obstacles();
   }
 
@@ -327,6 +325,31 @@ private:
   std::vector<Face_index> faces_near_probe_; ///< kept to allocate no more
   Coordinates probe_place_{};                ///< where the last probe was left
   std::uint64_t probe_changes_ = 0;          ///< the changes of the mesh by then
+
+  /// \throw Mesh_changed
+  void check_looked_at() {
+    if (axis_move().has_taken_all())
+      for (const Vertex_index v : mesh_->vertices())
+        watch_.check(v);
+    else
+      for (const Axis_item& item : axis_move().items())
+        for (const std::uint32_t v : item.corners)
+          watch_.check(Vertex_index(v));
+  }
+
+  /// Notes and writes a motion that is free. \param end_of `end_of(v, end)`, where the vertex really ends
+  template <class End_of>
+  void write_shift(int axis, const Axis_ways<Mesh>& ways, const End_of& end_of, const Part_runner& run) {
+    Axis_ways<Mesh> made;
+    for (const auto& [v, end] : ways)
+      if (Coordinates p = vertex_coordinates(*mesh_, v); end_of(v, end) != p[axis]) {
+        p[axis] = end_of(v, end);
+        made.emplace_back(v, p[axis]);
+        scene_.include(p);
+      }
+    if (!made.empty())
+      editor_.shift(axis, made, run);
+  }
 
   /// For questions about the surface: lets nobody go.
   void look_at_surface() {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef HAPTIC_SCULPT_SCULPTING_INSIDE_OUT_VERTICES_H
-#define HAPTIC_SCULPT_SCULPTING_INSIDE_OUT_VERTICES_H
+#pragma once
 
 #include <haptic_sculpt/surface/validate.h>
 
 #include <vector>
 
-namespace haptic_sculpt {
-namespace internal {
+namespace haptic_sculpt::internal {
 
 /// Which vertices are of components whose normals point into the solid. Looked at when first asked for. No motion under
 /// the guard turns a component over, and no edit either, so it has to be looked at again after edits only where
@@ -56,7 +54,4 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace haptic_sculpt
-
-#endif
+} // namespace haptic_sculpt::internal

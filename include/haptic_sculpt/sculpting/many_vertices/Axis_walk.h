@@ -18,7 +18,8 @@ public:
   using Mesh = typename Sculptor::Mesh_type;
   using Moving = Moving_vertex<Mesh>;
 
-  /// \param report counts a motion for each vertex of a move along one axis
+  /// \param report counts a motion for each vertex of a move along one axis, and pairs; tells where one was not made
+  /// because of a limit
   /// \param run who shares the work of a move
   Axis_walk(Sculptor& sculptor, const std::vector<Moving>& vertices, const Move_parameters& parameters,
             Move_report& report, const Part_runner& run)
@@ -26,7 +27,8 @@ public:
       , vertices_(vertices)
       , parameters_(parameters)
       , report_(report)
-      , run_(run) {}
+      , run_(run)
+      , pairs_(parameters.pair_limit.value_or(0), report.pairs) {}
 
   /// Ends, too, where a move would be more motions than may be made: single drags may go on with what is left of these.
   /// \return false where it was cancelled
@@ -88,6 +90,7 @@ private:
   const Move_parameters& parameters_;
   Move_report& report_;
   Part_runner run_;
+  Pair_budget pairs_; ///< where they are bounded
   std::vector<std::pair<int, Ways>> made_; ///< by the step under way: the axis, and where all were before
   bool goes_on_ = true;                    ///< neither cancelled nor without room for another move
 
@@ -129,8 +132,11 @@ private:
         continue;
       if (!may_move(ways.size(), share))
         return vertices_.size();
-      if (!guarded_.shift(axis, ways, most, run_))
+      if (!guarded_.shift(axis, ways, most, run_, parameters_.pair_limit ? &pairs_ : nullptr)) {
+        if (guarded_.axis_move().is_too_much())
+          end_out_of_work();
         return vertices_.size();
+      }
       made_.emplace_back(axis, std::move(before));
     }
     std::size_t held = 0;
@@ -141,16 +147,21 @@ private:
     return held;
   }
 
-  /// The step that was made: the same motions back are free.
+  /// The step that was made.
   void take_back() {
     for (; !made_.empty(); made_.pop_back())
-      if (!guarded_.shift(made_.back().first, made_.back().second, 0, run_))
-        throw Mesh_changed("a motion that was free is not when it is taken back");
+      guarded_.shift_back(made_.back().first, made_.back().second, run_);
+  }
+
+  /// \return false
+  bool end_out_of_work() {
+    report_.out_of_work = true;
+    return goes_on_ = false;
   }
 
   bool may_move(std::size_t vertices, double share) {
     if (vertices > parameters_.drag_limit - std::min(report_.counted, parameters_.drag_limit))
-      return goes_on_ = false;
+      return end_out_of_work();
     if (parameters_.progress_function &&
         !parameters_.progress_function(Move_progress{vertices_.size(), vertices, report_.drags, share})) {
       report_.cancelled = true;

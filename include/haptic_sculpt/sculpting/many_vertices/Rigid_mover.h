@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/sculpting/Move_report.h>
 #include <haptic_sculpt/sculpting/Rigid_move_report.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
 #include <haptic_sculpt/sculpting/many_vertices/Moving_vertex.h>
@@ -16,18 +17,26 @@ public:
   using Mesh = typename Sculptor::Mesh_type;
   using Moving = Moving_vertex<Mesh>;
 
-  /// \param run who shares the work of a step
-  Rigid_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Rigid_way& way, const Part_runner& run)
-      : guarded_(Sculptor_access::guarded(sculptor)), vertices_(vertices), way_(way), run_(run) {}
+  /// \param report filled in by run() \param run who shares the work of a step
+  Rigid_mover(Sculptor& sculptor, const std::vector<Moving>& vertices, const Rigid_way& way,
+              const Move_parameters& parameters, Rigid_move_report<Mesh>& report, const Part_runner& run)
+      : guarded_(Sculptor_access::guarded(sculptor))
+      , vertices_(vertices)
+      , way_(way)
+      , parameters_(parameters)
+      , report_(report)
+      , run_(run)
+      , budget_(parameters.pair_limit.value_or(0), report.pairs)
+      , pairs_(parameters.pair_limit ? &budget_ : nullptr) {}
 
   /// Step after step, half as long after one that is blocked and twice as long after one that is not.
-  void run(Rigid_move_report<Mesh>& report) {
+  void run() {
     double step = 1;
-    while (report.share < 1) {
-      const double next = std::fmin(1, report.share + step);
-      if (make_step(next, step == least_step ? &report.contacts : nullptr))
-        report.share = next, step *= 2;
-      else if (step == least_step)
+    while (report_.share < 1) {
+      const double next = std::fmin(1, report_.share + step);
+      if (make_step(next, step == least_step))
+        report_.share = next, step *= 2;
+      else if (step == least_step || is_ended())
         return;
       else
         step /= 2;
@@ -42,14 +51,20 @@ private:
   std::decay_t<decltype(Sculptor_access::guarded(std::declval<Sculptor&>()))>& guarded_;
   const std::vector<Moving>& vertices_;
   const Rigid_way& way_;
+  const Move_parameters& parameters_;
+  Rigid_move_report<Mesh>& report_;
   Part_runner run_;
+  Pair_budget budget_;
+  Pair_budget* pairs_; ///< the budget, or null where there is none
+
+  bool is_ended() const { return report_.cancelled || report_.out_of_work; }
 
   Coordinates place(const Moving& v, double share) const {
     return share == 1 ? v.target : plus(v.source, way_.at(share, minus(v.target, v.source)));
   }
 
-  /// \param contacts where it is not null, told all that is in the way of a step that is not made
-  bool make_step(double share, std::vector<Blocking_pair<Mesh>>* contacts) {
+  /// \param names_contacts whether the report is to tell what is in the way
+  bool make_step(double share, bool names_contacts) {
     Vertex_targets<Mesh> places;
     places.reserve(vertices_.size());
     for (const Moving& v : vertices_) {
@@ -68,29 +83,41 @@ private:
         }
       if (ways.empty())
         continue;
-      if (!guarded_.shift(axis, ways, 0, run_)) {
-        if (contacts != nullptr)
-          name_contacts(axis, ways, *contacts);
-        take_back(made);
-        return false;
+      if (may_move(ways.size(), share) && guarded_.shift(axis, ways, 0, run_, pairs_)) {
+        made.emplace_back(axis, std::move(before));
+        continue;
       }
-      made.emplace_back(axis, std::move(before));
+      report_.out_of_work |= !is_ended() && guarded_.axis_move().is_too_much();
+      if (names_contacts && !is_ended())
+        name_contacts(axis, ways);
+      for (; !made.empty(); made.pop_back())
+        guarded_.shift_back(made.back().first, made.back().second, run_);
+      return false;
     }
     return true;
   }
 
-  void take_back(std::vector<std::pair<int, Ways>>& made) {
-    for (; !made.empty(); made.pop_back())
-      if (!guarded_.shift(made.back().first, made.back().second, 0, run_))
-        throw Mesh_changed("a motion that was free is not when it is taken back");
+  bool may_move(std::size_t vertices, double share) {
+    report_.out_of_work = vertices > parameters_.drag_limit - report_.drags;
+    report_.cancelled =
+        !report_.out_of_work && parameters_.progress_function &&
+        !parameters_.progress_function(Move_progress{vertices_.size(), vertices, report_.drags, share});
+    if (is_ended())
+      return false;
+    report_.drags += vertices;
+    return true;
   }
 
-  void name_contacts(int axis, const Ways& ways, std::vector<Blocking_pair<Mesh>>& contacts) {
-    for (const Axis_obstacle& obstacle : guarded_.obstacles_to(axis, ways, run_)) {
+  void name_contacts(int axis, const Ways& ways) {
+    const auto& obstacles = guarded_.obstacles_to(axis, ways, run_, pairs_);
+    report_.out_of_work = guarded_.axis_move().is_too_much();
+    if (report_.out_of_work)
+      return;
+    for (const Axis_obstacle& obstacle : obstacles) {
       Blocking_pair<Mesh> pair{static_cast<Blocking_kind>(obstacle.kind), {}};
       for (int k = 0; k < obstacle.size(); ++k)
         pair.vertices[k] = typename Mesh::Vertex_index(obstacle.vertices[k]);
-      contacts.push_back(pair);
+      report_.contacts.push_back(pair);
     }
   }
 };

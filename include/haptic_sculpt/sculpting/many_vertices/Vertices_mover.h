@@ -85,18 +85,20 @@ private:
       budget_.count_slide(result.work);
       return result.reached;
     }
-    budget_.count_drag();
-    return sculptor_.drag(v, target, drag_).reached;
+    const auto result = sculptor_.drag(v, target, drag_.work_limit(budget_.work_of_drag(bound_)));
+    budget_.count_drag(result.work);
+    return result.reached;
   }
 
   /// Whether another drag may be made; asks the progress function in its turn.
   bool may_drag() {
     if (!goes_on_)
       return false;
+    const bool has_room = budget_.has_room();
     report_->cancelled =
-        budget_.has_room() && parameters_.progress_function && budget_.is_call_due() &&
+        has_room && parameters_.progress_function && budget_.is_call_due() &&
         !parameters_.progress_function(Move_progress{vertices_.size(), behind_, report_->drags, 1});
-    return goes_on_ = !report_->cancelled && !report_->out_of_work;
+    return goes_on_ = has_room && !report_->cancelled;
   }
 
   /// Drags each once.

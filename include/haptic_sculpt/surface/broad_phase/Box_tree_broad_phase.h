@@ -91,27 +91,18 @@ public:
   /// Refits the boxes above. \pre each of the faces is known: it was there at the construction or has been inserted.
   template <class Faces>
   void faces_moved(const Faces& faces) {
-    touched_.clear();
-    const bool are_many = faces.size() >= nodes_.size(); // then refitting all costs less than noting what has changed
-    for (const Face_index f : faces) {
-      const internal::Float_box box = scale().around(face_box(mesh(), f));
-      if (const std::uint32_t slot = slot_of_face_[f]; are_many && !is_in_overflow(slot))
-        nodes_[level_begin_[0] + slot / width].set(slot % width, box);
-      else
-        place(slot, box);
-    }
-    are_many ? internal::refit_all(nodes_, level_begin_.data(), levels_) : refit();
+    refit_around(faces, [this](Face_index f) { return face_box(mesh(), f); });
   }
   /// The same by several threads, where most of all faces have moved: then the boxes of all are made anew.
-  template <class Faces>
-  void many_faces_moved(const Faces& faces, const Part_runner& run) {
+  template <class Faces, class Corners>
+  void many_faces_moved(const Faces& faces, const Corners& corners_of, const Part_runner& run) {
     if (2 * faces.size() < slot_of_face_.size())
-      return faces_moved(faces);
-    run.in_ranges(face_of_slot_.size(), slots_a_part, [this](std::size_t first, std::size_t end) {
+      return refit_around(faces, [&](Face_index f) { return face_box(mesh(), corners_of(f)); });
+    run.in_ranges(face_of_slot_.size(), slots_a_part, [&](std::size_t first, std::size_t end) {
       for (std::size_t slot = first; slot < end; ++slot)
         if (face_of_slot_[slot] != no_face)
-          nodes_[level_begin_[0] + slot / width].set(slot % width,
-                                                     scale().around(face_box(mesh(), Face_index(face_of_slot_[slot]))));
+          nodes_[level_begin_[0] + slot / width].set(
+              slot % width, scale().around(face_box(mesh(), corners_of(Face_index(face_of_slot_[slot])))));
     });
     for (const Face_index f : faces)
       if (const std::uint32_t slot = slot_of_face_[f]; is_in_overflow(slot))
@@ -245,6 +236,21 @@ private:
       nodes_[level_begin_[0] + slot / width].set(slot % width, scale().around(face_box(mesh(), f)));
     }
     internal::refit_all(nodes_, level_begin_.data(), levels_);
+  }
+
+  /// \param box_of `box_of(face)`
+  template <class Faces, class Box_of>
+  void refit_around(const Faces& faces, const Box_of& box_of) {
+    touched_.clear();
+    const bool are_many = faces.size() >= nodes_.size(); // then refitting all costs less than noting what has changed
+    for (const Face_index f : faces) {
+      const internal::Float_box box = scale().around(box_of(f));
+      if (const std::uint32_t slot = slot_of_face_[f]; are_many && !is_in_overflow(slot))
+        nodes_[level_begin_[0] + slot / width].set(slot % width, box);
+      else
+        place(slot, box);
+    }
+    are_many ? internal::refit_all(nodes_, level_begin_.data(), levels_) : refit();
   }
 
   /// Sets the box of a slot and notes what is to be refitted.

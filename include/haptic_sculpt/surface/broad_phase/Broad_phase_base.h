@@ -61,10 +61,10 @@ public:
       faces[i] = Face_index(ordered[i].face);
   }
 
-  /// As `faces_moved(faces)`, after a change that moves many at once; threads of `run` may share the work. Here one
-  /// does all of it.
-  template <class Faces>
-  void many_faces_moved(const Faces& faces, const Part_runner& /*run*/) {
+  /// As `faces_moved(faces)`, after a change that moves many at once; threads of `run` may share the work.
+  /// `corners_of(face)` says sooner than the mesh what the corners of a face are. Here one thread does all of it.
+  template <class Faces, class Corners>
+  void many_faces_moved(const Faces& faces, const Corners& /*corners_of*/, const Part_runner& /*run*/) {
     derived().faces_moved(faces);
   }
 

@@ -16,4 +16,13 @@ Box_3 face_box(const Mesh& mesh, typename Mesh::Face_index f) {
   return box;
 }
 
+/// The same where the corners are known. Cost: three points read.
+template <class Mesh>
+Box_3 face_box(const Mesh& mesh, const std::array<typename Mesh::Vertex_index, 3>& corners) {
+  Box_3 box(vertex_coordinates(mesh, corners[0]));
+  box.include(vertex_coordinates(mesh, corners[1]));
+  box.include(vertex_coordinates(mesh, corners[2]));
+  return box;
+}
+
 } // namespace haptic_sculpt
