@@ -39,9 +39,9 @@ def merged_values(name, values, where):
         if any(v != first for v in values) and not is_time(name):
             raise Odd_shards(f"{where}: {name} is {', '.join(map(repr, values))}: shards of different runs?")
         return first
-    if is_time(name):
-        return sum(values) / len(values)
-    return max(values) if LARGEST.search(name) else sum(values)
+    if LARGEST.search(name):
+        return max(values)
+    return sum(values) / len(values) if is_time(name) else sum(values)
 
 
 def merged_fields(dicts, where):

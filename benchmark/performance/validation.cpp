@@ -73,7 +73,7 @@ std::vector<Family> families() {
              return meshes::torus(2 * n, n);
            },
            10000000},
-          {"two vertices of valence n", [](std::size_t f) { return meshes::bipyramid(f / 2); }, 200000},
+          {"two vertices of valence n", [](std::size_t f) { return meshes::bipyramid(f / 2); }, 10000},
           {"lattice of tetrahedra", [](std::size_t f) { return lattice_of_tetrahedra(f / 4); }, 1000000},
           {"row of tetrahedra in a box", [](std::size_t f) { return row_in_a_box(f / 4); }, 200000},
           {"nested cubes", [](std::size_t f) { return nested_cubes(f / 12); }, 200000}};

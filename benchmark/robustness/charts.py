@@ -22,8 +22,8 @@ def drags_and_edits(report):
     meshes = len({r["mesh"] for r in report["meshes"]})
     rows = [[r["mesh"], f"{r['faces']:,}", f"{r.get('drags', 0):,}", f"{r.get('blocked', 0):,}", f"{r.get('mixed_edits', {}).get('edits', 0):,}",
              r.get("invalid", 0) + r.get("mixed_edits", {}).get("invalid", 0), f"{r.get('largest_stop_error_in_clearances', 0):.3g}",
-             seconds_text(r["mean_ns"] * 1e-9) if r.get("mean_ns") else ""] for r in report["meshes"]]
-    tables = [Table("Meshes", ["mesh", "faces", "drags", "blocked", "mixed edits", "not valid after", "largest stop error, clearances", "mean drag"], rows)]
+             *(seconds_text(r[key] * 1e-9) if r.get(key) else "" for key in ("mean_ns", "longest_ns"))] for r in report["meshes"]]
+    tables = [Table("Meshes", ["mesh", "faces", "drags", "blocked", "mixed edits", "not valid after", "largest stop error, clearances", "mean drag", "longest"], rows)]
     if report["refused"]:
         tables.append(Table("Meshes refused", ["file", "had to be", "repaired", "reason"], [[r["file"], *("yes" if r[key] else "no" for key in ("has_to_be", "repaired")), r["reason"]] for r in report["refused"]]))
     how = " by strokes of a hand" if report["motion"] == "hand" else ""

@@ -111,7 +111,9 @@ private:
     const Point_3 start = mesh_.point(v);
     const auto begin = std::chrono::steady_clock::now();
     const Drag_result<Mesh> result = grab.drag_to(target);
-    tally_.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+    const double taken = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+    tally_.nanoseconds += taken;
+    tally_.longest = std::max(tally_.longest, taken);
     ++tally_.drags;
     tally_.contradictions += result.position != mesh_.point(v) || test::contradiction(result, start, target) != nullptr;
     ++(result.reached ? tally_.reached : tally_.blocked);

@@ -15,7 +15,7 @@ struct Drag_tally {
   std::size_t validations = 0, invalid = 0, changed = 0, slow_stops = 0;
   std::size_t contradictions = 0; ///< results that contradict themselves
   double largest_stop_error = 0; ///< in clearances; stops with one contact whose plane is determined
-  double nanoseconds = 0;
+  double nanoseconds = 0, longest = 0; ///< of all drags together, and of one; ns
 
   bool is_any_promise_broken() const { return invalid + changed + contradictions + through_lazy > 0; }
 
@@ -27,6 +27,7 @@ struct Drag_tally {
     contradictions += t.contradictions;
     largest_stop_error = std::max(largest_stop_error, t.largest_stop_error);
     nanoseconds += t.nanoseconds;
+    longest = std::max(longest, t.longest);
     return *this;
   }
   Json json() const {
@@ -44,7 +45,8 @@ struct Drag_tally {
             {"contradictions", contradictions},
             {"stops_beyond_two_clearances", slow_stops},
             {"largest_stop_error_in_clearances", largest_stop_error},
-            {"mean_ns", drags > 0 ? nanoseconds / static_cast<double>(drags) : 0}};
+            {"mean_ns", drags > 0 ? nanoseconds / static_cast<double>(drags) : 0},
+            {"longest_ns", longest}};
   }
 };
 

@@ -192,7 +192,7 @@ private:
               << '/' << tally.short_asked << ", through stayed " << tally.through_stayed << '/' << tally.through_asked
               << " (lazy " << tally.through_lazy << "), stop error up to " << tally.largest_stop_error << " c, "
               << tally.invalid << " invalid of " << tally.validations << ", "
-              << tally.nanoseconds / static_cast<double>(tally.drags) << " ns\n"
+              << tally.nanoseconds / static_cast<double>(tally.drags) << " ns, at most " << tally.longest << " ns\n"
               << std::flush;
     return true;
   }

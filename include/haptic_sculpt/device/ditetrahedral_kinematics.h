@@ -7,7 +7,8 @@
 /// Closed-form kinematics of the di-tetrahedral form (paper section 2, Fig. 2): the apex is at distance l2 from three
 /// elbows.
 
-namespace haptic_sculpt::internal {
+namespace haptic_sculpt {
+namespace internal {
 
 /// The next wider built-in number, to recompute what cancellation has eaten; user-defined scalars stay themselves.
 template <class S> struct Wider { using type = S; };

@@ -111,4 +111,5 @@ template <class S> Device_matrix<S> single_column(const Device_vector<S>& column
   return m;
 }
 
-} // namespace haptic_sculpt::internal
+} // namespace internal
+} // namespace haptic_sculpt

@@ -8,7 +8,8 @@
 /// Forward kinematics that is never `undecided`: where a singular pose stands in the way, all assembly modes are looked
 /// at. Not a part of device.h, since it compiles the eigenvalues, too.
 
-namespace haptic_sculpt::internal {
+namespace haptic_sculpt {
+namespace internal {
 
 /// Sign of the closure's determinant: it changes only across a fold, so the modes of one sheet share it.
 template <class S> bool on_home_sheet(const Platform_closure<S>& closure, const Link_angles<S>& x) {

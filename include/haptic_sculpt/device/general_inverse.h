@@ -8,7 +8,8 @@
 /// Inverse kinematics of the general form from the platform's position: joint angles and platform rotation together are
 /// six unknowns for the three link lengths and the three right angles between links and platform axes.
 
-namespace haptic_sculpt::internal {
+namespace haptic_sculpt {
+namespace internal {
 
 /// Newton's method at a fixed platform position from the angles and rotation in `pose`; steps are cut to 0.3 rad. On
 /// success the pose is complete. False if it does not settle within `most_iterations`.

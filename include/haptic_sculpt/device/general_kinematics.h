@@ -7,7 +7,8 @@
 /// Forward kinematics of the general form: warm (continuing a pose), from a seed, and cold (the home mode).
 /// What these leave undecided, forward_by_all_modes.h decides.
 
-namespace haptic_sculpt::internal {
+namespace haptic_sculpt {
+namespace internal {
 
 /// Completes a pose whose elbows and link angles are known: the one rotation and translation that lay the elbow
 /// triangle, as seen from the platform, on the elbow triangle in the world. False where the elbows are on a line.

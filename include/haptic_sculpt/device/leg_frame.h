@@ -83,4 +83,5 @@ template <class S> void adjugate(const Device_matrix<S>& a, Device_matrix<S>& ad
   determinant = adjugate.row(0).dot(a.col(0).transpose());
 }
 
-} // namespace haptic_sculpt::internal
+} // namespace internal
+} // namespace haptic_sculpt

@@ -210,4 +210,5 @@ template <class S> inline bool free_newton(const Platform_closure<S>& closure, L
   return false;
 }
 
-} // namespace haptic_sculpt::internal
+} // namespace internal
+} // namespace haptic_sculpt

@@ -8,7 +8,8 @@
 /// Where a free mass that is given its own acceleration, velocity or place begins to swing by itself
 /// (doc/proofs/haptic_stability.md, "What a free mass carries").
 
-namespace haptic_sculpt::internal {
+namespace haptic_sculpt {
+namespace internal {
 
 /// The response of a free mass of 1 kg to a force that is held from tick to tick and late by `delay` ticks: its place
 /// over the force, m/N, at q = exp(-i angle), angle being that of one tick.

@@ -9,7 +9,8 @@
 /// \file
 /// How the tool finds vertices and says where it creates, in the vectors of the device.
 
-namespace haptic_sculpt::internal {
+namespace haptic_sculpt {
+namespace internal {
 
 template <class Point>
 Eigen::Vector3d vector_of(const Point& p) {
