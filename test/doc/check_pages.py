@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pages of the manual are short, their lines too, and what they refer to exists: check_pages.py ROOT
+"""The pages of the manual are short, their lines too, what they refer to exists, and figures name the command that
+makes them: check_pages.py ROOT
 
 Counted as `wc -w` counts. Lines in tables and code may be longer. Links of the HTML are checked by check_reference.py.
 """
@@ -13,6 +14,9 @@ MOST_WORDS = {"doc/use": 1200, "doc/concepts": 1200, "doc/proofs": 1600, "doc/re
 MOST_IN_ALL = 50350
 MOST_IN_SENTENCES = 26850 # outside of tables and code
 NOT_PLAIN = r"\b(?:is|are|was|were|be) told\b|\bthe latter\b|\bnone the less\b|\bnonetheless\b"
+# What makes a figure: a program that is built, a script, a test by its name.
+COMMAND = r"build[\w-]*/(?:benchmark|test|examples)/|\b(?:benchmark|test)/[\w/]+|\btest_\w+|\bpython3 |\bctest |\bcmake |`sculpt_window "
+CITES = {"comparison.md", "paper_1997.md"}  # tables of what others say, with their sources
 SOURCES = {".h", ".cpp", ".py", ".txt", ".cmake"}
 
 
@@ -47,6 +51,14 @@ def faults(page, root):
                 yield f"{name}:{number}: {path or name} has no heading '{anchor}'"
 
 
+def figures_without_command(page, root):
+    """Sections of a page of results with a table or a picture, for which neither they nor the page's opening name a command."""
+    opening, *sections = re.split(r"^(?=## )", page.read_text(), flags=re.M)
+    for section in [opening, *sections]:
+        if re.search(r"^\||^!\[", section, re.M) and not re.search(COMMAND, section + opening):
+            yield f"{page.relative_to(root)}: '{section.splitlines()[0].lstrip('# ')}' has figures, and no command that makes them"
+
+
 def words_of_sentences(page):
     """Without tables and code, which are looked up and not read."""
     is_code, words = False, 0
@@ -66,6 +78,7 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     pages = sorted((root / "doc").rglob("*.md"))
     found = [fault for page in pages for fault in faults(page, root)]
+    found += [fault for page in pages if page.parent.name == "results" and page.name not in CITES for fault in figures_without_command(page, root)]
     found += [fault for folder in ("include", "examples", "test", "benchmark") for source in sorted((root / folder).rglob("*"))
               if source.suffix in SOURCES and source.name != pathlib.Path(__file__).name for fault in not_plain_in(source, root)]
     words, sentences = sum(len(page.read_text().split()) for page in pages), sum(words_of_sentences(page) for page in pages)

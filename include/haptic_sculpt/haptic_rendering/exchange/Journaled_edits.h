@@ -82,6 +82,7 @@ public:
   const Sculptor_parameters& parameters() const { return sculptor_->parameters(); } ///< of the Sculptor
   /// Of the surface. \throw as there
   Vertex_index nearest_vertex(const Point& p, double within) { return sculptor_->nearest_vertex(p, within); }
+  bool is_inside_out(Vertex_index v) const { return sculptor_->is_inside_out(v); } ///< the component of v
   /// A creation.
   Edited insert_on_edge(Edge_index e, const Point& p) {
     return make(of_ends(Edit_kind::insert_on_edge, mesh().halfedge(e), {p.x(), p.y(), p.z()}));
@@ -134,12 +135,30 @@ private:
     explicit Guarded(Journaled_edits& edits) : edits_(&edits) {}
     const Mesh_type& mesh() const { return edits_->mesh(); }
     void look_around(const internal::Vertex_targets<Mesh_type>& targets) { guarded().look_around(targets); }
-    bool shift(int axis, const internal::Axis_ways<Mesh_type>& ways, std::size_t most_held, const Part_runner& run) {
+    bool shift(int axis, const internal::Axis_ways<Mesh_type>& ways, std::size_t most_held, const Part_runner& run,
+               internal::Pair_budget* pairs = nullptr) {
+      return told(axis, ways, [&] { return guarded().shift(axis, ways, most_held, run, pairs); });
+    }
+    void shift_back(int axis, const internal::Axis_ways<Mesh_type>& before, const Part_runner& run) {
+      told(axis, before, [&] { return guarded().shift_back(axis, before, run), true; });
+    }
+    auto& axis_move() { return guarded().axis_move(); }
+    const auto& obstacles_to(int axis, const internal::Axis_ways<Mesh_type>& ways, const Part_runner& run,
+                             internal::Pair_budget* pairs = nullptr) {
+      return guarded().obstacles_to(axis, ways, run, pairs);
+    }
+
+  private:
+    Journaled_edits* edits_;
+
+    auto& guarded() { return internal::Sculptor_access::guarded(*edits_->sculptor_); }
+    template <class Move>
+    bool told(int axis, const internal::Axis_ways<Mesh_type>& ways, const Move& move) {
       std::vector<double> before;
       for (const auto& [v, end] : ways)
         before.push_back(vertex_coordinates(mesh(), v)[axis]);
       try {
-        const bool is_done = guarded().shift(axis, ways, most_held, run);
+        const bool is_done = move();
         tell_shift(axis, ways, before);
         return is_done;
       } catch (...) { // the visitor's, when all has moved
@@ -147,14 +166,6 @@ private:
         throw;
       }
     }
-    const auto& obstacles_to(int axis, const internal::Axis_ways<Mesh_type>& ways, const Part_runner& run) {
-      return guarded().obstacles_to(axis, ways, run);
-    }
-
-  private:
-    Journaled_edits* edits_;
-
-    auto& guarded() { return internal::Sculptor_access::guarded(*edits_->sculptor_); }
     void tell_shift(int axis, const internal::Axis_ways<Mesh_type>& ways, const std::vector<double>& before) {
       Edit made = Edit::of(Edit_kind::shift);
       made.axis = axis;
