@@ -41,8 +41,9 @@ inline void refine(Vector& d, const Half_space& a) {
 /// least_i - slack.
 ///
 /// By enumeration of active sets of one, two and three half-spaces: the first that is feasible and has no negative
-/// multiplier is the optimum, which is unique. \param spaces there are n \param slack a length, > 0: rounding of what the caller measured
-/// \param slack_there the same at the end of a constrained way, where that of the normals is felt too
+/// multiplier is the optimum, which is unique. \param spaces there are n \param slack a length, > 0: rounding of what
+/// the caller measured \param slack_there the same at the end of a constrained way, where that of the normals is felt
+/// too
 /// Cost: cubic in the number of half-spaces. Floating point; proposes only. A polyhedron without a point: `exists` is
 /// false.
 inline Nearest_permitted nearest_permitted(const Vector& wanted, const Half_space* spaces, std::size_t n, double slack,
