@@ -67,7 +67,7 @@ private:
 };
 
 /// The value a line says.
-/// \throw nlohmann::json::exception if it is no JSON; No_answer, `nested_too_deep` or `too_many_values`, before anything
+/// \throw nlohmann::json::exception if it is no JSON; No_answer (`nested_too_deep`, `too_many_values`) before anything
 /// deeper or more is built; std::bad_alloc
 inline nlohmann::json parse_line(std::string_view line) {
   using Event = nlohmann::json::parse_event_t;

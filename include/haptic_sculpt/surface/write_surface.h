@@ -101,7 +101,7 @@ inline Face_soup rounded_to_float(Face_soup soup) {
 }
 
 /// \throw Write_error if STL cannot hold the surface without loss, and loss is not allowed
-inline void prepare_stl(Face_soup& soup, bool binary, bool allow_rounding) {
+[[gnu::cold]] inline void prepare_stl(Face_soup& soup, bool binary, bool allow_rounding) {
   std::vector<bool> used(soup.points.size(), false);
   for (const auto corner : soup.corners)
     used[corner] = true;
@@ -137,7 +137,7 @@ inline void prepare_ply(const Face_soup& soup, bool binary) {
 
 /// The text or bytes of the file, by CGAL's writers. They are given a stream of their own, in the C locale and with 17
 /// digits, which bring every double back.
-inline std::string file_contents(const Face_soup& soup, Mesh_file_format format, bool binary) {
+[[gnu::cold]] inline std::string file_contents(const Face_soup& soup, Mesh_file_format format, bool binary) {
   if (format == Mesh_file_format::ply && !soup.attributes.empty())
     return format_ply(soup, binary);
   if (const auto colours = colours_of_obj(soup); format == Mesh_file_format::obj && colours)

@@ -14,8 +14,8 @@ namespace haptic_sculpt::internal {
 /// is one each.
 ///
 /// Within a stroke the moves between two other edits are kept once a vertex, from where it was first to where it was
-/// last. Bytes: a move 56, a shift 48 and 24 for each vertex that it moves, another edit 72 and 8 for each vertex around
-/// it, a step 16.
+/// last. Bytes: a move 56, a shift 48 and 24 for each vertex that it moves, another edit 72 and 8 for each vertex
+/// around it, a step 16.
 class Edit_history {
 public:
   /// This many drags follow a `make_room()` without an allocation: a quarter of a minute of a hand that drags a

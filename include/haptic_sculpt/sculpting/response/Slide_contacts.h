@@ -231,7 +231,7 @@ private:
       } else
         same->least = std::fmax(same->least, space.least);
     }
-    Nearest_permitted found = nearest_permitted(pull, spaces, slack, slack_there);
+    Nearest_permitted found = nearest_permitted(pull, spaces.data(), spaces.size(), slack, slack_there);
     for (int i = 0; i < found.number_active; ++i)
       found.active[i] = facet_of[found.active[i]];
     return found;

@@ -4,6 +4,7 @@
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 #include <cstddef>
+#include <vector>
 
 namespace haptic_sculpt::internal {
 
@@ -40,18 +41,18 @@ inline void refine(Vector& d, const Half_space& a) {
 /// least_i - slack.
 ///
 /// By enumeration of active sets of one, two and three half-spaces: the first that is feasible and has no negative
-/// multiplier is the optimum, which is unique. \param slack a length, > 0: rounding of what the caller measured
-/// \param slack_there the same at the end of a constrained way, where that of the normals is felt too
+/// multiplier is the optimum, which is unique. \param spaces there are n \param slack a length, > 0: rounding of what
+/// the caller measured \param slack_there the same at the end of a constrained way, where that of the normals is felt
+/// too
 /// Cost: cubic in the number of half-spaces. Floating point; proposes only. A polyhedron without a point: `exists` is
 /// false.
-template <class Half_spaces>
-Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spaces, double slack, double slack_there) {
+inline Nearest_permitted nearest_permitted(const Vector& wanted, const Half_space* spaces, std::size_t n, double slack,
+                                           double slack_there) {
   using namespace nearest_permitted_detail;
-  const std::size_t n = spaces.size();
   Nearest_permitted result;
   const auto accept = [&](const Vector& d, std::array<std::size_t, 3> active, int number) {
-    for (const Half_space& space : spaces)
-      if (!(dot(space.normal, d) >= space.least - (number > 0 ? slack_there : slack)))
+    for (std::size_t i = 0; i < n; ++i)
+      if (!(dot(spaces[i].normal, d) >= spaces[i].least - (number > 0 ? slack_there : slack)))
         return false;
     result = {true, d, active, number, false};
     return true;
@@ -115,8 +116,7 @@ Nearest_permitted nearest_permitted(const Vector& wanted, const Half_spaces& spa
 /// By Moreau's decomposition it is the length of the part of the pull that the contacts permit: the projection of the
 /// pull on the polar cone, which is that of the displacements d with normal . d >= 0. \param half_spaces those, `least`
 /// being 0 Cost: that of nearest_permitted(). Floating point.
-template <class Half_spaces>
-double kkt_residual(const Vector& pull, const Half_spaces& half_spaces) {
+inline double kkt_residual(const Vector& pull, const std::vector<Half_space>& half_spaces) {
   // What rounding leaves of a product of a normal and a direction of length 1, and of the meeting of nearly parallel
   // planes.
   constexpr double slack = 0x1p-46;
@@ -125,7 +125,8 @@ double kkt_residual(const Vector& pull, const Half_spaces& half_spaces) {
     return 0;
   const double unit = unit_of(pull_length); // the inverse of a subnormal number overflows
   const Nearest_permitted permitted =
-      nearest_permitted(scaled(scaled(pull, unit), 1 / (pull_length * unit)), half_spaces, slack, slack);
+      nearest_permitted(scaled(scaled(pull, unit), 1 / (pull_length * unit)), half_spaces.data(), half_spaces.size(),
+                        slack, slack);
   return permitted.exists ? std::fmin(1.0, length(permitted.displacement)) : 0;
 }
 

@@ -71,7 +71,7 @@ private:
 };
 
 /// \pre no face has more than 255 corners where it is binary
-inline std::string format_ply(const Face_soup& soup, bool binary) {
+[[gnu::cold]] inline std::string format_ply(const Face_soup& soup, bool binary) {
   using Type = Vertex_attribute::Type;
   const std::uint16_t one = 1;
   char first = 0;
@@ -117,7 +117,7 @@ inline std::optional<std::array<std::size_t, 3>> colours_of_obj(const Face_soup&
 }
 
 /// Colours from 0 to 1: the bytes of PLY are divided by 255.
-inline std::string format_obj(const Face_soup& soup, const std::array<std::size_t, 3>& colours) {
+[[gnu::cold]] inline std::string format_obj(const Face_soup& soup, const std::array<std::size_t, 3>& colours) {
   std::ostringstream out = exact_stream();
   for (std::size_t v = 0; v < soup.points.size(); ++v) {
     out << "v " << soup.points[v].x() << ' ' << soup.points[v].y() << ' ' << soup.points[v].z();

@@ -42,7 +42,7 @@ struct Ply_header {
 };
 
 /// \throw Read_error
-inline Ply_header parse_ply_header(std::string_view bytes) {
+[[gnu::cold]] inline Ply_header parse_ply_header(std::string_view bytes) {
   Text_scanner scan(bytes, 0);
   if (!scan.next_line() || scan.word("'ply'") != "ply")
     throw Read_error("a PLY file begins with 'ply'");
