@@ -20,7 +20,7 @@ struct Sum {
   int runs = 0, left = 0, faults = 0;
   std::size_t ticks = 0;
   double contact = 0, least = 0, least_port = 0, largest_port = 0, observer_error = 0, observer_error_whole = 0,
-         least_observed = 0, mass_energy = 0, largest_force = 0, limited = 0;
+         least_observed = 0, mass_energy = 0, largest_force = 0, limited = 0, off = 0, most_off = 0;
   int active = 0, alarms = 0, false_alarms = 0;
 
   void add(const Contact_setup& setup, const Contact_outcome& o) {
@@ -33,7 +33,7 @@ struct Sum {
     error = std::fmax(error, o.observer_error);
     least_observed = std::fmin(least_observed, o.least_observed);
     mass_energy += o.mass_energy, largest_force = std::fmax(largest_force, o.largest_force);
-    limited += o.limited;
+    limited += o.limited, off += o.off, most_off = std::fmax(most_off, o.most_off);
   }
   Json json() const {
     return {{"runs", runs},
@@ -50,7 +50,9 @@ struct Sum {
             {"least_observed_J", least_observed},
             {"mass_energy_J", mass_energy},
             {"largest_force_N", largest_force},
-            {"limited_share", limited / std::max(1, runs)}};
+            {"limited_share", limited / std::max(1, runs)},
+            {"force_off_mean_N", off / std::max(1, runs)},
+            {"force_off_largest_N", most_off}};
   }
 };
 
@@ -116,12 +118,14 @@ inline Json effects(const Options& options) {
     row.update(sum.json());
     rows.push_back(row);
     std::printf("%-24s least port + dissipation %10.3g J, active runs %d of %d, port from %.3g to %.3g J, limits at "
-                "work in %.0f %% of the ticks\n",
-                name, sum.least, sum.active, sum.runs, sum.least_port, sum.largest_port, 100 * sum.limited / sum.runs);
+                "work in %.0f %% of the ticks, force off by %.3g N in the mean, %.3g N at most\n",
+                name, sum.least, sum.active, sum.runs, sum.least_port, sum.largest_port, 100 * sum.limited / sum.runs,
+                sum.off / sum.runs, sum.most_off);
     std::fflush(stdout);
   };
-  Contact_wishes plain, bad_poses, weak;
-  plain.is_at_limit = bad_poses.is_at_limit = weak.is_at_limit = true;
+  Contact_wishes plain, bad_poses, weak, stepped;
+  plain.is_at_limit = bad_poses.is_at_limit = weak.is_at_limit = stepped.is_at_limit = true;
+  stepped.encoder_step = 1.53e-4;
   bad_poses.least_condition = 4, bad_poses.most_condition = 18;
   weak.torque_limit = 0.12;
   measure("none", plain, [](Contact_setup&) {});
@@ -134,6 +138,10 @@ inline Json effects(const Options& options) {
   measure("fading 5 to 20", bad_poses,
           [](Contact_setup& s) { s.limits.full_condition = 5, s.limits.no_condition = 20; });
   measure("ramp 0.3 s", plain, [](Contact_setup& s) { s.limits.ramp_time = 0.3; });
+  measure("encoders 1.53e-4 rad", stepped, [](Contact_setup&) {});
+  measure("controller", plain, [](Contact_setup& s) { s.controller_damping = s.largest_controller() / 2; });
+  measure("work cut, 10 % of ticks", plain, [](Contact_setup& s) { s.starved_share = 0.1; });
+  measure("work cut, slew 300 N/s", plain, [](Contact_setup& s) { s.starved_share = 0.1, s.limits.slew = 300; });
   measure("k = 2 k_p, by the pose", bad_poses,
           [](Contact_setup& s) { s.coupling.stiffness *= 2, s.follows_pose = true, s.greatest = 1e9; });
   measure("burst every 0.5 s", plain, [](Contact_setup& s) { s.burst_every = 0.5; });
