@@ -162,7 +162,10 @@ inline Json knocks(const Options& options) {
                                                  Simulated_hand::measured_arm(), std::nullopt};
   double least = 0, ripple = 0, largest_count = 0;
   int faults = 0, restless = 0, active = 0;
-  Json failures = Json::array();
+  Json failures = Json::array(), rows = Json::array();
+  for (const char* name : {"finger", "arm", "measured_arm", "thrown"})
+    for (const char* form : {"ditetrahedral", "general"})
+      rows.push_back({{"hand", name}, {"form", form}, {"runs", 0}, {"least_energy_J", 0.0}, {"ripple_N", 0.0}});
   for (int run = options.first; run < options.first + options.knock_runs; ++run) {
     const std::uint64_t seed = options.seed * 1000003 + 900000 + run;
     Draw draw(seed);
@@ -175,6 +178,10 @@ inline Json knocks(const Options& options) {
     const Knock_outcome o = run_knock(knock(devices[run % 2], k), k.wait);
     const bool swings = hand == 2; // on its own arm, for a second
     const bool is_restless = !swings && o.ripple > std::fmax(0.1, 1.5 * o.count);
+    Json& row = rows[static_cast<std::size_t>(2 * hand + run % 2)];
+    row["runs"] = row["runs"].get<int>() + 1;
+    row["least_energy_J"] = std::fmin(row["least_energy_J"].get<double>(), o.run.least);
+    row["ripple_N"] = std::fmax(row["ripple_N"].get<double>(), o.ripple);
     least = std::fmin(least, o.run.least), largest_count = std::fmax(largest_count, o.count);
     ripple = swings ? ripple : std::fmax(ripple, o.ripple);
     faults += o.run.fault != Loop_fault::none, restless += is_restless;
@@ -194,13 +201,15 @@ inline Json knocks(const Options& options) {
                           {"fault", name_of(o.run.fault)}});
   }
   std::printf(
-      "knocks: %d; least port + dissipation %.3g J, %d below %g; not calm %d (ripple at most %.3f N, a count at "
+      "knocks: %d, seed %llu; least port + dissipation %.3g J, %d below %g; not calm %d (ripple at most %.3f N, a count at "
       "most %.3f N); faults %d\n",
-      options.knock_runs, least, active, energy_bound_as_shipped, restless, ripple, largest_count, faults);
-  for (const Json& failure : failures)
-    std::printf("  %s\n", failure.dump().c_str());
+      options.knock_runs, static_cast<unsigned long long>(options.seed), least, active, energy_bound_as_shipped, restless, ripple, largest_count, faults);
+  for (const Json* list : {&rows, &failures})
+    for (const Json& line : *list)
+      std::printf("  %s\n", line.dump().c_str());
   return {{"runs", options.knock_runs}, {"least_energy_J", least}, {"active_runs", active}, {"restless", restless},
-          {"faults", faults},           {"ripple_N", ripple},      {"failures", failures}};
+          {"faults", faults},           {"ripple_N", ripple},      {"rows", rows},
+          {"failures", failures}};
 }
 
 /// With encoders, and limits as they come: what is reported though nothing is wrong.
