@@ -92,8 +92,7 @@ BOOST_AUTO_TEST_CASE(a_device_that_gives_energy_after_long_free_motion_ends_as_a
   BOOST_TEST_MESSAGE("friction took " << most << " J; then " << drop << " J were given, " << name_of(outcome.fault)
                                       << " at " << outcome.time << " s");
   BOOST_TEST((outcome.fault == Loop_fault::energy));
-  BOOST_TEST(most > 0.2);  // J
-  BOOST_TEST(drop < 0.15); // J: the reserve, and some swings
+  BOOST_TEST(drop < most / 2); // the reserve, what the spring held, and some swings; all of it before
 }
 
 BOOST_AUTO_TEST_CASE(a_loop_that_is_late_lets_go_of_a_free_handle_before_it_throws_it) {
