@@ -212,7 +212,7 @@ int main(int argc, char** argv) {
   app.add_option("--reach", options.reach, "Of a grab, mm; where no vertex is so near, one is created")
       ->capture_default_str();
   app.add_option("--valence", options.valence,
-                 "Have a vertex of so many faces in hand: a tip of a double cone that hops on a sphere of a third of the "
+                 "Have a vertex of that many faces in hand: a tip of a double cone that hops on a sphere of a third of the "
                  "size; 0: none")
       ->capture_default_str();
   app.add_option("--work", options.work, "Pairs that a drag may decide")->capture_default_str();

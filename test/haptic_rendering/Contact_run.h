@@ -28,6 +28,7 @@ struct Contact_setup {
   double controller_damping = 0; ///< N s/m
   bool follows_pose = false;     ///< Haptic_parameters::follows_pose; couplings are chosen for the poses of a run
   double burst_every = 0;        ///< s; 0: no edits are refused
+  double starved_share = 0;      ///< of the ticks, the first of each 0.1 s: work is cut short before the plane is found
   Eigen::Vector3d speed = Eigen::Vector3d::Zero(); ///< that the handle is given, m/s
   double push_time = 1e300;                        ///< when, s
 
@@ -58,6 +59,7 @@ struct Contact_outcome {
   double mass_energy = 0;       ///< taken from the hand by virtual mass, before limits
   double largest_force = 0;     ///< N, rendered
   double limited = 0;           ///< share of the ticks in which limits changed the force
+  double off = 0, most_off = 0; ///< N, mean and largest in contact: the force against spring and damper of the true place
   bool has_left = false;        ///< the poses for which the coupling was chosen
   Loop_fault fault = Loop_fault::none;
 };
@@ -90,11 +92,18 @@ Contact_outcome run_contact(Contact_setup setup, double seconds, const Each& eac
     const double depth = -setup.normal.dot(handle.position() - setup.on_plane);
     const bool reached = depth <= 0;
     touch.is_free = reached, touch.way = std::fmax(0, depth) * setup.normal;
+    touch.is_starved = std::fmod(outcome.time, 0.1) < 0.1 * setup.starved_share;
     if (setup.burst_every > 0 && outcome.time >= next_burst)
       loop.refuse(setup.normal), next_burst += setup.burst_every;
     loop.render(touch);
     loop.end_tick();
     const Rendered_force& rendered = loop.rendered();
+    if (!reached) {
+      const double true_depth = -setup.normal.dot(simulated.state().pose.position - setup.on_plane);
+      const double off = (rendered.force - setup.coupling.stiffness * std::fmax(0, true_depth) * setup.normal -
+                          setup.coupling.damping_force(touch.span, loop.side().velocity(), false)).norm();
+      outcome.off += off, outcome.most_off = std::fmax(outcome.most_off, off);
+    }
     limited += (rendered.force - loop.wanted()).norm() > 1e-9 * (1 + loop.wanted().norm());
     if (simulated.write(rendered.torque, rendered.interaction_torque) != Device_status::success) {
       outcome.has_left = true;
@@ -112,6 +121,7 @@ Contact_outcome run_contact(Contact_setup setup, double seconds, const Each& eac
   outcome.least_observed = observer.least();
   outcome.mass_energy = loop.virtual_mass().energy();
   outcome.limited = limited / std::fmax(1, outcome.time / setup.tick);
+  outcome.off /= std::fmax(1, static_cast<double>(outcome.ticks));
   outcome.fault = loop.fault();
   return outcome;
 }

@@ -69,6 +69,32 @@ BOOST_AUTO_TEST_CASE(a_device_that_gives_energy_ends_as_a_fault) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_device_that_gives_energy_after_long_free_motion_ends_as_a_fault_as_soon) {
+  const Knocked_device knocked(Device_form::ditetrahedral);
+  Knock k;
+  k.stiffness_share = 20, k.hand = Simulated_hand::finger(), k.wait = 30;
+  Contact_setup setup = knock(knocked, k);
+  setup.controller_damping = 0;
+  std::vector<Hand_path::Row> rows = setup.path.rows();
+  const Hand_path::Row above = rows[1], below = rows[2];
+  rows.pop_back();
+  rows[1].time = 0.35;
+  for (int swing = 0; rows.back().time + 0.2 < k.wait; ++swing) // in the air: friction takes what the hand gives
+    rows.push_back({rows.back().time + 0.1, above.position + (swing % 2 ? 0.01 : -0.01) * Vector3d::UnitX(), 0});
+  rows.push_back(above), rows.push_back(below);
+  setup.path = Hand_path(rows);
+  double most = 0, drop = 0; // J, of port plus dissipation
+  const Contact_outcome outcome = run_contact(setup, 15, [&](const Simulated_device& device, const auto&, const auto&) {
+    most = std::fmax(most, device.port() + device.dissipated());
+    drop = std::fmax(drop, most - device.port() - device.dissipated());
+    return true;
+  });
+  BOOST_TEST_MESSAGE("friction took " << most << " J; then " << drop << " J were given, " << name_of(outcome.fault)
+                                      << " at " << outcome.time << " s");
+  BOOST_TEST((outcome.fault == Loop_fault::energy));
+  BOOST_TEST(drop < most / 2); // the reserve, what the spring held, and some swings; all of it before
+}
+
 BOOST_AUTO_TEST_CASE(a_loop_that_is_late_lets_go_of_a_free_handle_before_it_throws_it) {
   const Knocked_device knocked(Device_form::ditetrahedral);
   Random random(11);

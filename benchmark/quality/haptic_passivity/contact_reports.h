@@ -19,7 +19,7 @@ struct Sum {
   int runs = 0, left = 0, faults = 0;
   std::size_t ticks = 0;
   double contact = 0, least = 0, least_port = 0, largest_port = 0, observer_error = 0, observer_error_whole = 0,
-         least_observed = 0, mass_energy = 0, largest_force = 0, limited = 0;
+         least_observed = 0, mass_energy = 0, largest_force = 0, limited = 0, off = 0, most_off = 0;
   int active = 0, alarms = 0, false_alarms = 0;
 
   void add(const Contact_setup& setup, const Contact_outcome& o) {
@@ -32,7 +32,7 @@ struct Sum {
     error = std::fmax(error, o.observer_error);
     least_observed = std::fmin(least_observed, o.least_observed);
     mass_energy += o.mass_energy, largest_force = std::fmax(largest_force, o.largest_force);
-    limited += o.limited;
+    limited += o.limited, off += o.off, most_off = std::fmax(most_off, o.most_off);
   }
   Json json() const {
     return {{"runs", runs},
@@ -49,7 +49,9 @@ struct Sum {
             {"least_observed_J", least_observed},
             {"mass_energy_J", mass_energy},
             {"largest_force_N", largest_force},
-            {"limited_share", limited / std::max(1, runs)}};
+            {"limited_share", limited / std::max(1, runs)},
+            {"force_off_mean_N", off / std::max(1, runs)},
+            {"force_off_largest_N", most_off}};
   }
 };
 
@@ -115,12 +117,14 @@ inline Json effects(const Options& options) {
     row.update(sum.json());
     rows.push_back(row);
     std::printf("%-24s least port + dissipation %10.3g J, active runs %d of %d, port from %.3g to %.3g J, limits at "
-                "work in %.0f %% of the ticks\n",
-                name, sum.least, sum.active, sum.runs, sum.least_port, sum.largest_port, 100 * sum.limited / sum.runs);
+                "work in %.0f %% of the ticks, force off by %.3g N in the mean, %.3g N at most\n",
+                name, sum.least, sum.active, sum.runs, sum.least_port, sum.largest_port, 100 * sum.limited / sum.runs,
+                sum.off / sum.runs, sum.most_off);
     std::fflush(stdout);
   };
-  Contact_wishes plain, bad_poses, weak;
-  plain.is_at_limit = bad_poses.is_at_limit = weak.is_at_limit = true;
+  Contact_wishes plain, bad_poses, weak, stepped;
+  plain.is_at_limit = bad_poses.is_at_limit = weak.is_at_limit = stepped.is_at_limit = true;
+  stepped.encoder_step = 1.53e-4;
   bad_poses.least_condition = 4, bad_poses.most_condition = 18;
   weak.torque_limit = 0.12;
   measure("none", plain, [](Contact_setup&) {});
@@ -133,6 +137,10 @@ inline Json effects(const Options& options) {
   measure("fading 5 to 20", bad_poses,
           [](Contact_setup& s) { s.limits.full_condition = 5, s.limits.no_condition = 20; });
   measure("ramp 0.3 s", plain, [](Contact_setup& s) { s.limits.ramp_time = 0.3; });
+  measure("encoders 1.53e-4 rad", stepped, [](Contact_setup&) {});
+  measure("controller", plain, [](Contact_setup& s) { s.controller_damping = s.largest_controller() / 2; });
+  measure("work cut, 10 % of ticks", plain, [](Contact_setup& s) { s.starved_share = 0.1; });
+  measure("work cut, slew 300 N/s", plain, [](Contact_setup& s) { s.starved_share = 0.1, s.limits.slew = 300; });
   measure("k = 2 k_p, by the pose", bad_poses,
           [](Contact_setup& s) { s.coupling.stiffness *= 2, s.follows_pose = true, s.greatest = 1e9; });
   measure("burst every 0.5 s", plain, [](Contact_setup& s) { s.burst_every = 0.5; });
@@ -153,7 +161,10 @@ inline Json knocks(const Options& options) {
                                                  Simulated_hand::measured_arm(), std::nullopt};
   double least = 0, ripple = 0, largest_count = 0;
   int faults = 0, restless = 0, active = 0;
-  Json failures = Json::array();
+  Json failures = Json::array(), rows = Json::array();
+  for (const char* name : {"finger", "arm", "measured_arm", "thrown"})
+    for (const char* form : {"ditetrahedral", "general"})
+      rows.push_back({{"hand", name}, {"form", form}, {"runs", 0}, {"least_energy_J", 0.0}, {"ripple_N", 0.0}});
   for (int run = options.first; run < options.first + options.knock_runs; ++run) {
     const std::uint64_t seed = options.seed * 1000003 + 900000 + run;
     Draw draw(seed);
@@ -166,6 +177,10 @@ inline Json knocks(const Options& options) {
     const Knock_outcome o = run_knock(knock(devices[run % 2], k), k.wait);
     const bool swings = hand == 2; // on its own arm, for a second
     const bool is_restless = !swings && o.ripple > std::fmax(0.1, 1.5 * o.count);
+    Json& row = rows[static_cast<std::size_t>(2 * hand + run % 2)];
+    row["runs"] = row["runs"].get<int>() + 1;
+    row["least_energy_J"] = std::fmin(row["least_energy_J"].get<double>(), o.run.least);
+    row["ripple_N"] = std::fmax(row["ripple_N"].get<double>(), o.ripple);
     least = std::fmin(least, o.run.least), largest_count = std::fmax(largest_count, o.count);
     ripple = swings ? ripple : std::fmax(ripple, o.ripple);
     faults += o.run.fault != Loop_fault::none, restless += is_restless;
@@ -185,13 +200,15 @@ inline Json knocks(const Options& options) {
                           {"fault", name_of(o.run.fault)}});
   }
   std::printf(
-      "knocks: %d; least port + dissipation %.3g J, %d below %g; not calm %d (ripple at most %.3f N, a count at "
+      "knocks: %d, seed %llu; least port + dissipation %.3g J, %d below %g; not calm %d (ripple at most %.3f N, a count at "
       "most %.3f N); faults %d\n",
-      options.knock_runs, least, active, energy_bound_as_shipped, restless, ripple, largest_count, faults);
-  for (const Json& failure : failures)
-    std::printf("  %s\n", failure.dump().c_str());
+      options.knock_runs, static_cast<unsigned long long>(options.seed), least, active, energy_bound_as_shipped, restless, ripple, largest_count, faults);
+  for (const Json* list : {&rows, &failures})
+    for (const Json& line : *list)
+      std::printf("  %s\n", line.dump().c_str());
   return {{"runs", options.knock_runs}, {"least_energy_J", least}, {"active_runs", active}, {"restless", restless},
-          {"faults", faults},           {"ripple_N", ripple},      {"failures", failures}};
+          {"faults", faults},           {"ripple_N", ripple},      {"rows", rows},
+          {"failures", failures}};
 }
 
 /// With encoders, and limits as they come: what is reported though nothing is wrong.

@@ -20,7 +20,7 @@ public:
   /// The force on the hand, N; exactly 0 where nothing is missing.
   /// \param step of the handle since the last tick, m
   Eigen::Vector3d force(const Passivity_observer& observer, const Eigen::Vector3d& step) {
-    const double missing = -(observer.energy() + observer.dissipated());
+    const double missing = -observer.balance();
     const Eigen::Vector3d velocity = step / tick_; // a low-pass would come too late for what buzzes
     const double square = velocity.squaredNorm();
     damping_ = 0;

@@ -27,6 +27,11 @@ public:
       credit_ += stiffness * handle_step.squaredNorm() / 12;
     least_ = std::fmin(least_, energy() + dissipated_);
   }
+  /// What the hand has put in counts up to what can come back of it, J: the rest is friction's, and must not hide what
+  /// the device gives an hour later. \param stored in the spring now
+  void forget_beyond(double stored) {
+    forgotten_ = std::fmax(forgotten_, energy() + dissipated_ - stored - reserve);
+  }
   /// Begins anew with nothing taken or given.
   void restart() { *this = Passivity_observer(delay_.ticks(), tick_, friction_, encoder_step_); }
   /// The torque of this tick without what carries the mechanism's own weight, N m.
@@ -36,17 +41,22 @@ public:
   double energy() const { return port_ + credit_; } ///< J, with the credit for encoder steps
   double dissipated() const { return dissipated_; } ///< J, by viscous friction, as the joint steps say
   /// Whether the device has given more than anything that is allowed for can explain.
-  bool is_active() const { return energy() + dissipated_ < permitted; }
+  bool is_active() const { return balance() < permitted; }
+  /// energy() + dissipated(), J, less what has been forgotten.
+  double balance() const { return energy() + dissipated_ - forgotten_; }
   /// J: what the loop may seem to have given, beyond the credit for encoders. A stiffness that grows while a hand
   /// presses (the ramp) gives some tenths of a mJ, a delay that is no whole number of ticks is seen to a tenth.
   static constexpr double permitted = -5e-3;
+  /// J: what may come back beside the spring. Where a proxy falls the slew limit leaves 5 N some 17 ms to go, in which
+  /// a hand at 0.3 m/s is given 13 mJ; virtual mass and snap hold some mJ.
+  static constexpr double reserve = 0.05;
   /// The least of energy() + dissipated() so far, J. Below 0: somewhere the device was active.
   double least() const { return least_; }
 
 private:
   Torque_delay<double> delay_;
   double tick_, friction_, encoder_step_;
-  double port_ = 0, credit_ = 0, dissipated_ = 0, least_ = 0;
+  double port_ = 0, credit_ = 0, dissipated_ = 0, least_ = 0, forgotten_ = 0;
 };
 
 } // namespace haptic_sculpt

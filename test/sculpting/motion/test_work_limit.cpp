@@ -117,3 +117,25 @@ BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_an_end_that_is_one_without_a_bound
   BOOST_TEST(not_ended <= drags / 20);
   BOOST_TEST(improved <= held_ends / 50);
 }
+
+/// What stands within half a star's width of a large star may be more than any bound, and is no reason to stay.
+BOOST_AUTO_TEST_CASE(a_large_star_over_a_fine_surface_follows_the_hand) {
+  for (const std::size_t valence : {6, 64}) {
+    auto list = meshes::bumpy_sphere(5, 0.05).scale_and_move(10, 0, 0, -10);
+    list += meshes::bipyramid(valence).scale_and_move(12, 0, 0, 17); // the lower tip, the last vertex, 5 over the sphere
+    Mesh mesh = meshes::to_mesh(list);
+    Sculptor<Mesh> sculptor(mesh, parameters::work_limit(400 + 4 * valence));
+    const Vertex_index tip(static_cast<Mesh::size_type>(mesh.number_of_vertices() - 1));
+    auto grab = sculptor.grab(tip);
+    int cut = 0;
+    Point_3 hand = mesh.point(tip);
+    for (int k = 0; k < 250; ++k) {
+      const double angle = 0.05 * std::min(k, 200); // it rests at last
+      hand = Point_3(6 * std::sin(0.71 * angle), 6 * std::sin(0.53 * angle), 3 + 2 * std::cos(angle));
+      cut += grab.drag_to(hand).end == Drag_end::work_limit;
+    }
+    BOOST_TEST_MESSAGE("valence " << valence << ": cut short in " << cut << " drags");
+    BOOST_TEST(cut < 50);
+    BOOST_TEST((mesh.point(tip) == hand));
+  }
+}

@@ -56,6 +56,7 @@ public:
     const bool pulls = !touch.is_free && !touch.is_starved;
     spring_ = pulls ? Eigen::Vector3d(coupling_.stiffness * touch.way) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     wanted_ = spring_ + touch.snap + coupling_.damping_force(touch.span, side_.velocity(), !pulls);
+    observer_.forget_beyond(pulls ? 0.5 * stiffness_ * touch.way.squaredNorm() : 0);
     if (side_.has_force())
       wanted_ += virtual_mass_.force(side_.step(), touch.holds) + controller_.force(observer_, side_.step());
     rendered_ = side_.render(wanted_, touch.is_starved ? 0 : side_.step().norm());

@@ -165,7 +165,7 @@ private:
   /// How much larger than the motion, in extents of the link, the region of a list is: of the first, which has to be
   /// filled from memory not seen lately, and of those that follow in one grab.
   static constexpr double first_margin = 0.125, region_margin = 0.5;
-  static constexpr double least_room = 0x1p-9; ///< of these, at least
+  static constexpr double least_room = 0x1p-9; ///< of these: below it there is none
 
   /// From a vertex to the end of its first region, in extents of a link: half of one and the margin.
   static constexpr double usual_reach = 0.5 + first_margin;
@@ -248,15 +248,14 @@ private:
     const double margin = room_share_ * (list_.faces().empty() ? first_margin : region_margin) * link_extent();
     const Box_3 region = grown(motion, margin);
     const std::size_t portion = work_->left() / 2;
-    if (look_at(anywhere_in(region), portion)) {
-      if (candidates_.size() < portion / 8)
-        room_share_ = std::fmin(1, 2 * room_share_);
-      take_candidates(region);
-      return;
+    const bool has_room = margin > 0 && look_at(anywhere_in(region), portion);
+    if (!has_room) {
+      room_share_ = room_share_ > least_room ? room_share_ / 8 : 0;
+      look_at(anywhere_in(motion));
     }
-    room_share_ = std::fmax(least_room, room_share_ / 8);
-    look_at(anywhere_in(motion));
-    take_candidates(motion);
+    if (!work_->is_spent() && candidates_.size() < portion / 8)
+      room_share_ = std::fmin(1, std::fmax(least_room, 2 * room_share_));
+    take_candidates(has_room ? region : motion);
   }
 
   static Box_3 grown(Box_3 box, double margin) {
