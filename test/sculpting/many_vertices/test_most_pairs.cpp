@@ -7,6 +7,7 @@
 #include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 
+#include <random>
 #include <set>
 
 using namespace haptic_sculpt;
@@ -125,7 +126,7 @@ Points targets_of(const Mesh& mesh, std::mt19937_64& random, double length, bool
   for (const Vertex_index v : mesh.vertices()) {
     std::array<double, 3> d;
     for (double& x : d)
-      x = length * meshes::uniform(random);
+      x = std::uniform_real_distribution<double>(-length, length)(random);
     for (int k = 0; k < 3; ++k)
       if (axis != -1 && k != axis)
         d[k] = 0;
