@@ -106,7 +106,7 @@ public:
   const Mesh& mesh() const { return mesh_; }
   auto& sculptor() { return sculptor_; }
   Move_report move(const Move_parameters& parameters) {
-    const auto map = mesh_.template add_property_map<Vertex_index, Point_3>("v:target").first;
+    auto map = mesh_.template add_property_map<Vertex_index, Point_3>("v:target").first;
     for (const Vertex_index v : mesh_.vertices())
       map[v] = targets_[v];
     const auto report = move_vertices(sculptor_, mesh_.vertices(), map, parameters);
@@ -130,7 +130,7 @@ Points targets_of(const Mesh& mesh, std::mt19937_64& random, double length, bool
     for (int k = 0; k < 3; ++k)
       if (axis != -1 && k != axis)
         d[k] = 0;
-    const bool moves = are_all || v < mesh.number_of_vertices() / 16;
+    const bool moves = are_all || static_cast<std::size_t>(v) < mesh.number_of_vertices() / 16;
     targets.push_back(moves ? mesh.point(v) + Vector_3(d[0], d[1], d[2]) : mesh.point(v));
   }
   return targets;
