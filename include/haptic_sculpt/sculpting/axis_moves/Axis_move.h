@@ -202,7 +202,9 @@ private:
   }
 
   /// Every obstacle proposes a share for some of its vertices, from the state as it is; of several the least holds.
-  void add(const Axis_obstacle& obstacle) {
+  void add(const Axis_obstacle& found) {
+    // Which of two edges comes first depends on the tree; shares are rounded, in an order of the vertices.
+    const Axis_obstacle obstacle = found.in_order();
     obstacles_.push_back(obstacle);
     const auto& vertices = obstacle.vertices;
     const Axis_pull pull = pull_for(obstacle.kind, scene_.motion_of(vertices));
