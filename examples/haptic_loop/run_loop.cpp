@@ -8,6 +8,7 @@
 #include "write_run_picture.h"
 
 #include "../common/numbers.h"
+#include "../common/note_what_is_lost.h"
 #include "../common/write_file.h"
 #include "../drawing/surface_mesh_arrays.h"
 
@@ -68,10 +69,12 @@ public:
     log_.emplace(plan_.log, hash);
     if (log_->has_edits() && (plan_.replay || !plan_.record.empty()))
       throw Usage_error("a recording is of a run that begins with the mesh itself; give a log that is not there yet");
-    Scene scene(read_surface<Mesh>(plan_.mesh), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
+    std::vector<std::string> left_out;
+    Scene scene(read_surface<Mesh>(plan_.mesh, 0, &left_out), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
       return map_of(settings_, lower, upper, device_, *home_);
     });
     keep_vertex_attributes(scene.sculptor);
+    examples::note_what_is_lost(writer_, plan_.mesh, plan_.out, std::move(left_out), scene.mesh);
     if (const std::string told = log_->resume(scene); !told.empty())
       writer_.note(told);
     Haptic_parameters parameters;

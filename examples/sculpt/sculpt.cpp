@@ -2,6 +2,7 @@
 // Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/use/sculpt.md.
 #include "../common/contents_of.h"
 #include "../common/mesh_program.h"
+#include "../common/note_what_is_lost.h"
 #include "../common/numbers.h"
 #include "../common/output_targets.h"
 #include "Log_file.h"
@@ -142,14 +143,6 @@ Mesh mesh_of(const Arguments& arguments, std::vector<std::string>& left_out, Val
   }
 }
 
-/// E.g. "normals, colours".
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words)
-    text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 /// What `--nearest` asks for, of the sculpted mesh; nothing where it does not.
 std::vector<Near_vertex> nearest_to(const Arguments& arguments, const Mesh& mesh, const Run_result& result) {
   std::vector<Near_vertex> found;
@@ -221,13 +214,7 @@ int sculpt(const Arguments& arguments) {
   if (const std::string remarks = found.remarks(); !remarks.empty())
     writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are; --orient turns components over "
                 "that are inside out");
-  if (const auto format = mesh_file_format(arguments.out))
-    for (const std::string& word : attributes_not_held(mesh, *format))
-      if (std::find(left_out.begin(), left_out.end(), word) == left_out.end())
-        left_out.push_back(word);
-  if (!arguments.out.empty() && !left_out.empty())
-    writer.note("'" + arguments.out + "' will be without what '" + arguments.mesh +
-                "' has besides its faces: " + listed(left_out));
+  examples::note_what_is_lost(writer, arguments.mesh, arguments.out, std::move(left_out), mesh);
   bool is_told = false;
   const auto tell_failure = [&] { // once, and at once: the work may take hours
     if (log && !log->failure().empty() && !std::exchange(is_told, true))
