@@ -169,12 +169,12 @@ def simplification(report):
         rows = [r for r in report["rows"] if r["method"] == method]
         pairs[method] = sum(r["pairs"] for r in rows)
         points.append((name, sum(r["seconds"] for r in rows) / len(rows), pairs[method] / len(rows)))
-    return [Finding("simplification", f"Simplified to {percent(report['share'])} of the edges, {len(report['rows']) // 2} meshes have {pairs['edge_collapse']:,} pairs of intersecting "
+    return [Finding("simplification", f"Simplified to {percent(report['share'])} of the edges, {len(report['rows']) // 2} runs leave {pairs['edge_collapse']:,} pairs of intersecting "
                     f"faces by CGAL's edge_collapse, {pairs['under the guard']:,} under the guard.", f"{pairs['under the guard']:,}",
                     f"pairs under the guard, {pairs['edge_collapse']:,} without",
                     speed_error(points, "pairs of intersecting faces, mean", "mean processor time of a mesh"), "Time of simplification against intersecting faces",
-                    [Table("Each mesh", ["mesh", "method", "faces before", "faces left", "time", "pairs", "valid"],
-                           [[r["mesh"], r["method"], f"{r['faces_before']:,}", f"{r['faces_left']:,}", seconds_text(r["seconds"] or 1e-6), r["pairs"], "yes" if r["valid"] else "no"]
+                    [Table("Each mesh", ["mesh", "policies", "method", "faces before", "faces left", "time", "pairs", "distance", "valid"],
+                           [[r["mesh"], r["policies"], r["method"], f"{r['faces_before']:,}", f"{r['faces_left']:,}", seconds_text(r["seconds"] or 1e-6), r["pairs"], f"{r['distance']:.3g}", "yes" if r["valid"] else "no"]
                             for r in report["rows"]])])]
 
 

@@ -74,6 +74,8 @@ public:
         add_edge((*list)[i].first, (*list)[i].second);
     for (std::size_t i = 0; i < report.non_manifold_vertices.size() && i < most_marks; ++i)
       add_vertex(report.non_manifold_vertices[i]);
+    for (std::size_t i = 0; i < report.isolated_vertices.size() && i < most_marks; ++i)
+      add_vertex(report.isolated_vertices[i]);
     for (std::size_t i = 0; i < report.coincident_vertices.size() && i < most_marks; ++i)
       add_vertex(report.coincident_vertices[i].first);
     scene_.title =

@@ -67,6 +67,15 @@ else:
     check(done.returncode == 0 and open(at("plots.png"), "rb").read(8) == b"\x89PNG\r\n\x1a\n", f"plots of a trace: {done.stderr}")
     refused = subprocess.run([sys.executable, DRAW, at("a.json"), at("none.png")], capture_output=True, text=True)
     check(refused.returncode == 1 and "has no column 't'" in refused.stderr, f"what is no trace is refused: {refused.stderr}")
+numbers = [line.split() for line in open(MESH).read().split("\n") if line and not line.startswith("#")]
+corners = 2 + int(numbers[1][0])
+with open(at("coloured.obj"), "w") as file:
+    file.write("vn 0 0 1\n" + "".join(f"v {' '.join(p)} 0.5 0.25 1\n" for p in numbers[2:corners])
+               + "".join("f " + " ".join(str(int(v) + 1) for v in f[1:4]) + "\n" for f in numbers[corners:]))
+told = run(at("coloured.obj"), "--no-wait", "--seconds", 0.1, "-o", at("coloured.off")).stderr
+check("normals, colours" in told, f"what the result is without: {told}")
+told = run(at("coloured.obj"), "--no-wait", "--seconds", 0.1, "-o", at("coloured.ply")).stderr
+check("normals" in told and "colours" not in told, f"PLY holds colours: {told}")
 report = json.load(open(at("a.json")))
 check(KEYS <= set(report), f"keys of the report: {sorted(report)}")
 check(report["valid"] is True and report["faults"] == [], "the run is valid and has no faults")

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/no_fast_math.h>
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/many_vertices/Collapse_queue.h>
+#include <haptic_sculpt/sculpting/many_vertices/triangle_shape.h>
 #include <haptic_sculpt/sculpting/named_parameters.h>
 
 #include <CGAL/Kernel_traits.h>
@@ -31,7 +32,9 @@ struct Decimation_report {
 /// policies, but every step is proven: one end of the edge is drawn to the placement, and then the other into it. Where
 /// that is refused, as in planes, one end is to go into the other, and from there to the placement if it can: that
 /// comes when it is the cheapest, by what the policy says that the end costs. What is refused again is left out until
-/// something beside it has changed. So the mesh is embedded at every moment.
+/// something beside it has changed. So the mesh is embedded at every moment. No face that stays turns its normal by a
+/// right angle or more, in rounded numbers; of edges that cost the same the shortest goes first, and a cost below 0 is
+/// one of 0 that was rounded.
 ///
 /// \param should_stop a model of CGAL's `StopPredicate`, e.g. `Edge_count_stop_predicate` or, in CGAL 5.5,
 /// `Count_stop_predicate`; of 10,000 faces a closed mesh has 15,000 edges. Your own: `bool should_stop(cost, profile,
@@ -115,6 +118,22 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     sculptor.move_if_free(kept, before);
     return false;
   };
+  // Whether a face that stays turns its normal by a right angle or more where both ends of h go to p. Rounded. The
+  // guard lets a plane fold onto itself where the corners are rounded, and so not quite in the plane.
+  const auto turns_a_face = [&](Halfedge_index h, const Point& p) {
+    const internal::Coordinates to = internal::coordinates(p);
+    for (const Halfedge_index end : {h, mesh.opposite(h)})
+      for (const Halfedge_index g : mesh.halfedges_around_target(end)) {
+        const Vertex_index a = mesh.source(g), b = mesh.target(mesh.next(g));
+        if (a == mesh.source(end) || b == mesh.source(end))
+          continue;
+        const auto c = vertex_coordinates(mesh, a), d = vertex_coordinates(mesh, b);
+        if (!internal::point_alike(internal::area_normal(c, vertex_coordinates(mesh, mesh.target(g)), d),
+                                   internal::area_normal(c, to, d)))
+          return true;
+      }
+    return false;
+  };
   Decimation_report report;
   for (const Edge_index e : mesh.edges())
     offer(e);
@@ -131,14 +150,16 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     const Vertex_index source = mesh.source(h), target = mesh.target(h);
     Vertex_index kept = Mesh::null_vertex();
     if (!entry->into_end) {
-      kept = collapses(h, place) ? target : collapses(back, place) ? source : kept;
+      if (!turns_a_face(h, place))
+        kept = collapses(h, place) ? target : collapses(back, place) ? source : kept;
     } else {
+      const bool may_go = !turns_a_face(h, place);
       const bool keeps_source = is_fixed(source), keeps_target = is_fixed(target);
       const bool into_source =
           keeps_source || (!keeps_target && cost_at_end(profile, source) < cost_at_end(profile, target));
-      if (sculptor.collapse(into_source ? back : h)) {
+      if (!turns_a_face(h, mesh.point(into_source ? source : target)) && sculptor.collapse(into_source ? back : h)) {
         kept = into_source ? source : target;
-        if (!keeps_source && !keeps_target)
+        if (!keeps_source && !keeps_target && may_go)
           sculptor.move_if_free(kept, place);
       }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,14 +10,16 @@
 
 namespace haptic_sculpt::internal {
 
-/// Edges by cost, the cheapest first, of equal ones the lowest. An edge that is put in anew has its new cost only.
+/// Edges by cost, the cheapest first, of equal ones the shortest, then the lowest. An edge that is put in anew has its
+/// new cost only. A cost is a sum of squares, so less than 0 is 0 that was rounded: in a plane the rounding would
+/// choose the edges, and draw hundreds into one vertex.
 template <class Mesh>
 class Collapse_queue {
 public:
   using Edge_index = typename Mesh::Edge_index;
 
   struct Entry {
-    double cost;
+    double cost, squared_length;
     Edge_index edge;
     bool into_end;      // that the placement is refused is known: into the one end or the other
     std::uint32_t time; // which entry of the edge, counted from 1
@@ -24,7 +27,9 @@ public:
 
   explicit Collapse_queue(const Mesh& mesh) : mesh_(mesh) {}
 
-  void push(Edge_index e, double cost, bool into_end) { queue_.push({cost, e, into_end, ++time(e)}); }
+  void push(Edge_index e, double cost, bool into_end) {
+    queue_.push({cost, squared_length(e), e, into_end, ++time(e)});
+  }
   void leave_out(Edge_index e) { ++time(e); }
 
   /// The next one, or nothing.
@@ -41,10 +46,21 @@ public:
 private:
   struct Comes_later {
     bool operator()(const Entry& a, const Entry& b) const {
-      return a.cost != b.cost ? a.cost > b.cost : b.edge < a.edge;
+      const double cost_of_a = std::fmax(a.cost, 0), cost_of_b = std::fmax(b.cost, 0);
+      return cost_of_a != cost_of_b                 ? cost_of_a > cost_of_b
+             : a.squared_length != b.squared_length ? a.squared_length > b.squared_length
+                                                    : b.edge < a.edge;
     }
   };
 
+  double squared_length(Edge_index e) const {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double way = mesh_.point(mesh_.vertex(e, 0))[k] - mesh_.point(mesh_.vertex(e, 1))[k];
+      sum += way * way;
+    }
+    return sum;
+  }
   std::uint32_t& time(Edge_index e) {
     const auto i = static_cast<std::size_t>(e);
     if (i >= times_.size())
