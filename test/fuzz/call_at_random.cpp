@@ -118,6 +118,8 @@ private:
   std::vector<Edit> made_;     ///< by value
   bool is_recorded_ = true;    ///< whether these are all: not where an exception came from a change that was made
   bool keeps_all_ = true;      ///< whether no history was limited
+  std::size_t which_ = 0;      ///< the call, as call() numbers them
+  Edit_kind kind_ = Edit_kind::none; ///< of an edit by value
   bool is_compound_ = false;   ///< whether the call makes several steps
   bool restores_ = false;      ///< whether the call is undo or redo
   bool is_broken_off_ = false; ///< whether the Sculptor refuses for good
@@ -127,6 +129,13 @@ private:
     for (const auto v : mesh_.vertices())
       all.heat[sculptor_.id(v)] = heat_[v];
     return all;
+  }
+
+  /// Says which call it was where a promise is broken.
+  void require(bool holds, const char* promise) const {
+    if (!holds)
+      std::fprintf(stderr, "call %zu, by value %d, unit %a\n", which_, static_cast<int>(kind_), unit_);
+    fuzz::require(holds, promise);
   }
 
   /// \name What calls are made with
@@ -328,8 +337,9 @@ private:
 
 inline void Caller::call() {
   is_compound_ = restores_ = false;
-  const std::size_t which = is_by_value_ ? 25 : choices_.below(32);
-  switch (which) {
+  which_ = is_by_value_ ? 25 : choices_.below(32);
+  kind_ = Edit_kind::none;
+  switch (which_) {
   default: {
     const auto v = vertex();
     const Point_3 to = target(v), from = lives(v) ? mesh_.point(v) : to;
@@ -443,16 +453,18 @@ inline void Caller::call() {
     edit.axis = static_cast<int>(choices_.below(3));
     if (edit.kind == Edit_kind::shift)
       edit.ways.emplace_back(choices_.integer<std::uint16_t>() % numbers, length());
+    kind_ = edit.kind;
     restores_ = edit.kind == Edit_kind::undo || edit.kind == Edit_kind::redo;
     is_compound_ = !edit.legs.empty();
-    return make([&] {
-      const Edit applied = sculptor_.apply(edit);
-      made_.push_back(applied);
-    });
+    std::optional<Edit> applied;
+    make([&] { applied = std::move(sculptor_.apply(edit).edit); });
+    if (applied)
+      made_.push_back(*applied);
+    return;
   }
   case 26: case 27: case 28: case 29: case 30: case 31:
     is_compound_ = true;
-    return call_for_many(which - 26);
+    return call_for_many(which_ - 26);
   }
 }
 

@@ -127,10 +127,6 @@ private:
         continue;
       }
       crossed += found->second;
-      if (!are_squares_normal(mesh)) {
-        failure = "faces are too large, too small or too unlike in size to be smoothed in double precision";
-        continue;
-      }
       Work_mesh copy = mesh;
       const Vertex_marks marks(copy);
       try {

@@ -112,22 +112,6 @@ inline Repair_step close_holes(Work_mesh& mesh, std::size_t most_edges) {
           {{"holes closed", closed}, {"triangles added", mesh.number_of_faces() - faces}, {"holes left", left}}, 0, {}};
 }
 
-/// Whether squares of lengths and areas are normal numbers: CGAL's smoothing divides by them, and GMP, given what is then
-/// no number, ends the process. Faces that are exactly flat are left to CGAL.
-inline bool are_squares_normal(const Work_mesh& mesh) {
-  constexpr double least = 0x1p-600, largest = 0x1p600; // so that a product of three squares of lengths is none either
-  for (const auto f : mesh.faces()) {
-    const auto h = mesh.halfedge(f);
-    const auto &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
-               &c = mesh.point(mesh.target(mesh.next(h)));
-    const double edges = CGAL::squared_distance(a, b) + CGAL::squared_distance(b, c) + CGAL::squared_distance(c, a);
-    const double area = CGAL::cross_product(b - a, c - a).squared_length();
-    if (!(edges <= largest) || (!(area >= least) && !CGAL::collinear(a, b, c)))
-      return false;
-  }
-  return true;
-}
-
 /// Of a mesh of one component. First keeping its genus, and if that does not do, not.
 inline bool resolve_self_intersections(Work_mesh& mesh) {
   namespace PMP = CGAL::Polygon_mesh_processing;
