@@ -102,7 +102,7 @@ private:
       return refuse("there is nothing to remesh here: point at the surface");
     const Dab_3<Kernel> dab{Brush_kind::smooth, hit->point, brush_->radius, 0};
     remesh(scene, tool, faces_under(scene, with_mirrored(scene, dab, brush_->symmetry)),
-           length_ > 0 ? length_ : brush_->edge_length());
+           length_ > 0 ? length_ : brush_->edge_length(scene.edge_length));
     return true;
   }
 };
