@@ -168,7 +168,7 @@ for name, mesh in MESHES:
         report = json.load(open(at("report.json")))
         check(report["frames"] > 50 and report["frame_ns"]["p99"] >= report["frame_ns"]["p50"] > 0, f"{name}: frame times: {report}")
         check(report["ticks"] > 500, f"{name}: ticks: {report}")
-        check(report["uploaded"]["faces"] > 0 and report["uploaded"]["bytes"] < 108 * (report["uploaded"]["faces"] + 1100 + lines[0]["faces"] // 8),
+        check(report["uploaded"]["faces"] > 0 and report["uploaded"]["bytes"] < 108 * (2 * report["uploaded"]["faces"] + 1100 + lines[0]["faces"] // 8),
               f"{name}: uploads: {report['uploaded']}")
 
 missing = {"drag", "insert_face", "insert_edge", "flip", "collapse", "shift", "undo", "redo", "stroke", "end"} - made
