@@ -146,6 +146,15 @@ text = bytes_of(at("saved.ply"))
 check(b"uchar red" in text.split(b"end_header")[0], "colours are saved")
 check(len(points(at("saved.off"))) == len(places) + 1, "a file that holds no colours is written, too")
 
+# The head of the README, by brushes alone.
+CREATURE = open(os.path.join(SOURCE, "examples/data/creature.window-script")).read()
+lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 320, 200, script=CREATURE + f"settle\nprint\nsave {at('head.off')}\nsettle\nquit\n",
+                  what="a head", patience=900)
+is_valid(at("head.off"), "a head")
+head = points(at("head.off"))
+check(lines[0]["faces"] > 8 * 71 ** 2 + 5000 and lines[0]["undo"] > 15, f"a head has more triangles where it needs them: {lines}")
+check(max(p[2] for p in head) > 1.4 and min(p[1] for p in head) < -1.1 and min(p[2] for p in head) < -1.1, "a head has ears, a snout and a chin")
+
 # Whatever a hand does, in any order: the log makes the same again, and it is a valid surface.
 for seed in range(3):
     chance = random.Random(seed)
