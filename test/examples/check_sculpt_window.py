@@ -289,7 +289,7 @@ quit
 check(len(lines) == 19 and "nothing-to-undo" in lines[-1]["refused"], f"refusals: {lines[-1:]}")
 for i in range(0, 18, 3):
     before, after, state = lines[i:i + 3]
-    check(math.dist(before["where"], after["where"]) > 5 and state["edits"] == 0 and state["refused"] == "", f"turned: {lines[i:i + 3]}")
+    check(math.dist(before["where"], after["where"]) > 1 and state["edits"] == 0 and state["refused"] == "", f"turned: {lines[i:i + 3]}")
 recorded = open(at("recorded.actions")).read()
 check("press left" in recorded and "wait 0." in recorded, f"a recording: {recorded}")
 window(BALL, "--no-log", "--samples", 0, script=recorded + f"settle\nsave {at('played.off')}\nsettle\nquit\n", what="a recording played")
