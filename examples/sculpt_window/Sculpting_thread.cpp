@@ -123,7 +123,12 @@ struct Sculpting_thread::Parts {
           std::find_if(asked.begin(), asked.end(), [&](const Asked& a) { return a.task.get() == answer.task; });
       const Asked done = std::move(*found);
       asked.erase(found);
-      return done.tell(report);
+      const bool has_something = done.tell(report);
+      if (answer.failure[0] == '\0')
+        return has_something;
+      report = Report(); // such as no memory
+      report.text = answer.failure.data();
+      return true;
     }
     if (answer.left != nullptr) {
       report.kind = Report::Kind::left, report.model = answer.left;

@@ -57,7 +57,8 @@ struct Brush {
   std::array<bool, 3> symmetry{};   ///< each dab is made on the other side of the plane across x, y, z, too
   bool remeshes = false;            ///< triangles under it keep to its size
 
-  double edge_length() const { return radius / 12; } ///< of triangles that it can work with
+  /// Of triangles that it can work with; never longer than they were on the mean when the mesh came.
+  double edge_length(double at_first) const { return radius / 12 < at_first ? radius / 12 : at_first; }
 };
 
 /// What the device says: on its way to the loop the newest counts.

@@ -187,19 +187,20 @@ void Application::draw_help() {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({size.x - 8, 8}, ImGuiCond_Always, {1, 0});
   ImGui::Begin("help", nullptr, fixed);
-  const auto row = [](const char* how, const char* what) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(how);
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(what);
-  };
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const Mouse_use& use : mouse_uses())
-      row(use.how, use.what);
-    row("", "");
-    for (const Key& key : keys())
-      row(key.name, key.what);
+  std::vector<std::array<const char*, 2>> rows;
+  for (const Mouse_use& use : mouse_uses())
+    rows.push_back({use.how, use.what});
+  for (const Key& key : keys())
+    rows.push_back({key.name, key.what});
+  if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit)) {
+    const std::size_t half = (rows.size() + 1) / 2;
+    for (std::size_t i = 0; i < half; ++i)
+      for (const std::size_t k : {i, i + half})
+        for (const char* const text : rows[std::min(k, rows.size() - 1)]) {
+          ImGui::TableNextColumn();
+          if (k < rows.size())
+            ImGui::TextUnformatted(text);
+        }
     ImGui::EndTable();
   }
   ImGui::End();

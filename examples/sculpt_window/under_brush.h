@@ -36,19 +36,20 @@ void for_each_touched(Scene& scene, const std::vector<Dab_3<Kernel>>& dabs, cons
         function(v, dab.squared_share(scene.mesh.point(v)));
 }
 
-/// Faces of which a dab touches all corners, each once.
+/// Faces of which a dab touches a corner, and those about the vertex nearest to its centre, which may be too large to
+/// have any within the radius; each once.
 inline std::vector<Face_index> faces_under(Scene& scene, const std::vector<Dab_3<Kernel>>& dabs) {
-  std::vector<Face_index> faces; // once for each corner
-  for_each_touched(scene, dabs, [&](Vertex_index v, double) {
+  std::vector<Face_index> faces;
+  const auto add = [&](Vertex_index v, double) {
     for (const Face_index f : scene.mesh.faces_around_target(scene.mesh.halfedge(v)))
       faces.push_back(f);
-  });
+  };
+  for_each_touched(scene, dabs, add);
+  for (const auto& dab : dabs)
+    add(scene.sculptor.nearest_vertex(dab.centre, std::numeric_limits<double>::infinity()), 0);
   std::sort(faces.begin(), faces.end());
-  std::vector<Face_index> whole;
-  for (std::size_t i = 0; i + 2 < faces.size(); ++i)
-    if (faces[i] == faces[i + 2] && (whole.empty() || whole.back() != faces[i]))
-      whole.push_back(faces[i]);
-  return whole;
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
 }
 
 /// How much of a vertex takes part in what brushes do.
@@ -101,7 +102,7 @@ private:
       return refuse("there is nothing to remesh here: point at the surface");
     const Dab_3<Kernel> dab{Brush_kind::smooth, hit->point, brush_->radius, 0};
     remesh(scene, tool, faces_under(scene, with_mirrored(scene, dab, brush_->symmetry)),
-           length_ > 0 ? length_ : brush_->edge_length());
+           length_ > 0 ? length_ : brush_->edge_length(scene.edge_length));
     return true;
   }
 };

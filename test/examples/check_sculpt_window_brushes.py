@@ -6,17 +6,14 @@ import math
 import os
 import random
 
-from program_runs import SOURCE, bytes_of, check, end, points, run
+from program_runs import SOURCE, bytes_of, check, end, points, run, surface
 from window_runs import at, pixels_of, replayed, window
 
 BALL_AND_MOON = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
 BALL = at("sculpt_window_ball.off")
 
 
-def faces(path):
-    lines = open(path).read().split("\n")
-    n, m = map(int, lines[1].split()[:2])
-    return [tuple(map(int, line.split()[1:4])) for line in lines[2 + n:2 + n + m]]
+faces = lambda path: surface(path)[1]
 
 
 def is_valid(path, what):
@@ -142,12 +139,21 @@ with open(ply, "w") as file:
     shape = faces(BALL_AND_MOON)
     file.write(f"ply\nformat ascii 1.0\nelement vertex {len(places)}\n" + "".join(f"property double {x}\n" for x in "xyz")
                + "".join(f"property uchar {c}\n" for c in ("red", "green", "blue")) + f"element face {len(shape)}\nproperty list uchar int vertex_indices\nend_header\n")
-    file.write("".join("%r %r %r 200 %d 7\n" % (*p, i % 256) for i, p in enumerate(places)) + "".join("3 %d %d %d\n" % f for f in shape))
+    file.write("".join("%r %r %r 200 %d 7\n" % (*p, i % 256) for i, p in enumerate(places)) + "".join("3 %d %d %d\n" % tuple(f) for f in shape))
 window(ply, "--no-log", "--samples", 0, "--size", 300, 225, script=f"settle\ntool create\ndrag 160 130 175 107 3\nsave {at('saved.ply')}\nsave {at('saved.off')}\nsettle\nquit\n", what="colours")
 run(at("saved.ply"), "-o", at("words.ply"))
 text = bytes_of(at("saved.ply"))
 check(b"uchar red" in text.split(b"end_header")[0], "colours are saved")
 check(len(points(at("saved.off"))) == len(places) + 1, "a file that holds no colours is written, too")
+
+# The head of the README, by brushes alone.
+CREATURE = open(os.path.join(SOURCE, "examples/data/creature.window-script")).read()
+lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 320, 200, script=CREATURE + f"settle\nprint\nsave {at('head.off')}\nsettle\nquit\n",
+                  what="a head", patience=900)
+is_valid(at("head.off"), "a head")
+head = points(at("head.off"))
+check(lines[0]["faces"] > 8 * 71 ** 2 + 5000 and lines[0]["undo"] > 15, f"a head has more triangles where it needs them: {lines}")
+check(max(p[2] for p in head) > 1.4 and min(p[1] for p in head) < -1.1 and min(p[2] for p in head) < -1.1, "a head has ears, a snout and a chin")
 
 # Whatever a hand does, in any order: the log makes the same again, and it is a valid surface.
 for seed in range(3):

@@ -31,14 +31,14 @@ def start(*arguments, script="", display=display.name, disk=None):
                             env=environment, cwd=folder, preexec_fn=disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk))))
 
 
-def window(*arguments, script="", code=0, what="window", display=display.name, disk=None):
+def window(*arguments, script="", code=0, what="window", display=display.name, disk=None, patience=120):
     process = start(*arguments, script=script, display=display, disk=disk)
     try:
-        out, err = process.communicate(timeout=120)
+        out, err = process.communicate(timeout=patience)
     except subprocess.TimeoutExpired:
         process.kill()
         out, err = process.communicate()
-        check(False, f"{what}: has not ended after 120 s: {out[-500:]} {err}")
+        check(False, f"{what}: has not ended after {patience} s: {out[-500:]} {err}")
         return [], err
     check(process.returncode == code, f"{what}: exit {process.returncode}, expected {code}: {err}")
     return [json.loads(line) for line in out.splitlines() if line.startswith("{")], err
