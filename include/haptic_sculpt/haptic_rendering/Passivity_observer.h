@@ -28,9 +28,9 @@ public:
     least_ = std::fmin(least_, energy() + dissipated_);
   }
   /// What the hand has put in counts up to what can come back of it, J: the rest is friction's, and must not hide what
-  /// the device gives an hour later. \param stored in the spring now
-  void forget_beyond(double stored) {
-    forgotten_ = std::fmax(forgotten_, energy() + dissipated_ - stored - reserve);
+  /// the device gives an hour later. \param returnable the most that may come back from now on
+  void forget_beyond(double returnable) {
+    forgotten_ = std::fmax(forgotten_, energy() + dissipated_ - returnable);
   }
   /// Begins anew with nothing taken or given.
   void restart() { *this = Passivity_observer(delay_.ticks(), tick_, friction_, encoder_step_); }
@@ -47,9 +47,6 @@ public:
   /// J: what the loop may seem to have given, beyond the credit for encoders. A stiffness that grows while a hand
   /// presses (the ramp) gives some tenths of a mJ, a delay that is no whole number of ticks is seen to a tenth.
   static constexpr double permitted = -5e-3;
-  /// J: what may come back beside the spring. Where a proxy falls the slew limit leaves 5 N some 17 ms to go, in which
-  /// a hand at 0.3 m/s is given 13 mJ; virtual mass and snap hold some mJ.
-  static constexpr double reserve = 0.05;
   /// The least of energy() + dissipated() so far, J. Below 0: somewhere the device was active.
   double least() const { return least_; }
 

@@ -32,6 +32,7 @@ public:
       : side_(side)
       , coupling_(parameters.coupling)
       , stiffness_(parameters.stiffest().stiffness)
+      , reserve_(reserve_of(parameters.limits))
       , watchdog_(limits_for(side, parameters.watchdog), parameters.tick, side.effort_limit())
       , observer_(parameters.delay, parameters.tick, side.has_force() ? side.friction() : 0, side.resolution())
       , controller_(controller_damping, parameters.tick)
@@ -56,7 +57,8 @@ public:
     const bool pulls = !touch.is_free && !touch.is_starved;
     spring_ = pulls ? Eigen::Vector3d(coupling_.stiffness * touch.way) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     wanted_ = spring_ + touch.snap + coupling_.damping_force(touch.span, side_.velocity(), !pulls);
-    observer_.forget_beyond(pulls ? 0.5 * stiffness_ * touch.way.squaredNorm() : 0);
+    if (!touch.is_starved) // what the spring holds is not known then
+      observer_.forget_beyond(reserve_ + (pulls ? 0.5 * stiffness_ * touch.way.squaredNorm() : 0));
     if (side_.has_force())
       wanted_ += virtual_mass_.force(side_.step(), touch.holds) + controller_.force(observer_, side_.step());
     rendered_ = side_.render(wanted_, touch.is_starved ? 0 : side_.step().norm());
@@ -100,6 +102,7 @@ private:
   Side side_;
   Virtual_coupling coupling_;
   double stiffness_; ///< of all that a scene does, N/m
+  double reserve_;   ///< what may come back beside the spring, J
   Watchdog watchdog_;
   Passivity_observer observer_;
   Passivity_controller controller_;
@@ -107,6 +110,12 @@ private:
   Eigen::Vector3d spring_ = Eigen::Vector3d::Zero(), wanted_ = Eigen::Vector3d::Zero();
   Rendered_force rendered_;
   double elapsed_ = 0;
+
+  /// Virtual mass, snap and burst hold some mJ; and where a proxy falls, the slew limit leaves a force for a while, in
+  /// which a hand at 0.3 m/s is given half of what is taken here: 13 mJ by default.
+  static double reserve_of(const Force_limits& limits) {
+    return 0.05 + 0.3 * limits.largest * limits.largest / limits.slew;
+  }
 
   /// A device that gives no force may come when it likes.
   static Watchdog_limits limits_for(const Side& side, Watchdog_limits limits) {
