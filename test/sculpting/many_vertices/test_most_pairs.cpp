@@ -190,7 +190,8 @@ BOOST_AUTO_TEST_CASE(a_bounded_call_knows_no_broad_phase) {
       for (const bool drags : {true, false}) {
         Player<> whole(mesh, targets), counted(mesh, targets);
         const auto options = Move_parameters().drags(drags).most_drags(4 * mesh.number_of_vertices());
-        const Move_report free = whole.move(options), all = counted.move(Move_parameters(options).most_pairs(unbounded));
+        const Move_report free = whole.move(options);
+        const Move_report all = counted.move(Move_parameters(options).most_pairs(unbounded));
         BOOST_TEST(same_bits(whole.mesh(), counted.mesh()), name);
         BOOST_TEST((free.drags == all.drags && free.out_of_work == all.out_of_work));
         for (const std::size_t bound : {std::size_t{0}, std::size_t{1}, all.pairs / 7, all.pairs / 2, all.pairs + 1}) {

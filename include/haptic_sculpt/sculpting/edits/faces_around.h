@@ -24,7 +24,7 @@ void collect_faces_around(const Mesh& mesh, const Face_corners<Mesh>& corners_of
   if (2 * numbers.size() >= mesh.number_of_vertices()) {
     for (const std::size_t number : numbers)
       is_taken.mark(static_cast<std::size_t>(ids.vertex(number)));
-    const auto is_marked = [&](typename Mesh::Vertex_index v) { return is_taken.is_marked(static_cast<std::size_t>(v)); };
+    const auto is_marked = [&is_taken](auto v) { return is_taken.is_marked(static_cast<std::size_t>(v)); };
     for (const auto f : mesh.faces())
       if (const auto& v = corners_of(f); is_marked(v[0]) || is_marked(v[1]) || is_marked(v[2]))
         faces.push_back(f);
