@@ -70,7 +70,8 @@ public:
     if (log_->has_edits() && (plan_.replay || !plan_.record.empty()))
       throw Usage_error("a recording is of a run that begins with the mesh itself; give a log that is not there yet");
     std::vector<std::string> left_out;
-    Scene scene(read_surface<Mesh>(plan_.mesh, 0, &left_out), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
+    Mesh mesh = read_surface<Mesh>(plan_.mesh, 0, &left_out);
+    Scene scene(std::move(mesh), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
       return map_of(settings_, lower, upper, device_, *home_);
     });
     if (const std::string loss = examples::told_loss(plan_.mesh, plan_.out, scene.mesh, left_out); !loss.empty())

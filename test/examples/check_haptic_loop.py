@@ -43,7 +43,7 @@ folder = tempfile.mkdtemp()
 at = lambda name: os.path.join(folder, name)
 
 # What OUT loses is said once, as sculpt says it; nothing where nothing is lost.
-LINES = open(MESH).read().split("\n")
+LINES = [line for line in open(MESH).read().split("\n") if line]
 COUNT = int(LINES[1].split()[0])
 with open(at("coloured.off"), "w") as file:
     file.write("\n".join(["COFF", LINES[1], *(line + " 255 0 0" for line in LINES[2:2 + COUNT]), *LINES[2 + COUNT:]]))

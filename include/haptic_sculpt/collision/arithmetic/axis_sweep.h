@@ -13,8 +13,8 @@
 
 namespace haptic_sculpt::internal {
 
-/// A point that moves along an axis: the coordinates after that of the axis, in their cyclic order, which do not change;
-/// that along the axis at the start, and at the end. So whatever the axis is, it is the last one here; a cyclic change
+/// A point that moves along an axis: the coordinates after that of the axis, in cyclic order, which do not change; that
+/// along the axis at the start, and at the end. So whatever the axis is, it is the last one here; a cyclic change
 /// of coordinates keeps the signs of all determinants.
 using Axis_place = std::array<double, 4>;
 

@@ -9,8 +9,8 @@
 
 namespace haptic_sculpt::internal {
 
-/// The intervals of a face in a motion along one axis, in doubles: of the two other coordinates, which do not change, and
-/// of that along the axis at the start and at the end.
+/// The intervals of a face in a motion along one axis, in doubles: of the two other coordinates, which do not change,
+/// and of that along the axis at the start and at the end.
 struct Axis_bounds {
   Axis_place least, largest;
 
