@@ -224,8 +224,7 @@ BOOST_AUTO_TEST_CASE(functions_that_take_a_sculptor_take_edits_of_a_tool_and_are
   BOOST_TEST(turned.share == 1);
   const std::vector<Mesh::Vertex_index> half(all.begin(), std::next(all.begin(), all.size() / 2));
   const auto jammed = bench.tool.edit_by([&](auto& edits) {
-    return move_rigidly(edits, half,
-                        CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, Kernel::Vector_3(-2, 1, 1)));
+    return move_rigidly(edits, half, CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, Kernel::Vector_3(-2, 1, 1)));
   });
   BOOST_TEST((jammed.share < 1 && !jammed.contacts.empty()));
   BOOST_TEST(bool(bench.tool.edit(Edit::of(Edit_kind::undo))));
