@@ -40,9 +40,8 @@ std::vector<Corner> mesh_corners(const Scene& scene, const Camera& camera) {
   std::vector<Corner> result;
   result.reserve(3 * scene.triangles.size());
   for (const auto& triangle : scene.triangles) {
-    const std::array<Corner, 3> corners =
-        corners_of(camera, {scene.points[triangle[0]], scene.points[triangle[1]], scene.points[triangle[2]]},
-                   scene.surface_color);
+    const std::array<Corner, 3> corners = corners_of(
+        camera, {scene.points[triangle[0]], scene.points[triangle[1]], scene.points[triangle[2]]}, scene.surface_color);
     result.insert(result.end(), corners.begin(), corners.end());
     for (int i = 0; i < 3; ++i) {
       Corner& corner = result[result.size() - 3 + i];

@@ -20,7 +20,7 @@ namespace haptic_sculpt::window_program {
 struct Choices {
   Tool tool = Tool::brush;
   Brush brush;
-  double depth = 0; ///< of the probe
+  double depth = 0;   ///< of the probe
   bool slides = true; ///< what is blocked; else it stops
   bool shows_help = false, shows_panels = true, shows_figures = false, shows_hints = true;
   /// What the window asks before it goes on.
@@ -94,7 +94,7 @@ private:
   std::uint32_t scene_ = 0; ///< its number, from 1
   std::size_t resumed_ = 0;
   std::uint64_t saved_edits_ = 0;
-  bool is_saved_ = false;                 ///< at least once
+  bool is_saved_ = false; ///< at least once
   /// A copy of the mesh that was asked for.
   struct Saving {
     std::string path;

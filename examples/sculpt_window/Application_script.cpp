@@ -36,8 +36,8 @@ Eigen::Vector2d Application::pixel_of(const Spot& spot) const {
 }
 
 bool Application::is_settled() const {
-  return thread_.is_idle() && status_.dirty_faces == 0 && to_save_.empty() &&
-         !background_.is_opening() && !background_.is_saving();
+  return thread_.is_idle() && status_.dirty_faces == 0 && to_save_.empty() && !background_.is_opening() &&
+         !background_.is_saving();
 }
 
 /// A drag that has not come to its end in a tick goes on in the next.

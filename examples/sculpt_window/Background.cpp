@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Background.h"
 
+#include "Options.h"
+#include "Tasks.h"
+
+#include "../common/write_file.h"
+
 #include <chrono>
 
 namespace haptic_sculpt::window_program {
@@ -41,6 +46,61 @@ std::optional<Background::Saved> Background::take_saved() {
   Saved saved = saving_.front().get();
   saving_.erase(saving_.begin());
   return saved;
+}
+
+namespace {
+
+/// What is done about a log that cannot be used depends on who has asked for it.
+std::string with_advice(const char* what, const std::string& path, const std::string& log) {
+  const bool was_asked_for = log != Options::log_beside(path);
+  return std::string(what) + (was_asked_for ? "; --no-log keeps none"
+                                            : ". It is the log that the window keeps beside a mesh: --log FILE keeps "
+                                              "another one, --no-log none; or move it away");
+}
+
+std::unique_ptr<Model> model_of(const std::string& path, const std::string& log) {
+  try {
+    return std::make_unique<Model>(path, log);
+  } catch (const sculpt_program::Foreign_log& error) {
+    throw sculpt_program::Foreign_log(with_advice(error.what(), path, log));
+  } catch (const Write_error& error) {
+    throw Write_error(with_advice(error.what(), path, log));
+  }
+}
+
+} // namespace
+
+Opened open(const std::string& path, const std::string& log) {
+  auto model = model_of(path, log);
+  Opened opened;
+  opened.path = path, opened.log = log;
+  opened.resumed = model->resumed, opened.note = model->note;
+  opened.middle = place(0.5 * model->lower + 0.5 * model->upper);
+  opened.faces.reserve(model->mesh.num_faces());
+  for (std::uint32_t f = 0; f < model->mesh.num_faces(); ++f)
+    opened.faces.push_back(model->face(f));
+  model->sculptor.visitor().changed.clear();
+  opened.model = model.release();
+  return opened;
+}
+
+std::string destroy(Model* model, bool keeps_log) {
+  model->log.finish();
+  const std::string failure = model->log.failure(), log = keeps_log ? "" : model->log_path;
+  delete model;
+  if (!log.empty())
+    std::remove(log.c_str());
+  return failure;
+}
+
+std::string write_copy(const Save& saved, const std::string& path) {
+  if (!saved.copy.is_whole())
+    throw Error("the copy of the mesh, which was to be saved as '" + path + "', has no room for all of it; save again");
+  const Mesh mesh = saved.mesh();
+  std::string lost = examples::write_mesh(path, mesh);
+  for (const std::string& word : attributes_not_held(mesh, *mesh_file_format(path)))
+    lost += (lost.empty() ? "" : "; ") + std::string("it cannot hold ") + word;
+  return lost;
 }
 
 } // namespace haptic_sculpt::window_program

@@ -9,8 +9,7 @@ namespace haptic_sculpt::window_program {
 /// A brush in the hand: a dab at each place, and where it is symmetric on the other sides, too.
 class Brush_task : public Stroke_task {
 public:
-  Brush_task(const Pointer& press, const Brush& brush, const Pointed& spot)
-      : Stroke_task(press, spot), brush_(brush) {}
+  Brush_task(const Pointer& press, const Brush& brush, const Pointed& spot) : Stroke_task(press, spot), brush_(brush) {}
 
 private:
   static constexpr int dabs_a_remeshing = 6;

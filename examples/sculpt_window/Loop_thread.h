@@ -106,7 +106,7 @@ private:
       return session.pass_faces_on(); // all stands still until the log is written
     const Mouse_reading& newest = mouse.get();
     if (newest.press == reading_.press || (!loop.tool().holds_vertex() && !loop.tool().holds_probe()))
-      reading_ = newest; // else what is held is yet to be let go of, and stays where it is
+      reading_ = newest;                      // else what is held is yet to be let go of, and stays where it is
     reading_.pose.elapsed = 1e-9 * tick_time; // a mouse has no clock of its own, and has said nothing yet at first
     const Pose_tick& made = session.tick(reading_.pose);
     model_ = &session.scene();

@@ -24,9 +24,9 @@ private:
     if (way.isZero(0))
       return;
     const auto report = tool.edit_by([&](auto& edits) {
-      return move_rigidly(edits, object_,
-                          CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION,
-                                                             Kernel::Vector_3(way[0], way[1], way[2])));
+      return move_rigidly(
+          edits, object_,
+          CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, Kernel::Vector_3(way[0], way[1], way[2])));
     });
     centre_ += report.share * way;
   }

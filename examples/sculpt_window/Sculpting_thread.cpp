@@ -4,9 +4,6 @@
 #include "Brush_task.h"
 #include "Loop_thread.h"
 #include "Object_task.h"
-#include "Options.h"
-
-#include "../common/write_file.h"
 
 #include <deque>
 #include <functional>
@@ -281,69 +278,13 @@ bool Sculpting_thread::take(Report& report) {
 
 bool Sculpting_thread::is_idle() const {
   const Parts& p = *parts_;
-  return p.loop && p.waiting.empty() && !is_stroke_waiting() &&
-         p.loop->queue.waiting() == (p.stroke != nullptr) && !(p.is_pick_due && p.may_pick()) &&
-         p.status.mouse == p.mouse.number() && p.status.made > p.answered;
+  return p.loop && p.waiting.empty() && !is_stroke_waiting() && p.loop->queue.waiting() == (p.stroke != nullptr) &&
+         !(p.is_pick_due && p.may_pick()) && p.status.mouse == p.mouse.number() && p.status.made > p.answered;
 }
 
 std::vector<Model*> Sculpting_thread::end() {
   parts_->loop.reset();
   return std::exchange(parts_->models, {});
-}
-
-namespace {
-
-/// What is done about a log that cannot be used depends on who has asked for it.
-std::string with_advice(const char* what, const std::string& path, const std::string& log) {
-  const bool was_asked_for = log != Options::log_beside(path);
-  return std::string(what) + (was_asked_for ? "; --no-log keeps none"
-                                            : ". It is the log that the window keeps beside a mesh: --log FILE keeps "
-                                              "another one, --no-log none; or move it away");
-}
-
-std::unique_ptr<Model> model_of(const std::string& path, const std::string& log) {
-  try {
-    return std::make_unique<Model>(path, log);
-  } catch (const sculpt_program::Foreign_log& error) {
-    throw sculpt_program::Foreign_log(with_advice(error.what(), path, log));
-  } catch (const Write_error& error) {
-    throw Write_error(with_advice(error.what(), path, log));
-  }
-}
-
-} // namespace
-
-Opened open(const std::string& path, const std::string& log) {
-  auto model = model_of(path, log);
-  Opened opened;
-  opened.path = path, opened.log = log;
-  opened.resumed = model->resumed, opened.note = model->note;
-  opened.middle = place(0.5 * model->lower + 0.5 * model->upper);
-  opened.faces.reserve(model->mesh.num_faces());
-  for (std::uint32_t f = 0; f < model->mesh.num_faces(); ++f)
-    opened.faces.push_back(model->face(f));
-  model->sculptor.visitor().changed.clear();
-  opened.model = model.release();
-  return opened;
-}
-
-std::string destroy(Model* model, bool keeps_log) {
-  model->log.finish();
-  const std::string failure = model->log.failure(), log = keeps_log ? "" : model->log_path;
-  delete model;
-  if (!log.empty())
-    std::remove(log.c_str());
-  return failure;
-}
-
-std::string write_copy(const Save& saved, const std::string& path) {
-  if (!saved.copy.is_whole())
-    throw Error("the copy of the mesh, which was to be saved as '" + path + "', has no room for all of it; save again");
-  const Mesh mesh = saved.mesh();
-  std::string lost = examples::write_mesh(path, mesh);
-  for (const std::string& word : attributes_not_held(mesh, *mesh_file_format(path)))
-    lost += (lost.empty() ? "" : "; ") + std::string("it cannot hold ") + word;
-  return lost;
 }
 
 } // namespace haptic_sculpt::window_program

@@ -54,7 +54,7 @@ public:
   /// \name Of a brush or an object in hand
   ///@{
   bool has_stroke() const;
-  bool is_stroke_waiting() const; ///< what was asked for last has not been done yet
+  bool is_stroke_waiting() const;     ///< what was asked for last has not been done yet
   void go_on(const Pointer& pointer); ///< \pre has_stroke() and not is_stroke_waiting()
   ///@}
 

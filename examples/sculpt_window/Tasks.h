@@ -154,8 +154,7 @@ private:
       return hit.vertex;
     Vertex_index best;
     for (const Vertex_index v : mesh.vertices_around_face(mesh.halfedge(hit.face)))
-      if (!best.is_valid() ||
-          CGAL::has_smaller_distance_to_point(hit.point, mesh.point(v), mesh.point(best)))
+      if (!best.is_valid() || CGAL::has_smaller_distance_to_point(hit.point, mesh.point(v), mesh.point(best)))
         best = v;
     return best;
   }

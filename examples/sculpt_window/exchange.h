@@ -53,9 +53,9 @@ inline constexpr const char* brush_words[] = {"grab", "inflate", "smooth", "flat
 struct Brush {
   Brush_use use = Brush_use::inflate;
   double radius = 0;
-  double strength = 0.5;            ///< of what the brush can do in a dab, from -1 (the other way) to 1
-  std::array<bool, 3> symmetry{};   ///< each dab is made on the other side of the plane across x, y, z, too
-  bool remeshes = false;            ///< triangles under it keep to its size
+  double strength = 0.5;          ///< of what the brush can do in a dab, from -1 (the other way) to 1
+  std::array<bool, 3> symmetry{}; ///< each dab is made on the other side of the plane across x, y, z, too
+  bool remeshes = false;          ///< triangles under it keep to its size
 
   /// Of triangles that it can work with; never longer than they were on the mean when the mesh came.
   double edge_length(double at_first) const { return radius / 12 < at_first ? radius / 12 : at_first; }

@@ -16,9 +16,10 @@ ImVec4 color_of(const drawing::Color& c) {
   return {c.x(), c.y(), c.z(), 1};
 }
 
-const char* const tool_names[] = {"drag a vertex",   "touch with a probe", "create a vertex",
-                                  "remove a vertex", "brush",              "move an object"};
-const char* const brush_names[] = {"grab  g", "inflate  i", "smooth  a", "flatten  l", "pinch  k", "mask  m", "unmask  M"};
+const char* const tool_names[] = {"drag a vertex", "touch with a probe", "create a vertex", "remove a vertex",
+                                  "brush",         "move an object"};
+const char* const brush_names[] = {"grab  g",  "inflate  i", "smooth  a", "flatten  l",
+                                   "pinch  k", "mask  m",    "unmask  M"};
 
 double ms(std::uint64_t ns) {
   return double(ns) / 1e6;

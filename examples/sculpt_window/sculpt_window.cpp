@@ -245,10 +245,13 @@ int exit_code_of(const std::exception& error) {
 } // namespace
 
 int main(int argc, char** argv) {
-  return examples::run_mesh_program("sculpt_window", [&] {
-    Options options;
-    if (const auto is_good = read_options(argc, argv, options))
-      return *is_good ? int(examples::done) : int(examples::usage);
-    return run(options);
-  }, exit_code_of);
+  return examples::run_mesh_program(
+      "sculpt_window",
+      [&] {
+        Options options;
+        if (const auto is_good = read_options(argc, argv, options))
+          return *is_good ? int(examples::done) : int(examples::usage);
+        return run(options);
+      },
+      exit_code_of);
 }

@@ -60,7 +60,7 @@ inline auto share_left_free(const Scene& scene) {
 /// Remeshes faces to edges of about a length; masked vertices stay. Waits for the disk where the log has no room.
 /// \throw Invalid_parameter where it would be more triangles than can be shown
 inline void remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, const std::vector<Face_index>& faces,
-                          double length) {
+                   double length) {
   constexpr std::size_t most_faces = 5000000;
   const auto may_go_on = [journal = scene.log.journal()](const Remeshing_progress&) {
     const std::size_t room = 8 * Remeshing_parameters::operations_between_calls;

@@ -25,8 +25,7 @@ inline void write_ball(const std::string& path, int n = 71) {
       return found->second;
     const auto height = [&](int i) { return std::sin(std::acos(0) * i / n); }; // so that edges are about as long
     const double x = height(p[0]), y = height(p[1]), z = height(p[2]), length = std::hypot(x, y, z);
-    return vertices[place] =
-               mesh.add_vertex(Point(sign[0] * x / length, sign[1] * y / length, sign[2] * z / length));
+    return vertices[place] = mesh.add_vertex(Point(sign[0] * x / length, sign[1] * y / length, sign[2] * z / length));
   };
   for (int octant = 0; octant < 8; ++octant) {
     const Place sign = {octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1};

@@ -143,7 +143,7 @@ public:
   /// What is done from here on goes to it. nullptr: to none
   void keep_journal(Edit_journal* journal) { mesh_edits_.keep_journal(journal); }
 
-  bool holds_vertex() const { return grab_.has_value(); }          ///< the probe does not count
+  bool holds_vertex() const { return grab_.has_value(); }           ///< the probe does not count
   bool holds_probe() const { return !grab_ && probe_.has_value(); } ///< the probe is what is dragged
   /// That is held; null where none is.
   Vertex_index vertex() const { return grab_ ? grab_->vertex() : Vertex_index(); }
@@ -210,8 +210,7 @@ private:
     step.end = result.end;
     step.pairs = result.work;
     step.contacts = static_cast<int>(result.contacts.size());
-    step.starved =
-        result.contacts.empty() && (result.end == Drag_end::work_limit || result.end == Drag_end::leg_limit);
+    step.starved = result.contacts.empty() && (result.end == Drag_end::work_limit || result.end == Drag_end::leg_limit);
     if (!grab_)
       touched_.reset();
     for (const auto& contact : result.contacts) {
@@ -259,8 +258,7 @@ private:
     if (!made)
       return Tool_event::refused;
     hold(*made.vertex);
-    return wanted.kind == Edit_kind::insert_on_edge ? Tool_event::created_on_edge
-                                                              : Tool_event::created_on_face;
+    return wanted.kind == Edit_kind::insert_on_edge ? Tool_event::created_on_edge : Tool_event::created_on_face;
   }
 
   /// From the next move() on.

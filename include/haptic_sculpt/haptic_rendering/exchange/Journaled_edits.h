@@ -78,7 +78,7 @@ public:
   /// \name What functions ask of a Sculptor, and as it does
   /// \pre elements are in the mesh
   ///@{
-  const Mesh_type& mesh() const { return sculptor_->mesh(); }                         ///< that is guarded
+  const Mesh_type& mesh() const { return sculptor_->mesh(); }                       ///< that is guarded
   const Sculptor_parameters& parameters() const { return sculptor_->parameters(); } ///< of the Sculptor
   /// Of the surface. \throw as there
   Vertex_index nearest_vertex(const Point& p, double within) { return sculptor_->nearest_vertex(p, within); }

@@ -16,7 +16,7 @@ namespace haptic_sculpt {
 template <class Loop, class Scene>
 class Loop_session {
 public:
-  using Kind = typename Loop_command<Scene>::Kind; ///< of commands
+  using Kind = typename Loop_command<Scene>::Kind;          ///< of commands
   using Feed = Basic_scene_feed<typename Scene::Face_type>; ///< to a viewer
   /// Tasks under way at once; while there are this many no other command is taken.
   static constexpr std::size_t most_tasks = 16;

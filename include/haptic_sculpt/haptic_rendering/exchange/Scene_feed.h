@@ -65,8 +65,8 @@ public:
   /// \name The viewer's thread
   ///@{
 
-  bool take(Face& face) { return faces_.pop(face); } ///< the next; false where there is none yet
-  bool take(Tick_view& tick) { return ticks_.pop(tick); }   ///< the next; false where there is none yet
+  bool take(Face& face) { return faces_.pop(face); }      ///< the next; false where there is none yet
+  bool take(Tick_view& tick) { return ticks_.pop(tick); } ///< the next; false where there is none yet
   /// Ticks that found no room so far.
   std::uint64_t lost_ticks() const { return lost_ticks_.load(std::memory_order_relaxed); }
   ///@}
