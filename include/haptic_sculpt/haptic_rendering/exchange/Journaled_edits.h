@@ -129,6 +129,7 @@ public:
   ///@}
 
 private:
+  /// \cond
   /// What a Sculptor guards, for functions that shift many vertices at once.
   class Guarded {
   public:
@@ -176,6 +177,7 @@ private:
         edits_->add(made);
     }
   };
+  /// \endcond
   friend struct internal::Sculptor_access;
 
   Sculptor* sculptor_;

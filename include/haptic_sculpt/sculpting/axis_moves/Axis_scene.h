@@ -58,8 +58,10 @@ public:
     items_.reserve(faces.size());
     if (slot_of_face_.size() < mesh_->num_faces())
       slot_of_face_.resize(mesh_->num_faces());
-    if (vertices_.size() < mesh_->num_vertices())
-      vertices_.resize(mesh_->num_vertices()), places_.resize(mesh_->num_vertices());
+    if (places_.size() < mesh_->num_vertices()) { // the last to be made room for
+      vertices_.resize(mesh_->num_vertices());
+      places_.resize(mesh_->num_vertices());
+    }
     for (const Face_index f : faces) {
       slot_of_face_[f] = static_cast<std::uint32_t>(items_.size());
       items_.push_back(item_of(f));

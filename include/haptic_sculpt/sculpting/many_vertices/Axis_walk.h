@@ -71,6 +71,9 @@ public:
     return !report_.cancelled;
   }
 
+  /// Whether a move was not made because it would have decided more pairs than it may.
+  bool is_out_of_pairs() const { return is_out_of_pairs_; }
+
 private:
   /// Steps of this share of the way are tried whatever comes of it; shorter ones, to the least, only while half as long
   /// a step at least halves the number held back: that is so in twists, and not in noise.
@@ -92,6 +95,7 @@ private:
   Part_runner run_;
   Pair_budget pairs_; ///< where they are bounded
   std::vector<std::pair<int, Ways>> made_; ///< by the step under way: the axis, and where all were before
+  bool is_out_of_pairs_ = false;
   bool goes_on_ = true;                    ///< neither cancelled nor without room for another move
 
   /// This many may be held back in a step.
@@ -133,7 +137,8 @@ private:
       if (!may_move(ways.size(), share))
         return vertices_.size();
       if (!guarded_.shift(axis, ways, most, run_, parameters_.pair_limit ? &pairs_ : nullptr)) {
-        if (guarded_.axis_move().is_too_much())
+        is_out_of_pairs_ = guarded_.axis_move().is_too_much();
+        if (is_out_of_pairs_)
           end_out_of_work();
         return vertices_.size();
       }

@@ -32,11 +32,11 @@ public:
   void run() {
     asked_ = sum_left();
     drag_.response(Response::stop).once();
-    if (!parameters_.drags_singly || (parameters_.takes_steps && vertices_.size() >= many))
-      goes_on_ = Axis_walk<Sculptor>(sculptor_, vertices_, parameters_, *report_, run_).run();
-    // The same call goes on by axis moves: single drags would only crumple what these have brought on together.
-    if (report_->out_of_work && report_->pairs > 0 && sum_left() < asked_)
-      goes_on_ = false;
+    if (!parameters_.drags_singly || (parameters_.takes_steps && vertices_.size() >= many)) {
+      Axis_walk<Sculptor> walk(sculptor_, vertices_, parameters_, *report_, run_);
+      // The same call goes on by axis moves: single drags would only crumple what these have brought on together.
+      goes_on_ = walk.run() && !(walk.is_out_of_pairs() && sum_left() < asked_);
+    }
     if (parameters_.drags_singly)
       finish();
   }
