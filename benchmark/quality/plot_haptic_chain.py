@@ -27,10 +27,12 @@ energy.set_xlim(1.25 * farthest, -0.02 * farthest)
 energy.set_yticks(list(places))
 energy.set_yticklabels([row["effect"] for row in rows], fontsize=8)
 energy.set_xlabel("least port + friction of all runs, mJ")
+# Where the two are farthest apart, so that the words are.
+labelled = max(places, key=lambda k: rows[k]["force_off_largest_N"] / max(LEAST_FORCE, rows[k]["force_off_mean_N"]))
 for key, colour, marker, label in (("force_off_mean_N", BLUE, "o", "mean"), ("force_off_largest_N", ORANGE, "D", "largest")):
     values = [max(LEAST_FORCE, row[key]) for row in rows]
     force.plot(values, places, marker, color=colour, markersize=6)
-    force.annotate(label, (values[-1], places[-1]), xytext=(0, 8), textcoords="offset points", ha="center", fontsize=9, color=colour)
+    force.annotate(label, (values[labelled], places[labelled]), xytext=(0, 8), textcoords="offset points", ha="center", fontsize=9, color=colour)
 for place, row in zip(places, rows):
     force.plot([max(LEAST_FORCE, row["force_off_mean_N"]), max(LEAST_FORCE, row["force_off_largest_N"])], [place, place], "-", color="0.75", zorder=0)
 force.set_xscale("log")
