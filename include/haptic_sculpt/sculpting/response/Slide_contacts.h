@@ -218,7 +218,6 @@ private:
   /// differ by rounding alone count as one.
   template <class Least>
   Nearest_permitted nearest_among(const Vector& pull, double distance, const Least& least) const {
-    const double slack = lengths_.resolution, slack_there = slack + rounding_of_normals * distance;
     Half_spaces spaces;
     boost::container::static_vector<std::size_t, most_facets> facet_of;
     for (std::size_t i = 0; i < facets.size(); ++i) {
@@ -231,7 +230,16 @@ private:
       } else
         same->least = std::fmax(same->least, space.least);
     }
-    Nearest_permitted found = nearest_permitted(pull, spaces.data(), spaces.size(), slack, slack_there);
+    // Where nearly parallel planes meet may be 2^48 times as far: in the usual unit that might leave the range.
+    double largest = distance;
+    for (const Half_space& space : spaces)
+      largest = std::fmax(largest, std::abs(space.least));
+    const double unit = unit_of(largest);
+    for (Half_space& space : spaces)
+      space.least *= unit;
+    const double slack = lengths_.resolution * unit, slack_there = slack + rounding_of_normals * (distance * unit);
+    Nearest_permitted found = nearest_permitted(scaled(pull, unit), spaces.data(), spaces.size(), slack, slack_there);
+    found.displacement = scaled(found.displacement, 1 / unit);
     for (int i = 0; i < found.number_active; ++i)
       found.active[i] = facet_of[found.active[i]];
     return found;
