@@ -318,11 +318,13 @@ Requests: form, params and one op, with the keys it takes (those in brackets may
   modes     theta                               all assembly modes
 doc/use/device.md says what each key means.
 
-A request that cannot be answered gets {"ok":false,"error":CODE,"message":TEXT}, and the next line is read. Keys that are not
-known are listed in the answer as "unknown_keys". A line may have 1048576 bytes, 1000 values and 32 levels of nesting.
+A request that cannot be answered gets {"ok":false,"error":CODE,"message":TEXT}, and the next line is read. Keys that
+are not known are listed in the answer as "unknown_keys". A line may have 1048576 bytes, 1000 values and 32 levels of
+nesting.
 
 usage: device_calculator [--help] < REQUESTS > ANSWERS
-exit:  0 all lines answered (failures are answers), 1 a fault of the program, 2 wrong arguments, 5 the answers cannot be written
+exit:  0 all lines answered (failures are answers), 1 a fault of the program, 2 wrong arguments,
+       5 the answers cannot be written
 )";
 static_assert(longest_line == 1048576 && most_values == 1000 && deepest_nesting == 32, "the help text says these");
 

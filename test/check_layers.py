@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only, and no example names
-what is internal.
+"""check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only, no example names
+what is internal, and no line of code is wider than 120 columns.
 
 A folder and the one around it may include each other: public names stand at a module's root, what serves them stands below.
 Between all other folders the includes form no cycle. Exit code 1 names each folder of a cycle, with the includes that close it.
@@ -9,6 +9,7 @@ import pathlib
 import re
 import sys
 
+MOST_COLUMNS = 120
 INCLUDE = re.compile(r"#include <haptic_sculpt/([^>]+)>")
 
 
@@ -48,6 +49,17 @@ def internals_in_examples(root):
     return found
 
 
+def wide_lines(root):
+    """["file: line: columns", ...]"""
+    found = []
+    for folder in ("include", "examples", "test", "benchmark"):
+        for file in sorted([*(root / folder).rglob("*.h"), *(root / folder).rglob("*.cpp")]):
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                if len(line) > MOST_COLUMNS:
+                    found.append(f"{file.relative_to(root)}:{number}: {len(line)} columns")
+    return found
+
+
 def main(source):
     edges = includes_between_folders(pathlib.Path(source) / "include" / "haptic_sculpt")
     if not edges:
@@ -59,7 +71,10 @@ def main(source):
     named = internals_in_examples(pathlib.Path(source) / "examples")
     if named:
         print("examples name what is internal; make it public, or do without:", *named, sep="\n  ")
-    return 1 if cycle or named else 0
+    wide = wide_lines(pathlib.Path(source))
+    if wide:
+        print(f"wider than {MOST_COLUMNS} columns; clang-format breaks them:", *wide, sep="\n  ")
+    return 1 if cycle or named or wide else 0
 
 
 if __name__ == "__main__":

@@ -291,8 +291,9 @@ int main(int argc, char** argv) {
     Json rows = Json::array();
     std::size_t asked = 0, broken = 0;
     for (int round = 0; round < rounds; ++round)
-      for (const Motion& m : given.empty() ? motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))
-                                           : motions_of(read_surface<Mesh>(given), seed + static_cast<std::uint64_t>(round))) {
+      for (const Motion& m : given.empty()
+                                 ? motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))
+                                 : motions_of(read_surface<Mesh>(given), seed + static_cast<std::uint64_t>(round))) {
         const std::size_t unit = shard.next_unit(), before = rows.size();
         if (!shard.takes_next())
           continue;

@@ -80,7 +80,8 @@ void main() {
 
 /// \name A mesh that a hand sculpts, seen from outside: lit once a corner instead of once a pixel
 ///@{
-inline const std::string smooth_vertex_shader = shader_parts::version + shader_parts::corner + shader_parts::lights + R"(
+inline const std::string smooth_vertex_shader =
+    shader_parts::version + shader_parts::corner + shader_parts::lights + R"(
 uniform float outwards, brush_radius;
 uniform int brushes;
 uniform vec3 brush[8];

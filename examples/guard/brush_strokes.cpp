@@ -22,8 +22,8 @@ int main() {
       dab.direction = Kernel::Vector_3(0, 0, -1); // down, where the underside is in the way
     const std::vector<haptic_sculpt::Dab_3<Kernel>> both = {dab, mirrored(dab, symmetry)};
     const auto report = apply_brush(sculptor, both, mask); // one step of undo
-    std::cout << "after " << name << ": " << self_intersecting_pairs(mesh) << "; " << report.reached << " of " << report.asked
-              << " vertices arrived\n";
+    std::cout << "after " << name << ": " << self_intersecting_pairs(mesh) << "; " << report.reached << " of "
+              << report.asked << " vertices arrived\n";
   }
   for (const auto v : mesh.vertices())
     if (mask[v] == 0 && mesh.point(v) != before.point(v))

@@ -235,7 +235,8 @@ int sculpt(const Arguments& arguments) {
 
   Result_writer writer("sculpt");
   if (const std::string remarks = found.remarks(); !remarks.empty())
-    writer.note("'" + arguments.mesh + "' has " + remarks + "They are sculpted as they are; --orient turns components over "
+    writer.note("'" + arguments.mesh + "' has " + remarks +
+                "They are sculpted as they are; --orient turns components over "
                 "that are inside out");
   if (const std::string loss = examples::told_loss(arguments.mesh, arguments.out, mesh, left_out); !loss.empty())
     writer.note(loss);

@@ -10,5 +10,5 @@
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) ||                               \
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error                                                                                                                 \
-    "haptic_sculpt: exact predicates do not survive -ffast-math, -Ofast, -funsafe-math-optimizations, -ffinite-math-only, -fassociative-math or -freciprocal-math; compile without them"
+    "haptic_sculpt: exact predicates do not survive -ffast-math and what it stands for; compile without it"
 #endif

@@ -116,8 +116,8 @@ public:
     const benchmark::Promises promises = kept_promises();
     const int exit = promises.exit();
     std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, "
-              << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response << ", motion " << options_.motion
-              << ", seed " << options_.seed << ", exit " << exit << '\n';
+              << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response << ", motion "
+              << options_.motion << ", seed " << options_.seed << ", exit " << exit << '\n';
     for (const auto& [kind, counts] : edits_.rows) {
       std::cout << "  " << kind << ": " << counts.asked << " asked, " << counts.done << " done";
       for (const auto& [reason, count] : counts.refused)

@@ -28,11 +28,13 @@ int main(int argc, char** argv) {
   app.add_flag("--repair", options.repairs, "Files of the folder that are refused are repaired, and worked on then");
   app.add_option("--refuse", options.refuse, "File names in the folder that have to be refused");
   app.add_option("--drags", options.drags, "Drags on each mesh")->capture_default_str();
-  app.add_option("--drags-on-large", options.drags_on_large, "Drags on meshes of 200,000 faces or valence 4,000 or more")
+  app.add_option("--drags-on-large", options.drags_on_large,
+                 "Drags on meshes of 200,000 faces or valence 4,000 or more")
       ->capture_default_str();
   app.add_option("--edits", options.edits, "Mixed edits on each mesh, in batches that are undone and redone whole")
       ->capture_default_str();
-  app.add_option("--edits-on-large", options.edits_on_large, "Mixed edits on meshes of 200,000 faces or valence 4,000 or more")
+  app.add_option("--edits-on-large", options.edits_on_large,
+                 "Mixed edits on meshes of 200,000 faces or valence 4,000 or more")
       ->capture_default_str();
   app.add_option("--batch", options.batch, "Drags of a batch; each has a fresh copy of the mesh")
       ->capture_default_str()

@@ -81,8 +81,9 @@ struct Move_parameters {
     takes_steps = on;
     return *this;
   }
-  /// Whether what is held back is brought on by smaller steps, drags of its own and slides. On by default; without, all
-  /// go at once along each axis, once and all of their ways, and what is held back stays there: what apply_brush() does.
+  /// Whether what is held back is brought on by smaller steps, drags of its own and slides. On by default; without,
+  /// all go at once along each axis, once and all of their ways, and what is held back stays there, as apply_brush()
+  /// does it.
   Move_parameters& drags(bool on) {
     drags_singly = on;
     return *this;

@@ -15,8 +15,8 @@ namespace haptic_sculpt {
 /// \param vertices a range of vertices; one that is given again counts once
 /// \param transformation of the kernel of the mesh's points. Where all of the way is gone, each vertex is at what
 /// `transformation.transform()` makes of its point, to the bit
-/// \param parameters as of move_vertices(): `most_drags`, `most_pairs`, `progress` end it where it stands; the others do
-/// not count
+/// \param parameters as of move_vertices(): `most_drags`, `most_pairs`, `progress` end it where it stands; the others
+/// do not count
 ///
 /// The way is a straight one or an arc. It is gone in steps of at least a 1024th, made by all vertices or by none; each
 /// is an axis move along x, one along y and one along z to places on the way, so that between steps what moves may be

@@ -43,9 +43,9 @@ private:
 
 } // namespace haptic_sculpt::test
 
-// Not inlined, or g++ sees free() meet operator new and warns. All forms: AddressSanitizer has its own of each, which do
-// not call these. Arrays are always given: only CGAL's Mpzf asks for them, which frees what it never had where memory
-// runs out in it.
+// Not inlined, or g++ sees free() meet operator new and warns. All forms: AddressSanitizer has its own of each, which
+// do not call these. Arrays are always given: only CGAL's Mpzf asks for them, which frees what it never had where
+// memory runs out in it.
 #define HAPTIC_SCULPT_NEW __attribute__((noinline)) void* operator
 HAPTIC_SCULPT_NEW new(std::size_t size) { return haptic_sculpt::test::Failing_allocations::allocate(size, 0); }
 HAPTIC_SCULPT_NEW new[](std::size_t size) { return haptic_sculpt::test::Failing_allocations::allocate_always(size, 0); }

@@ -91,7 +91,8 @@ BOOST_AUTO_TEST_CASE(a_dab_goes_where_its_formula_says_and_no_farther_from_there
       for (std::size_t k = 0; k < dabs; ++k) {
         const Vertex_index centre(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
         const bool is_length = kind == Brush_kind::grab || kind == Brush_kind::inflate;
-        Dab dab{kind, mesh.point(centre), edge * (1.5 + 6 * uniform()), (is_length ? edge : 1) * (2 * uniform() - 0.5), {}};
+        Dab dab{
+            kind, mesh.point(centre), edge * (1.5 + 6 * uniform()), (is_length ? edge : 1) * (2 * uniform() - 0.5), {}};
         if (random() % 2 == 0)
           dab.direction = Vector_3(uniform() - 0.5, uniform() - 0.5, 10 * uniform());
         std::vector<double> weights(mesh.num_vertices());
@@ -112,7 +113,8 @@ BOOST_AUTO_TEST_CASE(a_dab_goes_where_its_formula_says_and_no_farther_from_there
           }
           // The formula, and its writing out again, are rounded.
           const double slack = 1e-9 * (edge + length_between(before.point(v), CGAL::ORIGIN) * 1e-3);
-          wrong += length_between(mesh.point(v), found->second) > length_between(before.point(v), found->second) + slack;
+          wrong +=
+              length_between(mesh.point(v), found->second) > length_between(before.point(v), found->second) + slack;
           reached += length_between(mesh.point(v), found->second) <= slack;
         }
         BOOST_TEST(wrong == 0u, scene.name << ", brush " << static_cast<int>(kind));
@@ -147,7 +149,8 @@ BOOST_AUTO_TEST_CASE(both_sides_of_a_plane_go_alike_and_several_dabs_add_up) {
     Vertex_index centre(0);
     for (const Vertex_index v : mesh.vertices())
       centre = mesh.point(v).x() > mesh.point(centre).x() ? v : centre;
-    const Dab dab{kind, mesh.point(centre), 4 * edge, kind == Brush_kind::grab || kind == Brush_kind::inflate ? edge / 4 : 0.25, Vector_3(2, 1, 0.5)};
+    const Dab dab{kind, mesh.point(centre), 4 * edge,
+                  kind == Brush_kind::grab || kind == Brush_kind::inflate ? edge / 4 : 0.25, Vector_3(2, 1, 0.5)};
     const Move_report report = apply_brush(sculptor, Dabs{dab, mirrored(dab, plane)});
     BOOST_TEST(report.asked > 40u);
     BOOST_TEST(report.reached == report.asked);

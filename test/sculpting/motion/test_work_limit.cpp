@@ -122,7 +122,8 @@ BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_an_end_that_is_one_without_a_bound
 BOOST_AUTO_TEST_CASE(a_large_star_over_a_fine_surface_follows_the_hand) {
   for (const std::size_t valence : {6, 64}) {
     auto list = meshes::bumpy_sphere(5, 0.05).scale_and_move(10, 0, 0, -10);
-    list += meshes::bipyramid(valence).scale_and_move(12, 0, 0, 17); // the lower tip, the last vertex, 5 over the sphere
+    list +=
+        meshes::bipyramid(valence).scale_and_move(12, 0, 0, 17); // the lower tip, the last vertex, 5 over the sphere
     Mesh mesh = meshes::to_mesh(list);
     Sculptor<Mesh> sculptor(mesh, parameters::work_limit(400 + 4 * valence));
     const Vertex_index tip(static_cast<Mesh::size_type>(mesh.number_of_vertices() - 1));

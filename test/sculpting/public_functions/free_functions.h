@@ -175,10 +175,14 @@ inline std::vector<Public_function> free_functions() {
       all.push_back({"apply_brush mirrored touched_vertices fill_brush_targets", [=](double unit, Outcome& outcome) {
                        Scaled_scene scene(unit);
                        const bool is_length = kind == Brush_kind::grab || kind == Brush_kind::inflate;
-                       Dab_3<meshes::Kernel> dab{
-                           kind, scene.at(0.5, 0.25, 0.5), scene.length(0.75), is_length ? scene.length(0.125) : 0.5, {}};
+                       Dab_3<meshes::Kernel> dab{kind,
+                                                 scene.at(0.5, 0.25, 0.5),
+                                                 scene.length(0.75),
+                                                 is_length ? scene.length(0.125) : 0.5,
+                                                 {}};
                        if (has_direction)
-                         dab.direction = meshes::Kernel::Vector_3(scene.length(1), scene.length(0.5), scene.length(0.25));
+                         dab.direction =
+                             meshes::Kernel::Vector_3(scene.length(1), scene.length(0.5), scene.length(0.25));
                        // A plane is given by a direction, of any length, and a place.
                        const auto plane = [&] {
                          const internal::Rounding_to_nearest rounding; // its constructor multiplies

@@ -53,23 +53,24 @@ inline std::vector<Public_function> sculptor_functions() {
                        outcome.impact(first->impact());
                    }
                  }});
-  all.push_back({"Sculptor::nearest_vertex Sculptor::first_hit Sculptor::is_inside_out", [](double unit, Outcome& outcome) {
-                   Scaled_scene scene(unit);
-                   Sculptor<Mesh> sculptor(scene.mesh);
-                   for (const double within : {0.0, 0.25, 1.0, 4.0, std::numeric_limits<double>::infinity()})
-                     for (const double x : {-2.0, -0.5, 0.0, 0.125, 1.25})
-                       outcome.index(sculptor.nearest_vertex(scene.at(x, 0.25, -x / 2), scene.length(within)));
-                   for (const Vertex_index v : scene.mesh.vertices())
-                     outcome.number(sculptor.is_inside_out(v));
-                   for (const double x : {-1.0, -0.5, 0.0, 0.25, 1.25, 2.0}) {
-                     const auto hit = sculptor.first_hit(scene.at(x, 0.25, 2), scene.at(0.125, x, -1.5));
-                     outcome.number(hit.has_value());
-                     if (!hit)
-                       continue;
-                     outcome.index(hit->vertex), outcome.index(hit->edge), outcome.index(hit->face);
-                     outcome.number(hit->time), outcome.point(hit->point);
-                   }
-                 }});
+  all.push_back(
+      {"Sculptor::nearest_vertex Sculptor::first_hit Sculptor::is_inside_out", [](double unit, Outcome& outcome) {
+         Scaled_scene scene(unit);
+         Sculptor<Mesh> sculptor(scene.mesh);
+         for (const double within : {0.0, 0.25, 1.0, 4.0, std::numeric_limits<double>::infinity()})
+           for (const double x : {-2.0, -0.5, 0.0, 0.125, 1.25})
+             outcome.index(sculptor.nearest_vertex(scene.at(x, 0.25, -x / 2), scene.length(within)));
+         for (const Vertex_index v : scene.mesh.vertices())
+           outcome.number(sculptor.is_inside_out(v));
+         for (const double x : {-1.0, -0.5, 0.0, 0.25, 1.25, 2.0}) {
+           const auto hit = sculptor.first_hit(scene.at(x, 0.25, 2), scene.at(0.125, x, -1.5));
+           outcome.number(hit.has_value());
+           if (!hit)
+             continue;
+           outcome.index(hit->vertex), outcome.index(hit->edge), outcome.index(hit->face);
+           outcome.number(hit->time), outcome.point(hit->point);
+         }
+       }});
   all.push_back({"Sculptor::probe Probe::drag_to Probe::position Probe::refusal", [](double unit, Outcome& outcome) {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);

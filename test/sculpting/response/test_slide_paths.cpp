@@ -115,8 +115,9 @@ BOOST_AUTO_TEST_CASE(a_smooth_hand_feels_no_jump_on_planes_and_in_concave_featur
       left += has_left;
       BOOST_REQUIRE(validate(grab.surface()).is_valid());
     }
-  BOOST_TEST_MESSAGE(left << " hands led out of a groove; " << all.total() << " steps, " << held.total() << " held, legs " << held.median() << " median, "
-                                 << all.most() << " most; jump at most " << worst << " hand steps");
+  BOOST_TEST_MESSAGE(left << " hands led out of a groove; " << all.total() << " steps, " << held.total()
+                          << " held, legs " << held.median() << " median, " << all.most() << " most; jump at most "
+                          << worst << " hand steps");
   BOOST_TEST(left <= all.total() / (4 * steps_per_move));
   BOOST_TEST(jumps.count() == 0u);
   BOOST_TEST(held.total() > all.total() / 3);
@@ -279,8 +280,8 @@ BOOST_AUTO_TEST_CASE(a_push_held_long_keeps_its_gap) {
         if (i + 1 == steps / 2 && length_of(r.position - first) > 4 * c / permitted.least_singular_value(active))
           wander.add(scene.name, mesh, scene.moved, source, hand, c,
                      "an unchanged push has moved it by " + std::to_string(length_of(r.position - first) / c) + " c");
-        // What is kept is a clearance of the triangle in contact, which is in its plane to two or three ulps of the scene
-        // only.
+        // What is kept is a clearance of the triangle in contact, which is in its plane to two or three ulps of the
+        // scene only.
         const double least_kept = sculptor.clearance(r.position), most_kept = largest_clearance(sculptor, r.position),
                      flatness = 3 * ulp_of(mesh, r.position);
         for (const std::size_t plane : active) {

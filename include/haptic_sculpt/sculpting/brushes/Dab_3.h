@@ -35,7 +35,7 @@ struct Dab_3 {
   typename Kernel::Point_3 centre; ///< on the surface, or near it
   double radius;   ///< > 0, in the unit of the coordinates
   double strength; ///< a length or a share, as the kind says; negative: the other way
-  std::optional<typename Kernel::Vector_3> direction = {}; ///< of any length; nothing: the mean normal of what is touched
+  std::optional<typename Kernel::Vector_3> direction = {}; ///< of any length; else the mean normal there
 
   /// The square of how far a point is from the centre, in radii.
   double squared_share(const typename Kernel::Point_3& p) const {
