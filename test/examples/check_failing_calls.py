@@ -6,53 +6,26 @@
 Whatever fails: the program ends by itself with an exit code of its own and says why; what stood in an output stands there whole, the old
 or the new; the log is the beginning of that of a run in which nothing fails; the same command then comes through.
 
-Arguments: sculpt, haptic_loop, source folder. HAPTIC_SCULPT_FAILING_CALLS says how many calls of each run fail (12; `all`: each)."""
+Arguments: sculpt, source folder, haptic_loop. HAPTIC_SCULPT_FAILING_CALLS says how many calls of each run fail (12; `all`: each)."""
 import errno
 import os
 import random
 import resource
 import shutil
 import subprocess
-import sys
 import tempfile
 
-SCULPT, LOOP, SOURCE = map(os.path.abspath, sys.argv[1:4])
+from program_runs import FURTHER as LOOP, SCULPT, SOURCE, bytes_of, check, end, surface, up_to_last_tick
+
 MOST = os.environ.get("HAPTIC_SCULPT_FAILING_CALLS", "12")
 SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "1"))
 MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
 CANNOT_WRITE, CODES = 5, {0, 2, 3, 4, 5, 6}  # 1 is a fault of the program
-FAULTS = []
 COUNTS = {}
 
 
-def check(condition, what):
-    if not condition:
-        FAULTS.append(what)
-        print("FAULT:", what)
-
-
-def bytes_of(path):
-    try:
-        with open(path, "rb") as file:
-            return file.read()
-    except FileNotFoundError:
-        return None
-
-
-def up_to_last_tick(log):
-    end = at = 0
-    for line in log.split(b"\n")[:-1]:
-        at += len(line) + 1
-        end = at if line.startswith(b"# tick ") else end
-    return log[:end]
-
-
-def surface(path):
-    """Points, and faces in an order of their own: undo may give elements other indices."""
-    lines = [line.split() for line in open(path).read().split("\n") if line and not line.startswith("#")]
-    first = 2 + int(lines[1][0])
-    faces = [[int(v) for v in line[1:]] for line in lines[first:first + int(lines[1][1])]]
-    return lines[2:first], sorted(face[face.index(min(face)):] + face[:face.index(min(face))] for face in faces)
+def if_there(path):
+    return bytes_of(path) if os.path.exists(path) else None
 
 
 class Task:
@@ -91,7 +64,7 @@ class Task:
         self.prepare(folder)
         done = self.run(folder, {"FAILING_COUNT": f"{folder}/count", "LD_PRELOAD": SHIM})
         check(done.returncode == 0, f"{self.name}: exit {done.returncode}: {done.stderr}")
-        self.sound = {name: bytes_of(f"{folder}/{name}") for name in [*self.outputs, *([self.log] if self.log else [])]}
+        self.sound = {name: if_there(f"{folder}/{name}") for name in [*self.outputs, *([self.log] if self.log else [])]}
         return int(open(f"{folder}/count").read())
 
     def look(self, folder, done, what):
@@ -100,12 +73,12 @@ class Task:
         check(done.returncode == 0 or done.stderr.strip(), f"{what}: exit {done.returncode}, and nothing is said")
         whole = True
         for name in self.outputs:
-            now = bytes_of(f"{folder}/{name}")
+            now = if_there(f"{folder}/{name}")
             is_report = name.endswith(".json")  # tells of what failed, and of times
             check(now == b"kept" or now == self.sound[name] or (is_report and now and now.rstrip().endswith(b"}")), f"{what}: {name} is neither the old nor the new")
             whole = whole and now != b"kept"
         if self.log:
-            now = bytes_of(f"{folder}/{self.log}") or b""
+            now = if_there(f"{folder}/{self.log}") or b""
             check(self.sound[self.log].startswith(now), f"{what}: the log is not the beginning of that of a sound run")
             whole = whole and now == self.sound[self.log]
         check(done.returncode != 0 or whole, f"{what}: exit 0, and something is missing: {done.stderr}")
@@ -114,19 +87,19 @@ class Task:
 
     def come_through(self, folder, what):
         """The same command, with nothing that fails."""
-        left = (bytes_of(f"{folder}/{self.log}") or b"") if self.log else b""
+        left = (if_there(f"{folder}/{self.log}") or b"") if self.log else b""
         done = self.run(folder)
         if self.program == LOOP:  # it goes on behind the last whole tick
             check(done.returncode == 0, f"{self.name}, {what}: then it does not come through: exit {done.returncode}: {done.stderr}")
-            now = bytes_of(f"{folder}/{self.log}")
+            now = if_there(f"{folder}/{self.log}")
             check(now.startswith(up_to_last_tick(left)), f"{self.name}, {what}: the log does not go on behind its last whole tick")
             again = subprocess.run([SCULPT, "mesh.off", "--log", self.log, "-o", "again.off"], cwd=folder, capture_output=True, text=True, timeout=300)
             check(again.returncode == 0 and surface(f"{folder}/again.off") == surface(f"{folder}/{self.outputs[0]}"), f"{self.name}, {what}: its log gives another mesh: {again.stderr}")
             return
-        complete = self.log and bytes_of(f"{folder}/{self.log}") == self.sound[self.log]
+        complete = self.log and if_there(f"{folder}/{self.log}") == self.sound[self.log]
         check(done.returncode == 0 or (complete and done.returncode == 2), f"{self.name}, {what}: then it does not come through: exit {done.returncode}: {done.stderr}")
         for name, bytes_ in self.sound.items():
-            check(name.endswith(".json") or bytes_of(f"{folder}/{name}") == bytes_ or done.returncode == 2, f"{self.name}, {what}: then {name} is another")
+            check(name.endswith(".json") or if_there(f"{folder}/{name}") == bytes_ or done.returncode == 2, f"{self.name}, {what}: then {name} is another")
 
 
 def chosen(number, rng):
@@ -164,8 +137,6 @@ def main():
                 task.look(folder, task.run(folder, limits=[(resource.RLIMIT_FSIZE, size)]), what)
                 task.come_through(folder, what)
     print(f"{tries} runs with a failing call; exits: " + ", ".join(f"{name} {code}: {count}" for (name, code), count in sorted(COUNTS.items())))
-    print(len(FAULTS), "faults")
-    sys.exit(1 if FAULTS else 0)
 
 
 SCRIPT = "".join(f"drag {v} {0.01 * v} 0.2 0.1\n" for v in range(0, 60, 3)) + "stroke\ninsert_face 0 1 2 0.1 0.1 0.1\nremove 7\nend\nundo\nredo\nflip 3 4\ncollapse 5 6\n"
@@ -174,3 +145,4 @@ with tempfile.TemporaryDirectory() as shim_folder:
     SHIM = f"{shim_folder}/failing_calls.so"
     subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-o", SHIM, f"{os.path.dirname(os.path.abspath(__file__))}/failing_calls.c", "-ldl"], check=True)
     main()
+end()

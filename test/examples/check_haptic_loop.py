@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks haptic_loop as a user would run it: trace, report, replay, faults and exit codes. Arguments: program, source folder."""
+"""Checks haptic_loop as a user would run it: trace, report, replay, faults and exit codes. Arguments:
+sculpt, source folder, haptic_loop."""
 import csv
 import json
 import math
@@ -8,22 +9,17 @@ import subprocess
 import sys
 import tempfile
 
-LOOP, SOURCE = map(os.path.abspath, sys.argv[1:3])
+import program_runs
+from program_runs import FURTHER as LOOP, SOURCE, check, end
+
 MESH = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
 COLUMNS = "t,theta1,theta2,theta3,tx,ty,tz,x,y,z,fcx,fcy,fcz,fx,fy,fz,tau1,tau2,tau3,end,contacts,pairs,cpu_ns".split(",")
 KEYS = {"version", "ticks", "missed", "missed_by_cpu", "cpu_ns", "wall_ns", "wakeup_ns", "allocations", "force", "energy", "limits", "edits",
         "faults", "valid"}
-FAULTS = []
-
-
-def check(condition, what):
-    if not condition:
-        FAULTS.append(what)
-        print("FAULT:", what)
 
 
 def run(*arguments, code=0):
-    done = subprocess.run([LOOP, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    done = program_runs.run(*arguments, program=LOOP, seconds=300)
     check(done.returncode == code, f"{arguments}: exit {done.returncode}, expected {code}: {done.stderr}")
     return done
 
@@ -165,5 +161,4 @@ run(MESH, "--no-wait", "-o", at("missing/a.off"), code=5)
 run(at("a.off"), "--replay", at("a.rec"), code=6)
 run(at("a.off"), "--log", at("g.log"), "--no-wait", code=6)
 run(MESH, "--log", at("g.log"), "--record", at("g.rec"), "--no-wait", code=2)
-print(len(FAULTS), "faults")
-sys.exit(1 if FAULTS else 0)
+end()

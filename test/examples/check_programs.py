@@ -1,20 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What `sculpt` and `haptic_loop` must not lose, whatever becomes of their streams, readers, disks and inputs, and the words that help.
-Arguments: sculpt, sweep_queries (not used), source folder, haptic_loop."""
+Arguments: sculpt, source folder, haptic_loop."""
 import json
 import os
 import resource
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 
 from box_mesh import box
-from program_runs import OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points, run, write
+from program_runs import FURTHER as LOOP, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points, run, write
 
-LOOP = os.path.abspath(sys.argv[4])
 BALL = f"{SOURCE}/examples/data/ball_and_moon.off"
 PATH = f"{SOURCE}/examples/data/hand_path.csv"
 DRAGS = "drag 3 0.2 0.2 2\ndrag 3 0.2 0.2 -1\n"

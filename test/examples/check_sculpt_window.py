@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs sculpt_window under Xvfb as a hand would, replays its logs with sculpt, and looks at its screenshots.
-Arguments: sculpt, sweep_queries (not used), source folder, sculpt_window."""
+Arguments: sculpt, source folder, sculpt_window."""
 import colorsys
 import json
 import math

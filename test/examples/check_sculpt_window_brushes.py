@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs sculpt_window under Xvfb with brushes, masks, symmetry, objects and remeshing; what it made is known from the meshes it
-saved and from its log. Arguments: sculpt, sweep_queries (not used), source folder, sculpt_window."""
+saved and from its log. Arguments: sculpt, source folder, sculpt_window."""
 import collections
 import math
 import os

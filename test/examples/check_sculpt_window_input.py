@@ -1,21 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Drives sculpt_window under Xvfb by real events of mouse, keys, window manager and dropped files; what it did is known from
-its log, its recording, its title and the screen. Arguments: sculpt, sweep_queries (not used), source folder, sculpt_window."""
+its log, its recording, its title and the screen. Arguments: sculpt, source folder, sculpt_window."""
 import atexit
 import json
 import math
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 
 from box_mesh import box
-from program_runs import bytes_of, check, end, points, run, write
+from program_runs import FURTHER as WINDOW, bytes_of, check, end, points, run, write
 from virtual_display import Display, Hand
 
-WINDOW = os.path.abspath(sys.argv[4])
 display = Display()
 hand = Hand(display)
 folder = tempfile.mkdtemp()

@@ -3,7 +3,7 @@
 """`sculpt --triangulate` on polygons of many corners, tilted, reflex and folded; and what `remesh` may be asked for of a needle.
 
 What is a triangulation is known in integers: its triangles are turned as the polygon is, their number is its corners' less two, and their
-areas are its own together. Arguments: sculpt, sweep_queries (not used), source folder."""
+areas are its own together. Arguments: sculpt, source folder."""
 import itertools
 import json
 import math

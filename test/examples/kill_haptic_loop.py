@@ -4,64 +4,31 @@
 
 Whenever it is killed, its log is the beginning of the log of the run that is not killed, byte for byte, and no more than 100 ms are
 lost: the trace, read through a pipe, says how far the loop was. Made again, by `haptic_loop` and by `sculpt`, it gives one and the same
-valid mesh, that of a tick. HAPTIC_SCULPT_KILLS says how often (6)."""
+valid mesh, that of a tick. HAPTIC_SCULPT_KILLS says how often (6). Arguments: sculpt, source folder, haptic_loop."""
 import json
 import os
 import random
 import subprocess
-import sys
 import tempfile
 import threading
 import time
 
-LOOP, SCULPT, SOURCE = map(os.path.abspath, sys.argv[1:4])
+import program_runs
+from program_runs import FURTHER as LOOP, SCULPT, SOURCE, bytes_of, check, end, surface, up_to_last_tick, write
+
 KILLS = int(os.environ.get("HAPTIC_SCULPT_KILLS", "6"))
 SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "7"))
 MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
-FAULTS = []
-
-
-def check(condition, what):
-    if not condition:
-        FAULTS.append(what)
-        print("FAULT:", what)
 
 
 def run(*arguments, program=LOOP):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    done = program_runs.run(*arguments, program=program, seconds=300)
     check(done.returncode == 0, f"{arguments}: exit {done.returncode}: {done.stderr}")
-    return done
-
-
-def bytes_of(path):
-    with open(path, "rb") as file:
-        return file.read()
-
-
-def write(path, contents):
-    with open(path, "wb") as file:
-        file.write(contents)
-    return path
 
 
 def last_tick(lines):
     """Of the log: the number of the last tick that is whole; 0 where there is none."""
     return max([int(line.split()[2]) for line in lines if line.startswith(b"# tick ")] or [0])
-
-
-def up_to_last_tick(log):
-    end = at = 0
-    for line in log.split(b"\n")[:-1]:
-        at += len(line) + 1
-        end = at if line.startswith(b"# tick ") else end
-    return log[:end]
-
-
-def surface(path):
-    lines = [line.split() for line in open(path).read().split("\n") if line and not line.startswith("#")]
-    first = 2 + int(lines[1][0])
-    faces = [[int(v) for v in line[1:]] for line in lines[first:first + int(lines[1][1])]]
-    return lines[2:first], sorted(face[face.index(min(face)):] + face[:face.index(min(face))] for face in faces)
 
 
 def recover(at, left, path, which):
@@ -124,8 +91,6 @@ def main():
             recover(at, left, path, f"seed {SEED}, cut to {len(left)} bytes")
     print(f"killed {KILLS} times, {sum(m == 1 for m in moments)} after the end, {within_a_tick} logs end within a tick; "
           f"at {', '.join(f'{m:.0%}' for m in sorted(moments)[:: max(1, KILLS // 10)])} of the log")
-    print(len(FAULTS), "faults")
-    sys.exit(1 if FAULTS else 0)
-
 
 main()
+end()

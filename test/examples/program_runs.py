@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the checks of the programs share: running them as a user would, and looking at what they say."""
+"""What the checks of the programs share: running them as a user would, and looking at what they say.
+
+Each has the arguments: sculpt, source folder, and for some a further program."""
 import hashlib
 import os
 import resource
 import subprocess
 import sys
 
-SCULPT, QUERIES, SOURCE = map(os.path.abspath, sys.argv[1:4])
+SCULPT, SOURCE = map(os.path.abspath, sys.argv[1:3])
+FURTHER = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else ""
 FAULTS = []
 OCTAHEDRON = ("OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n"
               "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n")
@@ -19,13 +22,13 @@ def check(condition, what):
         print("FAULT:", what)
 
 
-def run(*arguments, program=SCULPT, script=None, limit=None, folder=None, user=None):
+def run(*arguments, program=SCULPT, script=None, limit=None, folder=None, user=None, seconds=100):
     def limit_size():
         if limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
     # Python ignores SIGXFSZ; that the program does so too is checked by restoring signals.
-    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=100, cwd=folder,
+    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=seconds, cwd=folder,
                           preexec_fn=limit_size, restore_signals=True, user=user, group=user, extra_groups=[] if user else None)
 
 
@@ -46,6 +49,15 @@ def surface(path):
     first = 2 + int(lines[1][0])
     faces = [[int(v) for v in line[1:]] for line in lines[first:first + int(lines[1][1])]]
     return points(path), sorted(face[face.index(min(face)):] + face[:face.index(min(face))] for face in faces)
+
+
+def up_to_last_tick(log):
+    """Of a log of haptic_loop."""
+    end = at = 0
+    for line in log.split(b"\n")[:-1]:
+        at += len(line) + 1
+        end = at if line.startswith(b"# tick ") else end
+    return log[:end]
 
 
 def before_open_stroke(lines):

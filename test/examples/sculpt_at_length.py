@@ -3,31 +3,25 @@
 """A hand that goes about at random, in and out of meshes, and presses its buttons: every mesh stays valid, every log is made again by
 `sculpt` bit for bit, no fault ends a run.
 
-Arguments: haptic_loop, sculpt, source folder, further meshes. HAPTIC_SCULPT_SECONDS says how long in all, in simulated time (20)."""
+Arguments: sculpt, source folder, haptic_loop, further meshes. HAPTIC_SCULPT_SECONDS says how long in all, in simulated time (20)."""
 import json
 import math
 import os
 import random
-import subprocess
 import sys
 import tempfile
 
-LOOP, SCULPT, SOURCE = map(os.path.abspath, sys.argv[1:4])
+import program_runs
+from program_runs import FURTHER as LOOP, SCULPT, SOURCE, check, end, surface
+
 MESHES = [f"{SOURCE}/examples/data/ball_and_moon.off", *sys.argv[4:]]
 SECONDS = float(os.environ.get("HAPTIC_SCULPT_SECONDS", "20"))
 SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "1"))
 RADIUS = 0.030  # m: the scene is fitted into a ball of 34 mm about the handle's home
-FAULTS = []
-
-
-def check(condition, what):
-    if not condition:
-        FAULTS.append(what)
-        print("FAULT:", what)
 
 
 def run(program, *arguments):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=1200)
+    done = program_runs.run(*arguments, program=program, seconds=1200)
     check(done.returncode == 0, f"{arguments}: exit {done.returncode}: {done.stderr.strip()[-300:]}")
     return done.returncode == 0
 
@@ -43,13 +37,6 @@ def random_path(rng, seconds, home):
         t += max(0.05, math.dist(at, to) / rng.uniform(0.02, 0.2))
         at, button = to, rng.choice([0, 0, 1, 1, 2, 2])
     return "\n".join(rows) + "\n"
-
-
-def surface(path):
-    lines = [line.split() for line in open(path).read().split("\n") if line and not line.startswith("#")]
-    first = 2 + int(lines[1][0])
-    faces = [[int(v) for v in line[1:]] for line in lines[first:first + int(lines[1][1])]]
-    return lines[2:first], sorted(face[face.index(min(face)):] + face[:face.index(min(face))] for face in faces)
 
 
 def main():
@@ -88,8 +75,7 @@ def main():
     print(total, f"longest tick {largest / 1e3:.0f} us")
     if len(MESHES) == 1:
         check(total["grabbed"] > 0 and total["created"] > 0 and total["removed"] > 0, f"the hand has done too little: {total}")
-    print(len(FAULTS), "faults")
-    sys.exit(1 if FAULTS else 0)
 
 
 main()
+end()

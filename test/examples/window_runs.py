@@ -1,20 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs sculpt_window by scripts under Xvfb, replays its logs with sculpt, and reads its screenshots. Arguments of the check that
-imports this: sculpt, sweep_queries (not used), source folder, sculpt_window."""
+imports this: sculpt, source folder, sculpt_window."""
 import colorsys
 import json
 import os
 import resource
 import struct
 import subprocess
-import sys
 import tempfile
 import zlib
 
-from program_runs import bytes_of, check, run, write
+from program_runs import FURTHER as WINDOW, bytes_of, check, run, write
 from virtual_display import Display
 
-WINDOW = os.path.abspath(sys.argv[4])
 folder = tempfile.mkdtemp()
 at = lambda name: os.path.join(folder, name)
 display = Display()
