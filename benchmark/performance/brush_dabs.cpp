@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CPU time of dabs with each brush at random places of a mesh, each of about as many vertices, and the share of the way
 // that is gone; the mesh is validated at the end.
-#include "Promises.h"
+#include "end_run.h"
 #include "Shard.h"
 #include "meshes/generated_meshes.h"
 
@@ -13,7 +13,6 @@
 
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <random>
 
 namespace {
@@ -24,7 +23,7 @@ using Kernel = meshes::Kernel;
 using Vertex_index = Mesh::Vertex_index;
 using Json = nlohmann::ordered_json;
 
-constexpr int not_embedded = 10, cannot_write = 5;
+constexpr int not_embedded = 10;
 
 double milliseconds() {
   return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -132,18 +131,7 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   promises.add(not_embedded, "a mesh is embedded after all dabs", asked, broken);
-  if (!json.empty()) {
-    std::ofstream out(json);
-    out << Json{{"triangles", start.number_of_faces()},
-                {"seed", seed},
-                {"shard", shard.text()},
-                {"rows", rows},
-                {"promises", promises.json()},
-                {"exit", promises.exit()}}
-               .dump(1)
-        << '\n';
-    if (!out.flush())
-      return cannot_write;
-  }
-  return promises.exit();
+  return haptic_sculpt::benchmark::end_run(
+      "brush_dabs", json,
+      {{"triangles", start.number_of_faces()}, {"seed", seed}, {"shard", shard.text()}, {"rows", rows}}, promises);
 }

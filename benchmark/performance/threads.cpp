@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time by the clock of axis moves of all vertices and of validation, with one thread after the other number of threads
 // in turn, and whether each number makes the same bits.
-#include "Promises.h"
+#include "end_run.h"
 #include "Shard.h"
 #include "meshes/generated_meshes.h"
 
@@ -18,7 +18,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <random>
 
 namespace {
@@ -29,7 +28,7 @@ using Vertex_index = Mesh::Vertex_index;
 using Json = nlohmann::ordered_json;
 using Ways = std::vector<std::pair<Vertex_index, double>>;
 
-constexpr int cannot_write = 5, other_bits = 10;
+constexpr int other_bits = 10;
 
 template <class Function>
 double seconds_of(const Function& function) {
@@ -148,18 +147,7 @@ int main(int argc, char** argv) {
 #endif
   haptic_sculpt::benchmark::Promises promises;
   promises.add(other_bits, "any number of threads makes the same bits", asked, broken);
-  if (!json.empty()) {
-    std::ofstream out(json);
-    out << Json{{"triangles", mesh.number_of_faces()},
-                {"seed", seed},
-                {"shard", shard.text()},
-                {"rows", rows},
-                {"promises", promises.json()},
-                {"exit", promises.exit()}}
-               .dump(1)
-        << '\n';
-    if (!out.flush())
-      return cannot_write;
-  }
-  return promises.exit();
+  return haptic_sculpt::benchmark::end_run(
+      "threads", json,
+      {{"triangles", mesh.number_of_faces()}, {"seed", seed}, {"shard", shard.text()}, {"rows", rows}}, promises);
 }

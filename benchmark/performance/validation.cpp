@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time of the validity oracle against the size of the mesh, beside CGAL's does_self_intersect, and whether both say the
 // same of each mesh as it is and with one vertex pulled through it.
-#include "Promises.h"
+#include "end_run.h"
 #include "Shard.h"
 #include "meshes/generated_meshes.h"
 
@@ -14,7 +14,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 
 namespace {
@@ -25,7 +24,7 @@ using meshes::Triangle_list;
 using Json = nlohmann::ordered_json;
 namespace PMP = CGAL::Polygon_mesh_processing;
 
-constexpr int cannot_write = 5, other_verdict = 10;
+constexpr int other_verdict = 10;
 
 /// n tetrahedra at the points of a lattice: as many components as there can be.
 Triangle_list lattice_of_tetrahedra(std::size_t n) {
@@ -144,13 +143,5 @@ int main(int argc, char** argv) {
     }
   haptic_sculpt::benchmark::Promises promises;
   promises.add(other_verdict, "the validity oracle agrees with CGAL", asked, broken);
-  if (!json.empty()) {
-    std::ofstream out(json);
-    out << Json{{"shard", shard.text()}, {"rows", rows}, {"promises", promises.json()}, {"exit", promises.exit()}}.dump(
-               1)
-        << '\n';
-    if (!out.flush())
-      return cannot_write;
-  }
-  return promises.exit();
+  return haptic_sculpt::benchmark::end_run("validation", json, {{"shard", shard.text()}, {"rows", rows}}, promises);
 }

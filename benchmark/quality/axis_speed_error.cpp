@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time against error of the axis sweeps, for several arithmetics, judged by linear feasibility in rational numbers.
 #include "Mpfr_number.h"
-#include "Promises.h"
 #include "Query_timer.h"
 #include "Shard.h"
 #include "determinant_sweep.h"
+#include "end_run.h"
 #include "oracle/axis_oracle.h"
 
 #include <haptic_sculpt/collision/Axis_sweep_traits_3.h>
@@ -26,7 +26,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Json = nlohmann::ordered_json;
 using Random = std::mt19937_64;
 
-constexpr int ours_was_wrong = 10, cannot_write = 5;
+constexpr int ours_was_wrong = 10;
 
 double uniform(Random& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
@@ -223,19 +223,7 @@ int main(int argc, char** argv) {
   }
   Promises promises;
   promises.add(ours_was_wrong, "every axis sweep agrees with linear feasibility", asked, wrong);
-  try {
-    if (!file.empty())
-      replace_file(file, Json{{"seed", seed},
-                              {"shard", shard.text()},
-                              {"queries_per_population", count},
-                              {"populations", rows},
-                              {"promises", promises.json()},
-                              {"exit", promises.exit()}}
-                                 .dump(1) +
-                             '\n');
-  } catch (const Error& error) {
-    std::cerr << "axis_speed_error: " << error.what() << '\n';
-    return cannot_write;
-  }
-  return promises.exit();
+  return end_run("axis_speed_error", file,
+                 {{"seed", seed}, {"shard", shard.text()}, {"queries_per_population", count}, {"populations", rows}},
+                 promises);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Many vertices to targets: share of the way against time, by axis moves, one after the other, and all at once with a
 // step that is halved until does_self_intersect is content.
-#include "Promises.h"
 #include "Shard.h"
+#include "end_run.h"
 #include "meshes/generated_meshes.h"
 #include "meshes/thin_walls.h"
 
@@ -29,7 +29,7 @@ using Vertex_index = Mesh::Vertex_index;
 using Json = nlohmann::ordered_json;
 namespace PMP = CGAL::Polygon_mesh_processing;
 
-constexpr int not_embedded = 10, cannot_write = 5;
+constexpr int usage = 2, not_embedded = 10;
 constexpr double finest_step = 1.0 / 128; ///< of the way: the line search gives up below
 constexpr int looks = 64;                 ///< times at which a straight motion is looked at
 
@@ -306,18 +306,10 @@ int main(int argc, char** argv) {
       }
     Promises promises;
     promises.add(not_embedded, "a mesh moved under the guard is embedded", asked, broken);
-    if (!file.empty())
-      replace_file(file, Json{{"seed", seed},
-                              {"shard", shard.text()},
-                              {"level", level},
-                              {"rows", rows},
-                              {"promises", promises.json()},
-                              {"exit", promises.exit()}}
-                                 .dump(1) +
-                             '\n');
-    return promises.exit();
+    return end_run("many_vertices_speed_error", file,
+                   {{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"rows", rows}}, promises);
   } catch (const Error& error) {
     std::cerr << "many_vertices_speed_error: " << error.what() << '\n';
-    return cannot_write;
+    return usage;
   }
 }

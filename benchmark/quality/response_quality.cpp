@@ -2,8 +2,8 @@
 // The same hand drags with each response: how far from the target it ends, how often at a local minimum, how long it
 // takes.
 #include "Long_sculpting.h"
-#include "Promises.h"
 #include "Shard.h"
+#include "end_run.h"
 
 #include "sculpting/Mover_hand.h"
 #include "sculpting/clearances.h"
@@ -231,11 +231,7 @@ int run(Options& options) {
   promises.add(not_embedded, "every mesh is embedded and no leg crosses anything", validations, invalid);
   promises.add(contradiction, "no result contradicts itself", drags, contradictions);
   promises.add(no_minimum, "a slide ends at a local minimum", minima, missed, 1e-3);
-  report["promises"] = promises.json();
-  report["exit"] = promises.exit();
-  if (!options.json.empty())
-    replace_file(options.json, report.dump(1) + '\n');
-  return promises.exit();
+  return benchmark::end_run("response_quality", options.json, std::move(report), promises);
 }
 
 } // namespace
@@ -245,7 +241,8 @@ int main(int argc, char** argv) {
   CLI::App app("Drags with each response: distance left to the target, share of ends at a local minimum, time.\n"
                "With --sculpt, slides over the meshes of a folder for long, with creations, removals, undo and redo in "
                "between.\n"
-               "Exit: 0 all kept, 2 usage or a file that cannot be read, 10 a mesh is no longer embedded or a leg "
+               "Exit: 0 all kept, 2 usage or a file that cannot be read, 5 the report cannot be written, 10 a mesh is "
+               "no longer embedded or a leg "
                "crosses something, 11 more than 0.1 % of "
                "the checked slides are at no minimum, 12 a result contradicts itself.");
   app.add_option("--meshes", options.folder, "Folder of meshes, beside the generated scenes")

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CGAL's edge_collapse beside decimate(), with the same policies to the same number of edges: time, pairs of faces that
 // meet, distance from the input.
-#include "Promises.h"
 #include "Shard.h"
+#include "end_run.h"
 #include "meshes/generated_meshes.h"
 #include "meshes/thin_walls.h"
 
@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 namespace PMP = CGAL::Polygon_mesh_processing;
 namespace SMS = CGAL::Surface_mesh_simplification;
 
-constexpr int not_embedded = 10, cannot_write = 5;
+constexpr int usage = 2, not_embedded = 10;
 
 std::size_t number_of_pairs(const Mesh& mesh) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
@@ -133,19 +133,11 @@ int main(int argc, char** argv) {
     }
     Promises promises;
     promises.add(not_embedded, "a mesh simplified under the guard is embedded", asked, broken);
-    if (!file.empty())
-      replace_file(file, Json{{"seed", seed},
-                              {"shard", shard.text()},
-                              {"level", level},
-                              {"share", share},
-                              {"rows", rows},
-                              {"promises", promises.json()},
-                              {"exit", promises.exit()}}
-                                 .dump(1) +
-                             '\n');
-    return promises.exit();
+    return end_run("simplification", file,
+                   {{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"share", share}, {"rows", rows}},
+                   promises);
   } catch (const Error& error) {
     std::cerr << "simplification: " << error.what() << '\n';
-    return cannot_write;
+    return usage;
   }
 }

@@ -2,8 +2,8 @@
 // Drags vertices of machine parts and near-degenerate solids, and asks of each end whether a free straight way leads
 // nearer.
 #include "Certified_grabs.h"
-#include "Promises.h"
 #include "Shard.h"
+#include "end_run.h"
 
 #include <CLI/CLI.hpp>
 
@@ -91,18 +91,14 @@ int run(Options& options) {
     totals.push_back(row(name, tally));
   }
   std::cout << "seed " << options.seed << ", shard " << options.shard.text() << ", exit " << promises.exit() << '\n';
-  if (!options.json.empty())
-    replace_file(options.json, Json{{"seed", options.seed},
-                                    {"shard", options.shard.text()},
-                                    {"drags", options.drags},
-                                    {"ways", options.ways},
-                                    {"families", rows},
-                                    {"total", totals},
-                                    {"promises", promises.json()},
-                                    {"exit", promises.exit()}}
-                                       .dump(1) +
-                                   '\n');
-  return promises.exit();
+  return end_run("certify_ends", options.json,
+                 {{"seed", options.seed},
+                  {"shard", options.shard.text()},
+                  {"drags", options.drags},
+                  {"ways", options.ways},
+                  {"families", rows},
+                  {"total", totals}},
+                 promises);
 }
 
 Exit replay(const Options& options) {
@@ -122,7 +118,8 @@ int main(int argc, char** argv) {
   CLI::App app("Drags vertices of machine parts and of near-degenerate solids, as made and once deformed, and "
                "certifies every end that is not the\n"
                "target: no free straight way may lead nearer by more than 16 clearances.\n"
-               "Exit: 0 all kept, 2 usage, 10 a mesh is no longer embedded, 11 more drags end too early than may.");
+               "Exit: 0 all kept, 2 usage, 5 the report cannot be written, 10 a mesh is no longer embedded, 11 more "
+               "drags end too early than may.");
   app.add_option("--drags", options.drags, "Drags in each family, as made and again once deformed")
       ->capture_default_str();
   app.add_option("--per-scene", options.drags_per_scene, "Drags in one scene, then another is drawn")

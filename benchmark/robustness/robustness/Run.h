@@ -4,8 +4,8 @@
 #include "Drag_batch.h"
 #include "Edit_batch.h"
 #include "Extreme_batch.h"
-#include "Promises.h"
 #include "Shard.h"
+#include "end_run.h"
 
 #include <haptic_sculpt/surface.h>
 #include <haptic_sculpt/surface/repair.h>
@@ -124,24 +124,19 @@ public:
         std::cout << ", " << count << ' ' << reason;
       std::cout << '\n';
     }
-    if (!options_.json.empty())
-      replace_file(options_.json,
-                   Json{{"seed", options_.seed},
-                        {"shard", shard_.text()},
-                        {"response", options_.response},
-                        {"motion", options_.motion},
-                        {"meshes", rows_},
-                        {"total", drags_.json()},
-                        {"total_of_edits", edits_.json()},
-                        {"total_of_extreme_drags", extremes_.json()},
-                        {"wrongly_accepted", shard_.is_first() ? wrongly_accepted_ : 0}, // once, for all shares
-                        {"wrongly_refused", shard_.is_first() ? wrongly_refused_ : 0},
-                        {"refused", refused_},
-                        {"promises", promises.json()},
-                        {"exit", exit}}
-                           .dump(1) +
-                       '\n');
-    return exit;
+    return benchmark::end_run("robustness", options_.json,
+                   {{"seed", options_.seed},
+                    {"shard", shard_.text()},
+                    {"response", options_.response},
+                    {"motion", options_.motion},
+                    {"meshes", rows_},
+                    {"total", drags_.json()},
+                    {"total_of_edits", edits_.json()},
+                    {"total_of_extreme_drags", extremes_.json()},
+                    {"wrongly_accepted", shard_.is_first() ? wrongly_accepted_ : 0}, // once, for all shares
+                    {"wrongly_refused", shard_.is_first() ? wrongly_refused_ : 0},
+                    {"refused", refused_}},
+                   promises);
   }
 
 private:
