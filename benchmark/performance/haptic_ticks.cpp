@@ -32,7 +32,8 @@ using Json = nlohmann::ordered_json;
 struct Options {
   int level = 8;
   double radius = 30, speed = 300, rate = 1000, depth = 2, reach = 0.05; ///< mm, mm/s, Hz, mm, mm
-  std::size_t ticks = 1000000, work = 400, runs = 1, valence = 0;
+  std::size_t ticks = 1000000, work = Haptic_parameters().work_limit, runs = 1, valence = 0;
+  std::size_t work_of_a_face = Haptic_parameters().work_of_a_face;
   bool refuses_allocations = false;
   std::string json;
 };
@@ -121,7 +122,8 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
       },
       10000, 100000);
   Haptic_parameters parameters;
-  parameters.tick = 1 / options.rate, parameters.work_limit = options.work, parameters.reach = 1e-3 * options.reach;
+  parameters.tick = 1 / options.rate, parameters.reach = 1e-3 * options.reach;
+  parameters.work_limit = options.work, parameters.work_of_a_face = options.work_of_a_face;
   const Passivity_limits limits = passivity_limits(device, parameters.limits, scene.map, 1.1 * scene.lower,
                                                    1.1 * scene.upper, 0, parameters.tick, 0);
   const Hand hand{options, home->position};
@@ -191,7 +193,8 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
           {"created", done.created},
           {"removed", done.removed},
           {"refused", done.refused},
-          {"work", options.work}};
+          {"work", options.work},
+          {"work_of_a_face", options.work_of_a_face}};
 }
 
 } // namespace
@@ -216,6 +219,8 @@ int main(int argc, char** argv) {
                  "size; 0: none")
       ->capture_default_str();
   app.add_option("--work", options.work, "Pairs that a drag may decide")->capture_default_str();
+  app.add_option("--work-of-a-face", options.work_of_a_face, "Pairs more for each face about the vertex in hand")
+      ->capture_default_str();
   app.add_option("--runs", options.runs, "Make the same run so often, and take the least time of each tick")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

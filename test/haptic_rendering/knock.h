@@ -11,12 +11,13 @@ namespace haptic_rendering_tests {
 struct Knocked_device {
   Device_parameters<double> device;
   Device_pose<double> home;
-  double friction, mass; ///< at the worst poses, N s/m and kg
+  double friction, count, mass; ///< at the worst poses: N s/m, m of the handle in one of the encoders, kg
 
   explicit Knocked_device(Device_form form) : device(built(form)), home(*home_pose(device)) {
     const double radius = 0.9 * workspace_radius(device, home);
     const auto is_inside = [&](const Vector3d& p) { return (p - home.position).norm() <= radius; };
-    friction = worst_pose(device, Force_limits(), is_inside, 15).friction(device);
+    const Worst_pose worst = worst_pose(device, Force_limits(), is_inside, 15);
+    friction = worst.friction(device), count = worst.count(device);
     mass = lightest_pose(device, Force_limits(), is_inside, 9).apparent_mass(device);
   }
   static Device_parameters<double> built(Device_form form) {
@@ -28,7 +29,8 @@ struct Knocked_device {
 
 /// How hard, and with what; everything else as it ships.
 struct Knock {
-  double rate = 1000, delay = 0, stiffness_share = 0.95, damping_share = 0; ///< Hz, ticks, of k_p, of b_phys
+  double rate = 1000, delay = 0;                       ///< Hz, ticks
+  double stiffness_share = 0.95, damping_share = 0; ///< of the stiffness that may be asked for, of b_phys
   std::optional<Simulated_hand> hand{};                                     ///< none: thrown
   double wait = 0.35;                                                       ///< s before it; 0: the ramp is not over
   Vector3d normal{0, 0, 1};
@@ -52,7 +54,9 @@ inline Contact_setup knock(const Knocked_device& knocked, const Knock& k) {
   setup.tick = 1 / k.rate, setup.delay = k.delay, setup.greatest = setup.most_condition = 1e9;
   const double damping = k.damping_share * knocked.friction;
   setup.follows_pose = k.stiffness_share <= 1;
-  setup.coupling = {k.stiffness_share * passive_stiffness(knocked.friction, damping, setup.tick, setup.delay), damping};
+  const double largest = std::fmin(passive_stiffness(knocked.friction, damping, setup.tick, setup.delay),
+                                   calm_stiffness(knocked.count, damping));
+  setup.coupling = {k.stiffness_share * largest, damping};
   setup.controller_damping =
       0.5 * knocked.mass * largest_damping_rate(setup.tick, setup.delay, std::numeric_limits<double>::infinity());
   if (!is_held)
@@ -63,19 +67,15 @@ inline Contact_setup knock(const Knocked_device& knocked, const Knock& k) {
 struct Knock_outcome {
   Contact_outcome run;
   double ripple = 0; ///< N, peak to peak, from half a second after the knock on
-  double count = 0;  ///< N: what one count of one encoder makes of the force
 };
 
 inline Knock_outcome run_knock(const Contact_setup& setup, double wait) {
   Knock_outcome outcome;
   double low = 1e9, high = 0;
   outcome.run =
-      run_contact(setup, 1e9, [&](const Simulated_device& device, const Handle_motion& handle, const auto& made) {
-        if (device.time() > wait + 0.6) { // it has come down after 0.1
+      run_contact(setup, 1e9, [&](const Simulated_device& device, const auto&, const auto& made) {
+        if (device.time() > wait + 0.6) // it has come down after 0.1
           low = std::fmin(low, made.force.norm()), high = std::fmax(high, made.force.norm());
-          outcome.count = setup.coupling.stiffness * translation_conditioning(handle.jacobian()).greatest *
-                          setup.device.encoder_step();
-        }
         return device.time() < wait + 0.75;
       });
   outcome.ripple = std::fmax(0, high - low);

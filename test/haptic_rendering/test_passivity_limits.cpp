@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 using namespace haptic_sculpt;
@@ -111,6 +112,38 @@ BOOST_AUTO_TEST_CASE(beyond_the_passive_limit_a_prescribed_motion_finds_activity
   BOOST_TEST(tried >= 100);
   BOOST_TEST(least >= 0.9);
   BOOST_TEST(largest <= 1.1);
+}
+
+BOOST_AUTO_TEST_CASE(all_encoders_between_two_counts_make_no_more_of_a_calm_spring_than_is_permitted) {
+  Random random(12);
+  std::uniform_real_distribution<double> angle(0.4, 1.6);
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
+    const Device_parameters<double> parameters = device(form, 0.005, 1.53e-4);
+    const auto home = home_pose(parameters);
+    const double radius = workspace_radius(parameters, *home);
+    const auto is_inside = [&](const Vector3d& p) { return (p - home->position).norm() <= radius; };
+    const Worst_pose worst = worst_pose(parameters, Force_limits(), is_inside);
+    const double calm = calm_stiffness(worst.count(parameters), 0);
+    double most = 0; // N, of the changes of the force between two readings
+    for (int i = 0; i < 3000; ++i) {
+      const double a = angle(random), b = angle(random), c = angle(random);
+      const auto pose = forward_kinematics(parameters, Vector3d(a, b, c));
+      if (!pose || !is_inside(pose->position) || working_mode(parameters, *pose) != working_mode(parameters, *home))
+        continue;
+      const auto map = jacobian(parameters, *pose);
+      const double fading = fading_by_condition(Force_limits(), translation_conditioning(*map).condition);
+      for (const Vector3d& counts : {Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(1, -1, 0), Vector3d(1, 1, 1),
+                                     Vector3d(1, 1, -1), Vector3d(1, -1, 1), Vector3d(-1, 1, 1)})
+        if (const auto next = forward_kinematics(
+                parameters, Vector3d(pose->theta + parameters.encoder_step() * counts), *pose))
+          most = std::fmax(most, fading * calm * (next->position - pose->position).norm());
+    }
+    BOOST_TEST_MESSAGE("counts change the force by at most " << most << " N at " << calm << " N/m");
+    BOOST_TEST(most <= largest_restlessness * 1.001); // the Jacobian turns by some 1e-4 in a count
+    BOOST_TEST(most >= largest_restlessness / 2);
+    BOOST_TEST(calm_stiffness(worst.count(device(form, 0.005)), 1) == std::numeric_limits<double>::infinity());
+    BOOST_TEST(calm_stiffness(worst.count(parameters), 1) < calm - 600); // 2 pi 100 Hz
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_device_within_the_passive_limit_gives_no_energy) {

@@ -17,6 +17,23 @@ using namespace haptic_rendering_tests;
 
 namespace {
 
+BOOST_AUTO_TEST_CASE(the_friction_of_a_joint_that_is_known_by_counts_is_that_of_its_rate) {
+  constexpr double tick = 1e-4, friction = 0.005, count = 1.53e-4;
+  constexpr int ticks = 20000;
+  for (const double rate : {0.1, 1.0, 10.0}) { // rad/s: a count in 15 ticks, two in three, some in each
+    Passivity_observer observer(0, tick, friction, count);
+    double seen = 0;
+    for (int k = 1; k <= ticks; ++k) {
+      const double now = count * std::round(rate * tick * k / count);
+      observer.add_step(Vector3d(0, now - seen, 0), 0, Vector3d::Zero());
+      seen = now;
+    }
+    const double taken = friction * rate * rate * tick * ticks;
+    BOOST_TEST(observer.dissipated() / taken > 0.95);
+    BOOST_TEST(observer.dissipated() / taken < 1.15); // two counts in three ticks: of 1 and 2 ticks in turn
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_observer_counts_the_true_energy_of_the_port) {
   const Hand_path path(
       {{0, {0, 0, 0.132}, 0}, {0.2, {0.01, 0, 0.140}, 0}, {0.5, {-0.01, 0.01, 0.12}, 0}, {1, {0, 0, 0.13}, 0}});

@@ -70,11 +70,13 @@ template <class S> S angular_distance(const Link_angles<S>& a, const Link_angles
   return largest_magnitude(difference);
 }
 
-/// Modes closer than this are one. Two modes about a fold are farther apart than the rounding of either while their
-/// distance exceeds the square root of the machine precision.
+/// Modes closer than this are one, rad. About a fold the closure, whose terms are of size one, grows with the square of
+/// the way to it: rounded by the machine precision, its square root is what places either of two modes.
 template <class S> S mode_separation() {
   using std::sqrt;
-  return S(4) * sqrt(std::numeric_limits<S>::epsilon());
+  const S place_of_a_mode = sqrt(std::numeric_limits<S>::epsilon()); // rad, to either side
+  const S uncertain = S(2) * place_of_a_mode;                        // of two modes together
+  return S(2) * uncertain;                                           // beyond it they are apart for certain
 }
 
 /// The three closure equations for given elbows. Equation k is that of the two legs other than k.

@@ -60,7 +60,7 @@ public:
   /// Forces begin at 0 and come back slowly.
   void restart() { chain_.restart(), last_ = Rendered_force(); }
 
-  double ramp() const { return chain_.ramp(); }                  ///< share of the force since the last start, 0 to 1
+  double next_ramp() const { return chain_.next_ramp(); } ///< share of the force in the next tick
   const Force_limits& limits() const { return chain_.limits(); } ///< those that were given
 
 private:

@@ -24,6 +24,17 @@ inline double passive_stiffness(double friction, double damping, double tick, do
   return 2 * (friction - std::abs(damping)) / (tick * (1 + 2 * delay));
 }
 
+/// N: as much of the force may come and go under a hand that holds still, because the place is known by counts only.
+constexpr double largest_restlessness = 0.1;
+
+/// The largest stiffness, N/m, at which counts do no more than that: a handle at rest may be between two counts along
+/// all three axes or joints at once, and the damper's velocity, behind its low-pass of f Hz, jumps with it by 2 pi f a
+/// count. Infinite for exact places.
+/// \param count way of the handle in one of them, m \param damping b, N s/m
+inline double calm_stiffness(double count, double damping) {
+  return largest_restlessness / (std::sqrt(3.0) * count) - Velocity_estimate::change_of_way(std::abs(damping));
+}
+
 /// Where the device gives least friction, or has least mass, at the handle, for what is rendered there.
 struct Worst_pose {
   Device_pose<double> pose; ///< of no meaning unless `is_found`
@@ -35,6 +46,10 @@ struct Worst_pose {
   /// b_phys at the handle, N s/m, in units of what is rendered.
   double friction(const Device_parameters<double>& parameters) const {
     return is_found ? parameters.viscous_friction() / (greatest * greatest * fading) : 0;
+  }
+  /// The most, m, that one count of an encoder may be worth at the handle, in units of what is rendered.
+  double count(const Device_parameters<double>& parameters) const {
+    return is_found ? parameters.encoder_step() * greatest * std::sqrt(fading) : 0;
   }
   /// The least apparent mass at the handle, kg, in units of what is rendered.
   double apparent_mass(const Device_parameters<double>& parameters) const {
@@ -145,6 +160,7 @@ Worst_pose lightest_pose(const Device_parameters<double>& parameters, const Forc
 struct Passivity_limits {
   double friction = 0;           ///< b_phys at the worst pose, N s/m
   double passive_stiffness = 0;  ///< k_p at the damping asked for, N/m; < 0 where that alone is too much
+  double calm_stiffness = std::numeric_limits<double>::infinity(); ///< beyond it counts of the encoders are felt, N/m
   double apparent_mass = 0;      ///< the least in the workspace, kg
   double largest_damping = 0;    ///< b that may be asked for, N s/m
   double largest_mass = 0;       ///< virtual mass that may be asked for, kg
@@ -156,16 +172,20 @@ struct Passivity_limits {
   double delay = 0;   ///< for which they were made, ticks
   double cutoff = Acceleration_estimate::default_cutoff; ///< of the acceleration, Hz
 
-  double largest_stiffness() const { return std::fmax(passive_stiffness, 0.0); } ///< N/m; never < 0
+  /// Both passive and calm, N/m; never < 0.
+  double largest_stiffness() const { return std::fmax(std::fmin(passive_stiffness, calm_stiffness), 0.0); }
   /// Without a damper and without a hand a handle rings on a stiffer wall: half of the largest, N/m.
   double recommended_stiffness() const { return 0.5 * largest_stiffness(); }
   /// Of the passivity controller where nothing else is asked for, N s/m: half of the largest.
   double default_controller() const { return 0.5 * largest_controller; }
-  /// Whether the coupling can give no energy to any hand. \pre the damping is the one that the limits were made for
+  /// Whether the coupling can give no energy to any hand, and is calm. \pre the damping is the one that the limits were
+  /// made for
   bool permits(const Virtual_coupling& coupling) const { return coupling.stiffness <= largest_stiffness(); }
-  /// Whether they were made for these, N s/m, s, ticks, Hz, and a device with the Jacobian and friction of this one.
+  /// Whether they were made for these, N s/m, s, ticks, Hz, and a device with the Jacobian, friction and encoders of
+  /// this one.
   bool are_for(const Device_parameters<double>& device, double b, double seconds, double ticks, double hertz) const {
-    if (damping != b || tick != seconds || delay != ticks || cutoff != hertz || worst.friction(device) != friction)
+    if (damping != b || tick != seconds || delay != ticks || cutoff != hertz || worst.friction(device) != friction ||
+        haptic_sculpt::calm_stiffness(worst.count(device), b) != calm_stiffness)
       return false;
     const auto map = worst.is_found ? jacobian(device, worst.pose) : Outcome<Device_jacobian<double>>();
     return !worst.is_found || (map && translation_conditioning(*map).greatest == worst.greatest);
@@ -186,6 +206,7 @@ inline Passivity_limits passivity_limits(const Device_parameters<double>& parame
   found.worst = worst_pose(parameters, limits, is_in_scene);
   found.friction = found.worst.friction(parameters);
   found.passive_stiffness = passive_stiffness(found.friction, damping, tick, delay);
+  found.calm_stiffness = calm_stiffness(found.worst.count(parameters), damping);
   found.lightest = lightest_pose(parameters, limits, is_in_scene);
   found.apparent_mass = found.lightest.apparent_mass(parameters);
   found.largest_mass = stable_share * found.apparent_mass * critical_mass_ratio(tick, delay, cutoff);

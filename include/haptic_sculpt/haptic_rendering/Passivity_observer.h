@@ -3,6 +3,9 @@
 
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
 
+#include <array>
+#include <cstdint>
+
 namespace haptic_sculpt {
 
 /// Counts the energy that the rendered force takes from the hand, at the joints: minus the sum of the torque in force
@@ -21,7 +24,15 @@ public:
   /// \param stiffness N/m, of the credit for encoders \param handle_step the handle's way, m
   void add_step(const Eigen::Vector3d& joint_step, double stiffness, const Eigen::Vector3d& handle_step) {
     port_ -= delay_.mean().dot(joint_step);
-    dissipated_ += friction_ * joint_step.squaredNorm() / tick_;
+    // A joint known by counts has moved ever since the last one: as if it had moved in this tick alone, at a high rate,
+    // friction would seem to take many times what it takes.
+    for (int joint = 0; joint < 3; ++joint) {
+      ++since_[joint];
+      if (const double step = joint_step[joint]; step != 0) {
+        dissipated_ += friction_ * step * step / (tick_ * static_cast<double>(since_[joint]));
+        since_[joint] = 0;
+      }
+    }
     // A spring that sees steps is pulled half a step late on the way in and on the way out: it seems to give energy.
     if (encoder_step_ > 0 && delay_.mean().squaredNorm() > 0)
       credit_ += stiffness * handle_step.squaredNorm() / 12;
@@ -54,6 +65,7 @@ private:
   Torque_delay<double> delay_;
   double tick_, friction_, encoder_step_;
   double port_ = 0, credit_ = 0, dissipated_ = 0, least_ = 0, forgotten_ = 0;
+  std::array<std::uint64_t, 3> since_{}; ///< ticks, of each joint's last step
 };
 
 } // namespace haptic_sculpt

@@ -10,7 +10,7 @@ namespace haptic_sculpt {
 /// How a loop on a device of pose and force runs.
 struct Pose_loop_parameters {
   double tick = 0.001;       ///< s
-  Virtual_coupling coupling; ///< its stiffness and that of the snap together at most passive_stiffness()
+  Virtual_coupling coupling; ///< its stiffness and that of the snap together at most passive_ and calm_stiffness()
   Vertex_snap snap;          ///< of a hand that holds no vertex; off by default
   Force_limits limits;       ///< of which cond(J) plays no role
   Pose_device device;        ///< what it does at its handle
@@ -34,6 +34,10 @@ struct Pose_loop_parameters {
   /// 2 (friction - |b|) / (T (1 + 2 d)), N/m: up to it no hand can be given energy. Infinite without force.
   double passive_stiffness() const {
     return haptic_sculpt::passive_stiffness(device.friction, coupling.damping, tick, delay);
+  }
+  /// Beyond it steps of the position are felt, N/m. Infinite without force, or where it is exact.
+  double calm_stiffness() const {
+    return haptic_sculpt::calm_stiffness(has_force() ? device.resolution : 0, coupling.damping);
   }
   /// The damping of a passivity controller that may be asked for, N s/m. 0 without force.
   double largest_controller() const {
@@ -81,6 +85,7 @@ public:
       return;
     Passivity_limits limits;
     limits.friction = parameters.device.friction, limits.passive_stiffness = parameters.passive_stiffness();
+    limits.calm_stiffness = parameters.calm_stiffness();
     limits.largest_damping = std::fmin(limits.friction, parameters.device.mass *
                                                             largest_damping_rate(parameters.tick, parameters.delay));
     limits.largest_controller = parameters.largest_controller(), limits.largest_mass = parameters.largest_mass();

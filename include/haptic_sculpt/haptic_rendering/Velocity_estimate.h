@@ -16,6 +16,8 @@ namespace haptic_sculpt {
 class Velocity_estimate {
 public:
   static constexpr double default_cutoff = 100; ///< Hz
+  /// What a damper b behind the low-pass makes of a step at most, N/m: 2 pi f b. \param damping b, N s/m
+  static double change_of_way(double damping) { return 2 * 3.14159265358979323846 * default_cutoff * damping; }
 
   /// \param tick s \param cutoff of the low-pass, Hz
   explicit Velocity_estimate(double tick, double cutoff = default_cutoff)

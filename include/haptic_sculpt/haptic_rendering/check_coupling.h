@@ -6,7 +6,8 @@
 
 namespace haptic_sculpt {
 
-/// Thrown where a coupling is not passive on a device, or something else too strong for it; says what would serve.
+/// Thrown where a coupling is not passive or not calm on a device, or something else too strong for it; says what would
+/// serve.
 class Unstable_coupling : public Error {
 public:
   /// Takes the whole message.
@@ -17,10 +18,12 @@ public:
 inline void check_coupling(const Virtual_coupling& coupling, const Passivity_limits& limits) {
   if (limits.permits(coupling))
     return;
-  throw Unstable_coupling("the stiffness " + internal::number(coupling.stiffness) +
-                          " N/m is not passive on this device with the damping " + internal::number(coupling.damping) +
-                          " N s/m: that ends at " + internal::number(limits.largest_stiffness()) +
-                          "; ask for less, for a higher rate or for a shorter delay");
+  const bool is_passive = coupling.stiffness <= limits.passive_stiffness;
+  throw Unstable_coupling("the stiffness " + internal::number(coupling.stiffness) + " N/m is not " +
+                          (is_passive ? "calm" : "passive") + " on this device with the damping " +
+                          internal::number(coupling.damping) + " N s/m: that ends at " +
+                          internal::number(limits.largest_stiffness()) + "; ask for less, for " +
+                          (is_passive ? "finer encoders" : "a higher rate or for a shorter delay"));
 }
 
 /// \throw Unstable_coupling for a damping, virtual mass or controller that is larger than what serves

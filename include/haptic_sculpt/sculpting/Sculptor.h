@@ -222,9 +222,9 @@ public:
   void set_history_limit(const History_limit& limit) { guarded_.whole_editor().history().set_limit(limit); }
 
   /// Makes room, in the mesh too: after it this many edits (flips, collapses, creations, removals) and this many moves
-  /// allocate nothing, nor do undo and redo, as long as no vertex has more than 28 neighbours, no star more than 512
-  /// faces about it, and no decision takes rational numbers; with the Box_tree_broad_phase. A slide's lists are warm
-  /// after a few drags. Cost: linear in the mesh.
+  /// allocate nothing, nor do undo and redo, as long as no vertex has more neighbours than any has now, or 28, no star
+  /// more faces about it than 2,048 and twice as many, and no decision takes rational numbers; with the
+  /// Box_tree_broad_phase. A slide's lists are warm after a few drags. Cost: linear in the mesh.
   void reserve(std::size_t edits, std::size_t moves) { guarded_.reserve(edits, moves); }
   ///@}
 

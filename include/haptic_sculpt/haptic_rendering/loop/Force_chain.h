@@ -23,7 +23,7 @@ public:
 
   /// The force of this tick, N; once a tick. \param wanted N \param way of the handle since the last tick, m
   Eigen::Vector3d follow(const Eigen::Vector3d& wanted, double way) {
-    ramp_ = std::fmin(1.0, ramp_ + tick_ / limits_.ramp_time);
+    ramp_ = next_ramp();
     const double change = limits_.slew * tick_ + change_of_way_ * way;
     const Eigen::Vector3d& followed = slew_.follow(clamped(wanted, limits_.largest), change);
     return ramp_ * clamped(followed + burst_.next(), limits_.largest);
@@ -37,7 +37,8 @@ public:
   /// Forces begin at 0 and come back slowly.
   void restart() { ramp_ = 0, fade_.reset(), slew_.reset(), burst_.cut(); }
 
-  double ramp() const { return ramp_; }                  ///< share of the force since the last start, 0 to 1
+  /// The share of the force in the next tick: 0 to 1, from the last start on.
+  double next_ramp() const { return std::fmin(1.0, ramp_ + tick_ / limits_.ramp_time); }
   const Force_limits& limits() const { return limits_; } ///< those that were given
   double tick() const { return tick_; }                  ///< s
 
@@ -50,7 +51,7 @@ private:
   double change_of_way_; ///< N/m
 
   static double change_of_way(const Virtual_coupling& coupling) {
-    return coupling.stiffness + 2 * 3.14159265358979323846 * Velocity_estimate::default_cutoff * coupling.damping;
+    return coupling.stiffness + Velocity_estimate::change_of_way(coupling.damping);
   }
   static double checked(double tick) {
     internal::require_number("the tick of a chain of forces", "s", tick, least_tick, most_tick);

@@ -27,7 +27,9 @@ struct Haptic_parameters {
   bool follows_pose = true;
   double reach = 0.001;   ///< of a grab, m in the device
   std::size_t work_limit = 400;   ///< pairs a drag may decide (doc/use/work.md)
-  std::size_t work_of_a_face = 4; ///< pairs more for each face about the vertex in hand
+  /// Pairs more for each face about the vertex in hand, up to most_work_of_faces or one a face.
+  std::size_t work_of_a_face = 4;
+  static constexpr std::size_t most_work_of_faces = 1024; ///< pairs; some 0.3 ms
 
   /// The coupling, as stiff as it and the snap are together: what has to be passive.
   Virtual_coupling stiffest() const { return {coupling.stiffness + snap.stiffness(), coupling.damping}; }

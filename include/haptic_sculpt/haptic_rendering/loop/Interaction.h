@@ -55,7 +55,9 @@ public:
   /// The force of a touch, after follow().
   void render(const Touch& touch) {
     const bool pulls = !touch.is_free && !touch.is_starved;
-    spring_ = pulls ? Eigen::Vector3d(coupling_.stiffness * touch.way) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    const double share = paid_share(touch);
+    spring_ = pulls ? Eigen::Vector3d(share * coupling_.stiffness * touch.way)
+                    : Eigen::Vector3d(Eigen::Vector3d::Zero());
     wanted_ = spring_ + touch.snap + coupling_.damping_force(touch.span, side_.velocity(), !pulls);
     if (!touch.is_starved) // what the spring holds is not known then
       observer_.forget_beyond(reserve_ + (pulls ? 0.5 * stiffness_ * touch.way.squaredNorm() : 0));
@@ -95,7 +97,7 @@ public:
     if (watchdog_.fault() == Loop_fault::energy)
       observer_.restart();
     watchdog_.reset(), side_.restart(), virtual_mass_.restart();
-    spring_.setZero(), rendered_ = Rendered_force();
+    spring_.setZero(), rendered_ = Rendered_force(), is_paid_ = false;
   }
 
 private:
@@ -110,6 +112,21 @@ private:
   Eigen::Vector3d spring_ = Eigen::Vector3d::Zero(), wanted_ = Eigen::Vector3d::Zero();
   Rendered_force rendered_;
   double elapsed_ = 0;
+  bool is_paid_ = false; ///< the spring has been whole ever since nothing was touched
+
+  /// The share of the spring that is rendered. Where it gets stiffer while a hand presses it, under a ramp, or is back
+  /// after work was cut short, nobody has put in what it holds: it holds no more than hand and friction have paid then,
+  /// until nothing is touched.
+  double paid_share(const Touch& touch) {
+    if (touch.is_starved || is_paid_ || !side_.has_force()) {
+      is_paid_ = !touch.is_starved;
+      return 1;
+    }
+    const double ramp = side_.next_ramp(), paid = observer_.balance(),                     // J
+                 held = 0.5 * ramp * coupling_.stiffness * touch.way.squaredNorm(); // J
+    is_paid_ = ramp == 1 && touch.is_free;
+    return touch.is_free || held <= paid ? 1 : paid > 0 ? paid / held : 0;
+  }
 
   /// Virtual mass, snap and burst hold some mJ; and where a proxy falls, the slew limit leaves a force for a while, in
   /// which a hand at 0.3 m/s is given half of what is taken here: 13 mJ by default.

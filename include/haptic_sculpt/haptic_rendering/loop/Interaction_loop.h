@@ -4,6 +4,7 @@
 #include <haptic_sculpt/haptic_rendering/loop/Interaction.h>
 #include <haptic_sculpt/haptic_rendering/Tool.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -161,11 +162,13 @@ private:
                         : Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
 
-  /// Of the drag of a tick: to decide whether a step of a vertex is free takes some of each face about it. One that
-  /// takes another vertex in hand does not move it.
+  /// Of the drag of a tick: to decide whether a step of a vertex is free takes some of each face about it, one far from
+  /// others. A tick that takes another vertex in hand does not move it.
   std::size_t work() const {
     const Vertex_index v = tool_.vertex();
-    return parameters_.work_limit + (v.is_valid() ? parameters_.work_of_a_face * sculptor_->mesh().degree(v) : 0);
+    const std::size_t faces = v.is_valid() ? sculptor_->mesh().degree(v) : 0;
+    return parameters_.work_limit +
+           std::min(parameters_.work_of_a_face * faces, std::max(faces, Haptic_parameters::most_work_of_faces));
   }
 
   /// The one place where exceptions end: each becomes a fault.

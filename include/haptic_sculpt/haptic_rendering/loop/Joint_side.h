@@ -36,6 +36,7 @@ public:
   const Rendered_force& render(const Eigen::Vector3d& wanted, double way) {
     return renderer_.render(handle_, wanted, way);
   }
+  double next_ramp() const { return renderer_.next_ramp(); } ///< share of the force since the start, in the next tick
   Rendered_force fade_out(double elapsed) { return renderer_.fade_out(elapsed); } ///< after a fault
   bool has_faded() const { return renderer_.has_faded(); }                        ///< to nothing
   /// A refused edit is felt along a direction.

@@ -51,6 +51,7 @@ public:
       last_ = Rendered_force(), last_.is_finite = false;
     return last_;
   }
+  double next_ramp() const { return chain_.next_ramp(); } ///< share of the force since the start, in the next tick
   /// After a fault.
   Rendered_force fade_out(double elapsed) {
     Rendered_force faded = last_;

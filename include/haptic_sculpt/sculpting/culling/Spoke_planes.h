@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/sculpting/culling/Swept_fan.h>
 
+#include <algorithm>
 
 namespace haptic_sculpt::internal {
 
@@ -53,6 +54,11 @@ public:
     }
   }
 
+  /// Makes room for this many points.
+  void reserve(std::size_t points) {
+    for (std::vector<double>& heights : heights_)
+      heights.resize(std::max(heights.size(), points));
+  }
   /// Finds the sides of all points.
   void compare(Outcodes& points) {
     points.clear();

@@ -57,7 +57,7 @@ public:
     list_.reserve(valence, faces);
     candidates_.reserve(faces);
     whole_candidates_.reserve(faces);
-    runs_->reserve(valence + 3 * faces, 3 * faces);
+    runs_->reserve(valence, valence + 3 * faces, 3 * faces);
   }
 
   /// Forget the candidates: an element outside the star has changed.
@@ -240,15 +240,16 @@ private:
 
   /// Makes the list complete for a motion that is not long, and `room` around it. Those of one grab share a list. Where
   /// more is in the room than half of the work left the list is for the motion alone, and the next room is smaller: or
-  /// a large star beside a fine surface would never move.
+  /// a large star beside a fine surface would never move. A face beyond each of the link's edges is about any motion:
+  /// work for these is not risked.
   void look_around(const Coordinates& source, const Coordinates& target, double room = 0) {
     const Box_3 motion = Box_3(source).include(target);
     if (list_.region().contains(grown(motion, room_share_ * room)))
       return;
     const double margin = room_share_ * (list_.faces().empty() ? first_margin : region_margin) * link_extent();
     const Box_3 region = grown(motion, margin);
-    const std::size_t portion = work_->left() / 2;
-    const bool has_room = margin > 0 && look_at(anywhere_in(region), portion);
+    const std::size_t portion = (work_->left() - std::min(work_->left(), star_.valence())) / 2;
+    const bool has_room = margin > 0 && portion > 0 && look_at(anywhere_in(region), portion);
     if (!has_room) {
       room_share_ = room_share_ > least_room ? room_share_ / 8 : 0;
       look_at(anywhere_in(motion));

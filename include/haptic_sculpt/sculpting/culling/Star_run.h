@@ -17,6 +17,12 @@ struct Near_candidates {
   std::vector<Edge> edges;
   Outcodes outcodes;
   std::vector<std::uint32_t> positions; ///< of the points' vertices, in the list of candidates
+
+  void reserve(std::size_t most_points, std::size_t most_edges) {
+    edges.reserve(most_edges);
+    outcodes.reserve(most_points);
+    positions.reserve(most_points);
+  }
 };
 
 /// Faces [first, last) of a star and the candidates near them: pairs of a moving and a still feature that may touch,

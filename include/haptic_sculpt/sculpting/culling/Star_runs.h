@@ -38,13 +38,20 @@ public:
   /// Stars of up to this many faces are not divided.
   static constexpr std::size_t most_undivided = 2 * Separating_planes::most_faces;
 
-  /// Makes room for such a star and this many candidates.
-  void reserve(std::size_t vertices, std::size_t edges) {
-    Near_candidates& all = levels_[0].near;
-    all.edges.reserve(edges);
-    all.outcodes.reserve(vertices);
-    all.positions.reserve(vertices);
-    spokes_.reserve(most_undivided);
+  /// Makes room for stars of at most this many faces, and this many candidates.
+  void reserve(std::size_t valence, std::size_t vertices, std::size_t edges) {
+    spokes_.reserve(valence);
+    levels_[0].near.reserve(vertices, edges);
+    if (valence <= most_undivided)
+      return;
+    for (std::size_t depth = 0, faces = valence; faces > most_faces; ++depth) {
+      const std::size_t parts = parts_of(faces, depth);
+      make_level(depth + 1, vertices, edges);
+      for (std::size_t part = 0; part < parts; ++part)
+        levels_[depth].parts[part].make_room(vertices, edges);
+      faces = (faces + parts - 1) / parts;
+    }
+    spoke_planes_.reserve(vertices);
   }
 
 private:
@@ -61,6 +68,11 @@ private:
     struct Part {
       std::vector<std::uint32_t> edges, points; ///< which of near's, as many as are counted
       std::size_t number_of_edges, number_of_points;
+
+      void make_room(std::size_t most_points, std::size_t most_edges) {
+        edges.resize(std::max(edges.size(), most_edges));
+        points.resize(std::max(points.size(), most_points));
+      }
     };
     std::array<Part, Swept_fan::most_fans> parts;
   };
@@ -101,12 +113,11 @@ private:
   /// Parts are made as even as possible, and parts of them, until each is a run.
   template <class Visit>
   bool divide(const Scene& scene, std::size_t first, std::size_t last, std::size_t depth, const Visit& visit) {
-    const std::size_t faces = last - first, runs = (faces + most_faces - 1) / most_faces;
-    if (runs == 1)
+    const std::size_t faces = last - first;
+    if (faces <= most_faces)
       return visit(is_long(scene, first) ? run_of_few(scene, first, last, depth)
                                          : run_of_many(scene, first, last, depth));
-    const std::size_t few = depth == 0 ? std::max(least_parts, runs) : runs,
-                      parts = runs > Swept_fan::most_fans ? usual_parts : few;
+    const std::size_t parts = parts_of(faces, depth);
     const auto begin = [&](std::size_t part) { return first + faces * part / parts; };
     find_near(scene, parts, begin, depth);
     for (std::size_t part = 0; part < parts; ++part) {
@@ -115,6 +126,22 @@ private:
         return false;
     }
     return true;
+  }
+
+  /// Into how many parts faces are divided. \pre they are more than a run has
+  static std::size_t parts_of(std::size_t faces, std::size_t depth) {
+    const std::size_t runs = (faces + most_faces - 1) / most_faces;
+    return runs > Swept_fan::most_fans ? usual_parts : depth == 0 ? std::max(least_parts, runs) : runs;
+  }
+
+  /// Makes room to copy candidates to this depth.
+  void make_level(std::size_t depth, std::size_t points, std::size_t edges) {
+    if (levels_.size() <= depth)
+      levels_.resize(depth + 1);
+    levels_[depth].near.reserve(points, edges);
+    kept_.reserve(points);
+    if (copies_.size() < points)
+      copies_.resize(points, nowhere);
   }
 
   /// Whether the motion is longer than a spoke: what is swept over is a cone then, which planes to its tip fit best.
@@ -135,10 +162,7 @@ private:
       Swept_fan(way_of(scene), spokes_, begin(k), begin(k + 1), reach_, scene.margin * unit_, ends)
           .compare(outcodes, k);
       typename Level::Part& part = level.parts[k];
-      if (part.edges.size() < edges.size())
-        part.edges.resize(edges.size());
-      if (part.points.size() < outcodes.size())
-        part.points.resize(outcodes.size());
+      part.make_room(outcodes.size(), edges.size());
       part.number_of_edges = part.number_of_points = 0;
     }
     const unsigned all = (1u << parts) - 1;
@@ -158,18 +182,11 @@ private:
 
   /// Copies the candidates near this part to the next depth.
   void keep_near(std::size_t which, std::size_t depth) {
-    if (levels_.size() <= depth + 1)
-      levels_.resize(depth + 2);
+    // Whatever is near another time, nothing is allocated then.
+    make_level(depth + 1, levels_[depth].near.outcodes.size(), levels_[depth].near.edges.size());
     const Near_candidates& from = levels_[depth].near;
     Near_candidates& near = levels_[depth + 1].near;
     const typename Level::Part& part = levels_[depth].parts[which];
-    // Whatever is near another time, nothing is allocated then.
-    near.edges.reserve(from.edges.size());
-    near.outcodes.reserve(from.outcodes.size());
-    near.positions.reserve(from.outcodes.size());
-    kept_.reserve(from.outcodes.size());
-    if (copies_.size() < from.outcodes.size())
-      copies_.resize(from.outcodes.size(), nowhere);
     kept_.assign(part.points.begin(), part.points.begin() + part.number_of_points);
     for (std::uint32_t k = 0; k < kept_.size(); ++k)
       copies_[kept_[k]] = k;

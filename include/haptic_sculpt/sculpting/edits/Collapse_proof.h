@@ -55,7 +55,7 @@ public:
     star_.reserve(usual_valence);
     candidates_.reserve(usual_candidates);
     list_.reserve(usual_valence, usual_candidates);
-    proof_.reserve(usual_valence + 3 * usual_candidates, 3 * usual_candidates);
+    proof_.reserve(usual_valence, usual_valence + 3 * usual_candidates, 3 * usual_candidates);
   }
 
 private:

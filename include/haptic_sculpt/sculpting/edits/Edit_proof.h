@@ -130,7 +130,9 @@ public:
   }
 
   /// Makes room for this many candidates of a collapse.
-  void reserve(std::size_t vertices, std::size_t edges) { runs_.reserve(vertices, edges); }
+  void reserve(std::size_t valence, std::size_t vertices, std::size_t edges) {
+    runs_.reserve(valence, vertices, edges);
+  }
 
 private:
   Counters* counters_;

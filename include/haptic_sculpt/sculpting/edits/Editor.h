@@ -44,15 +44,16 @@ public:
   /// Many drags may follow: what they need for undo is allocated now.
   void prepare_for_moves() { history_.make_room(); }
 
-  /// This many edits and moves follow: what they need is allocated now, for stars and surroundings of usual size.
-  void reserve(std::size_t edits, std::size_t moves) {
+  /// This many edits and moves follow: what they need is allocated now, for stars of `valence` faces and this many
+  /// candidates about them.
+  void reserve(std::size_t edits, std::size_t moves, std::size_t valence, std::size_t candidates) {
     history_.reserve(edits, moves, ids().size() + edits);
-    changes_.reserve(edits, usual_valence);
-    creation_.reserve(usual_candidates);
-    collapse_.reserve(usual_valence, usual_candidates);
-    flip_.reserve(usual_candidates);
-    order_.reserve(usual_valence);
-    change_.around.reserve(usual_valence);
+    changes_.reserve(edits, valence);
+    creation_.reserve(candidates);
+    collapse_.reserve(valence, candidates);
+    flip_.reserve(candidates);
+    order_.reserve(valence);
+    change_.around.reserve(valence);
   }
 
   /// Room to note a drag, to be made before it is. \throw std::bad_alloc
@@ -163,9 +164,6 @@ public:
       return Halfedge_index();
     return mesh_->halfedge(v, w);
   }
-
-  /// reserve() makes room for stars of this many faces, and for this many faces about them.
-  static constexpr std::size_t usual_valence = Star_runs<Mesh>::most_undivided, usual_candidates = 512;
 
 private:
   Mesh* mesh_;

@@ -291,10 +291,15 @@ public:
 
   void reserve(std::size_t edits, std::size_t moves) {
     check_is_whole();
-    editor_.reserve(edits, moves);
-    hand_.reserve(editor_.usual_valence, editor_.usual_candidates);
-    probe_.reserve(editor_.usual_valence, editor_.usual_candidates);
-    faces_near_probe_.reserve(editor_.usual_candidates);
+    std::size_t valence = Star_runs<Mesh>::most_undivided;
+    for (const Vertex_index v : mesh_->vertices())
+      valence = std::max(valence, static_cast<std::size_t>(mesh_->degree(v)));
+    // More than a drag of default bound looks up, and than an edit of a vertex drawn far out as a rule.
+    const std::size_t candidates = 2048 + 2 * valence;
+    editor_.reserve(edits, moves, valence, candidates);
+    hand_.reserve(valence, candidates);
+    probe_.reserve(valence, candidates);
+    faces_near_probe_.reserve(candidates);
   }
 
   void check_unchanged() const {

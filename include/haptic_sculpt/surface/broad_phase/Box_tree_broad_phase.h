@@ -85,7 +85,7 @@ public:
   /// Goes on with that for a level, whose nodes have come by now.
   void fetch_on() {
     if (is_worth_fetching())
-      go_down([this](const Node& node) { return node.meeting(ahead_); });
+      go_down([this](const Node& node) { return node.meeting(ahead_); }, end_);
   }
 
   /// Refits the boxes above. \pre each of the faces is known: it was there at the construction or has been inserted.
@@ -167,8 +167,8 @@ public:
     if (insertions != 0)
       overflow_.reserve(insertions);
     nearest_.reserve(std::size_t{width} * (most_levels + 1));
-    if (queue_.size() < usual_queue)
-      queue_.resize(usual_queue);
+    if (queue_.size() < largest_queue)
+      queue_.resize(largest_queue);
   }
 
   /// Bytes held, capacity included.
@@ -192,7 +192,9 @@ private:
   /// most_ahead nothing is fetched: what was guessed is much too large.
   static constexpr std::uint32_t nodes_in_cache = 1024, most_ahead = 64;
 
-  static constexpr std::size_t usual_queue = 8192; ///< room is made for this many
+  static constexpr std::size_t most_at_once = 128; ///< nodes of a level, in a query
+  /// Of a query at most, each portion's children on every level.
+  static constexpr std::size_t largest_queue = std::size_t{most_levels} * width * most_at_once + width;
   static constexpr std::size_t slots_a_part = 1024 * width; ///< that threads work on; no two share a node
   static constexpr std::size_t most_touched = 256; ///< before they are refitted: there is room for this many
 
@@ -322,18 +324,35 @@ private:
   template <class Passing>
   bool descend(const Passing& passing, std::vector<Face_index>& faces, std::size_t most = unlimited) {
     const std::size_t first = faces.size();
-    const auto found = [&faces](std::uint32_t f) { faces.push_back(Face_index(f)); };
+    const auto is_whole = [&] { return faces.size() - first <= most; };
     to_root();
-    while (level_ > 0)
-      go_down(passing);
+    if (!visit_below(passing, faces, is_whole))
+      return false;
+    overflow_.visit(passing, [&faces](std::uint32_t f) { faces.push_back(Face_index(f)); });
+    return is_whole();
+  }
+
+  /// What is below the nodes at hand, a portion of them after the other: the queue stays short, and where too much
+  /// passes that is known before all nodes of a level have been read.
+  template <class Passing, class Is_whole>
+  bool visit_below(const Passing& passing, std::vector<Face_index>& faces, const Is_whole& is_whole) {
+    while (level_ > 0 && begin_ != end_) {
+      const std::size_t end = end_, last = std::min(end, begin_ + most_at_once);
+      const int level = level_;
+      go_down(passing, last);
+      if (last == end)
+        continue;
+      if (!visit_below(passing, faces, is_whole))
+        return false;
+      begin_ = last, end_ = end, level_ = level;
+    }
     for (; begin_ != end_; ++begin_) {
       for (unsigned mask = passing(nodes_[level_begin_[0] + queue_[begin_]]); mask != 0; mask &= mask - 1)
-        found(face_of_slot_[std::size_t{queue_[begin_]} * width + internal::lowest_bit(mask)]);
-      if (faces.size() - first > most)
+        faces.push_back(Face_index(face_of_slot_[std::size_t{queue_[begin_]} * width + internal::lowest_bit(mask)]));
+      if (!is_whole())
         return false;
     }
-    overflow_.visit(passing, found);
-    return faces.size() - first <= most;
+    return true;
   }
 
   void to_root() {
@@ -345,16 +364,16 @@ private:
 
   bool is_worth_fetching() const { return level_ > 0 && end_ - begin_ <= most_ahead; }
 
-  /// Puts the children that pass in the place of the nodes of a level.
+  /// Puts the children that pass of the nodes up to `last` behind all of them, and has them at hand.
   ///
   /// All are asked for before the first is read, so that memory is waited for once a level; on the way to one leaf
   /// after the other it would be waited for on each.
   template <class Passing>
-  void go_down(const Passing& passing) {
+  void go_down(const Passing& passing, std::size_t last) {
     const Node* const nodes = &nodes_[level_begin_[level_]];
     const Node* const children = &nodes_[level_begin_[level_ - 1]];
     std::size_t count = end_;
-    for (; begin_ != end_; ++begin_) {
+    for (; begin_ != last; ++begin_) {
       if (queue_.size() < count + width)
         queue_.resize(2 * (count + width));
       const std::uint32_t first = queue_[begin_] * width;
@@ -366,7 +385,7 @@ private:
         queue_[count++] = child;
       }
     }
-    end_ = count;
+    begin_ = end_, end_ = count;
     --level_;
   }
 };
