@@ -54,6 +54,24 @@ std::vector<Corner> mesh_corners(const Scene& scene, const Camera& camera) {
   return result;
 }
 
+/// By how many pixels the viewport is larger than the picture on each side: what leaves the picture there need not be
+/// cut off, which software is slow at.
+std::array<int, 2> margins(const Camera& camera) {
+  std::array<int, 2> largest{};
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, largest.data());
+  return {std::min(camera.width(), (largest[0] - camera.width()) / 2),
+          std::min(camera.height(), (largest[1] - camera.height()) / 2)};
+}
+
+/// That of the camera, for such a viewport.
+Eigen::Matrix4f projection_of(const Camera& camera) {
+  const auto [beside, above] = margins(camera);
+  Eigen::Matrix4d projection = camera.projection();
+  projection.row(0) *= double(camera.width()) / (camera.width() + 2 * beside);
+  projection.row(1) *= double(camera.height()) / (camera.height() + 2 * above);
+  return projection.cast<float>();
+}
+
 } // namespace
 
 std::array<Corner, 3> corners_of(const Camera& camera, const std::array<Eigen::Vector3d, 3>& points,
@@ -101,15 +119,15 @@ void Mesh_view::set_marks(const Scene& scene, const Camera& camera) {
 
 void Mesh_view::use(unsigned program, const Camera& camera) const {
   glUseProgram(program);
-  glUniformMatrix4fv(glGetUniformLocation(program, "projection"), 1, GL_FALSE,
-                     Eigen::Matrix4f(camera.projection().cast<float>()).data());
+  glUniformMatrix4fv(glGetUniformLocation(program, "projection"), 1, GL_FALSE, projection_of(camera).data());
   glUniformMatrix3fv(glGetUniformLocation(program, "rotation"), 1, GL_FALSE,
                      Eigen::Matrix3f(camera.rotation().cast<float>()).data());
   glUniform1f(glGetUniformLocation(program, "edge_opacity"), edge_opacity_);
 }
 
 void Mesh_view::clear(const Camera& camera, const Color& background) {
-  glViewport(0, 0, camera.width(), camera.height());
+  const auto [beside, above] = margins(camera);
+  glViewport(-beside, -above, camera.width() + 2 * beside, camera.height() + 2 * above);
   glClearColor(background.x(), background.y(), background.z(), 1);
   glDepthMask(GL_TRUE);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

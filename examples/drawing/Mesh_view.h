@@ -19,7 +19,7 @@ struct Smooth_look {
 };
 
 /// Draws a scene into the current framebuffer of the current OpenGL 3.3 core context, whoever made it: a file's
-/// off-screen context or a window's.
+/// off-screen context or a window's. The framebuffer has the camera's size.
 ///
 /// Faces are lit flat by two lights that stay beside the eye, and edges are thin lines that fade where triangles are
 /// too small for them. A face seen from inside is pink: on a closed, outward oriented mesh there is none. Marks hidden

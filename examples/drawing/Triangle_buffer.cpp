@@ -61,7 +61,13 @@ void Triangle_buffer::write(std::size_t first, const Corner* corners, std::size_
 
 void Triangle_buffer::draw() const {
   glBindVertexArray(vertex_array_);
-  glDrawArrays(GL_TRIANGLES, 0, int(size_));
+  // Software fills the triangles of one part while this thread is at the corners of the next.
+  const int size = int(size_), part = 3 * 25000;
+  for (int first = 0; first < size; first += std::min(part, size - first)) {
+    if (first > 0)
+      glFlush();
+    glDrawArrays(GL_TRIANGLES, first, std::min(part, size - first));
+  }
 }
 
 void Triangle_buffer::destroy() {

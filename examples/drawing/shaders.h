@@ -90,7 +90,7 @@ noperspective out vec2 place;
 noperspective out float reach;
 void main() {
   gl_Position = projection * vec4(position, 1);
-  vec3 n = normalize(rotation * normal) * outwards;
+  vec3 n = rotation * normal * outwards;
   float away = 1 - clamp(n.z, 0, 1);
   shaded = lit(color, n) + vec3(0.30, 0.33, 0.38) * (away * away * away);
   place = barycentric().xy;

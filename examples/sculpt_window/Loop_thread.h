@@ -6,6 +6,7 @@
 #include <haptic_sculpt/haptic_rendering/Pose_loop.h>
 #include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -81,7 +82,8 @@ private:
       if (const Loop_fault fault = loop.interaction().fault(); fault != Loop_fault::none) {
         ++status_.failures; // such as a target out of range: the mesh is as it was
         const char* const failure = *loop.failure() != '\0' ? loop.failure() : name_of(fault);
-        std::strncpy(status_.failure.data(), failure, status_.failure.size() - 1);
+        *std::copy_n(failure, std::min(std::strlen(failure), status_.failure.size() - 1), status_.failure.data()) =
+            '\0';
         loop.restart();
       }
       const std::uint64_t end = now();

@@ -7,7 +7,7 @@ import os
 import random
 
 from program_runs import SOURCE, bytes_of, check, end, points, run, surface
-from window_runs import at, pixels_of, replayed, window
+from window_runs import at, pixels_of, read_png, replayed, window
 
 BALL_AND_MOON = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
 BALL = at("sculpt_window_ball.off")
@@ -29,6 +29,39 @@ place = {p: i for i, p in enumerate(points(BALL))}
 flipped = lambda p, axis: tuple(-x if k == axis else x for k, x in enumerate(p))
 check(all(flipped(p, axis) in place for p in place for axis in range(3)), "the ball is its own mirror image, to the bit")
 check(all(abs(math.hypot(*p) - 1) < 1e-15 for p in place), "the ball has radius 1")
+# Larger than what is drawn at once: from both sides a disk without a hole, and half of it where the window cuts it off.
+window(BALL, "--samples", 0, "--no-log", "--size", 300, 300, script=f"""
+key tab
+tool drag
+view 1 1 1
+settle
+screenshot {at('front.png')}
+view -1 -1 -1
+settle
+screenshot {at('back.png')}
+drag 150 150 0 150 1 middle
+move 299 5
+settle
+screenshot {at('cut.png')}
+quit
+""", what="the ball from two sides")
+
+
+def disk(name):
+    """How many pixels are not the background; those of a row have no gap."""
+    seen = 0
+    for row in read_png(at(name))[1]:
+        pixels = [row[x:x + 3] for x in range(0, len(row), 3)]
+        columns = [x for x, pixel in enumerate(pixels) if pixel != bytes((41, 46, 54))]
+        check(not columns or columns[-1] - columns[0] + 1 == len(columns), f"{name}: a hole in the ball")
+        seen += len(columns)
+    return seen
+
+
+front = disk("front.png")
+check(front > 30000 and abs(disk("back.png") - front) < 100, f"the ball is seen whole from both sides: {front}")
+# From aside a ball of radius 1 looks a little smaller.
+check(0.95 * front / 2 < disk("cut.png") < front / 2, "half of the ball is in the window")
 before = bytes_of(BALL)
 lines, _ = window("--samples", 0, "--size", 300, 225, script="settle\nclick 150 112\nsettle\nprint\nquit\n", what="the ball again")
 check(lines[0]["edits"] > 0 and bytes_of(BALL) == before, f"a ball that is there is opened: {lines}")
