@@ -61,8 +61,7 @@ public:
   Face_soup& soup() { return soup_; }
 
 private:
-  /// A step may make work for one before it: a union rounds its points, a removal leaves holes. What is not done then
-  /// goes round in circles.
+  /// A step may make work for one before it: a union rounds its points. What is not done then goes round in circles.
   static constexpr int most_rounds = 4;
 
   using Places_of_faces = std::vector<std::vector<Face_soup::Point_3>>;

@@ -9,14 +9,6 @@
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
-#if defined(__GNUC__) && !defined(__clang__) // CGAL 5.5: Polyhedral_envelope.h, which is not used here
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -88,12 +80,18 @@ inline Repair_step remove_degenerate(Work_mesh& mesh) {
   return {Repair_kind::remove_degenerate_faces, {{"degenerate faces", flat}}, 0, {}};
 }
 
+/// CGAL looks for the triangles of a hole among those of a Delaunay triangulation, and where these do not do among all
+/// there are, in the cube of the number of its edges: only of holes up to this many, which takes about 3 s.
+constexpr std::size_t most_edges_of_all_triangles = 500;
+
 inline void close_hole(Work_mesh& mesh, Work_mesh::Halfedge_index h) {
+  const auto parameters = CGAL::parameters::do_not_use_cubic_algorithm(CGAL::halfedges_around_face(h, mesh).size() >
+                                                                       most_edges_of_all_triangles);
 #if CGAL_VERSION_NR >= 1050600000
-  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h);
+  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h, parameters);
 #else
   std::vector<Work_mesh::Face_index> faces;
-  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h, std::back_inserter(faces));
+  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h, std::back_inserter(faces), parameters);
 #endif
 }
 
@@ -110,13 +108,6 @@ inline Repair_step close_holes(Work_mesh& mesh, std::size_t most_edges) {
   }
   return {Repair_kind::close_holes,
           {{"holes closed", closed}, {"triangles added", mesh.number_of_faces() - faces}, {"holes left", left}}, 0, {}};
-}
-
-/// Of a mesh of one component. First keeping its genus, and if that does not do, not.
-inline bool resolve_self_intersections(Work_mesh& mesh) {
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  return PMP::experimental::remove_self_intersections(mesh, CGAL::parameters::preserve_genus(true)) ||
-         PMP::experimental::remove_self_intersections(mesh, CGAL::parameters::preserve_genus(false));
 }
 
 } // namespace haptic_sculpt::internal
