@@ -116,7 +116,9 @@ private:
     change(Repair_kind::close_holes, [&](Work_mesh& m) { return close_holes(m, parameters_.hole_limit); });
     change(Repair_kind::separate_vertices, [](Work_mesh& m) { return Vertex_separation(m).run(); });
     soup_ = face_soup(mesh);
-    if (CGAL::is_triangle_mesh(mesh))
+    // Two edges of a mesh may have the same ends after these steps: the next round splits them.
+    if (CGAL::is_triangle_mesh(mesh) &&
+        CGAL::Polygon_mesh_processing::is_polygon_soup_a_polygon_mesh(Polygon_soup(soup_).faces))
       soup_ = Component_repair(soup_, trail_).run(steps);
   }
 

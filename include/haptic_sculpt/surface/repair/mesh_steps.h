@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/surface/repair/Repair_parameters.h>
 #include <haptic_sculpt/surface/repair/Trail.h>
+#include <haptic_sculpt/surface/repair/Work_mesh.h>
 #include <haptic_sculpt/surface/repair/soup_steps.h>
 #include <haptic_sculpt/surface/validate.h>
 
@@ -17,9 +18,6 @@
 #include <limits>
 
 namespace haptic_sculpt::internal {
-
-/// What CGAL's functions work on, whatever the user's kernel.
-using Work_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>;
 
 /// Where the vertices of a mesh were before CGAL changed it. A vertex added later has no mark: a slot used again gets
 /// the default value.
