@@ -180,13 +180,30 @@ BOOST_AUTO_TEST_CASE(a_distance_from_a_surface_is_never_nan) {
   BOOST_TEST(nearest(thin, Point_3(1, 0, 0)) == Point_3(0, 0, 0));
 }
 
+// Five corners as far apart as doubles go, which no power of two brings near 1 without loss.
+BOOST_AUTO_TEST_CASE(polygons_whose_normals_overflow_stay) {
+  Face_soup soup;
+  for (const auto& p :
+       {std::array{0x1p999, 0.0}, {0.0, 0x1p999}, {-0x1p999, 0.0}, {0.0, -0x1p999}, {0x1p500, -0x1p998}})
+    soup.add_point(p[0], p[1], 0x1p-1000);
+  soup.add_point(0, 0, 1);
+  soup.add_face(std::array{0, 1, 2, 3, 4});
+  for (int k = 0; k < 5; ++k)
+    soup.add_face(std::array{(k + 1) % 5, k, 5});
+  const Face_soup before = soup;
+  const Repair_report report = repair(soup);
+  BOOST_TEST(!report.is_repaired());
+  BOOST_TEST(report.left.non_triangular_faces.size() == 1u);
+  BOOST_TEST(count_of(report, Repair_kind::divide_faces, "polygons left") >= 1u);
+  BOOST_TEST(same(soup, before));
+}
+
 // A walk around a vertex whose border is not there.
 BOOST_AUTO_TEST_CASE(walks_along_half_edges_end) {
   haptic_sculpt::internal::Work_mesh mesh;
   CGAL::make_tetrahedron(Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(0, 0, 1), mesh);
   auto h = *mesh.halfedges().begin();
-  BOOST_CHECK_THROW(
-      while (!is_border(h, mesh)) h = opposite(next(h, mesh), mesh), CGAL::Failure_exception);
+  BOOST_CHECK_THROW(while (!is_border(h, mesh)) h = opposite(next(h, mesh), mesh), CGAL::Failure_exception);
 }
 
 // A polygon that meets itself in a corner is divided there, even where that is all there is to do.

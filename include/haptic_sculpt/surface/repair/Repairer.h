@@ -112,7 +112,8 @@ private:
     };
     change(Repair_kind::divide_faces, divide_faces);
     change(Repair_kind::stitch_edges, stitch_edges);
-    change(Repair_kind::remove_degenerate_faces, remove_degenerate);
+    if (CGAL::is_triangle_mesh(mesh)) // some polygons cannot be divided
+      change(Repair_kind::remove_degenerate_faces, remove_degenerate);
     change(Repair_kind::close_holes, [&](Work_mesh& m) { return close_holes(m, parameters_.hole_limit); });
     change(Repair_kind::separate_vertices, [](Work_mesh& m) { return Vertex_separation(m).run(); });
     soup_ = face_soup(mesh);

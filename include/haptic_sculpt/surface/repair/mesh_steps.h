@@ -8,14 +8,17 @@
 #include <haptic_sculpt/surface/validate.h>
 
 #include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
+#include <cmath>
 #include <iterator>
 #include <limits>
+#include <vector>
 
 namespace haptic_sculpt::internal {
 
@@ -55,13 +58,20 @@ inline Work_mesh work_mesh(const Polygon_soup& soup) {
   return mesh;
 }
 
+/// A polygon whose normal overflows stays: CGAL projects along it, and GMP ends the process on what is no number.
 inline Repair_step divide_faces(Work_mesh& mesh) {
-  std::size_t polygons = 0;
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  std::vector<Work_mesh::Face_index> polygons;
   for (const auto f : mesh.faces())
-    polygons += !CGAL::is_triangle(mesh.halfedge(f), mesh);
-  if (polygons > 0)
-    CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
-  return {Repair_kind::divide_faces, {{"faces divided into triangles", polygons}}, 0, {}};
+    if (!CGAL::is_triangle(mesh.halfedge(f), mesh))
+      polygons.push_back(f);
+  std::size_t divided = 0;
+  for (const auto f : polygons) {
+    const auto n = PMP::compute_face_normal(f, mesh);
+    divided += std::isfinite(n.x()) && std::isfinite(n.y()) && std::isfinite(n.z()) && PMP::triangulate_face(f, mesh);
+  }
+  return {Repair_kind::divide_faces,
+          {{"faces divided into triangles", divided}, {"polygons left", polygons.size() - divided}}, 0, {}};
 }
 
 inline Repair_step stitch_edges(Work_mesh& mesh) {
