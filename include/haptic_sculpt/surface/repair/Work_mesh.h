@@ -16,8 +16,8 @@ namespace haptic_sculpt::internal {
 class Work_mesh : public CGAL::Surface_mesh<Decision_kernel::Point_3> {
   using Base = CGAL::Surface_mesh<Decision_kernel::Point_3>;
 
-  /// For each half-edge and for each of 1000 more, so that a mesh that is being built has some. What ends takes less
-  /// than 100 a half-edge.
+  /// For each half-edge and for each of 1000 more, so that a mesh that is being built has some. Far more than functions
+  /// take that are linear in the half-edges, or nearly so, and on a tiny mesh a fraction of a second.
   static constexpr std::size_t most_steps = 10000;
 
 public:
