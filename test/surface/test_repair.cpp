@@ -8,6 +8,8 @@
 
 #include <shared_data.h>
 
+#include <CGAL/boost/graph/generators.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <gmpxx.h>
@@ -117,6 +119,106 @@ BOOST_AUTO_TEST_CASE(the_elk) {
   BOOST_TEST(report.is_repaired());
   BOOST_TEST(validate_soup(soup).is_valid());
   check_distances(broken, soup, report);
+}
+
+// Vertices of a ball pulled through its other side, and farther: they go, with few others, and nothing moves.
+BOOST_AUTO_TEST_CASE(what_crosses_itself_is_cut_out) {
+  Triangle_list list = meshes::icosphere(3);
+  for (const std::size_t v : {0, 100, 300})
+    list.points[v] = Point_3(-1.25 * list.points[v].x(), -1.25 * list.points[v].y(), -1.25 * list.points[v].z());
+  const Face_soup broken = soup_of(list);
+  BOOST_TEST(!validate_soup(broken).intersecting_faces.empty());
+  Face_soup soup = broken;
+  const Repair_report report = repair(soup);
+  BOOST_TEST(report.is_repaired(), report.message());
+  BOOST_TEST(validate_soup(soup).is_valid());
+  BOOST_TEST(validate_soup(soup).number_of_components == 1u);
+  BOOST_TEST(report.moved == 0);
+  BOOST_TEST(report.points_added == 0u);
+  BOOST_TEST(report.points_removed <= 20u);
+  check_distances(broken, soup, report);
+}
+
+// Of a ball whose vertices are anywhere no other shape is made.
+BOOST_AUTO_TEST_CASE(what_crosses_itself_all_over_is_refused) {
+  constexpr std::uint32_t seed = 5;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937 random(seed);
+  const auto anywhere = [&] { return random() / 4294967296.0; };
+  Triangle_list list = meshes::icosphere(2);
+  for (auto& p : list.points) {
+    const double x = anywhere(), y = anywhere(), z = anywhere();
+    p = Point_3(x, y, z);
+  }
+  Face_soup soup = soup_of(list);
+  const Repair_report report = repair(soup);
+  BOOST_TEST(!report.is_repaired());
+  BOOST_TEST(!report.left.intersecting_faces.empty());
+  BOOST_TEST(same(soup, soup_of(list)));
+}
+
+// The normal of a thin triangle is 0 as a double, and the surface is as wide as doubles go.
+BOOST_AUTO_TEST_CASE(a_distance_from_a_surface_is_never_nan) {
+  Face_soup soup;
+  soup.add_point(0, 0, 0);
+  soup.add_point(0x1p-400, 0, 0);
+  soup.add_point(0, 0x1p-400, 0);
+  soup.add_point(0, 0, 0x1p1000);
+  soup.add_face(std::array{0, 1, 2});
+  soup.add_face(std::array{0, 1, 3});
+  const double far = haptic_sculpt::internal::farthest_from_surface({Point_3(3, 4, 0), Point_3(0, 0, 5)}, soup);
+  BOOST_TEST(far == 5);
+  // Of a triangle: nearest inside, at an edge, at a corner.
+  const haptic_sculpt::internal::Nearest_point_of_triangle nearest{};
+  const haptic_sculpt::Decision_kernel::Triangle_3 triangle(Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0));
+  BOOST_TEST(nearest(triangle, Point_3(0.25, 0.25, 0.5)) == Point_3(0.25, 0.25, 0));
+  BOOST_TEST(nearest(triangle, Point_3(0.5, -0.5, 0.5)) == Point_3(0.5, 0, 0));
+  BOOST_TEST(nearest(triangle, Point_3(0.75, 0.75, 1)) == Point_3(0.5, 0.5, 0));
+  BOOST_TEST(nearest(triangle, Point_3(-1, -0.5, 1)) == Point_3(0, 0, 0));
+  const double w = 0x1p-600;
+  const haptic_sculpt::Decision_kernel::Triangle_3 thin(Point_3(0, 0, 0), Point_3(w, 0, 0), Point_3(0, w, 0));
+  BOOST_TEST(nearest(thin, Point_3(1, 0, 0)) == Point_3(0, 0, 0));
+}
+
+// Five corners as far apart as doubles go, which no power of two brings near 1 without loss.
+BOOST_AUTO_TEST_CASE(polygons_whose_normals_overflow_stay) {
+  Face_soup soup;
+  for (const auto& p :
+       {std::array{0x1p999, 0.0}, {0.0, 0x1p999}, {-0x1p999, 0.0}, {0.0, -0x1p999}, {0x1p500, -0x1p998}})
+    soup.add_point(p[0], p[1], 0x1p-1000);
+  soup.add_point(0, 0, 1);
+  soup.add_face(std::array{0, 1, 2, 3, 4});
+  for (int k = 0; k < 5; ++k)
+    soup.add_face(std::array{(k + 1) % 5, k, 5});
+  const Face_soup before = soup;
+  const Repair_report report = repair(soup);
+  BOOST_TEST(!report.is_repaired());
+  BOOST_TEST(report.left.non_triangular_faces.size() == 1u);
+  BOOST_TEST(count_of(report, Repair_kind::divide_faces, "polygons left") >= 1u);
+  BOOST_TEST(same(soup, before));
+}
+
+// A walk around a vertex whose border is not there.
+BOOST_AUTO_TEST_CASE(walks_along_half_edges_end) {
+  haptic_sculpt::internal::Work_mesh mesh;
+  CGAL::make_tetrahedron(Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(0, 0, 1), mesh);
+  auto h = *mesh.halfedges().begin();
+  BOOST_CHECK_THROW(while (!is_border(h, mesh)) h = opposite(next(h, mesh), mesh), CGAL::Failure_exception);
+}
+
+// A polygon that meets itself in a corner is divided there, even where that is all there is to do.
+BOOST_AUTO_TEST_CASE(a_repeated_corner_of_a_polygon_is_a_step) {
+  Face_soup soup;
+  for (int k = 0; k < 4; ++k)
+    soup.add_point(k == 1, k == 2, k == 3);
+  soup.add_face(std::array{0, 2, 1, 0}); // the corner 0 twice
+  for (const auto& f : {std::array{0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+    soup.add_face(f);
+  BOOST_TEST(!validate_soup(soup).is_valid());
+  const Repair_report report = repair(soup);
+  BOOST_TEST(report.is_repaired());
+  BOOST_TEST(count_of(report, Repair_kind::drop_faces, "polygons with a repeated corner divided there") == 1u);
+  BOOST_TEST(validate_soup(soup).is_valid());
 }
 
 // Distances that are known beforehand, in integers and powers of two.

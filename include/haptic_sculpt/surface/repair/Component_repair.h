@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/surface/repair/separate_vertices.h>
+#include <haptic_sculpt/surface/orient_components.h>
+#include <haptic_sculpt/surface/repair/Crossing_removal.h>
 
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
-
 
 #include <array>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <set>
-#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,14 +35,13 @@ public:
     if (sheets_.size() == number_of_components_)
       return soup_; // it holds nothing
     steps.push_back({Repair_kind::drop_sheets, {{"components without volume dropped", sheets_.size()}}, 0, {}});
-    std::vector<Trail::Move> moves;
-    steps.push_back(resolve(moves));
-    steps.back().moved = trail_.follow(std::move(moves));
+    split();
+    steps.push_back(resolve());
     steps.push_back(unite());
     Face_soup result;
     for (const Work_mesh& mesh : meshes_)
       append(face_soup(mesh), result);
-    trail_.keep(result.points); // the union only takes points away, and adds
+    trail_.keep(result.points); // both only take points away, and add
     return result;
   }
 
@@ -114,73 +114,54 @@ private:
       meshes_.push_back(sheets_.count(c) == 0 ? work_mesh(parts[c]) : Work_mesh());
   }
 
-  Repair_step resolve(std::vector<Trail::Move>& moves) {
-    split();
+  Repair_step resolve() {
     std::size_t crossed = 0, removed = 0, added = 0, left = 0;
     std::string failure;
-    for (std::size_t c = 0; c < meshes_.size(); ++c) {
-      Work_mesh& mesh = meshes_[c];
-      const auto found = crossed_.find(c);
-      if (found == crossed_.end()) {
-        for (const auto v : mesh.vertices())
-          moves.emplace_back(mesh.point(v), mesh.point(v));
-        continue;
-      }
-      crossed += found->second;
-      Work_mesh copy = mesh;
-      const Vertex_marks marks(copy);
+    for (const auto& [c, pairs] : crossed_) {
+      crossed += pairs;
+      Work_mesh copy = meshes_[c];
       try {
-        left += !resolve_self_intersections(copy);
+        if (!CGAL::is_closed(copy) || !Crossing_removal::run(copy)) {
+          ++left;
+          continue;
+        }
       } catch (const CGAL::Failure_exception& error) {
         failure = error.what();
         continue;
       }
-      marks.append_moves(moves);
-      removed += mesh.number_of_faces();
+      removed += meshes_[c].number_of_faces();
       added += copy.number_of_faces();
-      mesh = copy;
-      mesh.collect_garbage();
+      meshes_[c] = std::move(copy);
     }
     return {Repair_kind::resolve_self_intersections,
             {{"pairs of faces of a component that met", crossed}, {"components where some are left", left},
              {"faces before", removed}, {"faces after", added}}, 0, failure};
   }
 
-  // With its normals outwards. \pre closed
-  static void turn_outwards(Work_mesh& mesh) {
-    const Face_soup soup = face_soup(mesh);
-    if (!Component_orientation(soup).inside_out().empty())
-      CGAL::Polygon_mesh_processing::reverse_face_orientations(mesh);
-  }
-
+  /// Unites the solids that components bound. Corefinement asks that what it is given is a surface, with the normals
+  /// out of the solid: of what crosses itself or has a hole it may end the process, or go on for ever.
   Repair_step unite() {
     namespace PMP = CGAL::Polygon_mesh_processing;
     std::size_t united = 0, failed = 0;
     std::string failure;
     std::vector<std::size_t> now(meshes_.size()); // the mesh that a component has become part of
-    for (std::size_t c = 0; c < now.size(); ++c)
-      now[c] = c;
+    std::iota(now.begin(), now.end(), std::size_t(0));
     for (const auto& meeting : meeting_) {
       const std::size_t a = now[meeting.first.first], b = now[meeting.first.second];
       if (a == b)
         continue;
-      if (!CGAL::is_closed(meshes_[a]) || !CGAL::is_closed(meshes_[b])) {
+      Work_mesh one = meshes_[a], other = meshes_[b], sum;
+      if (!validate(one, 0, 1).is_valid() || !validate(other, 0, 1).is_valid()) {
         ++failed;
         continue;
       }
-      Work_mesh one = meshes_[a], other = meshes_[b], sum;
+      orient_components(one);
+      orient_components(other);
       try {
-        if (a == meeting.first.first && !is_united(a, now))
-          turn_outwards(one);
-        if (b == meeting.first.second && !is_united(b, now))
-          turn_outwards(other);
-        if (!PMP::corefine_and_compute_union(one, other, sum, CGAL::parameters::throw_on_self_intersection(true))) {
+        if (!PMP::corefine_and_compute_union(one, other, sum)) {
           ++failed;
           continue;
         }
-      } catch (const std::runtime_error& error) { // what corefinement throws where a component still meets itself
-        failure = error.what();
-        continue;
       } catch (const CGAL::Failure_exception& error) {
         failure = error.what();
         continue;
@@ -194,9 +175,6 @@ private:
     }
     return {Repair_kind::unite_solids,
             {{"times two solids were united", united}, {"pairs that could not be united", failed}}, 0, failure};
-  }
-  static bool is_united(std::size_t a, const std::vector<std::size_t>& now) {
-    return std::count(now.begin(), now.end(), a) > 1;
   }
 
   const Face_soup& soup_;

@@ -61,8 +61,7 @@ public:
   Face_soup& soup() { return soup_; }
 
 private:
-  /// A step may make work for one before it: a union rounds its points, a removal leaves holes. What is not done then
-  /// goes round in circles.
+  /// A step may make work for one before it: a union rounds its points. What is not done then goes round in circles.
   static constexpr int most_rounds = 4;
 
   using Places_of_faces = std::vector<std::vector<Face_soup::Point_3>>;
@@ -113,11 +112,14 @@ private:
     };
     change(Repair_kind::divide_faces, divide_faces);
     change(Repair_kind::stitch_edges, stitch_edges);
-    change(Repair_kind::remove_degenerate_faces, remove_degenerate);
+    if (CGAL::is_triangle_mesh(mesh)) // some polygons cannot be divided
+      change(Repair_kind::remove_degenerate_faces, remove_degenerate);
     change(Repair_kind::close_holes, [&](Work_mesh& m) { return close_holes(m, parameters_.hole_limit); });
     change(Repair_kind::separate_vertices, [](Work_mesh& m) { return Vertex_separation(m).run(); });
     soup_ = face_soup(mesh);
-    if (CGAL::is_triangle_mesh(mesh))
+    // Two edges of a mesh may have the same ends after these steps: the next round splits them.
+    if (CGAL::is_triangle_mesh(mesh) &&
+        CGAL::Polygon_mesh_processing::is_polygon_soup_a_polygon_mesh(Polygon_soup(soup_).faces))
       soup_ = Component_repair(soup_, trail_).run(steps);
   }
 

@@ -3,31 +3,24 @@
 
 #include <haptic_sculpt/surface/repair/Repair_parameters.h>
 #include <haptic_sculpt/surface/repair/Trail.h>
+#include <haptic_sculpt/surface/repair/Work_mesh.h>
 #include <haptic_sculpt/surface/repair/soup_steps.h>
 #include <haptic_sculpt/surface/validate.h>
 
 #include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
-#if defined(__GNUC__) && !defined(__clang__) // CGAL 5.5: Polyhedral_envelope.h, which is not used here
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
+#include <cmath>
 #include <iterator>
 #include <limits>
+#include <vector>
 
 namespace haptic_sculpt::internal {
-
-/// What CGAL's functions work on, whatever the user's kernel.
-using Work_mesh = CGAL::Surface_mesh<Decision_kernel::Point_3>;
 
 /// Where the vertices of a mesh were before CGAL changed it. A vertex added later has no mark: a slot used again gets
 /// the default value.
@@ -65,13 +58,20 @@ inline Work_mesh work_mesh(const Polygon_soup& soup) {
   return mesh;
 }
 
+/// A polygon whose normal overflows stays: CGAL projects along it, and GMP ends the process on what is no number.
 inline Repair_step divide_faces(Work_mesh& mesh) {
-  std::size_t polygons = 0;
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  std::vector<Work_mesh::Face_index> polygons;
   for (const auto f : mesh.faces())
-    polygons += !CGAL::is_triangle(mesh.halfedge(f), mesh);
-  if (polygons > 0)
-    CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
-  return {Repair_kind::divide_faces, {{"faces divided into triangles", polygons}}, 0, {}};
+    if (!CGAL::is_triangle(mesh.halfedge(f), mesh))
+      polygons.push_back(f);
+  std::size_t divided = 0;
+  for (const auto f : polygons) {
+    const auto n = PMP::compute_face_normal(f, mesh);
+    divided += std::isfinite(n.x()) && std::isfinite(n.y()) && std::isfinite(n.z()) && PMP::triangulate_face(f, mesh);
+  }
+  return {Repair_kind::divide_faces,
+          {{"faces divided into triangles", divided}, {"polygons left", polygons.size() - divided}}, 0, {}};
 }
 
 inline Repair_step stitch_edges(Work_mesh& mesh) {
@@ -88,12 +88,18 @@ inline Repair_step remove_degenerate(Work_mesh& mesh) {
   return {Repair_kind::remove_degenerate_faces, {{"degenerate faces", flat}}, 0, {}};
 }
 
+/// CGAL looks for the triangles of a hole among those of a Delaunay triangulation, and where these do not do among all
+/// there are, in the cube of the number of its edges: only of holes up to this many, which takes about 3 s.
+constexpr std::size_t most_edges_of_all_triangles = 500;
+
 inline void close_hole(Work_mesh& mesh, Work_mesh::Halfedge_index h) {
+  const auto parameters = CGAL::parameters::do_not_use_cubic_algorithm(CGAL::halfedges_around_face(h, mesh).size() >
+                                                                       most_edges_of_all_triangles);
 #if CGAL_VERSION_NR >= 1050600000
-  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h);
+  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h, parameters);
 #else
   std::vector<Work_mesh::Face_index> faces;
-  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h, std::back_inserter(faces));
+  CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h, std::back_inserter(faces), parameters);
 #endif
 }
 
@@ -110,13 +116,6 @@ inline Repair_step close_holes(Work_mesh& mesh, std::size_t most_edges) {
   }
   return {Repair_kind::close_holes,
           {{"holes closed", closed}, {"triangles added", mesh.number_of_faces() - faces}, {"holes left", left}}, 0, {}};
-}
-
-/// Of a mesh of one component. First keeping its genus, and if that does not do, not.
-inline bool resolve_self_intersections(Work_mesh& mesh) {
-  namespace PMP = CGAL::Polygon_mesh_processing;
-  return PMP::experimental::remove_self_intersections(mesh, CGAL::parameters::preserve_genus(true)) ||
-         PMP::experimental::remove_self_intersections(mesh, CGAL::parameters::preserve_genus(false));
 }
 
 } // namespace haptic_sculpt::internal

@@ -38,19 +38,24 @@ struct Polygon_soup {
 inline void clean_soup(Polygon_soup& soup, std::vector<Repair_step>& steps) {
   namespace PMP = CGAL::Polygon_mesh_processing;
   const std::size_t merged = PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.faces);
-  const auto is_degenerate = [](Polygon_soup::Face face) {
+  const auto distinct_corners = [](Polygon_soup::Face face) {
     std::sort(face.begin(), face.end());
-    return std::unique(face.begin(), face.end()) - face.begin() < 3;
+    return static_cast<std::size_t>(std::unique(face.begin(), face.end()) - face.begin());
   };
+  const auto is_degenerate = [&](const Polygon_soup::Face& face) { return distinct_corners(face) < 3; };
   std::size_t faces = soup.faces.size();
   soup.faces.erase(std::remove_if(soup.faces.begin(), soup.faces.end(), is_degenerate), soup.faces.end());
   const std::size_t degenerate = faces - soup.faces.size(), points = soup.points.size();
   faces = soup.faces.size();
+  std::size_t mended = 0;
+  for (const Polygon_soup::Face& face : soup.faces)
+    mended += distinct_corners(face) < face.size();
   PMP::repair_polygon_soup(soup.points, soup.faces);
   const std::size_t doubled = faces - std::min(faces, soup.faces.size()); // a polygon that meets itself may become two
   steps.push_back({Repair_kind::merge_points, {{"points merged with equal ones", merged}}, 0, {}});
   steps.push_back({Repair_kind::drop_faces,
-                   {{"faces with a repeated corner dropped", degenerate}, {"doubled faces dropped", doubled}}, 0, {}});
+                   {{"faces with a repeated corner dropped", degenerate}, {"doubled faces dropped", doubled},
+                    {"polygons with a repeated corner divided there", mended}}, 0, {}});
   steps.push_back({Repair_kind::drop_points, {{"points without faces dropped", points - soup.points.size()}}, 0, {}});
 }
 
