@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CPU time of whole ticks of the haptic loop, from joint angles to torques, when a hand goes fast over a fine mesh, a
-// little deep in it: with the probe, with a vertex that it grabs or creates, letting go and removing; or with a vertex of
-// a valence of one's choice in hand. Counts allocations, too.
+// little deep in it: with the probe, with a vertex that it grabs or creates, letting go and removing; or with a vertex
+// of a valence of one's choice in hand. Counts allocations, too.
 #include "Shard.h"
 #include "meshes/generated_meshes.h"
 
@@ -51,7 +51,9 @@ struct Hand {
   const Options& options;
   Vector3d home;
 
-  Vector3d position(std::size_t tick) const { return home + 1e-3 * (options.valence == 0 ? circles(tick) : hops(tick)); }
+  Vector3d position(std::size_t tick) const {
+    return home + 1e-3 * (options.valence == 0 ? circles(tick) : hops(tick));
+  }
   static int button(std::size_t tick) {
     const std::size_t phase = tick % 1000;
     return phase >= 500 && phase < 750 ? 1 : phase >= 750 && phase < 760 && tick / 1000 % 2 == 1 ? 2 : 0;
@@ -214,9 +216,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--reach", options.reach, "Of a grab, mm; where no vertex is so near, one is created")
       ->capture_default_str();
-  app.add_option("--valence", options.valence,
-                 "Have a vertex of that many faces in hand: a tip of a double cone that hops on a sphere of a third of the "
-                 "size; 0: none")
+  app.add_option(
+         "--valence", options.valence,
+         "Have a vertex of that many faces in hand: a tip of a double cone that hops on a sphere of a third of the "
+         "size; 0: none")
       ->capture_default_str();
   app.add_option("--work", options.work, "Pairs that a drag may decide")->capture_default_str();
   app.add_option("--work-of-a-face", options.work_of_a_face, "Pairs more for each face about the vertex in hand")

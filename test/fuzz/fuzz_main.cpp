@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 /// \file
-/// Runs a fuzz target without libFuzzer, with any compiler: each input is a draw of its own, so that any one of them can
-/// be made again.
+/// Runs a fuzz target without libFuzzer, with any compiler: each input is a draw of its own, so that any one of them
+/// can be made again.
 
 #include <fuzz/Fuzz_target.h>
 

@@ -61,7 +61,8 @@ template <class S> struct Workspace_sample {
 
 /// Samples the workspace: every triple of `per_joint` (>= 2) equally spaced angles between the joint limits that has a
 /// regular pose by `forward(parameters, theta)`. Allocates; cost per_joint^3 times some microseconds.
-/// \param forward forward_kinematics(); where that is `undecided` at some angles forward_by_all_modes() finds more poses
+/// \param forward forward_kinematics(); where that is `undecided` at some angles forward_by_all_modes() finds more
+/// poses
 template <class S, class Forward>
 std::vector<Workspace_sample<S>> sample_workspace(const Device_parameters<S>& parameters, int per_joint,
                                                   const Workspace_limits<S>& limits, const Forward& forward) {

@@ -58,7 +58,8 @@ inline Repair_report repaired(const Face_soup& soup, const Repair_parameters& pa
 ///
 /// \throw Out_of_range if a coordinate or the gap is; Error if a corner is no index of a point; nothing is changed
 /// \post `report.is_repaired()` and `validate_soup(soup, delta).is_valid()`, or the soup is unchanged
-/// Complexity: O(n log^3 n) and what CGAL's functions take where there are faults; a hole of h <= 500 edges up to O(h^3).
+/// Complexity: O(n log^3 n) and what CGAL's functions take where there are faults; a hole of h <= 500 edges up to
+/// O(h^3).
 inline Repair_report repair(Face_soup& soup, const Repair_parameters& parameters = {}) {
   Face_soup result;
   Repair_report report = internal::repaired(soup, parameters, result);
