@@ -18,17 +18,17 @@ class Collapse_queue {
 public:
   using Edge_index = typename Mesh::Edge_index;
 
-  struct Entry {
+  struct Entry { // small: the time goes into moving them
     double cost, squared_length;
     Edge_index edge;
-    bool into_end;      // that the placement is refused is known: into the one end or the other
-    std::uint32_t time; // which entry of the edge, counted from 1
+    std::uint32_t into_end : 1; // that the placement is refused is known: into the one end or the other
+    std::uint32_t time : 31;    // which entry of the edge, counted from 1
   };
 
   explicit Collapse_queue(const Mesh& mesh) : mesh_(mesh) {}
 
   void push(Edge_index e, double cost, bool into_end) {
-    queue_.push({cost, squared_length(e), e, into_end, ++time(e)});
+    queue_.push({std::fmax(cost, 0), squared_length(e), e, into_end, ++time(e)});
   }
   void leave_out(Edge_index e) { ++time(e); }
 
@@ -46,8 +46,7 @@ public:
 private:
   struct Comes_later {
     bool operator()(const Entry& a, const Entry& b) const {
-      const double cost_of_a = std::fmax(a.cost, 0), cost_of_b = std::fmax(b.cost, 0);
-      return cost_of_a != cost_of_b                 ? cost_of_a > cost_of_b
+      return a.cost != b.cost                       ? a.cost > b.cost
              : a.squared_length != b.squared_length ? a.squared_length > b.squared_length
                                                     : b.edge < a.edge;
     }
