@@ -158,7 +158,7 @@ private:
       orient_components(one);
       orient_components(other);
       try {
-        if (!PMP::corefine_and_compute_union(one, other, sum)) {
+        if (!PMP::corefine_and_compute_union(one, other, sum) || !inconsistent_halfedges(sum).empty()) {
           ++failed;
           continue;
         }

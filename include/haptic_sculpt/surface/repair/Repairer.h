@@ -101,6 +101,10 @@ private:
         steps.push_back(function(copy));
         if (!steps.back().did_something())
           return;
+        if (!inconsistent_halfedges(copy).empty()) {
+          steps.back() = {kind, {}, 0, "the half-edges contradict each other"};
+          return;
+        }
         marks.append_moves(moves);
       } catch (const CGAL::Failure_exception& error) {
         steps.push_back({kind, {}, 0, error.what()});
