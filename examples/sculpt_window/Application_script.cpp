@@ -166,8 +166,9 @@ bool Application::act(const Action& action) {
   case Kind::close:
     on_close();
     return true;
-  case Kind::quit:
-    is_done_ = true;
+  case Kind::quit: // after the picture that is asked for, where there is one
+    is_done_ = options_.screenshot.empty();
+    script_.resize(next_action_ + 1);
     return true;
   }
   return true;

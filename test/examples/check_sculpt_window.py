@@ -174,6 +174,9 @@ for name, mesh in MESHES:
 missing = {"drag", "insert_face", "insert_edge", "flip", "collapse", "shift", "undo", "redo", "stroke", "end"} - made
 check(not missing, f"the logs have no line {missing}: {made}")
 
+window(cube, "--no-log", "--samples", 0, "--size", 300, 225, "--screenshot", at("end.png"), script="quit\n", what="a picture at the end")
+check(os.path.exists(at("end.png")), "the picture at the end is written, though the script quits")
+
 # A removal is logged as the collapse that it was, whatever a probe near by has barred.
 lines, _ = window(cube, "--log", at("remove.log"), "--samples", 0, "--size", 300, 225, script=f"""
 view 0 1 -0.5
