@@ -77,7 +77,7 @@ public:
       return std::pair(history.number_of_undo_steps(), history.number_of_redo_steps());
     };
     const auto steps_before = steps();
-    bool lacked_memory = false, was_thrown = false, stands = true;
+    bool was_refused = false, lacked_memory = false, was_thrown = false, stands = true;
     ++tally_.calls;
     const auto call_it = [&] {
       std::optional<test::Failing_allocations> failing;
@@ -95,7 +95,7 @@ public:
         is_broken_off_ = true;
       } catch (const Error& error) {
         require(std::strstr(error.what(), "fault of haptic_sculpt") == nullptr, error.what());
-        ++tally_.refused;
+        was_refused = true, ++tally_.refused;
       } catch (const std::bad_alloc&) {
         lacked_memory = true, ++tally_.out_of_memory;
       } catch (const Thrown&) {
@@ -119,6 +119,7 @@ public:
       is_broken_off_ = true, ++tally_.broken_off;
       return;
     }
+    require(!was_refused || seen() == before, "where a call was refused all is as it was");
     if (lacked_memory && !call.is_compound) {
       require(seen() == before, "where memory ran out all is as it was");
       require(steps() == steps_before || call.is_in_stroke, "where memory ran out the history is as it was");

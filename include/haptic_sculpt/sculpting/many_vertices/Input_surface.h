@@ -3,16 +3,7 @@
 
 #include <haptic_sculpt/sculpting/many_vertices/Scaled_points.h>
 #include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/cgal_compatibility.h>
-
-#include <CGAL/AABB_tree.h>
-#if CGAL_VERSION_NR >= 1060000000
-#include <CGAL/AABB_traits_3.h>
-#include <CGAL/AABB_triangle_primitive_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#endif
+#include <haptic_sculpt/surface/nearest_point_tree.h>
 
 #include <deque>
 
@@ -56,7 +47,7 @@ public:
   Coordinates project(const Coordinates& p, std::size_t patch, Place& place) const {
     if (place < begins_[patch] || place >= begins_[patch + 1])
       place = begins_[patch];
-    const Point hint = Kernel().construct_projected_point_3_object()(triangles_[place], point(p));
+    const Point hint = Nearest_point_of_triangle<Kernel>()(triangles_[place], point(p));
     const auto nearest = trees_[patch].closest_point_and_primitive(point(p), {hint, triangles_.begin() + place});
     place = static_cast<Place>(nearest.second - triangles_.begin());
     return coordinates(nearest.first);
@@ -65,13 +56,7 @@ public:
 private:
   using Triangles = std::vector<Triangle>;
   using Iterator = typename Triangles::const_iterator;
-#if CGAL_VERSION_NR >= 1060000000
-  using Primitive = CGAL::AABB_triangle_primitive_3<Kernel, Iterator>;
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>>;
-#else
-  using Primitive = CGAL::AABB_triangle_primitive<Kernel, Iterator>;
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-#endif
+  using Tree = Nearest_point_tree<Kernel, Iterator>;
 
   Triangles triangles_;
   std::vector<Place> begins_; ///< of each patch, and the end
