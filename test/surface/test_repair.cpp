@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(a_distance_from_a_surface_is_never_nan) {
   const double far = haptic_sculpt::internal::farthest_from_surface({Point_3(3, 4, 0), Point_3(0, 0, 5)}, soup);
   BOOST_TEST(far == 5);
   // Of a triangle: nearest inside, at an edge, at a corner.
-  const haptic_sculpt::internal::Nearest_point_of_triangle nearest{};
+  const haptic_sculpt::internal::Nearest_point_of_triangle<haptic_sculpt::Decision_kernel> nearest{};
   const haptic_sculpt::Decision_kernel::Triangle_3 triangle(Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0));
   BOOST_TEST(nearest(triangle, Point_3(0.25, 0.25, 0.5)) == Point_3(0.25, 0.25, 0));
   BOOST_TEST(nearest(triangle, Point_3(0.5, -0.5, 0.5)) == Point_3(0.5, 0, 0));

@@ -7,8 +7,8 @@
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
 #include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
+#include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
-#include <haptic_sculpt/surface/coordinate_range.h>
 
 namespace haptic_sculpt {
 
@@ -106,10 +106,8 @@ private:
     if (!v.is_valid())
       return done({}, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
     for (const auto& leg : edit.legs) // before the first is gone, not after
-      if (!is_in_range(leg))
-        throw_out_of_range("a leg", leg);
-    if (!is_in_range(edit.point))
-      throw_out_of_range("the target", edit.point);
+      check_point("a leg", point(leg));
+    check_point("the target", point(edit.point));
     Done result;
     result.vertex = v;
     const auto drag_to = [&](const std::array<double, 3>& p) {

@@ -34,9 +34,12 @@ private:
   static Point_3 of_edges(const Triangle_3& triangle, const Point_3& p) {
     Point_3 nearest = of_segment(triangle[0], triangle[1], p);
     for (const Point_3& q : {of_segment(triangle[1], triangle[2], p), of_segment(triangle[2], triangle[0], p)})
-      if ((p - q).squared_length() < (p - nearest).squared_length())
+      if (distance(p, q) < distance(p, nearest))
         nearest = q;
     return nearest;
+  }
+  static double distance(const Point_3& p, const Point_3& q) {
+    return std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z());
   }
   static Point_3 of_segment(const Point_3& a, const Point_3& b, const Point_3& p) {
     const double share = (p - a) * (b - a) / (b - a).squared_length();

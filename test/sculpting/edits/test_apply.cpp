@@ -122,6 +122,11 @@ BOOST_AUTO_TEST_CASE(what_apply_says) {
     BOOST_TEST((by_value.drag->position == by_grab.position && by_value.drag->work == by_grab.work));
   }
   BOOST_CHECK_THROW(sculptor.apply(Edit::of(Edit_kind::move, {7, 0, 0}, {0, std::nan(""), 0})), Non_finite_point);
+  Edit far = Edit::of(Edit_kind::move, {7, 0, 0}, {0, 0, 1e305}); // its leg is not gone either
+  far.legs.push_back({0.5 * p.x(), 0.5 * p.y(), 0.5 * p.z()});
+  const auto before = snapshot(sculptor);
+  BOOST_CHECK_THROW(sculptor.apply(far), Out_of_range);
+  BOOST_TEST((snapshot(sculptor) == before));
   Edit shift = Edit::of(Edit_kind::shift);
   shift.axis = 3;
   BOOST_CHECK_THROW(sculptor.apply(shift), Invalid_parameter);
