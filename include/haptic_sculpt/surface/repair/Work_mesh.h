@@ -46,6 +46,8 @@ private:
 #define CGAL_GRAPH_TRAITS_INHERITANCE_BASE_CLASS_NAME CGAL::Surface_mesh<haptic_sculpt::Decision_kernel::Point_3>
 #include <CGAL/boost/graph/graph_traits_inheritance_macros.h>
 
+/// \cond
 template <>
 struct boost::graph_traits<const haptic_sculpt::internal::Work_mesh>
     : boost::graph_traits<haptic_sculpt::internal::Work_mesh> {};
+/// \endcond
