@@ -54,9 +54,7 @@ struct Drag_result {
   /// is flat, as stop_error_along_path; 0 when nothing stopped it. Of the last leg.
   double stop_error = 0;
   double stop_error_along_path = 0;          ///< the distance from the exact point of impact, along the path
-  /// Pairs decided and candidates looked up: what a bound on the work counts; no more than it. With a bound any broad
-  /// phase gives the same; without, the order in which it finds faces may tell.
-  std::size_t work = 0;
+  std::size_t work = 0;    ///< pairs decided and candidates looked up: what a bound on the work counts; no more than it
   double kkt_residual = 0; ///< |d - nearest point of the cone of pushes| / |d|, d = target - position; 0 if reached
 };
 

@@ -85,7 +85,7 @@ private:
       const Drag first = grab.drag_to(target), second = other.drag_to(target);
       tally_.blocked += !first.reached;
       tally_.with_contacts += !first.contacts.empty();
-      if (!same_bits(first, second) || !same_bits(a_.point(v), b_.point(v))) // `work`: see test_bounded_bits
+      if (!same_bits(first, second) || (!forgets_ && first.work != second.work) || !same_bits(a_.point(v), b_.point(v)))
         return differ("a drag");
     }
   }

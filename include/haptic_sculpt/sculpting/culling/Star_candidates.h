@@ -308,10 +308,9 @@ private:
     if (work_->is_spent())
       return false;
     pairs_.clear();
-    // The order in which pairs are decided tells how many are, for the first that is met ends a decision: where that is
-    // bounded it is not the broad phase's.
-    if (work_->is_bounded())
-      std::sort(candidates_.begin(), candidates_.end());
+    // The order in which pairs are decided tells how many are, for the first that is met ends a decision: it is not the
+    // broad phase's.
+    std::sort(candidates_.begin(), candidates_.end());
     list_.assign(*mesh_, *corners_of_, star_, candidates_, region, fetch_);
     ++looks_;
     return true;

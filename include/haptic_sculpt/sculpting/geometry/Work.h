@@ -34,7 +34,6 @@ public:
   void forget() { *this = Work(); }
 
   void spend(std::size_t amount = 1) { done_ += amount; }
-  bool is_bounded() const { return limit_ != unbounded; }
   bool is_spent() const { return done_ > limit_; }
   /// So much may still be spent.
   std::size_t left() const { return is_spent() ? 0 : limit_ - done_; }
