@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only, no example names
-what is internal, and no line of code is wider than 120 columns.
+"""check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only, no example
+names what is internal, and no line of C++ is wider than 120 columns.
 
 A folder and the one around it may include each other: public names stand at a module's root, what serves them stands below.
 Between all other folders the includes form no cycle. Exit code 1 names each folder of a cycle, with the includes that close it.

@@ -6,7 +6,8 @@
 Whatever fails: the program ends by itself with an exit code of its own and says why; what stood in an output stands there whole, the old
 or the new; the log is the beginning of that of a run in which nothing fails; the same command then comes through.
 
-Arguments: sculpt, source folder, haptic_loop. HAPTIC_SCULPT_FAILING_CALLS says how many calls of each run fail (12; `all`: each)."""
+Arguments: sculpt, source folder, haptic_loop. HAPTIC_SCULPT_FAILING_CALLS says how many calls of each run fail (12;
+`all`: each)."""
 import errno
 import os
 import random
@@ -99,7 +100,8 @@ class Task:
         complete = self.log and if_there(f"{folder}/{self.log}") == self.sound[self.log]
         check(done.returncode == 0 or (complete and done.returncode == 2), f"{self.name}, {what}: then it does not come through: exit {done.returncode}: {done.stderr}")
         for name, bytes_ in self.sound.items():
-            check(name.endswith(".json") or if_there(f"{folder}/{name}") == bytes_ or done.returncode == 2, f"{self.name}, {what}: then {name} is another")
+            check(name.endswith(".json") or if_there(f"{folder}/{name}") == bytes_ or done.returncode == 2,
+                  f"{self.name}, {what}: then {name} is another")
 
 
 def chosen(number, rng):

@@ -11,7 +11,8 @@ import tempfile
 import time
 
 from box_mesh import box
-from program_runs import FURTHER as LOOP, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points, run, write
+from program_runs import (FURTHER as LOOP, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points,
+                          run, write)
 
 BALL = f"{SOURCE}/examples/data/ball_and_moon.off"
 PATH = f"{SOURCE}/examples/data/hand_path.csv"

@@ -7,7 +7,8 @@ import os
 import struct
 import tempfile
 
-from program_runs import bytes_of, FURTHER as QUERIES, OCTAHEDRON, SOURCE, TETRAHEDRON, check, end, fails, points, run, surface, write
+from program_runs import (FURTHER as QUERIES, OCTAHEDRON, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points, run,
+                          surface, write)
 
 
 def happy_path(folder, mesh):

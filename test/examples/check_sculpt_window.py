@@ -159,8 +159,9 @@ for name, mesh in MESHES:
         continue
     lines, err = window(mesh, "--log", log, "--size", 300, 225, "--samples", 0, "--report", at("report.json"),
                         script=WORK.format(out=out), what=name)
-    if lines and name.startswith("gen_extreme"):  # thinner than 1e-300 of its length: each press is beside it, and turns it
-        check(lines[0]["edits"] == 0 and lines[0]["hold"] == "nothing" and not lines[0]["pointed"], f"{name}: {lines[0]}")
+    if lines and name.startswith("gen_extreme"):  # thinner than 1e-300 of its length: a press is beside it, and turns it
+        said = lines[0]
+        check(said["edits"] == 0 and said["hold"] == "nothing" and not said["pointed"], f"{name}: {said}")
     elif lines:
         check(lines[0]["edits"] > 0, f"{name}: nothing was edited: {lines[0]}")
         replayed(mesh, log, out, name)
@@ -174,7 +175,8 @@ for name, mesh in MESHES:
 missing = {"drag", "insert_face", "insert_edge", "flip", "collapse", "shift", "undo", "redo", "stroke", "end"} - made
 check(not missing, f"the logs have no line {missing}: {made}")
 
-window(cube, "--no-log", "--samples", 0, "--size", 300, 225, "--screenshot", at("end.png"), script="quit\n", what="a picture at the end")
+window(cube, "--no-log", "--samples", 0, "--size", 300, 225, "--screenshot", at("end.png"), script="quit\n",
+       what="a picture at the end")
 check(os.path.exists(at("end.png")), "the picture at the end is written, though the script quits")
 
 # A removal is logged as the collapse that it was, whatever a probe near by has barred.

@@ -28,8 +28,9 @@ def run(*arguments, program=SCULPT, script=None, limit=None, folder=None, user=N
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
     # Python ignores SIGXFSZ; that the program does so too is checked by restoring signals.
-    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=seconds, cwd=folder,
-                          preexec_fn=limit_size, restore_signals=True, user=user, group=user, extra_groups=[] if user else None)
+    return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=seconds,
+                          cwd=folder, preexec_fn=limit_size, restore_signals=True, user=user, group=user,
+                          extra_groups=[] if user else None)
 
 
 def fails(code, parts, done, what):

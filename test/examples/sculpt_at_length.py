@@ -3,7 +3,8 @@
 """A hand that goes about at random, in and out of meshes, and presses its buttons: every mesh stays valid, every log is made again by
 `sculpt` bit for bit, no fault ends a run.
 
-Arguments: sculpt, source folder, haptic_loop, further meshes. HAPTIC_SCULPT_SECONDS says how long in all, in simulated time (20)."""
+Arguments: sculpt, source folder, haptic_loop, further meshes. HAPTIC_SCULPT_SECONDS says how long in all, in simulated
+time (20)."""
 import json
 import math
 import os

@@ -59,8 +59,7 @@ struct Contact_outcome {
   double mass_energy = 0;       ///< taken from the hand by virtual mass, before limits
   double largest_force = 0;     ///< N, rendered
   double limited = 0;           ///< share of the ticks in which limits changed the force
-  double off = 0,
-         most_off = 0;   ///< N, mean and largest in contact: the force against spring and damper of the true place
+  double off = 0, most_off = 0; ///< N, mean and largest in contact, of the force: from that of the true place
   bool has_left = false; ///< the poses for which the coupling was chosen
   Loop_fault fault = Loop_fault::none;
 };

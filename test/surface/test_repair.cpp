@@ -8,8 +8,6 @@
 
 #include <shared_data.h>
 
-#include <CGAL/boost/graph/generators.h>
-
 #include <boost/test/unit_test.hpp>
 
 #include <gmpxx.h>
@@ -157,29 +155,6 @@ BOOST_AUTO_TEST_CASE(what_crosses_itself_all_over_is_refused) {
   BOOST_TEST(same(soup, soup_of(list)));
 }
 
-// The normal of a thin triangle is 0 as a double, and the surface is as wide as doubles go.
-BOOST_AUTO_TEST_CASE(a_distance_from_a_surface_is_never_nan) {
-  Face_soup soup;
-  soup.add_point(0, 0, 0);
-  soup.add_point(0x1p-400, 0, 0);
-  soup.add_point(0, 0x1p-400, 0);
-  soup.add_point(0, 0, 0x1p1000);
-  soup.add_face(std::array{0, 1, 2});
-  soup.add_face(std::array{0, 1, 3});
-  const double far = haptic_sculpt::internal::farthest_from_surface({Point_3(3, 4, 0), Point_3(0, 0, 5)}, soup);
-  BOOST_TEST(far == 5);
-  // Of a triangle: nearest inside, at an edge, at a corner.
-  const haptic_sculpt::internal::Nearest_point_of_triangle<haptic_sculpt::Decision_kernel> nearest{};
-  const haptic_sculpt::Decision_kernel::Triangle_3 triangle(Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0));
-  BOOST_TEST(nearest(triangle, Point_3(0.25, 0.25, 0.5)) == Point_3(0.25, 0.25, 0));
-  BOOST_TEST(nearest(triangle, Point_3(0.5, -0.5, 0.5)) == Point_3(0.5, 0, 0));
-  BOOST_TEST(nearest(triangle, Point_3(0.75, 0.75, 1)) == Point_3(0.5, 0.5, 0));
-  BOOST_TEST(nearest(triangle, Point_3(-1, -0.5, 1)) == Point_3(0, 0, 0));
-  const double w = 0x1p-600;
-  const haptic_sculpt::Decision_kernel::Triangle_3 thin(Point_3(0, 0, 0), Point_3(w, 0, 0), Point_3(0, w, 0));
-  BOOST_TEST(nearest(thin, Point_3(1, 0, 0)) == Point_3(w, 0, 0));
-}
-
 // Five corners as far apart as doubles go, which no power of two brings near 1 without loss.
 BOOST_AUTO_TEST_CASE(polygons_whose_normals_overflow_stay) {
   Face_soup soup;
@@ -196,14 +171,6 @@ BOOST_AUTO_TEST_CASE(polygons_whose_normals_overflow_stay) {
   BOOST_TEST(report.left.non_triangular_faces.size() == 1u);
   BOOST_TEST(count_of(report, Repair_kind::divide_faces, "polygons left") >= 1u);
   BOOST_TEST(same(soup, before));
-}
-
-// A walk around a vertex whose border is not there.
-BOOST_AUTO_TEST_CASE(walks_along_half_edges_end) {
-  haptic_sculpt::internal::Work_mesh mesh;
-  CGAL::make_tetrahedron(Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0), Point_3(0, 0, 1), mesh);
-  auto h = *mesh.halfedges().begin();
-  BOOST_CHECK_THROW(while (!is_border(h, mesh)) h = opposite(next(h, mesh), mesh), CGAL::Failure_exception);
 }
 
 // A polygon that meets itself in a corner is divided there, even where that is all there is to do.

@@ -122,8 +122,8 @@ private:
       is_paid_ = !touch.is_starved;
       return 1;
     }
-    const double ramp = side_.next_ramp(), paid = observer_.balance(),                     // J
-                 held = 0.5 * ramp * coupling_.stiffness * touch.way.squaredNorm(); // J
+    const double ramp = side_.next_ramp(), paid = observer_.balance(); // J
+    const double held = 0.5 * ramp * coupling_.stiffness * touch.way.squaredNorm(); // J
     is_paid_ = ramp == 1 && touch.is_free;
     return touch.is_free || held <= paid ? 1 : paid > 0 ? paid / held : 0;
   }

@@ -294,8 +294,7 @@ public:
     std::size_t valence = Star_runs<Mesh>::most_undivided;
     for (const Vertex_index v : mesh_->vertices())
       valence = std::max(valence, static_cast<std::size_t>(mesh_->degree(v)));
-    // More than a drag of default bound looks up, and than an edit of a vertex drawn far out as a rule.
-    const std::size_t candidates = 2048 + 2 * valence;
+    const std::size_t candidates = usual_candidates + 2 * valence;
     editor_.reserve(edits, moves, valence, candidates);
     hand_.reserve(valence, candidates);
     probe_.reserve(valence, candidates);
@@ -313,6 +312,10 @@ public:
   }
 
 private:
+  /// More faces about a star than a drag of default bound looks up, and than an edit of a vertex drawn far out as a
+  /// rule.
+  static constexpr std::size_t usual_candidates = 2048;
+
   Mesh* mesh_;
   Write_state writing_;
   Mesh_watch<Mesh> watch_;
