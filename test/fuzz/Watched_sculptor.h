@@ -17,6 +17,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,6 @@ public:
     Edit_kind kind = Edit_kind::none; ///< of an edit by value
     bool is_compound = false;         ///< whether it makes several steps
     bool restores = false;            ///< whether it is undo or redo
-    bool is_in_stroke = false;
   };
 
   Watched_sculptor(Choices& choices, const Mesh& mesh, double unit, Call_tally& tally)
@@ -72,11 +72,10 @@ public:
     const std::size_t nth = 1 + (failure >> 4) + (fails || throws ? choices_.below(32) : 0);
     call_ = call;
     const Seen before = seen();
-    const auto steps = [this] {
-      const auto history = sculptor_.history();
-      return std::pair(history.number_of_undo_steps(), history.number_of_redo_steps());
+    const auto history = [view = sculptor_.history()] {
+      return std::tuple(view.number_of_undo_steps(), view.number_of_redo_steps(), view.is_in_stroke());
     };
-    const auto steps_before = steps();
+    const auto history_before = history();
     bool was_refused = false, lacked_memory = false, was_thrown = false, stands = true;
     ++tally_.calls;
     const auto call_it = [&] {
@@ -122,7 +121,7 @@ public:
     require(!was_refused || seen() == before, "where a call was refused all is as it was");
     if (lacked_memory && !call.is_compound) {
       require(seen() == before, "where memory ran out all is as it was");
-      require(steps() == steps_before || call.is_in_stroke, "where memory ran out the history is as it was");
+      require(history() == history_before, "where memory ran out the history is as it was");
     }
     is_recorded_ = is_recorded_ && !was_thrown && !(lacked_memory && call.is_compound);
     look(choices_.below(4) == 0);

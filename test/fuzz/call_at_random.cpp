@@ -65,7 +65,6 @@ private:
 
   template <class Function>
   void make(const Function& function) {
-    call_.is_in_stroke = !strokes_.empty();
     watched_.make(call_, function);
   }
   void require(bool holds, const char* promise) const { watched_.require(holds, promise); }

@@ -13,6 +13,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <tuple>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -162,6 +163,8 @@ std::vector<Case<World>> all_cases() {
       {"whole push", nothing<World>, push, true},
       {"undo of many", stroke_of_much, undo},
       {"redo of many", both(stroke_of_much, undo), redo},
+      {"undo of a stroke under way", both(begin_stroke, change_much<World>), undo},
+      {"redo in a stroke", both(both(stroke_of_much, undo), begin_stroke), redo},
   };
   const std::pair<const char*, F> edits[] = {{"insert on face", insert_on_face},
                                              {"insert on edge", insert_on_edge},
@@ -245,10 +248,10 @@ Outcome try_case(const Case<World>& c, const Mesh& original, const Sculptor_para
       const Mesh_snapshot begin = snapshot(w.sculptor);
       c.prepare(w);
       const Mesh_snapshot before = snapshot(w.sculptor);
-      const auto steps = [&w] {
-        return std::pair(w.sculptor.history().number_of_undo_steps(), w.sculptor.history().number_of_redo_steps());
+      const auto history = [history = w.sculptor.history()] {
+        return std::tuple(history.number_of_undo_steps(), history.number_of_redo_steps(), history.is_in_stroke());
       };
-      const auto steps_before = steps();
+      const auto history_before = history();
       has_failed = false;
       try {
         const Failing_allocations failing(n, for_good);
@@ -270,7 +273,7 @@ Outcome try_case(const Case<World>& c, const Mesh& original, const Sculptor_para
       ++(is_before ? outcome.as_it_was : outcome.made);
       BOOST_TEST((is_before || c.is_compound));
       if (is_before)
-        BOOST_TEST((steps() == steps_before));
+        BOOST_TEST((history() == history_before));
       BOOST_TEST(w.mesh.is_valid(false));
       // It works on, as if nothing had been, and all is undone to the bit.
       if (!c.is_compound)

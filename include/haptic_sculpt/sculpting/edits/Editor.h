@@ -178,21 +178,23 @@ private:
   Change change_; ///< the one that is made, kept to allocate no more
 
   /// Takes a step back or makes it again, all of its changes or none: where one lacks memory, those before it are made
-  /// undone. \param next gives the next change
+  /// undone, and the stroke under way goes on. Else that has ended. \param next gives the next change
   template <class Next>
   Result go_through_step(Refusal_reason nothing, const Next& next, bool is_back) {
-    history_.end_stroke();
-    if (next() == nullptr)
+    if (next() == nullptr) {
+      history_.end_stroke();
       return Result::refused(nothing);
+    }
     for (std::size_t changes = 0;; ++changes) {
       changes_.expect_change();
       try {
         const Vertex_index v = is_back ? take_back() : make_again();
-        if (history_.is_between_steps())
+        if (history_.is_between_steps()) {
+          history_.end_stroke();
           return Result::done(v);
+        }
       } catch (...) { // the visitor's comes when a change could be made; then the next call goes on
-        if (!changes_.was_ready())
-          reverse(changes, is_back);
+        changes_.was_ready() ? history_.end_stroke() : reverse(changes, is_back);
         throw;
       }
     }
@@ -206,6 +208,7 @@ private:
         is_back ? make_again() : take_back();
       }
     } catch (...) {
+      history_.end_stroke();
       if (!changes_.was_ready())
         writing_->begin(); // for good: a step done in part is not embedded
       throw;
