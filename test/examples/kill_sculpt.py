@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""kill -9, and other signals, while `sculpt` edits and logs, with options, directives and strokes mixed in; the same command goes on
-until it is through.
+"""kill -9, and other signals, while `sculpt` edits and logs, with options, directives, strokes, brushes and batches mixed in; the same
+command goes on until it is through, and then another script on the same log.
 
 Whenever it is killed, its log is the beginning of the log of a run that is not killed, byte for byte; replayed, it gives what its lines
 give as a script; a stroke it was killed in is taken back by one undo; and in the end log and result are those of the run that is not
@@ -13,7 +13,7 @@ import subprocess
 import tempfile
 import time
 
-from program_runs import SCULPT, SOURCE, before_open_stroke, bytes_of, check, end, run, surface, write
+from program_runs import SCULPT, SOURCE, before_open_stroke, bytes_of, check, end, run, surface, whole_edits, write
 
 MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
 KILLS = int(os.environ.get("HAPTIC_SCULPT_KILLS", "12"))
@@ -22,7 +22,7 @@ SIGNALS = [signal.SIGKILL] * 5 + [signal.SIGTERM, signal.SIGINT, signal.SIGHUP, 
 
 
 def random_script(rng, lines):
-    """Drags, edits, strokes, undo, redo, probes and directives mixed; many are refused, as they name what is gone by then."""
+    """Drags, edits, dabs, batches, strokes, undo, redo, probes and directives mixed; many are refused, as they name what is gone by then."""
     text = [line.split() for line in open(MESH).read().split("\n") if line and not line.startswith("#")]
     vertices, faces = int(text[1][0]), int(text[1][1])
     corners = [row[1:4] for row in text[2 + vertices:2 + vertices + faces]]
@@ -34,6 +34,10 @@ def random_script(rng, lines):
     def near(v):
         return " ".join(str(rng.uniform(-0.2, 0.2) + float(at[v % vertices][k])) for k in range(3))
 
+    def batch():
+        axis, moved = rng.randrange(3), rng.sample(range(vertices), 5)
+        return f"shift {axis} {len(moved)}\n" + "".join(f"{v} {float(at[v][axis]) + rng.uniform(-0.02, 0.02)}\n" for v in moved) + "end"
+
     script = []
     for _ in range(lines):
         face, v = rng.choice(corners), rng.randrange(vertices + 50)
@@ -41,8 +45,9 @@ def random_script(rng, lines):
             [f"drag {v} {near(v)}", f"insert_face {' '.join(face)} {middle(face)}", f"insert_edge {' '.join(face[:2])} {middle(face[:2])}",
              f"remove {v}", f"collapse {face[0]} {face[1]}", f"flip {face[0]} {face[1]}", "stroke", "end", "undo", "redo", f"probe {near(v)} {near(v + 1)}", "release", f"response {rng.choice(['slide', 'stop', 'paper'])}",
              f"clearance {rng.choice(['default', '1e-9', '0x1p-20', str(rng.uniform(1e-6, 1e-3))])}", f"delta {rng.choice(['0', '1e-6', '0.001'])}",
-             f"# comment {v}", ""],
-            [50, 15, 8, 10, 8, 10, 4, 4, 6, 6, 4, 2, 2, 2, 1, 1, 1])[0] + "\n")
+             f"brush {rng.choice(['grab', 'inflate', 'smooth', 'flatten', 'pinch'])} {near(v)} {rng.uniform(0.1, 0.5)} {rng.uniform(-0.1, 0.1)}",
+             f"move {v} {near(v)}", batch(), f"remesh {rng.uniform(0.3, 0.5)}", f"# comment {v}", ""],
+            [50, 15, 8, 10, 8, 10, 4, 4, 6, 6, 4, 2, 2, 2, 1, 4, 2, 4, 0.03, 1, 1])[0] + "\n")
     return "".join(script)
 
 
@@ -63,56 +68,73 @@ def undo_gives(folder, left, lines, before):
     return True
 
 
+class Killed:
+    """Counts what was killed."""
+    kills = runs = within_a_line = within_a_batch = within_strokes = strokes_undone = before_log = complete = 0
+
+
+def kill(rng, folder, script, options, log, whole, counts):
+    """Carries a script out on a log that may have lines of another, killed again and again, and beside it without a kill on `whole`."""
+    out, expected = f"{folder}/killed.off", f"{folder}/whole.off"
+    for path in (out, expected):
+        if os.path.exists(path):
+            os.remove(path)
+    start = time.monotonic()
+    check(run(MESH, "--script", script, "--log", whole, "-o", expected, *options).returncode == 0, "a run that is not killed")
+    takes = time.monotonic() - start
+    sound, result = bytes_of(whole), bytes_of(expected)
+    for attempt in range(12):
+        process = subprocess.Popen([SCULPT, MESH, "--script", script, "--log", log, "-o", out, *options], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        counts.runs += 1
+        if attempt < 11 and counts.kills < KILLS:
+            # Often near the end, where the results are written.
+            time.sleep(takes * (rng.uniform(0.85, 1.02) if rng.random() < 0.3 else rng.uniform(0, 1)))
+            process.send_signal(rng.choice(SIGNALS))
+        code = process.wait()
+        left = bytes_of(log) if os.path.exists(log) else b""
+        check(sound.startswith(left), f"the log of a killed run is not the beginning of a whole one (seed {SEED}, kill {counts.kills})")
+        check(not os.path.exists(out) or bytes_of(out) == result, "a part of a result, or another")
+        if code >= 0:
+            break
+        counts.kills += 1
+        counts.within_a_line += not left.endswith(b"\n") and left != b""
+        counts.before_log += left == b""
+        counts.complete += left == sound
+        lines = whole_edits(left)
+        counts.within_a_batch += lines != left[:left.rfind(b"\n") + 1].decode().splitlines(keepends=True)
+        before = before_open_stroke(lines)
+        if before is not None:
+            counts.within_strokes += 1
+            counts.strokes_undone += undo_gives(folder, left, lines, before)
+        if left and counts.kills % 5 == 0:
+            check(run(MESH, "--log", write(f"{folder}/copy.log", left), "-o", f"{folder}/a.off").returncode == 0, "replay after kill -9")
+            check(run(MESH, "--script", "/dev/stdin", "-o", f"{folder}/b.off", script="".join(lines)).returncode == 0, "its lines as a script")
+            check(bytes_of(f"{folder}/a.off") == bytes_of(f"{folder}/b.off"), "the replay is not what the lines say")
+    # Killed between its last line and its end, it is through.
+    check(code == 0 or (code == 2 and left == sound), f"the same command does not come through: exit {code}")
+    check(bytes_of(log) == sound and bytes_of(out) == result, f"after kills log or result are others (seed {SEED}, kill {counts.kills})")
+    # A file half written is cleared by the next run that writes into the folder: the one that came through.
+    check(not [name for name in os.listdir(folder) if "haptic_sculpt-new" in name], f"left-over files {os.listdir(folder)}")
+
+
 def main():
     rng = random.Random(SEED)
     print("seed", SEED)
-    kills, runs, within_a_line, within_strokes, strokes_undone, moments = 0, 0, 0, 0, 0, []
+    counts = Killed()
     with tempfile.TemporaryDirectory() as folder:
-        log, out = f"{folder}/killed.log", f"{folder}/killed.off"
-        while kills < KILLS:
-            script, options = write(f"{folder}/edits.script", random_script(rng, rng.choice([30, 300, 3000]))), random_options(rng)
-            whole, expected = f"{folder}/whole.log", f"{folder}/whole.off"
-            for path in (whole, log, out):
+        log, whole = f"{folder}/killed.log", f"{folder}/whole.log"
+        while counts.kills < KILLS:
+            for path in (log, whole):
                 if os.path.exists(path):
                     os.remove(path)
-            start = time.monotonic()
-            check(run(MESH, "--script", script, "--log", whole, "-o", expected, *options).returncode == 0, "a run that is not killed")
-            takes = time.monotonic() - start
-            sound, result = bytes_of(whole), bytes_of(expected)
-            for attempt in range(12):
-                process = subprocess.Popen([SCULPT, MESH, "--script", script, "--log", log, "-o", out, *options], stdout=subprocess.DEVNULL,
-                                           stderr=subprocess.DEVNULL)
-                runs += 1
-                if attempt < 11 and kills < KILLS:
-                    # Often near the end, where the results are written.
-                    time.sleep(takes * (rng.uniform(0.85, 1.02) if rng.random() < 0.3 else rng.uniform(0, 1)))
-                    process.send_signal(rng.choice(SIGNALS))
-                code = process.wait()
-                left = bytes_of(log) if os.path.exists(log) else b""
-                check(sound.startswith(left), f"the log of a killed run is not the beginning of a whole one (seed {SEED}, kill {kills})")
-                check(not os.path.exists(out) or bytes_of(out) == result, "a part of a result, or another")
-                if code >= 0:
-                    break
-                kills += 1
-                within_a_line += not left.endswith(b"\n") and left != b""
-                moments.append(len(left) / len(sound))
-                lines = left[:left.rfind(b"\n") + 1].decode().splitlines(keepends=True)
-                before = before_open_stroke(lines)
-                if before is not None:
-                    within_strokes += 1
-                    strokes_undone += undo_gives(folder, left, lines, before)
-                if left and kills % 5 == 0:
-                    check(run(MESH, "--log", write(f"{folder}/copy.log", left), "-o", f"{folder}/a.off").returncode == 0, "replay after kill -9")
-                    lines = left[:left.rfind(b"\n") + 1].decode()
-                    check(run(MESH, "--script", "/dev/stdin", "-o", f"{folder}/b.off", script=lines).returncode == 0, "its lines as a script")
-                    check(bytes_of(f"{folder}/a.off") == bytes_of(f"{folder}/b.off"), "the replay is not what the lines say")
-            # Killed between its last line and its end, it is through.
-            check(code == 0 or (code == 2 and left == sound), f"the same command does not come through: exit {code}")
-            check(bytes_of(log) == sound and bytes_of(out) == result, f"after kills log or result are others (seed {SEED}, kill {kills})")
-            # A file half written is cleared by the next run that writes into the folder: the one that came through.
-            check(not [name for name in os.listdir(folder) if "haptic_sculpt-new" in name], f"left-over files {os.listdir(folder)}")
-    print(f"killed {kills} times in {runs} runs, {sum(m == 0 for m in moments)} before the log was begun, "
-          f"{sum(m == 1 for m in moments)} when it was complete, {within_a_line} within a line, {within_strokes} within a stroke, of which {strokes_undone} with edits in it were undone")
+            # The second goes on in the settings that the first has left.
+            for turn, options in enumerate((random_options(rng), [])):
+                script = write(f"{folder}/edits_{turn}.script", random_script(rng, rng.choice([30, 300, 1000])))
+                kill(rng, folder, script, options, log, whole, counts)
+    print(f"killed {counts.kills} times in {counts.runs} runs, {counts.before_log} before the log was begun, {counts.complete} when it was "
+          f"complete, {counts.within_a_line} within a line, {counts.within_a_batch} within a batch, {counts.within_strokes} within a stroke, "
+          f"of which {counts.strokes_undone} with edits in it were undone")
     end()
 
 

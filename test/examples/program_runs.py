@@ -63,7 +63,7 @@ def up_to_last_tick(log):
 
 def before_open_stroke(lines):
     """The lines of a script before the outermost stroke that is open at its end; None where none is."""
-    begun, number, depth, first = [], 0, 0, 0  # the strokes that no line has ended; the last one; how often it is open; where it begins
+    begun, number, depth, first = [], 0, 0, 0  # what no line has ended, batches as 0; the last stroke; how often it is open; where it begins
     for i, line in enumerate(lines):
         word = line.split("#")[0].split()[:1]
         if word == ["stroke"]:
@@ -71,11 +71,21 @@ def before_open_stroke(lines):
                 number, first = number + 1, i
             depth += 1
             begun.append(number)
+        elif word == ["shift"]:
+            begun.append(0)
         elif word == ["end"] and begun:
             depth -= begun.pop() == number and depth > 0
         elif word in (["undo"], ["redo"]):
             depth = 0
     return lines[:first] if depth else None
+
+
+def whole_edits(log):
+    """The lines of a log that are whole, without a batch that is not."""
+    lines = log[:log.rfind(b"\n") + 1].decode().splitlines(keepends=True)
+    words = [line.split("#")[0].split()[:1] for line in lines]
+    begins = [i for i, word in enumerate(words) if word == ["shift"]]
+    return lines[:begins[-1]] if begins and ["end"] not in words[begins[-1]:] else lines
 
 
 def bytes_of(path):
