@@ -286,7 +286,7 @@ json answer_line(const Line_reader& reader) {
     return failure("line_too_long", "a line may have " + std::to_string(longest_line) + " bytes; this one was skipped");
   json request;
   try {
-    request = parse_line(reader.line());
+    request = parse_bounded(reader.line());
   } catch (const No_answer& error) {
     return failure(error.code(), error.what());
   } catch (const json::exception& error) {

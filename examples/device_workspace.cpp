@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints the workspace, force and inertia figures of a design, and writes its samples for plot_device_workspace.py to
 // draw.
+#include "common/contents_of.h"
 #include "common/process_state.h"
 #include "device_json.h"
+#include "json_line.h"
 #include <haptic_sculpt/device.h>
 #include <haptic_sculpt/device/forward_by_all_modes.h>
 #include <Eigen/Eigenvalues>
@@ -95,8 +97,7 @@ int main(int argument_count, char** arguments) {
     file.open(arguments[1]);
   try {
     if (argument_count > 2) {
-      std::ifstream design(arguments[2]);
-      const nlohmann::json params = nlohmann::json::parse(design);
+      const nlohmann::json params = parse_bounded(examples::contents_of<Error>(arguments[2], "the device"));
       figures(device_description_from_json(params, device_form_from_json(params.value("form", nlohmann::json())), true),
               arguments[2], 21, &file);
       return file ? 0 : 1;

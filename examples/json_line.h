@@ -9,8 +9,8 @@
 #include <vector>
 
 /// \file
-/// JSON by lines from a stream that is not trusted: nothing it says can take more than a bounded amount of memory or of
-/// stack.
+/// JSON that is not trusted, in files and by lines from a stream: nothing it says can take more than a bounded amount of
+/// memory or of stack.
 
 namespace haptic_sculpt {
 
@@ -21,7 +21,7 @@ constexpr std::size_t longest_line = std::size_t(1) << 20;
 /// The library copies and prints values by recursion, so the depth is what bounds the stack.
 constexpr int deepest_nesting = 32;
 
-/// Values in one line, those within others counted too; more are refused. A request has some sixty. Taking a value down
+/// Values in a text, those within others counted too; more are refused. A request has some sixty. Taking a value down
 /// needs memory (16 bytes an element) and has no way to say that there is none, so that a value must stay small.
 constexpr int most_values = 1000;
 
@@ -66,19 +66,19 @@ private:
   const char* code_;
 };
 
-/// The value a line says.
+/// The value that a text says, or a line.
 /// \throw nlohmann::json::exception if it is no JSON; No_answer (`nested_too_deep`, `too_many_values`) before anything
 /// deeper or more is built; std::bad_alloc
-inline nlohmann::json parse_line(std::string_view line) {
+inline nlohmann::json parse_bounded(std::string_view text) {
   using Event = nlohmann::json::parse_event_t;
   int values = 0;
-  return nlohmann::json::parse(line.begin(), line.end(), [&](int depth, Event event, nlohmann::json&) {
+  return nlohmann::json::parse(text.begin(), text.end(), [&](int depth, Event event, nlohmann::json&) {
     const bool opens = event == Event::object_start || event == Event::array_start;
     if (opens && depth >= deepest_nesting)
       throw No_answer("nested_too_deep",
                       "objects and arrays are nested more than " + std::to_string(deepest_nesting) + " deep");
     if ((opens || event == Event::value) && ++values > most_values)
-      throw No_answer("too_many_values", "the line says more than " + std::to_string(most_values) + " values");
+      throw No_answer("too_many_values", "there are more than " + std::to_string(most_values) + " values");
     return true;
   });
 }

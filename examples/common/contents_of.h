@@ -28,24 +28,35 @@ void read_to_end(int file, const std::string& named, const Take& take) {
   }
 }
 
-/// The same of a file by its name; a pipe, too. \param what how messages call it, e.g. "the script"
+/// How messages call a file. \param what it is, e.g. "the script"; may be empty
+inline std::string name_in_message(const std::string& path, const std::string& what) {
+  return what + (what.empty() ? "'" : " '") + path + "'";
+}
+
+/// The same of a file by its name; a pipe, too. \param what how messages call it
 /// \throw Exception, which says why it cannot be read: not there, a folder, no permission
 template <class Exception, class Take>
 void read_blocks(const std::string& path, const std::string& what, const Take& take) {
-  const std::string named = what + (what.empty() ? "'" : " '") + path + "'";
   const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (opened < 0)
-    throw Exception("cannot open " + named + ": " + std::strerror(errno));
+    throw Exception("cannot open " + name_in_message(path, what) + ": " + std::strerror(errno));
   const auto close = [](const int* file) { ::close(*file); };
   const std::unique_ptr<const int, decltype(close)> closes(&opened, close);
-  read_to_end<Exception>(opened, named, take);
+  read_to_end<Exception>(opened, name_in_message(path, what), take);
 }
 
-/// All of a file. \throw Exception
+/// A file that is read as a whole may have this many bytes, 1 GiB: an endless one does not use up the memory.
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+
+/// All of a file. \throw Exception, also where it is longer than `most_bytes`
 template <class Exception>
 std::string contents_of(const std::string& path, const std::string& what) {
   std::string text;
-  read_blocks<Exception>(path, what, [&](std::string_view block) { text += block; });
+  read_blocks<Exception>(path, what, [&](std::string_view block) {
+    if (block.size() > most_bytes - text.size())
+      throw Exception(name_in_message(path, what) + " is longer than 1 GiB");
+    text += block;
+  });
   return text;
 }
 

@@ -4,9 +4,11 @@
 #include "Settings.h"
 
 #include "../common/contents_of.h"
+#include "../json_line.h"
 
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace haptic_sculpt::loop_program {
@@ -19,6 +21,10 @@ struct Recording {
 
   /// \throw Usage_error, Foreign_recording
   static Recording read(const std::string& path);
+
+private:
+  void take_head(const std::string& line, const std::string& path);
+  void take_reading(const std::string& line, const std::string& path);
 };
 
 /// The first line. A path and a hand are not in it: the readings say what they did.
@@ -35,30 +41,47 @@ inline void write_reading(std::FILE* file, const Joint_reading& r) {
 }
 
 inline Recording Recording::read(const std::string& path) {
-  const std::string text = examples::contents_of<Usage_error>(path, "the recording");
-  const std::size_t end = text.find('\n');
   Recording recording;
-  const nlohmann::json head = nlohmann::json::parse(text.substr(0, end), nullptr, false);
+  std::string line; // that has begun; a killed process may leave part of one at the end
+  bool has_head = false;
+  examples::read_blocks<Usage_error>(path, "the recording", [&](std::string_view block) {
+    while (!block.empty()) {
+      const std::size_t end = std::min(block.find('\n'), block.size());
+      line += block.substr(0, end);
+      if (line.size() > longest_line)
+        throw Foreign_recording("'" + path + "' is no recording of haptic_loop: a line is longer than 1 MiB");
+      if (end == block.size())
+        return;
+      has_head ? recording.take_reading(line, path) : recording.take_head(line, path);
+      has_head = true, line.clear();
+      block.remove_prefix(end + 1);
+    }
+  });
+  if (!has_head)
+    recording.take_head(line, path);
+  return recording;
+}
+
+inline void Recording::take_head(const std::string& line, const std::string& path) {
+  nlohmann::json head;
+  try {
+    head = parse_bounded(line);
+  } catch (const nlohmann::json::exception&) { // said below
+  } catch (const No_answer&) {
+  }
   if (!head.is_object() || head.value("haptic_loop", nlohmann::json(0)) != 1 ||
       !head.value("mesh", nlohmann::json(0)).is_string())
     throw Foreign_recording("'" + path + "' is no recording of haptic_loop");
-  recording.mesh = head["mesh"];
-  recording.settings = settings_of(head);
-  std::size_t number = 1;
-  for (std::size_t at = end == std::string::npos ? text.size() : end + 1; at < text.size();) {
-    const std::size_t stop = text.find('\n', at);
-    if (stop == std::string::npos)
-      break; // a killed process may leave part of a line
-    ++number;
-    const std::string line = text.substr(at, stop - at);
-    Joint_reading r;
-    if (std::sscanf(line.c_str(), "%la %la %la %la %la %la %d %la", &r.theta[0], &r.theta[1], &r.theta[2], &r.torque[0],
-                    &r.torque[1], &r.torque[2], &r.button, &r.elapsed) != 8)
-      throw Foreign_recording(path + ": line " + std::to_string(number) + " is no line of a recording");
-    recording.readings.push_back(r);
-    at = stop + 1;
-  }
-  return recording;
+  mesh = head["mesh"];
+  settings = settings_of(head);
+}
+
+inline void Recording::take_reading(const std::string& line, const std::string& path) {
+  Joint_reading r;
+  if (std::sscanf(line.c_str(), "%la %la %la %la %la %la %d %la", &r.theta[0], &r.theta[1], &r.theta[2], &r.torque[0],
+                  &r.torque[1], &r.torque[2], &r.button, &r.elapsed) != 8)
+    throw Foreign_recording(path + ": line " + std::to_string(readings.size() + 2) + " is no line of a recording");
+  readings.push_back(r);
 }
 
 } // namespace haptic_sculpt::loop_program

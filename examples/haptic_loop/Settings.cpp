@@ -4,6 +4,7 @@
 #include "../common/contents_of.h"
 #include "../common/json_words.h"
 #include "../device_json.h"
+#include "../json_line.h"
 
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
 
@@ -17,9 +18,11 @@ using nlohmann::json;
 
 json json_file(const std::string& path) {
   try {
-    return json::parse(examples::contents_of<Usage_error>(path, ""));
+    return parse_bounded(examples::contents_of<Usage_error>(path, ""));
   } catch (const json::exception& error) {
     throw Usage_error("'" + path + "' is no JSON: " + examples::in_words(error));
+  } catch (const No_answer& error) {
+    throw Usage_error("'" + path + "' cannot be read: " + error.what());
   }
 }
 

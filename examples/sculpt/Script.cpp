@@ -280,8 +280,13 @@ std::vector<Command> read_script(std::string_view text, const std::string& name)
   text = examples::without_byte_order_mark(text);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    if (auto command = lines.take(std::string(text.substr(0, end)), number, name))
+    if (auto command = lines.take(std::string(text.substr(0, end)), number, name)) {
+      if (commands.size() == most_commands)
+        throw Script_error(name, number, 1,
+                           "a script has at most " + std::to_string(most_commands) +
+                               " edits and directives: give what follows as another script, with the same --log");
       commands.push_back(std::move(*command));
+    }
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   lines.check_end(name);

@@ -90,6 +90,9 @@ private:
   std::optional<Command> shift_;
 };
 
+/// Lines that a script may have, beside those within a shift: what is read takes up to 500 bytes of memory a line.
+constexpr std::size_t most_commands = 10'000'000;
+
 /// Reads a whole script. \param name how messages call it. \throw Script_error
 std::vector<Command> read_script(std::string_view text, const std::string& name);
 
