@@ -63,7 +63,7 @@ def command_of(step, mode, shard, shards, build, meshes, seed, json, repair=Fals
     options = effort.options + (" " + step.with_meshes if meshes and step.with_meshes else "")
     options += " " + step.with_repair if meshes and repair else ""
     words += options.format(seed=seed, meshes=meshes).split()
-    environment = {name: value.format(seed_of_shard=seed * 1000 + shard, share=step.count.get(mode, 0) // shards)
+    environment = {name: value.format(seed_of_shard=seed * 1000 + shard, share=-(-step.count.get(mode, 0) // shards))
                    for name, value in step.environment.items()}
     if not step.promise:
         words += ["--json", json, "--shard", f"{shard}/{shards}"]
