@@ -2,17 +2,18 @@
 // Prints the workspace, force and inertia figures of a design, and writes its samples for plot_device_workspace.py to
 // draw.
 #include "common/contents_of.h"
-#include "common/process_state.h"
+#include "common/json_words.h"
+#include "common/run_program.h"
 #include "device_json.h"
 #include "json_line.h"
 #include <haptic_sculpt/device.h>
 #include <haptic_sculpt/device/forward_by_all_modes.h>
+#include <haptic_sculpt/surface/io/replace_file.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iostream>
+#include <sstream>
 
 namespace {
 
@@ -35,7 +36,7 @@ Device_vector<double> eigenvalues(const Device_matrix<double>& m) {
   return Eigen::SelfAdjointEigenSolver<Device_matrix<double>>(m).eigenvalues();
 }
 
-void figures(Device_description<double> description, const char* name, int per_joint, std::ofstream* samples_file) {
+void figures(Device_description<double> description, const char* name, int per_joint, std::ostream* samples_file) {
   const Device_parameters<double> parameters(description);
   description.rotor_inertia = 6.3e-5;
   const Device_parameters<double> geared(description);
@@ -81,41 +82,52 @@ void figures(Device_description<double> description, const char* name, int per_j
   model_difference.print("planar model's mass matrix off by", "of its norm");
 }
 
-} // namespace
+constexpr const char* help =
+    "device_workspace [SAMPLES.txt [DEVICE.json]]\n"
+    "Prints workspace, force and inertia of the designs D1, D2, D3 in both forms, or of DEVICE.json (the keys of "
+    "doc/use/device.md);\n"
+    "writes the samples of the first one for examples/plot_device_workspace.py.\n"
+    "exit: 0 done, 1 a fault of the program, 3 the device is refused, 5 something cannot be written\n";
 
-int main(int argument_count, char** arguments) {
-  examples::put_process_in_order("device_workspace");
+int print_figures(int argument_count, char** arguments) {
+  std::ostringstream samples;
   if (argument_count > 1 && std::strcmp(arguments[1], "--help") == 0) {
-    std::puts("device_workspace [SAMPLES.txt [DEVICE.json]]\n"
-              "Prints workspace, force and inertia of the designs D1, D2, D3 in both forms, or of DEVICE.json (the "
-              "keys of doc/use/device.md);\n"
-              "writes the samples of the first one for examples/plot_device_workspace.py.");
-    return 0;
-  }
-  std::ofstream file;
-  if (argument_count > 1)
-    file.open(arguments[1]);
-  try {
-    if (argument_count > 2) {
-      const nlohmann::json params = parse_bounded(examples::contents_of<Error>(arguments[2], "the device"));
-      figures(device_description_from_json(params, device_form_from_json(params.value("form", nlohmann::json())), true),
-              arguments[2], 21, &file);
-      return file ? 0 : 1;
-    }
-    bool first = true;
+    std::fputs(help, stdout);
+  } else if (argument_count > 2) {
+    const nlohmann::json params = parse_bounded(examples::contents_of<Error>(arguments[2], "the device", 1));
+    figures(device_description_from_json(params, device_form_from_json(params.value("form", nlohmann::json())), true),
+            arguments[2], 21, &samples);
+    replace_file(arguments[1], samples.str());
+  } else {
     for (Device_form form : {Device_form::general, Device_form::ditetrahedral})
       for (Named_design design : {Named_design::D1, Named_design::D2, Named_design::D3}) {
         const std::string name = std::string("D") + std::to_string(static_cast<int>(design) + 1) +
                                  (form == Device_form::general ? " general" : " di-tetrahedral");
-        figures(named_design<double>(design, form), name.c_str(), 21, first && file.is_open() ? &file : nullptr);
-        first = false;
+        const bool is_first = form == Device_form::general && design == Named_design::D1;
+        figures(named_design<double>(design, form), name.c_str(), 21, is_first ? &samples : nullptr);
       }
-  } catch (const nlohmann::json::exception& error) {
-    std::cerr << "the device file cannot be read: " << error.what() << '\n';
-    return 3;
-  } catch (const Error& error) {
-    std::cerr << error.what() << '\n';
-    return 3;
+    if (argument_count > 1)
+      replace_file(arguments[1], samples.str());
   }
-  return argument_count > 1 && !file ? 1 : 0;
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Write_error("the figures cannot be written");
+  return examples::done;
+}
+
+} // namespace
+
+int main(int argument_count, char** arguments) {
+  return examples::run_program(
+      "device_workspace", [&] { return print_figures(argument_count, arguments); },
+      [](const std::exception& error) {
+        if (dynamic_cast<const Write_error*>(&error) != nullptr)
+          return examples::cannot_write;
+        const bool is_of_device = dynamic_cast<const Error*>(&error) != nullptr ||
+                                  dynamic_cast<const nlohmann::json::exception*>(&error) != nullptr;
+        return is_of_device ? examples::mesh_refused : examples::failed;
+      },
+      [](const std::exception& error) {
+        const auto* const of_json = dynamic_cast<const nlohmann::json::exception*>(&error);
+        return of_json == nullptr ? error.what() : "the device cannot be read: " + examples::in_words(*of_json);
+      });
 }

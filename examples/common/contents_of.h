@@ -45,16 +45,14 @@ void read_blocks(const std::string& path, const std::string& what, const Take& t
   read_to_end<Exception>(opened, name_in_message(path, what), take);
 }
 
-/// A file that is read as a whole may have this many bytes, 1 GiB: an endless one does not use up the memory.
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
-
-/// All of a file. \throw Exception, also where it is longer than `most_bytes`
+/// All of a file. \param most_mebibytes that it may have: an endless one does not use up the memory
+/// \throw Exception, also where it is longer
 template <class Exception>
-std::string contents_of(const std::string& path, const std::string& what) {
+std::string contents_of(const std::string& path, const std::string& what, std::size_t most_mebibytes = 1024) {
   std::string text;
   read_blocks<Exception>(path, what, [&](std::string_view block) {
-    if (block.size() > most_bytes - text.size())
-      throw Exception(name_in_message(path, what) + " is longer than 1 GiB");
+    if (block.size() > (most_mebibytes << 20) - text.size())
+      throw Exception(name_in_message(path, what) + " is longer than " + std::to_string(most_mebibytes) + " MiB");
     text += block;
   });
   return text;

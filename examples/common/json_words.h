@@ -8,7 +8,7 @@
 namespace haptic_sculpt::examples {
 
 /// What is wrong with a JSON, for people: where it is, and what, without the names of the library that reads it.
-/// E.g. "line 3, column 7: unexpected ','; expected value".
+/// E.g. "line 3, column 7: unexpected ','; expected value". Of what stands there at most some hundred bytes.
 inline std::string in_words(const nlohmann::json::exception& error) {
   std::string text = error.what();
   if (const std::size_t end = text.find("] "); text.substr(0, 1) == "[" && end != std::string::npos)
@@ -20,7 +20,8 @@ inline std::string in_words(const nlohmann::json::exception& error) {
   if (const std::size_t at = text.find(syntax); at != std::string::npos)
     if (const std::size_t dash = text.find(" - ", at); dash != std::string::npos)
       text.erase(at, dash + 3 - at);
-  return text;
+  constexpr std::size_t most = 400;
+  return text.size() <= most ? text : text.substr(0, most) + "...";
 }
 
 /// As text that is UTF-8 whatever strings it was given: names of files may be any bytes.

@@ -12,7 +12,7 @@
 
 #include <iostream>
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Mesh input = torus(48, 12, 0.2);
   Mesh bent = input, mesh = input;
 
@@ -48,4 +48,7 @@ int main(int argc, char** argv) {
     haptic_sculpt::drawing::write_picture(scene, argv[1], view);
   }
   return self_intersecting_pairs(bent) > 0 && self_intersecting_pairs(mesh) == 0 ? 0 : 1;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
 }

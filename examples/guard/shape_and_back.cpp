@@ -52,7 +52,7 @@ int main(int argc, char** argv) try {
   go(sculptor, to, "there under the guard");
   go(sculptor, from, "and back");
   return self_intersecting_pairs(mesh) == 0 && (argc > 2 || most > 0) ? 0 : 1;
-} catch (const haptic_sculpt::Error& error) {
+} catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;
 }

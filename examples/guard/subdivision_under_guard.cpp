@@ -43,7 +43,7 @@ int main(int argc, char** argv) try {
   std::cout << "with its points as targets: " << guarded << "; " << report.reached << " of " << report.asked
             << " vertices arrived, " << 100 * (1 - report.left_l2 / report.asked_l2) << " % of the way was made\n";
   return guarded == 0 && (argc > 1 || alone > 0) ? 0 : 1;
-} catch (const haptic_sculpt::Error& error) {
+} catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;
 }

@@ -63,7 +63,7 @@ int main(int argc, char** argv) try {
   const std::size_t guarded_pairs = self_intersecting_pairs(guarded);
   std::cout << "under the guard: " << guarded_pairs << "; " << reached << " of " << asked << " motions arrived\n";
   return guarded_pairs == 0 && (argc > 1 || plain_pairs > 0) ? 0 : 1;
-} catch (const haptic_sculpt::Error& error) {
+} catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;
 }

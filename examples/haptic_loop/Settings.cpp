@@ -18,7 +18,7 @@ using nlohmann::json;
 
 json json_file(const std::string& path) {
   try {
-    return parse_bounded(examples::contents_of<Usage_error>(path, ""));
+    return parse_bounded(examples::contents_of<Usage_error>(path, "", 1));
   } catch (const json::exception& error) {
     throw Usage_error("'" + path + "' is no JSON: " + examples::in_words(error));
   } catch (const No_answer& error) {

@@ -43,7 +43,11 @@ Log_file::Log_file(const std::string& path, const std::string& mesh)
   try {
     lock();
     std::string text;
-    examples::read_to_end<Write_error>(file_, in_words(path_), [&](std::string_view block) { text += block; });
+    examples::read_to_end<Write_error>(file_, in_words(path_), [&](std::string_view block) {
+      if (text.empty()) // before a file that is none, of any size, is read
+        check_begin_of_log(block, path_);
+      text += block;
+    });
     if (text.empty())
       return;
     contents_ = read_log(text, path_, mesh_);

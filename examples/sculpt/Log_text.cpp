@@ -114,12 +114,8 @@ private:
   bool read_line_here() {
     const std::size_t end = text_.find('\n', at_);
     ++number_;
-    if (number_ == 1 && !begins_with(text_, version_word))
-      throw Foreign_log(
-          "'" + name_ + "' is not a log, for line 1 is not the first line of one; it is left as it is. " +
-          (is_mesh_line(text_.substr(0, end))
-               ? "Its lines are a script: give it as --script, and with --log a name that is not there yet"
-               : "Give the name of a log, or one that is not there yet"));
+    if (number_ == 1)
+      check_begin_of_log(text_, name_);
     if (end == std::string_view::npos)
       return false;
     const std::string_view line = text_.substr(at_, end - at_);
@@ -131,16 +127,6 @@ private:
       read_checked(line);
     at_ = end + 1;
     return true;
-  }
-
-  /// The first line of a script that a log might be made of.
-  bool is_mesh_line(std::string_view line) const {
-    try {
-      const auto command = read_line(std::string(line), 1, name_);
-      return command && command->kind == Kind::mesh;
-    } catch (const Script_error&) {
-      return false;
-    }
   }
 
   void read_version(std::string_view line) {
@@ -316,6 +302,24 @@ Settings Log_contents::last_settings() const {
   for (const Command& command : commands)
     settings.follow(command);
   return settings;
+}
+
+void check_begin_of_log(std::string_view text, const std::string& name) {
+  if (begins_with(text, version_word))
+    return;
+  // The first line of a script that a log might be made of.
+  const auto is_mesh_line = [&](std::string_view line) {
+    try {
+      const auto command = read_line(std::string(line), 1, name);
+      return command && command->kind == Kind::mesh;
+    } catch (const Script_error&) {
+      return false;
+    }
+  };
+  throw Foreign_log("'" + name + "' is not a log, for line 1 is not the first line of one; it is left as it is. " +
+                    (is_mesh_line(text.substr(0, text.find('\n')))
+                         ? "Its lines are a script: give it as --script, and with --log a name that is not there yet"
+                         : "Give the name of a log, or one that is not there yet"));
 }
 
 Log_contents read_log(std::string_view text, const std::string& name, const std::string& mesh) {

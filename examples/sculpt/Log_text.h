@@ -80,6 +80,10 @@ struct Log_contents {
   Settings last_settings() const;
 };
 
+/// \param text of a log, the first line at least \param name how messages call it
+/// \throw Foreign_log if it does not begin as a log does
+void check_begin_of_log(std::string_view text, const std::string& name);
+
 /// \param name how messages call the log \param mesh the hash that it has to begin with
 /// \throw Foreign_log if the first line is not that of a log, or the log is of another mesh; Script_error for a line
 /// that has been changed or cannot be read

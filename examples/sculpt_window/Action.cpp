@@ -101,6 +101,8 @@ private:
 constexpr const char* buttons[] = {"left", "right", "middle"};
 constexpr const char* modifiers[] = {"shift", "ctrl", "alt"};
 
+constexpr std::size_t most_actions = 1000000, longest_line = 10000; // bytes
+
 class Reader {
 public:
   Reader(std::vector<Action>& actions, Line& line, std::size_t number)
@@ -168,6 +170,8 @@ private:
   std::size_t number_;
 
   Action& add(Kind kind) {
+    if (actions_.size() == most_actions)
+      line_.fail("a script has at most " + std::to_string(most_actions) + " actions, each step of a drag being one");
     actions_.emplace_back();
     actions_.back().kind = kind;
     actions_.back().line = number_;
@@ -264,6 +268,9 @@ std::vector<Action> read_actions(const std::string& text, const std::string& nam
   std::istringstream lines{std::string(examples::without_byte_order_mark(text))};
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    if (line.size() > longest_line)
+      throw Action_error(name + ": line " + std::to_string(number) + " is longer than " + std::to_string(longest_line) +
+                         " bytes");
     Line words(line, name, number);
     if (const auto first = words.next())
       Reader(actions, words, number).read(*first);

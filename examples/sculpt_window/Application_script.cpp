@@ -237,7 +237,11 @@ void Application::note(const char* format, ...) {
   std::vfprintf(record_, format, arguments);
   va_end(arguments);
   std::fputc('\n', record_);
-  std::fflush(record_);
+  if (std::fflush(record_) != 0 || std::ferror(record_) != 0) {
+    fail_to_write("cannot write the recording '" + recorded_to_ + "': " + std::strerror(errno));
+    std::fclose(record_);
+    record_ = nullptr, recorded_to_.clear();
+  }
 }
 
 int Application::finish() {

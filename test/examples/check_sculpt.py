@@ -62,7 +62,7 @@ def directives_and_refusals(folder, mesh):
     empty = run(mesh, "--script", "/dev/null", "--report", report)
     told = json.load(open(report))
     check(empty.returncode == 0 and told["edits"] == [] and told["totals"]["asked"] == 0 and told["time_ns"]["max"] == 0, "empty script")
-    fails(4, ["'/dev/zero'", "longer than 1 GiB"], run(mesh, "--script", "/dev/zero"), "a script without end")
+    fails(4, ["'/dev/zero'", "longer than 1024 MiB"], run(mesh, "--script", "/dev/zero"), "a script without end")
     huge = run(mesh, "--script", "/dev/stdin", "--report", report, script="drag 3 1e300 1e300 1e300\ndrag 3 -1e300 -1e300 -1.07e301\n")
     check(huge.returncode == 0 and len(json.load(open(report))["edits"]) == 2, f"huge coordinates: {huge.stderr}")
 

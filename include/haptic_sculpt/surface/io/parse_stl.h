@@ -5,16 +5,32 @@
 #include <haptic_sculpt/surface/io/Text_scanner.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
-#include <boost/container_hash/hash.hpp>
-
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 
 namespace haptic_sculpt::internal {
+
+/// Other in each run: nobody can write a file whose points all have one hash, which would take quadratic time.
+struct Seeded_hash {
+  std::uint64_t seed = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+
+  std::size_t operator()(const std::array<std::uint64_t, 3>& key) const {
+    std::uint64_t hash = seed;
+    for (const std::uint64_t bits : key) { // the last steps of MurmurHash3, which is in the public domain
+      hash ^= bits;
+      hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdU;
+      hash = (hash ^ (hash >> 33)) * 0xc4ceb9fe1a85ec53U;
+      hash ^= hash >> 33;
+    }
+    return hash;
+  }
+};
 
 /// Makes vertices of the corners of an STL file: exactly equal points are one vertex (0 and -0 are equal), numbered in
 /// the order of first appearance.
@@ -23,7 +39,7 @@ public:
   explicit Stl_vertices(Face_soup& soup) : soup_(soup) {}
 
   void add_corner(double x, double y, double z) {
-    std::array<std::uint64_t, 3> key;
+    Key key;
     std::size_t k = 0;
     for (double coordinate : {x, y, z}) {
       if (coordinate == 0)
@@ -37,8 +53,10 @@ public:
   }
 
 private:
+  using Key = std::array<std::uint64_t, 3>;
+
   Face_soup& soup_;
-  std::unordered_map<std::array<std::uint64_t, 3>, Face_soup::Index, boost::hash<std::array<std::uint64_t, 3>>> index_;
+  std::unordered_map<Key, Face_soup::Index, Seeded_hash> index_;
 };
 
 inline std::string in_lower_case(std::string_view word) {
@@ -94,6 +112,8 @@ inline Face_soup parse_ascii_stl(std::string_view text) {
 
 /// Binary STL: floats. \throw Read_error
 inline Face_soup parse_binary_stl(std::string_view bytes, std::uint32_t faces) {
+  if (faces > UINT32_MAX / 3)
+    throw Read_error("the faces have 2^32 corners or more");
   Binary_scanner scan(bytes.substr(84), false);
   Face_soup soup;
   Stl_vertices vertices(soup);

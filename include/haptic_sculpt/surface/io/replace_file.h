@@ -63,6 +63,8 @@ inline std::string keep_permissions(int new_file, const struct stat& old) {
     return "this does not name a file";
   std::error_code error;
   const fs::file_status status = fs::status(target, error);
+  if (error == std::errc::filename_too_long)
+    return "its name is too long";
   if (fs::is_directory(status))
     return "this is a directory; name a file in it";
   if (fs::exists(status) && !fs::is_regular_file(status))
