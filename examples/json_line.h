@@ -9,8 +9,8 @@
 #include <vector>
 
 /// \file
-/// JSON that is not trusted, in files and by lines from a stream: nothing it says can take more than a bounded amount of
-/// memory or of stack.
+/// JSON that is not trusted, in files and by lines from a stream: nothing it says can take more than a bounded amount
+/// of memory or of stack.
 
 namespace haptic_sculpt {
 

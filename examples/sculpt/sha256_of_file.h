@@ -11,7 +11,7 @@
 
 namespace haptic_sculpt::sculpt_program {
 
-/// The SHA-256 of a file's bytes. \throw Read_error when it cannot be read: a device has no end, and a pipe is empty then
+/// The SHA-256 of a file's bytes. \throw Read_error when it cannot be read: devices have no end, a pipe is empty then
 inline std::string sha256_of_file(const std::string& path) {
   std::error_code error;
   if (const auto status = std::filesystem::status(path, error);

@@ -155,11 +155,27 @@ def left_over_files(folder, mesh):
     check(not os.path.exists(living), "it stays when its process has died")
 
 
+def hostile_inputs(folder, mesh):
+    """What has no end, or is larger than it may be, is refused before it is read."""
+    endless = f"{folder}/endless.off"
+    os.symlink("/dev/zero", endless)
+    for options in ([], ["--log", f"{folder}/endless.log"]):
+        fails(3, ["not a regular file"], run(endless, *options, seconds=20), f"a mesh without end {options}")
+    with open(f"{folder}/hole.log", "wb") as hole:
+        hole.truncate(1 << 36)
+    fails(6, ["is not a log"], run(mesh, "--log", f"{folder}/hole.log", seconds=20), "a log of 64 GiB of nothing")
+    head = "ply\nformat ascii 1.0\nelement vertex 3\n"
+    fails(3, ["1000 properties"], run(write(f"{folder}/many.ply", head + "".join(f"property float p{i}\n" for i in range(1001)))), "1001 properties")
+    fails(3, ["1000 elements"], run(write(f"{folder}/many.ply", head + "".join(f"element e{i} 0\n" for i in range(1000)))), "1001 elements")
+    fails(5, ["too long"], run(mesh, "-o", f"{folder}/{'a' * 300}.off"), "a name that is too long")
+    fails(2, ["--repair-largest-hole"], run(mesh, "--repair", "--repair-largest-hole", "-1"), "less than no edges")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
         os.chmod(mesh, 0o644)
-        for part in (bad_targets, links, rights, sticky_folder, control_bytes, left_over_files):
+        for part in (bad_targets, links, rights, sticky_folder, control_bytes, left_over_files, hostile_inputs):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             part(inner, mesh)
