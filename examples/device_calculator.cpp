@@ -323,7 +323,7 @@ are not known are listed in the answer as "unknown_keys". A line may have 104857
 nesting.
 
 usage: device_calculator [--help] < REQUESTS > ANSWERS
-exit:  0 all lines answered (failures are answers), 1 a fault of the program, 2 wrong arguments or unreadable requests,
+Exit:  0 all lines answered (failures are answers), 1 a fault of the program, 2 wrong arguments or unreadable requests,
        5 the answers cannot be written
 )";
 static_assert(longest_line == 1048576 && most_values == 1000 && deepest_nesting == 32, "the help text says these");

@@ -87,11 +87,20 @@ constexpr const char* help =
     "Prints workspace, force and inertia of the designs D1, D2, D3 in both forms, or of DEVICE.json (the keys of "
     "doc/use/device.md);\n"
     "writes the samples of the first one for examples/plot_device_workspace.py.\n"
-    "exit: 0 done, 1 a fault of the program, 3 the device is refused, 5 something cannot be written\n";
+    "Exit: 0 done, 1 a fault of the program, 3 the device is refused, 5 something cannot be written\n";
+
+/// \throw Write_error where that is known before the work
+void check_target(const char* path) {
+  if (const std::string why = why_not_replaceable(follow_links(path)); !why.empty())
+    throw Write_error("cannot write '" + std::string(path) + "': " + why);
+}
 
 int print_figures(int argument_count, char** arguments) {
   std::ostringstream samples;
-  if (argument_count > 1 && std::strcmp(arguments[1], "--help") == 0) {
+  const bool asks_help = argument_count > 1 && std::strcmp(arguments[1], "--help") == 0;
+  if (argument_count > 1 && !asks_help)
+    check_target(arguments[1]);
+  if (asks_help) {
     std::fputs(help, stdout);
   } else if (argument_count > 2) {
     const nlohmann::json params = parse_bounded(examples::contents_of<Error>(arguments[2], "the device", 1));

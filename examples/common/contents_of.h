@@ -37,12 +37,13 @@ inline std::string name_in_message(const std::string& path, const std::string& w
 /// \throw Exception, which says why it cannot be read: not there, a folder, no permission
 template <class Exception, class Take>
 void read_blocks(const std::string& path, const std::string& what, const Take& take) {
+  const std::string name = name_in_message(path, what);
   const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (opened < 0)
-    throw Exception("cannot open " + name_in_message(path, what) + ": " + std::strerror(errno));
+    throw Exception("cannot open " + name + ": " + std::strerror(errno));
   const auto close = [](const int* file) { ::close(*file); };
   const std::unique_ptr<const int, decltype(close)> closes(&opened, close);
-  read_to_end<Exception>(opened, name_in_message(path, what), take);
+  read_to_end<Exception>(opened, name, take);
 }
 
 /// All of a file. \param most_mebibytes that it may have: an endless one does not use up the memory

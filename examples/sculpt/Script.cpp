@@ -284,7 +284,8 @@ std::vector<Command> read_script(std::string_view text, const std::string& name)
       if (commands.size() == most_commands)
         throw Script_error(name, number, 1,
                            "a script has at most " + std::to_string(most_commands) +
-                               " edits and directives: give what follows as another script, with the same --log");
+                               " edits and directives: give what follows as another script, with the same --log; "
+                               "a log of any length is replayed as --log");
       commands.push_back(std::move(*command));
     }
     text.remove_prefix(std::min(end + 1, text.size()));

@@ -90,7 +90,7 @@ private:
   std::optional<Command> shift_;
 };
 
-/// Lines that a script may have, beside those within a shift: what is read takes up to 500 bytes of memory a line.
+/// Edits and directives that a script may have; a shift is one. Each takes up to 500 bytes of memory while it runs.
 constexpr std::size_t most_commands = 10'000'000;
 
 /// Reads a whole script. \param name how messages call it. \throw Script_error

@@ -101,7 +101,8 @@ private:
 constexpr const char* buttons[] = {"left", "right", "middle"};
 constexpr const char* modifiers[] = {"shift", "ctrl", "alt"};
 
-constexpr std::size_t most_actions = 1000000, longest_line = 10000; // bytes
+constexpr std::size_t most_actions = 1000000;
+constexpr std::size_t most_bytes_of_line = 10000;
 
 class Reader {
 public:
@@ -268,9 +269,9 @@ std::vector<Action> read_actions(const std::string& text, const std::string& nam
   std::istringstream lines{std::string(examples::without_byte_order_mark(text))};
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
-    if (line.size() > longest_line)
-      throw Action_error(name + ": line " + std::to_string(number) + " is longer than " + std::to_string(longest_line) +
-                         " bytes");
+    if (line.size() > most_bytes_of_line)
+      throw Action_error(name + ": line " + std::to_string(number) + " is longer than " +
+                         std::to_string(most_bytes_of_line) + " bytes");
     Line words(line, name, number);
     if (const auto first = words.next())
       Reader(actions, words, number).read(*first);

@@ -160,6 +160,7 @@ private:
   void print_status() const;
   void record(const std::string& path);
   void note(const char* format, ...);
+  void flush_record();
   void draw_state();
   void draw_brush();
   void draw_figures();

@@ -223,6 +223,7 @@ void Application::record(const std::string& path) {
   last_recorded_ = Clock::now();
   recorded_to_ = path;
   say("recording to " + path);
+  flush_record();
 }
 
 void Application::note(const char* format, ...) {
@@ -237,11 +238,16 @@ void Application::note(const char* format, ...) {
   std::vfprintf(record_, format, arguments);
   va_end(arguments);
   std::fputc('\n', record_);
-  if (std::fflush(record_) != 0 || std::ferror(record_) != 0) {
-    fail_to_write("cannot write the recording '" + recorded_to_ + "': " + std::strerror(errno));
-    std::fclose(record_);
-    record_ = nullptr, recorded_to_.clear();
-  }
+  flush_record();
+}
+
+void Application::flush_record() {
+  if (std::fflush(record_) == 0 && std::ferror(record_) == 0)
+    return;
+  const int error = errno;
+  fail_to_write("cannot write the recording '" + recorded_to_ + "': " + std::strerror(error));
+  std::fclose(record_);
+  record_ = nullptr, recorded_to_.clear();
 }
 
 int Application::finish() {

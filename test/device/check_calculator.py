@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Asks device_calculator for every configuration of a reference file and compares within the file's tolerances.
 
-usage: check_calculator.py DEVICE_CALCULATOR
+usage: check_calculator.py DEVICE_CALCULATOR DEVICE_WORKSPACE
 The reference is device/reference_sample.json of the folder that HAPTIC_SCULPT_SHARED names; exit 77 (skipped in part) where
 the variable is not set.
 """
@@ -12,6 +12,7 @@ import os
 import resource
 import subprocess
 import sys
+import tempfile
 
 program, shared = sys.argv[1], os.environ.get("HAPTIC_SCULPT_SHARED")
 failures = []
@@ -101,6 +102,28 @@ run = subprocess.run([program, "--hlep"], stdin=subprocess.DEVNULL, stdout=subpr
 expect(run.returncode == 2 and not run.stdout and b"--hlep" in run.stderr, "a wrong argument", run)
 with open("/dev/full", "wb") as full:
     expect(subprocess.run([program], input=good_line.encode(), stdout=full).returncode == 5, "answers that cannot be written")
+folder = os.open("/", os.O_RDONLY)
+expect(subprocess.run([program], stdin=folder, stderr=subprocess.PIPE).returncode == 2, "requests that cannot be read")
+os.close(folder)
+
+
+def workspace(*arguments, stdout=subprocess.DEVNULL):
+    return subprocess.run([sys.argv[2], *arguments], stdout=stdout, stderr=subprocess.PIPE, text=True, timeout=100)
+
+
+with tempfile.TemporaryDirectory() as folder:
+    samples, device = f"{folder}/samples.txt", f"{folder}/device.json"
+    for text, code, part in (('{"R":0.03,"l1":0.07,"l2":0.1,"r":0,"m1":0.05,"m2":0.05,"M":0.1}', 0, ""),
+                             ('{"params":' * 50000, 3, "32 deep"), ('"' + "a" * 900000, 3, "cannot be read"), (" " * 1100000, 3, "1 MiB")):
+        with open(device, "w") as file:
+            file.write(text)
+        run = workspace(samples, device)
+        expect(run.returncode == code and part in run.stderr and len(run.stderr) < 1000, f"the workspace of {text[:20]}", run.stderr[:200])
+        expect(len(open(samples).read().splitlines()) > 100, "samples are written, and stay where a device is refused")
+    expect(workspace(samples, f"{folder}/none.json").returncode == 3, "a device that is not there")
+    expect(workspace("/dev/full", device).returncode == 5, "samples that cannot be written")
+    with open("/dev/full", "w") as full:
+        expect(workspace("--help", stdout=full).returncode == 5, "words that cannot be written")
 
 if not shared:
     print("skipped: the reference is read only where HAPTIC_SCULPT_SHARED names its folder")

@@ -203,7 +203,7 @@ public:
   Applied<Mesh_type> apply(const Edit& edit) { return applier_.apply(*this, edit); }
 
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as
-  /// the history keeps. Ends the stroke under way first. A new change clears what could be redone. Restores what was,
+  /// the history keeps. Ends the stroke under way, unless memory runs out. A new change clears what could be redone. Restores what was,
   /// whatever delta is now. \post What the step had created has died; what died by it lives again, maybe with other
   /// descriptors. Of a drag: none dies.
   Edited undo() { return guarded_.restored([&] { return guarded_.editor().undo(); }); }

@@ -10,8 +10,8 @@ namespace haptic_sculpt {
 /// by `end()` or destruction, an exception included; what was done by then is the step.
 ///
 /// A stroke made while there is one joins it, and the step ends with the last of them. `undo()` and `redo()` end the
-/// stroke first; edits after that are steps of their own, though the object lives. Refers to its Sculptor, which must
-/// outlive it.
+/// stroke, unless memory runs out; edits after that are steps of their own, though the object lives. Refers to its
+/// Sculptor, which must outlive it.
 template <class Sculptor>
 class [[nodiscard]] Stroke {
 public:

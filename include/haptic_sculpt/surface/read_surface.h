@@ -5,6 +5,7 @@
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
+#include <haptic_sculpt/surface/io/check_regular_file.h>
 #include <haptic_sculpt/surface/io/parse_obj.h>
 #include <haptic_sculpt/surface/io/parse_off.h>
 #include <haptic_sculpt/surface/io/parse_ply.h>
@@ -29,14 +30,7 @@ namespace internal {
 
 /// \throw Read_error
 [[gnu::cold]] inline std::string bytes_of_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    throw Read_error("there is no such file");
-  if (std::filesystem::is_directory(status))
-    throw Read_error("this is a directory; name a file in it");
-  if (!std::filesystem::is_regular_file(status))
-    throw Read_error("this is not a regular file" + (error ? " (" + error.message() + ")" : std::string()));
+  check_regular_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw Read_error("the file cannot be opened; check its permissions");

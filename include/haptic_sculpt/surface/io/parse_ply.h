@@ -34,8 +34,8 @@ struct Ply_element {
   std::vector<Ply_property> properties;
 };
 
-/// Elements of a file and properties of an element, at most: names are looked up one by one.
-constexpr std::size_t most_properties = 1000;
+/// Elements of a file, and properties of an element: names are looked up one by one.
+constexpr std::size_t most_names = 1000;
 
 struct Ply_header {
   enum class Encoding { ascii, little_endian, big_endian } encoding;
@@ -81,15 +81,15 @@ struct Ply_header {
     } else if (keyword == "element") {
       std::string name(scan.word("a name"));
       const auto count = scan.to_number<std::uint64_t>(scan.word("a number of elements"), "a number of elements");
-      if (header.elements.size() == most_properties)
-        scan.fail("a file may have " + std::to_string(most_properties) + " elements");
+      if (header.elements.size() == most_names)
+        scan.fail("a file has at most " + std::to_string(most_names) + " elements");
       header.elements.push_back({std::move(name), count, {}});
     } else if (keyword == "property") {
       if (header.elements.empty())
         scan.fail("a property stands before the first element");
       auto& properties = header.elements.back().properties;
-      if (properties.size() == most_properties)
-        scan.fail("an element may have " + std::to_string(most_properties) + " properties");
+      if (properties.size() == most_names)
+        scan.fail("an element has at most " + std::to_string(most_names) + " properties");
       Text_scanner ahead = scan;
       if (ahead.word("a type") == "list") {
         scan.word("'list'");
@@ -248,8 +248,6 @@ inline Face_soup parse_ply(std::string_view bytes) {
           if (value < 0 || value >= UINT32_MAX)
             throw Read_error("face " + std::to_string(item) + " names vertex " +
                              std::to_string(static_cast<std::int64_t>(value)) + ", which cannot be");
-          if (soup.corners.size() == UINT32_MAX)
-            throw Read_error("the faces have 2^32 corners or more");
           soup.corners.push_back(static_cast<Face_soup::Index>(value));
         }
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Vertex_attribute.h>
 #include <haptic_sculpt/surface/cgal_compatibility.h>
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,7 @@ namespace haptic_sculpt {
 /// 4 bytes a corner and a face, 24 a point.
 struct Face_soup {
   using Point_3 = Decision_kernel::Point_3; ///< three doubles, as given
-  using Index = std::uint32_t; ///< of points and corners: fewer than 2^32 of each, which is not checked here
+  using Index = std::uint32_t; ///< of points and corners: fewer than 2^32 of each
 
   std::vector<Point_3> points;        ///< in the order of the file
   std::vector<Index> corners;         ///< indices of points, face after face
@@ -49,8 +51,12 @@ struct Face_soup {
       left_out.push_back(what);
   }
 
-  /// Ends the face whose corners were appended to `corners`.
-  void close_face() { first_corner.push_back(static_cast<Index>(corners.size())); }
+  /// Ends the face whose corners were appended to `corners`. \throw Read_error for 2^32 corners and more
+  void close_face() {
+    if (corners.size() > std::numeric_limits<Index>::max())
+      throw Read_error("the faces have 2^32 corners or more");
+    first_corner.push_back(static_cast<Index>(corners.size()));
+  }
 
   /// Appends a face with these corners. \pre the one before is closed
   template <class Range>
