@@ -203,9 +203,9 @@ public:
   Applied<Mesh_type> apply(const Edit& edit) { return applier_.apply(*this, edit); }
 
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as
-  /// the history keeps. Ends the stroke under way, unless memory runs out. A new change clears what could be redone. Restores what was,
-  /// whatever delta is now. \post What the step had created has died; what died by it lives again, maybe with other
-  /// descriptors. Of a drag: none dies.
+  /// the history keeps. Ends the stroke under way, unless memory runs out. A new change clears what could be redone.
+  /// Restores what was, whatever delta is now. \post What the step had created has died; what died by it lives again,
+  /// maybe with other descriptors. Of a drag: none dies.
   Edited undo() { return guarded_.restored([&] { return guarded_.editor().undo(); }); }
   /// Makes the step that was taken back last again. \post The same have died as when it was first made.
   Edited redo() { return guarded_.restored([&] { return guarded_.editor().redo(); }); }
