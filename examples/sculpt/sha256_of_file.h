@@ -12,7 +12,7 @@ namespace haptic_sculpt::sculpt_program {
 /// The SHA-256 of a file's bytes. \throw Read_error when it cannot be read
 inline std::string sha256_of_file(const std::string& path) {
   try {
-    internal::check_regular_file(path);
+    check_regular_file(path);
   } catch (const Read_error& error) {
     throw Read_error("cannot read '" + path + "': " + error.what());
   }

@@ -7,7 +7,7 @@
 #include <string>
 #include <system_error>
 
-namespace haptic_sculpt::internal {
+namespace haptic_sculpt {
 
 /// \throw Read_error, which says why, unless there is a regular file: a device may have no end, and a pipe has nothing
 /// left for whoever reads it next
@@ -22,4 +22,4 @@ namespace haptic_sculpt::internal {
     throw Read_error("this is not a regular file" + (error ? " (" + error.message() + ")" : std::string()));
 }
 
-} // namespace haptic_sculpt::internal
+} // namespace haptic_sculpt
