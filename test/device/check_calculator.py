@@ -113,7 +113,7 @@ def workspace(*arguments, stdout=subprocess.DEVNULL):
 
 with tempfile.TemporaryDirectory() as folder:
     samples, device = f"{folder}/samples.txt", f"{folder}/device.json"
-    for text, code, part in (('{"R":0.03,"l1":0.07,"l2":0.1,"r":0,"m1":0.05,"m2":0.05,"M":0.1}', 0, ""),
+    for text, code, part in (('{"form":"ditetra","R":0.03,"l1":0.07,"l2":0.1,"r":0,"m1":0.05,"m2":0.05,"M":0.1}', 0, ""),
                              ('{"params":' * 50000, 3, "32 deep"), ('"' + "a" * 900000, 3, "cannot be read"), (" " * 1100000, 3, "1 MiB")):
         with open(device, "w") as file:
             file.write(text)
