@@ -95,26 +95,31 @@ void check_target(const char* path) {
     throw Write_error("cannot write '" + std::string(path) + "': " + why);
 }
 
+/// Of the designs D1, D2, D3 in both forms; samples of the first.
+void figures_of_designs(std::ostream& samples) {
+  for (Device_form form : {Device_form::general, Device_form::ditetrahedral})
+    for (Named_design design : {Named_design::D1, Named_design::D2, Named_design::D3}) {
+      const std::string name = std::string("D") + std::to_string(static_cast<int>(design) + 1) +
+                               (form == Device_form::general ? " general" : " di-tetrahedral");
+      const bool is_first = form == Device_form::general && design == Named_design::D1;
+      figures(named_design<double>(design, form), name.c_str(), 21, is_first ? &samples : nullptr);
+    }
+}
+
+void figures_of_file(const char* path, std::ostream& samples) {
+  const nlohmann::json params = parse_bounded(examples::contents_of<Error>(path, "the device", 1));
+  figures(device_description_from_json(params, device_form_from_json(params.value("form", nlohmann::json())), true),
+          path, 21, &samples);
+}
+
 int print_figures(int argument_count, char** arguments) {
-  std::ostringstream samples;
-  const bool asks_help = argument_count > 1 && std::strcmp(arguments[1], "--help") == 0;
-  if (argument_count > 1 && !asks_help)
-    check_target(arguments[1]);
-  if (asks_help) {
+  if (argument_count > 1 && std::strcmp(arguments[1], "--help") == 0) {
     std::fputs(help, stdout);
-  } else if (argument_count > 2) {
-    const nlohmann::json params = parse_bounded(examples::contents_of<Error>(arguments[2], "the device", 1));
-    figures(device_description_from_json(params, device_form_from_json(params.value("form", nlohmann::json())), true),
-            arguments[2], 21, &samples);
-    replace_file(arguments[1], samples.str());
   } else {
-    for (Device_form form : {Device_form::general, Device_form::ditetrahedral})
-      for (Named_design design : {Named_design::D1, Named_design::D2, Named_design::D3}) {
-        const std::string name = std::string("D") + std::to_string(static_cast<int>(design) + 1) +
-                                 (form == Device_form::general ? " general" : " di-tetrahedral");
-        const bool is_first = form == Device_form::general && design == Named_design::D1;
-        figures(named_design<double>(design, form), name.c_str(), 21, is_first ? &samples : nullptr);
-      }
+    std::ostringstream samples;
+    if (argument_count > 1)
+      check_target(arguments[1]);
+    argument_count > 2 ? figures_of_file(arguments[2], samples) : figures_of_designs(samples);
     if (argument_count > 1)
       replace_file(arguments[1], samples.str());
   }
