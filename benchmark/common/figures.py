@@ -186,7 +186,8 @@ def bars(rows, x_label):
     one.set_xlim(0.7, 10 * max((length for _, length, _, _ in rows), default=1))
     for k, (name, length, text, good) in enumerate(rows):
         one.barh(k, max(length, 1), left=0.7, height=0.3, color=COLOURS[0] if good else COLOURS[1])
-        one.annotate(name, (0.7, k - 0.15), xytext=(2, 7), textcoords="offset points", va="center", fontsize=9.5, color=INK)
+        one.annotate(name, (0.7, k - 0.15), xytext=(2, 7), textcoords="offset points", va="center", fontsize=9.5,
+                     color=INK)
         one.annotate(text, (max(length, 1) + 0.7, k), xytext=(6, 0), textcoords="offset points", va="center", fontsize=9.5, color=FAINT if good else COLOURS[1])
     one.set_yticks([])
     one.spines["left"].set_visible(False)

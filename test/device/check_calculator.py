@@ -113,12 +113,14 @@ def workspace(*arguments, stdout=subprocess.DEVNULL):
 
 with tempfile.TemporaryDirectory() as folder:
     samples, device = f"{folder}/samples.txt", f"{folder}/device.json"
-    for text, code, part in (('{"form":"ditetra","R":0.03,"l1":0.07,"l2":0.1,"r":0,"m1":0.05,"m2":0.05,"M":0.1}', 0, ""),
-                             ('{"params":' * 50000, 3, "32 deep"), ('"' + "a" * 900000, 3, "cannot be read"), (" " * 1100000, 3, "1 MiB")):
+    good = '{"form":"ditetra","R":0.03,"l1":0.07,"l2":0.1,"r":0,"m1":0.05,"m2":0.05,"M":0.1}'
+    for text, code, part in ((good, 0, ""), ('{"params":' * 50000, 3, "32 deep"),
+                             ('"' + "a" * 900000, 3, "cannot be read"), (" " * 1100000, 3, "1 MiB")):
         with open(device, "w") as file:
             file.write(text)
         run = workspace(samples, device)
-        expect(run.returncode == code and part in run.stderr and len(run.stderr) < 1000, f"the workspace of {text[:20]}", run.stderr[:200])
+        expect(run.returncode == code and part in run.stderr and len(run.stderr) < 1000,
+               f"the workspace of {text[:20]}", run.stderr[:200])
         expect(len(open(samples).read().splitlines()) > 100, "samples are written, and stay where a device is refused")
     expect(workspace(samples, f"{folder}/none.json").returncode == 3, "a device that is not there")
     expect(workspace("/dev/full", device).returncode == 5, "samples that cannot be written")

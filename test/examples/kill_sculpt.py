@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""kill -9, and other signals, while `sculpt` edits and logs, with options, directives, strokes, brushes and batches mixed in; the same
-command goes on until it is through, and then another script on the same log.
+"""kill -9, and other signals, while `sculpt` edits and logs, with options, directives, strokes, brushes and batches
+mixed in; the same command goes on until it is through, and then another script on the same log.
 
 Whenever it is killed, its log is the beginning of the log of a run that is not killed, byte for byte; replayed, it gives what its lines
 give as a script; a stroke it was killed in is taken back by one undo; and in the end log and result are those of the run that is not
@@ -22,7 +22,8 @@ SIGNALS = [signal.SIGKILL] * 5 + [signal.SIGTERM, signal.SIGINT, signal.SIGHUP, 
 
 
 def random_script(rng, lines):
-    """Drags, edits, dabs, batches, strokes, undo, redo, probes and directives mixed; many are refused, as they name what is gone by then."""
+    """Drags, edits, dabs, batches, strokes, undo, redo, probes and directives mixed; many are refused, as they name what
+    is gone by then."""
     text = [line.split() for line in open(MESH).read().split("\n") if line and not line.startswith("#")]
     vertices, faces = int(text[1][0]), int(text[1][1])
     corners = [row[1:4] for row in text[2 + vertices:2 + vertices + faces]]
@@ -36,7 +37,12 @@ def random_script(rng, lines):
 
     def batch():
         axis, moved = rng.randrange(3), rng.sample(range(vertices), 5)
-        return f"shift {axis} {len(moved)}\n" + "".join(f"{v} {float(at[v][axis]) + rng.uniform(-0.02, 0.02)}\n" for v in moved) + "end"
+        ways = "".join(f"{v} {float(at[v][axis]) + rng.uniform(-0.02, 0.02)}\n" for v in moved)
+        return f"shift {axis} {len(moved)}\n{ways}end"
+
+    def dab():
+        kind = rng.choice(["grab", "inflate", "smooth", "flatten", "pinch"])
+        return f"brush {kind} {near(rng.randrange(vertices))} {rng.uniform(0.1, 0.5)} {rng.uniform(-0.1, 0.1)}"
 
     script = []
     for _ in range(lines):
@@ -45,8 +51,7 @@ def random_script(rng, lines):
             [f"drag {v} {near(v)}", f"insert_face {' '.join(face)} {middle(face)}", f"insert_edge {' '.join(face[:2])} {middle(face[:2])}",
              f"remove {v}", f"collapse {face[0]} {face[1]}", f"flip {face[0]} {face[1]}", "stroke", "end", "undo", "redo", f"probe {near(v)} {near(v + 1)}", "release", f"response {rng.choice(['slide', 'stop', 'paper'])}",
              f"clearance {rng.choice(['default', '1e-9', '0x1p-20', str(rng.uniform(1e-6, 1e-3))])}", f"delta {rng.choice(['0', '1e-6', '0.001'])}",
-             f"brush {rng.choice(['grab', 'inflate', 'smooth', 'flatten', 'pinch'])} {near(v)} {rng.uniform(0.1, 0.5)} {rng.uniform(-0.1, 0.1)}",
-             f"move {v} {near(v)}", batch(), f"remesh {rng.uniform(0.3, 0.5)}", f"# comment {v}", ""],
+             dab(), f"move {v} {near(v)}", batch(), f"remesh {rng.uniform(0.3, 0.5)}", f"# comment {v}", ""],
             [50, 15, 8, 10, 8, 10, 4, 4, 6, 6, 4, 2, 2, 2, 1, 4, 2, 4, 0.03, 1, 1])[0] + "\n")
     return "".join(script)
 
@@ -74,18 +79,21 @@ class Killed:
 
 
 def kill(rng, folder, script, options, log, whole, counts):
-    """Carries a script out on a log that may have lines of another, killed again and again, and beside it without a kill on `whole`."""
+    """Carries a script out on a log that may have lines of another, killed again and again, and beside it without a kill
+    on `whole`."""
     out, expected = f"{folder}/killed.off", f"{folder}/whole.off"
     for path in (out, expected):
         if os.path.exists(path):
             os.remove(path)
     start = time.monotonic()
-    check(run(MESH, "--script", script, "--log", whole, "-o", expected, *options).returncode == 0, "a run that is not killed")
+    done = run(MESH, "--script", script, "--log", whole, "-o", expected, *options)
+    check(done.returncode == 0, "a run that is not killed")
     takes = time.monotonic() - start
     sound, result = bytes_of(whole), bytes_of(expected)
+    where = f"(seed {SEED}, kill {counts.kills})"
     for attempt in range(12):
-        process = subprocess.Popen([SCULPT, MESH, "--script", script, "--log", log, "-o", out, *options], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
+        process = subprocess.Popen([SCULPT, MESH, "--script", script, "--log", log, "-o", out, *options],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         counts.runs += 1
         if attempt < 11 and counts.kills < KILLS:
             # Often near the end, where the results are written.
@@ -93,7 +101,7 @@ def kill(rng, folder, script, options, log, whole, counts):
             process.send_signal(rng.choice(SIGNALS))
         code = process.wait()
         left = bytes_of(log) if os.path.exists(log) else b""
-        check(sound.startswith(left), f"the log of a killed run is not the beginning of a whole one (seed {SEED}, kill {counts.kills})")
+        check(sound.startswith(left), f"the log of a killed run is not the beginning of a whole one {where}")
         check(not os.path.exists(out) or bytes_of(out) == result, "a part of a result, or another")
         if code >= 0:
             break
@@ -108,14 +116,17 @@ def kill(rng, folder, script, options, log, whole, counts):
             counts.within_strokes += 1
             counts.strokes_undone += undo_gives(folder, left, lines, before)
         if left and counts.kills % 5 == 0:
-            check(run(MESH, "--log", write(f"{folder}/copy.log", left), "-o", f"{folder}/a.off").returncode == 0, "replay after kill -9")
-            check(run(MESH, "--script", "/dev/stdin", "-o", f"{folder}/b.off", script="".join(lines)).returncode == 0, "its lines as a script")
+            replayed = run(MESH, "--log", write(f"{folder}/copy.log", left), "-o", f"{folder}/a.off")
+            check(replayed.returncode == 0, "replay after kill -9")
+            scripted = run(MESH, "--script", "/dev/stdin", "-o", f"{folder}/b.off", script="".join(lines))
+            check(scripted.returncode == 0, "its lines as a script")
             check(bytes_of(f"{folder}/a.off") == bytes_of(f"{folder}/b.off"), "the replay is not what the lines say")
     # Killed between its last line and its end, it is through.
     check(code == 0 or (code == 2 and left == sound), f"the same command does not come through: exit {code}")
-    check(bytes_of(log) == sound and bytes_of(out) == result, f"after kills log or result are others (seed {SEED}, kill {counts.kills})")
+    check(bytes_of(log) == sound and bytes_of(out) == result, f"after kills log or result are others {where}")
     # A file half written is cleared by the next run that writes into the folder: the one that came through.
-    check(not [name for name in os.listdir(folder) if "haptic_sculpt-new" in name], f"left-over files {os.listdir(folder)}")
+    left_over = [name for name in os.listdir(folder) if "haptic_sculpt-new" in name]
+    check(not left_over, f"left-over files {left_over}")
 
 
 def main():
@@ -132,9 +143,9 @@ def main():
             for turn, options in enumerate((random_options(rng), [])):
                 script = write(f"{folder}/edits_{turn}.script", random_script(rng, rng.choice([30, 300, 1000])))
                 kill(rng, folder, script, options, log, whole, counts)
-    print(f"killed {counts.kills} times in {counts.runs} runs, {counts.before_log} before the log was begun, {counts.complete} when it was "
-          f"complete, {counts.within_a_line} within a line, {counts.within_a_batch} within a batch, {counts.within_strokes} within a stroke, "
-          f"of which {counts.strokes_undone} with edits in it were undone")
+    print(f"killed {counts.kills} times in {counts.runs} runs, {counts.before_log} before the log was begun, "
+          f"{counts.complete} when it was complete, {counts.within_a_line} within a line, {counts.within_a_batch} within "
+          f"a batch, {counts.within_strokes} within a stroke, of which {counts.strokes_undone} with edits in it were undone")
     end()
 
 

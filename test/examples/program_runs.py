@@ -63,7 +63,8 @@ def up_to_last_tick(log):
 
 def before_open_stroke(lines):
     """The lines of a script before the outermost stroke that is open at its end; None where none is."""
-    begun, number, depth, first = [], 0, 0, 0  # what no line has ended, batches as 0; the last stroke; how often it is open; where it begins
+    begun = []  # strokes by number, and batches as 0, that no line has ended
+    number, depth, first = 0, 0, 0  # of the last stroke: which, how often it is open, where it begins
     for i, line in enumerate(lines):
         word = line.split("#")[0].split()[:1]
         if word == ["stroke"]:
