@@ -172,6 +172,21 @@ for name, mesh in MESHES:
         check(report["uploaded"]["faces"] > 0 and report["uploaded"]["bytes"] < 108 * (2 * report["uploaded"]["faces"] + 1100 + lines[0]["faces"] // 8),
               f"{name}: uploads: {report['uploaded']}")
 
+# A press on an edge creates there, whatever meshes there are: on the diagonal of the top.
+mesh, out, log = write(at("two_faces_a_side.off"), box(1)), at("out.off"), at("edge.log")
+window(mesh, "--log", log, "--size", 300, 225, "--samples", 0, what="a press on an edge", script=f"""
+view 0.2 -0.3 -1
+settle
+tool create
+drag @0,0,1 @0,0,1.3 4
+settle
+save {out}
+settle
+quit
+""")
+replayed(mesh, log, out, "a press on an edge")
+made.update(line.split()[0] for line in open(log) if line[0] != "#")
+
 missing = {"drag", "insert_face", "insert_edge", "flip", "collapse", "shift", "undo", "redo", "stroke", "end"} - made
 check(not missing, f"the logs have no line {missing}: {made}")
 
