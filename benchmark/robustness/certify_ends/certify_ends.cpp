@@ -21,7 +21,7 @@ struct Options {
   std::string json, dump, family, off, script;
   std::size_t drags = 10000, drags_per_scene = 40, ways = 1000, dumped_per_family = 20;
   std::uint64_t seed = 1;
-  double share_of_parts = 2e-3, share_of_near_degenerate = 2e-2; ///< twice what was measured of 100,000 drags
+  double share_of_parts = 2e-3, share_of_near_degenerate = 2e-2; ///< twice what was measured
   bool is_verbose = false;
   Shard shard;
 };
@@ -117,8 +117,7 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Drags vertices of machine parts and of near-degenerate solids, as made and once deformed, and "
                "certifies every end that is not the\n"
-               "target: does a free straight way lead nearer by more than 16 clearances? That no such way is there is no promise;\n"
-               "how often there is one is.\n"
+               "target: does a free straight way lead nearer by more than 16 clearances? How often is judged.\n"
                "Exit: 0 all kept, 2 usage, 5 the report cannot be written, 10 a mesh is no longer embedded, 11 more "
                "drags end too early than may.");
   app.add_option("--drags", options.drags, "Drags in each family, as made and again once deformed")
