@@ -38,20 +38,26 @@ public:
       , offset_share_(std::exp(-tick / offset_time))
       , mesh_edits_(sculptor) {}
 
-  /// One tick: the button first, then the drag. Allocates nothing but what edits do; its work is that of the drag,
-  /// bounded as its parameters say; unset: those of the Sculptor. \throw what drags throw
+  /// One tick: the button first, then the drag. A tick in which a vertex is taken in hand or let go of drags nothing,
+  /// and one that looks for a place of the probe tries one place: no tick has the work of two. Allocates nothing but
+  /// what edits do; its work is that of the drag, bounded as its parameters say; unset: those of the Sculptor. \throw
+  /// what drags throw
   Tool_step move(const Eigen::Vector3d& handle, int button, const std::optional<Drag_parameters>& drag = std::nullopt) {
     const internal::Rounding_to_nearest rounding;
     const Eigen::Vector3d hand = map_.to_scene(handle);
     Tool_step step;
+    const bool held_vertex = holds_vertex();
     step.event = press(hand, button);
+    const bool has_changed_hands = holds_vertex() != held_vertex;
     if (grab_ && !is_anchored_)
       anchor(place_of(grab_->vertex()), hand);
-    if (!grab_ && (carries_probe_ || probe_))
+    if (way_out_ && !has_changed_hands)
+      come_out(hand);
+    else if (!grab_ && !way_out_ && (carries_probe_ || probe_))
       bring_probe(hand);
     step.target = step.proxy = hand + offset_;
     last_drag_.reset();
-    if (!grab_ && !probe_)
+    if (has_changed_hands || (!grab_ && !probe_))
       return step;
     const Point target = internal::point_of<Point>(step.target);
     last_drag_ = grab_ ? mesh_edits_.drag(*grab_, target, drag) : probe_->drag_to(target, drag);
@@ -164,6 +170,12 @@ private:
   int button_ = 0;
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(), last_push_ = Eigen::Vector3d::UnitZ();
   std::optional<std::array<Vertex_index, 3>> touched_; ///< the face that the probe touches
+  /// From where a vertex was let go, while the probe has no place yet.
+  struct Way_out {
+    Eigen::Vector3d place, away, from; ///< the vertex and its normal then; behind the last surface that was met
+    int tried = 0;                     ///< places
+  };
+  std::optional<Way_out> way_out_;
   Tool_edits edits_;
   Journaled_edits<Sculptor> mesh_edits_;
   std::optional<Result> last_drag_;
@@ -176,7 +188,7 @@ private:
     return probe_ ? internal::vector_of(probe_->position()) : hand;
   }
 
-  void drop_probe() { probe_.reset(), touched_.reset(); }
+  void drop_probe() { probe_.reset(), touched_.reset(), way_out_.reset(); }
 
   /// Puts the probe to p. Returns false, and leaves it, where that is refused: on a face, or inside of a solid.
   bool put_probe(const Eigen::Vector3d& p) {
@@ -231,7 +243,7 @@ private:
       return Tool_event::none;
     if (button == 1)
       return counted(grab_or_create(hand));
-    const Tool_event released = grab_ && button == 0 ? release(hand) : Tool_event::none;
+    const Tool_event released = grab_ && button == 0 ? release() : Tool_event::none;
     return counted(button == 2 ? remove(hand) : released);
   }
 
@@ -268,41 +280,41 @@ private:
     is_anchored_ = false;
   }
 
-  Tool_event release(const Eigen::Vector3d& hand) {
+  Tool_event release() {
     const Vertex_index v = grab_->vertex();
     const Eigen::Vector3d place = place_of(v), away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
     grab_.reset();
     mesh_edits_.end_stroke();
-    put_probe_near(place, away, hand);
+    way_out_ = Way_out{place, away, place};
     return Tool_event::released;
   }
 
-  /// Outside, a little off the surface; from a pit too thin for that, out through what is around it.
-  void put_probe_near(const Eigen::Vector3d& place, const Eigen::Vector3d& away, const Eigen::Vector3d& hand) {
-    drop_probe();
-    for (const double share : {0.02, 0.2, 1.0})
-      if (!probe_)
-        put_probe(place + share * reach_ * away);
-    for (const Eigen::Vector3d& direction : {away, last_push_})
-      if (!probe_)
-        put_probe_beyond(place, direction, 4 * map_.scale(), 0.2 * reach_);
+  /// Tries the next place of the probe: a little off the surface; from a pit too thin for that, behind what is around
+  /// it, along the vertex's normal and then along the last push. In the end bring_probe() has to do.
+  void come_out(const Eigen::Vector3d& hand) {
+    constexpr std::array<double, 3> shares{0.02, 0.2, 1.0};
+    constexpr int near = shares.size(), most_surfaces = 16; // a hand that is deeper inside comes out by itself
+    Way_out& out = *way_out_;
+    const int tried = out.tried++;
+    if (tried < near)
+      put_probe(out.place + shares[tried] * reach_ * out.away);
+    else {
+      const bool is_second = tried >= near + most_surfaces;
+      const Eigen::Vector3d& direction = is_second ? last_push_ : out.away;
+      if (tried == near + most_surfaces)
+        out.from = out.place;
+      const auto hit = sculptor_->first_hit(internal::point_of<Point>(out.from),
+                                            internal::point_of<Point>(out.place + 4 * map_.scale() * direction));
+      if (hit) {
+        out.from = internal::vector_of(hit->point) + 0.2 * reach_ * direction;
+        put_probe(out.from);
+      } else
+        out.tried = near + (is_second ? 2 : 1) * most_surfaces;
+    }
     if (probe_)
       anchor(internal::vector_of(probe_->position()), hand);
-  }
-
-  /// Puts the probe a little off the first surface that is met from p along a direction and has free space behind it.
-  /// \param far how far is looked \param off how far behind the surface it is put
-  void put_probe_beyond(const Eigen::Vector3d& p, const Eigen::Vector3d& direction, double far, double off) {
-    constexpr int most_surfaces = 16; // a tick has to end; a hand that is deeper inside comes out by itself
-    Eigen::Vector3d from = p;
-    for (int i = 0; i < most_surfaces && !probe_; ++i) {
-      const auto hit =
-          sculptor_->first_hit(internal::point_of<Point>(from), internal::point_of<Point>(p + far * direction));
-      if (!hit)
-        return;
-      from = internal::vector_of(hit->point) + off * direction;
-      put_probe(from);
-    }
+    if (probe_ || out.tried == near + 2 * most_surfaces)
+      way_out_.reset();
   }
 
   Tool_event remove(const Eigen::Vector3d& hand) {
@@ -315,7 +327,7 @@ private:
     const auto made = mesh_edits_.make(Edit::of(Edit_kind::remove, {sculptor_->id(v), 0, 0}));
     mesh_edits_.end_stroke();
     if (was_held)
-      put_probe_near(place, away, hand);
+      way_out_ = Way_out{place, away, place};
     return made ? Tool_event::removed : Tool_event::refused;
   }
 };
