@@ -25,8 +25,8 @@
 /// - *An exception* goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`,
 /// the change is
 ///   not made, though some of what it would have killed has been named. Thrown in another function, the change stands,
-///   and the rest of it is not told. An undo or redo of several changes ends there; the next one goes on with what is
-///   left of the step.
+///   and the rest of it is not told. An undo or redo of several changes is made whole or not at all: what was done of it
+///   is made undone, which is told until a function throws again.
 class EditVisitor : public haptic_sculpt::Default_edit_visitor {
 public:
   /// v is at its new place.

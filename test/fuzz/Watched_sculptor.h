@@ -99,7 +99,6 @@ public:
         lacked_memory = true, ++tally_.out_of_memory;
       } catch (const Thrown&) {
         was_thrown = true, ++tally_.thrown;
-        is_within_step_ = is_within_step_ || call.restores;
       }
       visits_left_ = 0;
       stands = callers_mode.stands();
@@ -151,8 +150,6 @@ public:
 
   /// \param keeps_all whether no history was limited
   void undo_and_redo_all(bool keeps_all) {
-    if (is_within_step_) // an undo or redo that a visitor broke off: the next goes on with the rest of the step
-      sculptor_.undo();
     const Seen end = seen();
     std::size_t undone = 0;
     while (sculptor_.undo())
@@ -213,7 +210,6 @@ private:
   Seen start_;
   Call call_;
   bool is_recorded_ = true; ///< whether no exception came from a change that was made
-  bool is_within_step_ = false; ///< whether a visitor broke an undo or redo off
   bool is_broken_off_ = false;
 };
 

@@ -4,6 +4,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
+#include <limits>
+#include <new>
+
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
 
@@ -133,6 +137,36 @@ BOOST_AUTO_TEST_CASE(changes_by_others_are_found) {
     mesh.collect_garbage();
     BOOST_CHECK_THROW(sculptor.grab(Vertex_index(0)), Mesh_changed);
   }
+}
+
+// Where it was is nobody's business, not even where no number equals itself.
+BOOST_AUTO_TEST_CASE(a_removed_vertex_may_be_anywhere) {
+  Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  mesh.remove_vertex(mesh.add_vertex({std::nan(""), 0, 0}));
+  Sculptor<Mesh> sculptor(mesh);
+  sculptor.check_unchanged();
+  BOOST_TEST(sculptor.drag(Vertex_index(3), {0, 0, 2}).reached);
+  sculptor.check_unchanged();
+}
+
+BOOST_AUTO_TEST_CASE(room_that_no_machine_has_is_refused) {
+  Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  Sculptor<Mesh> sculptor(mesh);
+  const std::size_t most = std::numeric_limits<std::size_t>::max();
+  BOOST_CHECK_THROW(sculptor.reserve(most, 0), std::bad_alloc);
+  BOOST_CHECK_THROW(sculptor.reserve(0, most), std::bad_alloc);
+  BOOST_TEST(sculptor.drag(Vertex_index(3), {0, 0, 2}).reached);
+}
+
+BOOST_AUTO_TEST_CASE(a_target_may_be_a_point_of_the_path) {
+  Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  Sculptor<Mesh> sculptor(mesh);
+  std::vector<Mesh::Point> path;
+  auto grab = sculptor.grab(Vertex_index(3));
+  const Mesh::Point start = mesh.point(Vertex_index(3));
+  BOOST_TEST(grab.drag_to({0.25, 0.5, 3}, path).reached);
+  BOOST_TEST(grab.drag_to(path.front(), path).reached);
+  BOOST_TEST((path.size() == 2u && path.back() == start && mesh.point(Vertex_index(3)) == start));
 }
 
 BOOST_AUTO_TEST_CASE(property_maps_survive) {

@@ -9,6 +9,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <fstream>
 #include <map>
 #include <random>
 
@@ -159,6 +160,41 @@ BOOST_AUTO_TEST_CASE(repair_takes_the_values_of_the_nearest_point) {
   BOOST_TEST(open.attributes[0].values.size() == open.points.size());
   for (std::size_t v = 0; v < open.points.size(); ++v)
     BOOST_TEST(open.attributes[0].values[v] == open.points[v].x()); // no point is new
+}
+
+BOOST_AUTO_TEST_CASE(names_that_a_header_cannot_hold_are_refused) {
+  const Temporary_folder folder;
+  for (const char* name : {"x", "z", "", "two words", "a\nend_header"}) {
+    Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+    add_vertex_attribute(mesh, name);
+    BOOST_CHECK_THROW(write_surface(folder.path() / "named.ply", mesh), Write_error);
+    BOOST_TEST(!std::filesystem::exists(folder.path() / "named.ply"));
+    write_surface(folder.path() / "named.off", mesh);
+  }
+  Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  add_vertex_attribute(mesh, "heat", Type::float32), add_vertex_attribute(mesh, "heat", Type::uint8);
+  BOOST_CHECK_THROW(write_surface(folder.path() / "twice.ply", mesh), Write_error);
+  std::ofstream(folder.path() / "twice_x.ply") << "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty "
+                                                "double y\nproperty double z\nproperty double x\nend_header\n1 2 3 4\n";
+  BOOST_CHECK_THROW(read_face_soup(folder.path() / "twice_x.ply"), Read_error);
+}
+
+BOOST_AUTO_TEST_CASE(repair_keeps_the_numbers_of_vertices_at_every_scale) {
+  for (const double scale : {1., 0x1p-600, 0x1p-1000, 0x1p900}) {
+    Face_soup soup = face_soup(meshes::to_mesh(meshes::tetrahedron(scale)));
+    soup.attributes.push_back({"heat", Type::float64, {10, 11, 12, 13}});
+    std::swap(soup.corners[0], soup.corners[1]); // one face is turned
+    BOOST_REQUIRE(repair(soup).is_repaired());
+    std::map<std::array<double, 3>, double> heat;
+    for (std::size_t v = 0; v < soup.points.size(); ++v)
+      heat[{soup.points[v][0] / scale, soup.points[v][1] / scale, soup.points[v][2] / scale}] =
+          soup.attributes[0].values[v];
+    const Mesh at_first = meshes::to_mesh(meshes::tetrahedron());
+    for (const V v : at_first.vertices()) {
+      const auto& p = at_first.point(v);
+      BOOST_TEST((heat[{p.x(), p.y(), p.z()}] == 10. + v.idx()));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -54,8 +54,9 @@ public:
   /// written anew
   Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path,
                             const std::optional<Drag_parameters>& parameters = std::nullopt) {
+    const Point end = target; // it may be a point of the path
     path.clear();
-    return drag(target, &path, parameters);
+    return drag(end, &path, parameters);
   }
 
   /// Lets go. The next drag takes the vertex again, without contacts.

@@ -46,8 +46,9 @@ public:
   /// anew
   Drag_result<Mesh> drag_to(const Point& target, std::vector<Point>& path,
                             const std::optional<Drag_parameters>& parameters = std::nullopt) {
+    const Point end = target; // it may be a point of the path
     path.clear();
-    return drag(target, &path, parameters);
+    return drag(end, &path, parameters);
   }
 
 private:

@@ -59,7 +59,8 @@ Move_report apply_guarded(Sculptor& sculptor, Function&& function,
   for (const auto v : mesh.vertices())
     if (vertex_coordinates(copy, v) != vertex_coordinates(mesh, v))
       moved.push_back(v);
-  return move_vertices<Concurrency_tag>(sculptor, moved, map, parameters, left_behind);
+  // Not the map that the function was given: what it has put in the place of the copy has another.
+  return move_vertices<Concurrency_tag>(sculptor, moved, get(CGAL::vertex_point, copy), parameters, left_behind);
 }
 
 } // namespace haptic_sculpt

@@ -44,11 +44,17 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
 
   const internal::Rounding_to_nearest rounding;
   internal::check_remeshing(target_edge_length, parameters);
-  const std::vector<typename Mesh::Face_index> range(faces.begin(), faces.end());
-  for (const typename Mesh::Face_index f : range)
-    if (!f.is_valid() || static_cast<std::size_t>(f) >= sculptor.mesh().num_faces() || sculptor.mesh().is_removed(f))
-      throw Invalid_parameter("face " + std::to_string(static_cast<std::size_t>(f)) +
+  std::vector<typename Mesh::Face_index> range; // each once, however often it is given
+  std::vector<bool> is_in_range(sculptor.mesh().num_faces());
+  for (const typename Mesh::Face_index f : faces) {
+    const auto i = static_cast<std::size_t>(f);
+    if (!f.is_valid() || i >= is_in_range.size() || sculptor.mesh().is_removed(f))
+      throw Invalid_parameter("face " + std::to_string(i) +
                               " is not in the mesh, or was removed: give faces of mesh.faces()");
+    if (!is_in_range[i])
+      range.push_back(f);
+    is_in_range[i] = true;
+  }
   if (range.empty())
     return {};
 

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <limits>
 #include <locale>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -128,8 +129,17 @@ inline Face_soup rounded_to_float(Face_soup soup) {
   soup = std::move(rounded);
 }
 
-/// \throw Write_error if a face has more corners than the byte that PLY counts them with can say
+/// \throw Write_error if a face has more corners than the byte that PLY counts them with can say, or a header cannot name
+/// an attribute
 inline void prepare_ply(const Face_soup& soup, bool binary) {
+  std::set<std::string> names = {"x", "y", "z"};
+  for (const Vertex_attribute& attribute : soup.attributes) {
+    const bool is_word = !attribute.name.empty() && std::all_of(attribute.name.begin(), attribute.name.end(),
+                                                                [](unsigned char c) { return c > ' ' && c != 0x7f; });
+    if (!is_word || !names.insert(attribute.name).second)
+      throw Write_error("PLY cannot name the attribute '" + attribute.name + "' of vertices: it " +
+                        (is_word ? "stands there already" : "is no single word") + "; give it another name");
+  }
   for (std::size_t f = 0; binary && f < soup.number_of_faces(); ++f)
     if (soup.number_of_corners(f) > 255)
       throw Write_error("face " + std::to_string(f) + " has more than the 255 corners of binary PLY; write OFF or OBJ");

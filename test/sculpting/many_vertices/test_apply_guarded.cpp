@@ -117,3 +117,20 @@ BOOST_AUTO_TEST_CASE(functions_that_fail_or_do_more_than_move_points_change_noth
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
   sculptor.check_unchanged();
 }
+
+BOOST_AUTO_TEST_CASE(the_copy_may_be_another_mesh_with_the_same_connectivity) {
+  for (const bool swaps : {false, true}) {
+    Mesh mesh = meshes::to_mesh(meshes::icosphere(1)), wanted = mesh;
+    wanted.point(Vertex_index(3)) = CGAL::ORIGIN + 1.25 * (wanted.point(Vertex_index(3)) - CGAL::ORIGIN);
+    const Mesh::Point end = wanted.point(Vertex_index(3));
+    Sculptor<Mesh> sculptor(mesh);
+    const Move_report report = apply_guarded(sculptor, [&](Mesh& copy, auto) {
+      if (swaps)
+        std::swap(copy, wanted);
+      else
+        copy = wanted;
+    });
+    BOOST_TEST(report.reached == 1u);
+    BOOST_TEST((mesh.point(Vertex_index(3)) == end));
+  }
+}

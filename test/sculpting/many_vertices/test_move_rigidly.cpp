@@ -236,3 +236,31 @@ BOOST_AUTO_TEST_CASE(what_is_no_rigid_motion_is_refused) {
   BOOST_TEST(none.asked == 0u);
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
 }
+
+// Between two axes of a step, all are where one place of the object has them, or where they were.
+BOOST_AUTO_TEST_CASE(an_exception_of_the_progress_function_leaves_no_object_sheared) {
+  for (int call = 1; call <= 4; ++call) {
+    Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+    const Mesh at_first = mesh;
+    Sculptor<Mesh> sculptor(mesh);
+    const std::vector<Vertex_index> all(mesh.vertices().begin(), mesh.vertices().end());
+    int left = call;
+    bool has_thrown = false;
+    try {
+      move_rigidly(sculptor, all, Transformation(CGAL::TRANSLATION, meshes::Kernel::Vector_3(3, 5, 7)),
+                   Move_parameters().progress([&](const Move_progress&) {
+                     if (--left == 0)
+                       throw std::runtime_error("enough");
+                     return true;
+                   }));
+    } catch (const std::runtime_error&) {
+      has_thrown = true;
+    }
+    BOOST_TEST(has_thrown == (call <= 3));
+    for (const Vertex_index v : all)
+      BOOST_TEST(
+          (mesh.point(v) == at_first.point(v) + meshes::Kernel::Vector_3(3, 5, 7) * static_cast<double>(!has_thrown)));
+    BOOST_TEST(validate(mesh).is_valid());
+    sculptor.check_unchanged();
+  }
+}

@@ -128,3 +128,16 @@ BOOST_AUTO_TEST_CASE(a_number_of_faces_bounds_the_work) {
                                         Remeshing_parameters().most_faces(100000)),
                     Invalid_parameter);
 }
+
+BOOST_AUTO_TEST_CASE(a_face_given_twice_counts_once) {
+  const auto remeshed = [](std::size_t times) {
+    Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+    Sculptor<Mesh> sculptor(mesh);
+    std::vector<Mesh::Face_index> faces;
+    for (std::size_t k = 0; k < times; ++k)
+      faces.insert(faces.end(), mesh.faces().begin(), mesh.faces().end());
+    isotropic_remeshing(faces, sculptor, 0.4);
+    return snapshot(sculptor);
+  };
+  BOOST_TEST((remeshed(1) == remeshed(3)));
+}

@@ -17,6 +17,8 @@ public:
 
   double largest_coordinate() const { return largest_; }
 
+  /// All vertices are where they are.
+  void include_all() { include(Scene_extent(*mesh_).largest); }
   /// A vertex has come to p.
   void include(const Coordinates& p) { include(largest_magnitude(p)); }
   /// Vertices may be again where any has been.

@@ -100,10 +100,8 @@ public:
     }
   }
 
-  /// Whether a change since expect_change() has had all it needed: an exception came from the visitor then, or broke it
-  /// off.
-  bool was_ready() const { return is_ready_; }
-  void expect_change() { is_ready_ = false; }
+  /// Whether the visitor hears of changes; at first it does.
+  void tell_visitor(bool does) { tells_visitor_ = does; }
 
   /// The visitor hears of a move that was made elsewhere.
   void tell_moved(Vertex_index v) { visitor_.vertex_moved(v); }
@@ -132,7 +130,7 @@ private:
   Fan<Mesh> fan_;
   std::vector<Face_index> faces_;
   Round_marks is_taken_; ///< faces
-  bool is_ready_ = false;
+  bool tells_visitor_ = true;
 
   Vertex_index vertex(std::size_t id) const { return ids_.vertex(id); }
   void begin(const Change& change, bool is_back, const Place& place) {
@@ -154,13 +152,13 @@ private:
   Vertex_index put(std::size_t id, const Coordinates& p, const Noted& noted) {
     const Vertex_index v = vertex(id);
     star_.collect(*mesh_, v);
-    is_ready_ = true;
     writing_->begin();
     mesh_->point(v) = to_point(p);
     broad_phase_->faces_moved(star_.faces);
     noted(v);
     writing_->end();
-    visitor_.vertex_moved(v);
+    if (tells_visitor_)
+      visitor_.vertex_moved(v);
     return v;
   }
 
@@ -169,7 +167,6 @@ private:
   Vertex_index put_all(const Edit& edit, const Coordinate& coordinate, const Noted& noted, const Part_runner& run) {
     // All that allocates comes before the first point is written.
     collect_faces_around(edit.ways);
-    is_ready_ = true;
     writing_->begin();
     for (std::size_t k = 0; k < edit.ways.size(); ++k) {
       const Vertex_index v = vertex(edit.ways[k].first);
@@ -182,7 +179,8 @@ private:
     writing_->end();
     if constexpr (has_visitor)
       for (const auto& way : edit.ways)
-        visitor_.vertex_moved(vertex(way.first));
+        if (tells_visitor_)
+          visitor_.vertex_moved(vertex(way.first));
     return edit.ways.empty() ? Vertex_index() : vertex(edit.ways.back().first);
   }
 
@@ -310,8 +308,7 @@ private:
   template <class Halfedges>
   void begin_to_write(Vertex_index v, const std::vector<Face_index>& faces, const Halfedges& halfedges) {
     kept_.die(ids_, v, faces, halfedges);
-    is_ready_ = true;
-    if constexpr (has_visitor) {
+    if (has_visitor && tells_visitor_) {
       for (const Face_index f : faces)
         visitor_.face_dies(f);
       for (const Halfedge_index h : halfedges)
@@ -329,7 +326,7 @@ private:
     noted(v);
     writing_->end();
     kept_.create(ids_, v, faces, halfedges);
-    if constexpr (has_visitor) {
+    if (has_visitor && tells_visitor_) {
       if (v.is_valid())
         visitor_.vertex_created(v, ids_.id(v));
       for (const Halfedge_index h : halfedges)

@@ -176,9 +176,11 @@ private:
   Flip_proof<Mesh, Broad_phase> flip_;
   Pivot_order<Mesh> order_;
   Change change_; ///< the one that is made, kept to allocate no more
+  bool has_changed_ = false; ///< the mesh, by the last change that was to be taken back or made again
 
-  /// Takes a step back or makes it again, all of its changes or none: where one lacks memory, those before it are made
-  /// undone, and the stroke under way goes on. Else that has ended. \param next gives the next change
+  /// Takes a step back or makes it again, all of its changes or none: a part of a step need not be embedded. Where an
+  /// exception comes before the last change is made, those before it are made undone, and the stroke under way goes on.
+  /// Else that has ended. \param next gives the next change
   template <class Next>
   Result go_through_step(Refusal_reason nothing, const Next& next, bool is_back) {
     if (next() == nullptr) {
@@ -186,49 +188,59 @@ private:
       return Result::refused(nothing);
     }
     for (std::size_t changes = 0;; ++changes) {
-      changes_.expect_change();
       try {
         const Vertex_index v = is_back ? take_back() : make_again();
         if (history_.is_between_steps()) {
           history_.end_stroke();
           return Result::done(v);
         }
-      } catch (...) { // the visitor's comes when a change could be made; then the next call goes on
-        changes_.was_ready() ? history_.end_stroke() : reverse(changes, is_back);
+      } catch (...) {
+        if (has_changed_ && history_.is_between_steps())
+          history_.end_stroke();
+        else
+          reverse(changes + has_changed_, is_back);
         throw;
       }
     }
   }
 
-  /// Makes this many changes undone that were taken back or made again last.
+  /// Makes this many changes undone that were taken back or made again last. The visitor hears of it until it throws.
   void reverse(std::size_t changes, bool is_back) {
-    try {
-      while (changes-- != 0) {
-        changes_.expect_change();
+    bool is_heard = true;
+    while (changes != 0) {
+      try {
         is_back ? make_again() : take_back();
+      } catch (...) {
+        if (!has_changed_ && !is_heard) {
+          history_.end_stroke();
+          writing_->begin(); // for good
+          throw;
+        }
+        changes_.tell_visitor(is_heard = false);
       }
-    } catch (...) {
-      history_.end_stroke();
-      if (!changes_.was_ready())
-        writing_->begin(); // for good: a step done in part is not embedded
-      throw;
+      changes -= has_changed_;
     }
+    changes_.tell_visitor(true);
   }
 
   Vertex_index take_back() {
+    has_changed_ = false;
     const auto at = place(history_.number_to_undo(), false);
     const Change& change = *history_.to_undo();
     return changes_.take_back(change, at, [&](Vertex_index changed) {
       watch(changed, change.edit);
       history_.undone();
+      has_changed_ = true;
     });
   }
   Vertex_index make_again() {
+    has_changed_ = false;
     const auto at = place(history_.number_to_redo(), false);
     const Change& change = *history_.to_redo();
     return changes_.make(change, at, [&](Vertex_index changed) {
       watch(changed, change.edit);
       history_.redone();
+      has_changed_ = true;
     });
   }
 

@@ -73,6 +73,13 @@ public:
       check_face(corners, f);
   }
 
+  /// \throw Mesh_changed as check(). What was removed may be anywhere: even where no number equals itself.
+  void check_place(std::size_t i) const {
+    const Vertex_index v(static_cast<typename Vertex_index::size_type>(i));
+    if (!mesh_->is_removed(v))
+      check(v);
+  }
+
   /// Makes room for this many vertices in all.
   void reserve(std::size_t vertices) { points_.reserve(vertices); }
 
@@ -86,7 +93,7 @@ public:
     const std::size_t n = points_.size();
     for (std::size_t left = n <= few_points ? n : points_per_look; left != 0; --left) {
       next_ = next_ + 1 < n ? next_ + 1 : 0;
-      check(Vertex_index(static_cast<typename Vertex_index::size_type>(next_)));
+      check_place(next_);
     }
     if (n > few_points) { // else the next look would wait for memory, several times in a row
       const std::size_t first = next_ + points_per_look < n ? next_ + 1 : 0;
@@ -101,7 +108,7 @@ public:
     for (std::size_t f = 0; f < mesh_->num_faces(); ++f)
       check_face(corners, typename Mesh::Face_index(static_cast<typename Mesh::size_type>(f)));
     for (std::size_t i = 0; i < points_.size(); ++i)
-      check(Vertex_index(static_cast<typename Vertex_index::size_type>(i)));
+      check_place(i);
   }
 
   /// Bytes held, capacity included.

@@ -223,10 +223,16 @@ public:
     look_for_changes();
     whole_move_.forget();
     inside_out_.forget();
-    const Edited result = edit();
-    if (result)
-      scene_.include(vertex_coordinates(*mesh_, *result.vertex));
-    return result;
+    const Forget_at_end forget{*this};
+    try {
+      const Edited result = edit();
+      if (result)
+        scene_.include(vertex_coordinates(*mesh_, *result.vertex));
+      return result;
+    } catch (...) {
+      scene_.include_all(); // the edit may stand
+      throw;
+    }
   }
   /// The same where many vertices may move.
   template <class Edit_function>
@@ -291,6 +297,8 @@ public:
 
   void reserve(std::size_t edits, std::size_t moves) {
     check_is_whole();
+    if (edits > std::numeric_limits<typename Mesh::size_type>::max() || moves > most_moves)
+      throw std::bad_alloc();
     std::size_t valence = Star_runs<Mesh>::most_undivided;
     for (const Vertex_index v : mesh_->vertices())
       valence = std::max(valence, static_cast<std::size_t>(mesh_->degree(v)));
@@ -315,6 +323,7 @@ private:
   /// More faces about a star than a drag of default bound looks up, and than an edit of a vertex drawn far out as a
   /// rule.
   static constexpr std::size_t usual_candidates = 2048;
+  static constexpr std::size_t most_moves = std::size_t{1} << 48; ///< more than there is memory to note
 
   Mesh* mesh_;
   Write_state writing_;
@@ -333,6 +342,12 @@ private:
   std::vector<Face_index> faces_near_probe_; ///< kept to allocate no more
   Coordinates probe_place_{};                ///< where the last probe was left
   std::uint64_t probe_changes_ = 0;          ///< the changes of the mesh by then
+
+  /// What a visitor has asked for within a change was looked up in a mesh on its way: it is not used on.
+  struct Forget_at_end {
+    Guarded_mesh& mesh;
+    ~Forget_at_end() { mesh.hand_.let_go(), mesh.probe_.let_go(), mesh.inside_out_.forget(); }
+  };
 
   /// \throw Mesh_changed
   void check_looked_at() {
@@ -355,6 +370,7 @@ private:
         made.emplace_back(v, p[axis]);
         scene_.include(p);
       }
+    const Forget_at_end forget{*this};
     if (!made.empty())
       editor_.shift(axis, made, run);
   }

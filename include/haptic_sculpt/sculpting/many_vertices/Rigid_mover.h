@@ -74,27 +74,44 @@ private:
     }
     guarded_.look_around(places);
     std::vector<std::pair<int, Ways>> made;
-    for (int axis = 0; axis < 3; ++axis) {
-      Ways ways, before;
-      for (const auto& [v, to] : places)
-        if (const double at = vertex_coordinates(guarded_.mesh(), v)[axis]; at != to[axis]) {
-          ways.emplace_back(v, to[axis]);
-          before.emplace_back(v, at);
-        }
-      if (ways.empty())
-        continue;
-      if (may_move(ways.size(), share) && guarded_.shift(axis, ways, 0, run_, pairs_)) {
-        made.emplace_back(axis, std::move(before));
-        continue;
-      }
-      report_.out_of_work |= !is_ended() && guarded_.axis_move().is_too_much();
-      if (names_contacts && !is_ended())
-        name_contacts(axis, ways);
-      for (; !made.empty(); made.pop_back())
-        guarded_.shift_back(made.back().first, made.back().second, run_);
-      return false;
+    bool is_free = true;
+    try {
+      for (int axis = 0; axis < 3 && is_free; ++axis)
+        is_free = move_along(axis, places, share, names_contacts, made);
+    } catch (...) {
+      take_back(made);
+      throw;
     }
-    return true;
+    if (!is_free)
+      take_back(made);
+    return is_free;
+  }
+
+  /// \param made is what was done, and from where, put behind
+  bool move_along(int axis, const Vertex_targets<Mesh>& places, double share, bool names_contacts,
+                  std::vector<std::pair<int, Ways>>& made) {
+    Ways ways, before;
+    for (const auto& [v, to] : places)
+      if (const double at = vertex_coordinates(guarded_.mesh(), v)[axis]; at != to[axis]) {
+        ways.emplace_back(v, to[axis]);
+        before.emplace_back(v, at);
+      }
+    if (ways.empty())
+      return true;
+    made.reserve(3);
+    if (may_move(ways.size(), share) && guarded_.shift(axis, ways, 0, run_, pairs_)) {
+      made.emplace_back(axis, std::move(before));
+      return true;
+    }
+    report_.out_of_work |= !is_ended() && guarded_.axis_move().is_too_much();
+    if (names_contacts && !is_ended())
+      name_contacts(axis, ways);
+    return false;
+  }
+
+  void take_back(std::vector<std::pair<int, Ways>>& made) {
+    for (; !made.empty(); made.pop_back())
+      guarded_.shift_back(made.back().first, made.back().second, run_);
   }
 
   bool may_move(std::size_t vertices, double share) {

@@ -101,6 +101,9 @@ struct Ply_header {
         const Ply_type value = type();
         properties.push_back({std::string(scan.word("a name")), value});
       }
+      const std::string& name = properties.back().name;
+      if (std::any_of(properties.begin(), properties.end() - 1, [&](const auto& p) { return p.name == name; }))
+        scan.fail("property " + in_quotes(name) + " stands twice");
     } else if (keyword == "end_header") {
       if (!has_format)
         scan.fail("the header names no format");

@@ -9,25 +9,35 @@
 #include <CGAL/Search_traits_adapter.h>
 #include <CGAL/property_map.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace haptic_sculpt::internal {
 
 /// Each point of `to` gets the values of the nearest point of `from`: its own, where it has not moved. Distances are
-/// rounded. \pre all points are finite
+/// rounded, in a unit of the size of the points: squares of small ones would be 0. \pre all points are finite
 inline void copy_attributes(const Face_soup& from, Face_soup& to) {
   if (from.attributes.empty() || from.points.empty())
     return;
   using Entry = std::pair<Face_soup::Point_3, std::size_t>;
   using Traits = CGAL::Search_traits_adapter<Entry, CGAL::First_of_pair_property_map<Entry>,
                                              CGAL::Search_traits_3<Decision_kernel>>;
+  double largest = 0;
+  for (const auto& p : from.points)
+    largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  const auto in_unit = [exponent](const Face_soup::Point_3& p) {
+    return Face_soup::Point_3(std::ldexp(p[0], -exponent), std::ldexp(p[1], -exponent), std::ldexp(p[2], -exponent));
+  };
   std::vector<Entry> entries;
   for (std::size_t v = 0; v < from.points.size(); ++v)
-    entries.emplace_back(from.points[v], v);
+    entries.emplace_back(in_unit(from.points[v]), v);
   CGAL::Kd_tree<Traits> tree(entries.begin(), entries.end());
   to.attributes = from.attributes;
   for (Vertex_attribute& attribute : to.attributes)
     attribute.values.assign(to.points.size(), 0);
   for (std::size_t v = 0; v < to.points.size(); ++v) {
-    const CGAL::Orthogonal_k_neighbor_search<Traits> nearest(tree, to.points[v], 1);
+    const CGAL::Orthogonal_k_neighbor_search<Traits> nearest(tree, in_unit(to.points[v]), 1);
     const std::size_t source = nearest.begin()->first.second;
     for (std::size_t k = 0; k < to.attributes.size(); ++k)
       to.attributes[k].values[v] = from.attributes[k].values[source];
