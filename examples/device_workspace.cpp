@@ -119,6 +119,9 @@ int print_figures(int argument_count, char** arguments) {
     std::ostringstream samples;
     if (argument_count > 1)
       check_target(arguments[1]);
+    std::error_code is_missing;
+    if (argument_count > 2 && std::filesystem::equivalent(arguments[1], arguments[2], is_missing))
+      throw Write_error("the samples would replace the device: both are '" + std::string(arguments[2]) + "'");
     argument_count > 2 ? figures_of_file(arguments[2], samples) : figures_of_designs(samples);
     if (argument_count > 1)
       replace_file(arguments[1], samples.str());

@@ -158,8 +158,28 @@ BOOST_AUTO_TEST_CASE(a_clock_that_says_no_time_and_ticks_that_are_late_are_fault
   Ball_loop hiccup(parameters_of_tests()), mouse(Pose_loop_parameters::without_force());
   for (int k = 0; k < 2000; ++k) {
     BOOST_TEST((hiccup.go(1.4, k % 100 == 99 ? 0.019 : 0.0011).fault == Loop_fault::none));
-    BOOST_TEST((mouse.go(1.4, 0.015).fault == Loop_fault::none)); // without force nothing can swing
+    BOOST_TEST((mouse.go(1.4, k % 100 == 99 ? 0.5 : 0.015).fault == Loop_fault::none)); // without force nothing swings
   }
+}
+
+// The time that a stall took counts once: then the force fades tick by tick.
+BOOST_AUTO_TEST_CASE(after_a_stall_the_force_fades_as_after_any_fault) {
+  Ball_loop b(parameters_of_tests());
+  for (int k = 0; k < 1000; ++k)
+    b.go(1.4 - 0.0006 * k);
+  const double pressed = b.go(0.8).rendered.force.norm();
+  BOOST_REQUIRE(pressed > 0.1);
+  const Haptic_tick& stalled = b.go(0.8, 0.025);
+  BOOST_TEST((stalled.fault == Loop_fault::stall));
+  double last = stalled.rendered.force.norm();
+  BOOST_TEST(std::abs(last - 0.75 * pressed) <= 0.02 * pressed); // of 100 ms
+  for (int k = 0; k < 80; ++k) {
+    const double now = b.go(0.8).rendered.force.norm();
+    BOOST_TEST(now < last + 1e-12);
+    BOOST_TEST(now >= last - 0.02 * pressed);
+    last = now;
+  }
+  BOOST_TEST(last == 0);
 }
 
 /// Two cones over one ring of this many vertices; the upper tip is (0, 0, 1), the first vertex.

@@ -115,6 +115,46 @@ BOOST_AUTO_TEST_CASE(a_probe_goes_on_after_edits_where_it_was_or_else_at_the_han
   BOOST_TEST((bench.tool.holds_probe() && (probe() - bench.place(v) - home).norm() <= 1e-12));
 }
 
+// However the strokes before it have begun, each ends once in the journal, and undo finds the same.
+BOOST_AUTO_TEST_CASE(a_press_while_a_stroke_is_under_way_ends_that) {
+  for (int way = 0; way < 3; ++way) {
+    Bench bench;
+    const Mesh::Vertex_index v(17), w(30);
+    const auto press = [&](Mesh::Vertex_index held, int button, double height) {
+      return bench.tool.move(map_of_tests.to_device(Vector3d(height * bench.place(held))), button);
+    };
+    press(v, 0, 1.001);
+    if (way == 0)
+      bench.tool.take(v);
+    else if (way == 1)
+      bench.tool.begin_stroke();
+    else
+      press(v, 1, 1.001), press(v, 1, 1.01), press(v, 3, 1.001); // two buttons, then one again
+    BOOST_TEST((press(v, 1, 1.001).event == Tool_event::grabbed));
+    press(v, 1, 1.02);
+    press(v, 0, 1.02);
+    for (int k = 0; k < 40; ++k)
+      press(w, 0, 1.3 - 0.007 * k);
+    BOOST_TEST((press(w, 1, 1.001).event == Tool_event::grabbed));
+    press(w, 1, 1.02);
+    press(w, 0, 1.02);
+    BOOST_TEST(static_cast<bool>(bench.tool.edit(Edit::of(Edit_kind::undo))));
+    BOOST_TEST(bench.is_made_again());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(scenes_of_all_sizes_leave_the_reach_as_it_was) {
+  Bench bench;
+  const auto other = scene_of(2);
+  for (const double scale : {1e-200, 1e200, 1e200, 1e-200})
+    bench.tool.enter(other->sculptor, Workspace_map(scale, Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()));
+  bench.tool.enter(bench.scene->sculptor, map_of_tests);
+  BOOST_TEST((bench.tool.move(map_of_tests.to_device(Vector3d(0, 0, 1000)), 1).event == Tool_event::refused));
+  bench.tool.move(map_of_tests.to_device(Vector3d(1.01 * bench.place(Mesh::Vertex_index(17)))), 0);
+  BOOST_TEST((bench.tool.move(map_of_tests.to_device(Vector3d(1.01 * bench.place(Mesh::Vertex_index(17)))), 1).event ==
+              Tool_event::grabbed));
+}
+
 BOOST_AUTO_TEST_CASE(moves_by_value_are_told_as_their_legs) {
   Bench bench;
   std::mt19937_64 random(6);

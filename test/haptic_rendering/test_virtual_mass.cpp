@@ -34,7 +34,7 @@ double error_of_mass(const Device_parameters<double>& parameters, double rate, d
     const double t = k / rate;
     pose = *reach_position(parameters, pose, Vector3d(home->position + amplitude * std::sin(omega * t) * direction));
     handle.follow(pose.theta);
-    const Vector3d force = renderer.render(handle, inertia.force(handle.step(), true)).force;
+    const Vector3d force = renderer.render(handle, inertia.force(handle.step(), 1 / rate, true)).force;
     const Vector3d exact = mass * amplitude * omega * omega * std::sin(omega * t) * direction;
     if (t < settled)
       continue;
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(a_virtual_mass_comes_and_goes_and_its_energy_is_told) {
     pose = *next;
     handle.follow(pose.theta);
     const bool is_grabbed = k >= 100 && k < 300;
-    const Vector3d force = inertia.force(handle.step(), is_grabbed);
+    const Vector3d force = inertia.force(handle.step(), 1 / rate, is_grabbed);
     if (k < 100 || k >= 351)
       BOOST_TEST(force == Vector3d::Zero());
     BOOST_TEST((force - last).norm() <= mass * 0.8 * (1 / (rate * Virtual_mass::fade_time) + 0.03));
@@ -115,6 +115,26 @@ BOOST_AUTO_TEST_CASE(a_virtual_mass_is_the_same_on_a_device_of_pose_and_force) {
   }
   BOOST_TEST(parameters.virtual_mass.mass > 0.01);
   BOOST_TEST(worst <= 0.01 * parameters.virtual_mass.mass * amplitude * omega * omega);
+}
+
+BOOST_AUTO_TEST_CASE(uneven_and_late_ticks_at_constant_speed_make_no_force_of_a_virtual_mass) {
+  Pose_loop_parameters parameters(5);
+  parameters.virtual_mass.mass = 0.5 * parameters.largest_mass();
+  const Haptic_parameters all = parameters.checked();
+  Interaction<Pose_side> loop(Pose_side(parameters.device, all), all, 0);
+  double t = 0, worst = 0;
+  for (int k = 0; k < 1000; ++k) {
+    Pose_reading reading;
+    reading.elapsed = all.tick * (k % 200 == 199 ? 15 : k % 2 == 0 ? 1 : 0.6);
+    t += reading.elapsed;
+    reading.position = Vector3d(0.2 * t, 0, 0);
+    BOOST_REQUIRE(loop.follow(reading));
+    Touch touch;
+    touch.holds = true;
+    loop.render(touch), loop.end_tick();
+    worst = std::max(worst, loop.wanted().norm());
+  }
+  BOOST_TEST(worst <= 1e-6);
 }
 
 } // namespace

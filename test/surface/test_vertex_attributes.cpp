@@ -174,8 +174,9 @@ BOOST_AUTO_TEST_CASE(names_that_a_header_cannot_hold_are_refused) {
   Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
   add_vertex_attribute(mesh, "heat", Type::float32), add_vertex_attribute(mesh, "heat", Type::uint8);
   BOOST_CHECK_THROW(write_surface(folder.path() / "twice.ply", mesh), Write_error);
-  std::ofstream(folder.path() / "twice_x.ply") << "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty "
-                                                "double y\nproperty double z\nproperty double x\nend_header\n1 2 3 4\n";
+  std::ofstream(folder.path() / "twice_x.ply")
+      << "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\nproperty double z\n"
+         "property double x\nend_header\n1 2 3 4\n";
   BOOST_CHECK_THROW(read_face_soup(folder.path() / "twice_x.ply"), Read_error);
 }
 

@@ -30,10 +30,13 @@ public:
   }
 
   /// Takes the step of one tick, in m or rad. \return m/s^2 or rad/s^2
-  const Eigen::Vector3d& add(const Eigen::Vector3d& step) {
-    const Eigen::Vector3d second =
-        has_step_ ? Eigen::Vector3d((step - step_) / (tick_ * tick_)) : Eigen::Vector3d(0, 0, 0);
-    step_ = step, has_step_ = true;
+  const Eigen::Vector3d& add(const Eigen::Vector3d& step) { return add(step, tick_); }
+  /// The same where the tick has truly taken so long; the low-passes go on by the tick. \param elapsed s, > 0
+  const Eigen::Vector3d& add(const Eigen::Vector3d& step, double elapsed) {
+    const Eigen::Vector3d velocity = step / elapsed;
+    const Eigen::Vector3d second = has_step_ ? Eigen::Vector3d(2 * (velocity - velocity_) / (elapsed + elapsed_))
+                                             : Eigen::Vector3d(0, 0, 0);
+    velocity_ = velocity, elapsed_ = elapsed, has_step_ = true;
     const Eigen::Vector3d before = second_pass_, change_before = change_;
     first_pass_ += share_ * (second - first_pass_);
     second_pass_ += share_ * (first_pass_ - second_pass_);
@@ -56,9 +59,9 @@ public:
 private:
   static constexpr double pi = 3.14159265358979323846;
 
-  double tick_, share_, lag_, curvature_;
+  double tick_, share_, lag_, curvature_, elapsed_ = 0;
   bool has_step_ = false;
-  Eigen::Vector3d step_ = Eigen::Vector3d::Zero(), first_pass_ = Eigen::Vector3d::Zero(),
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero(), first_pass_ = Eigen::Vector3d::Zero(),
                   second_pass_ = Eigen::Vector3d::Zero(), change_ = Eigen::Vector3d::Zero(),
                   value_ = Eigen::Vector3d::Zero();
 };

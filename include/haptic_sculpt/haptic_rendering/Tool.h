@@ -34,7 +34,7 @@ public:
   Tool(Sculptor& sculptor, const Workspace_map& map, double reach, double tick)
       : sculptor_(&sculptor)
       , map_(map)
-      , reach_(reach * map.scale())
+      , reach_(reach)
       , offset_share_(std::exp(-tick / offset_time))
       , mesh_edits_(sculptor) {}
 
@@ -134,17 +134,13 @@ public:
   void enter(Sculptor& sculptor, const Workspace_map& map) {
     let_go();
     drop_probe();
-    reach_ *= map.scale() / map_.scale();
     sculptor_ = &sculptor, map_ = map;
     mesh_edits_.enter(sculptor);
     offset_.setZero(), last_push_ = Eigen::Vector3d::UnitZ();
   }
 
   /// From here on in another map of the same scene. What is held stays where it is, anchored at the next move().
-  void change_map(const Workspace_map& map) {
-    reach_ *= map.scale() / map_.scale();
-    map_ = map, is_anchored_ = false, offset_.setZero();
-  }
+  void change_map(const Workspace_map& map) { map_ = map, is_anchored_ = false, offset_.setZero(); }
 
   /// What is done from here on goes to it. nullptr: to none
   void keep_journal(Edit_journal* journal) { mesh_edits_.keep_journal(journal); }
@@ -163,7 +159,7 @@ public:
 private:
   Sculptor* sculptor_;
   Workspace_map map_;
-  double reach_, offset_share_;
+  double reach_, offset_share_;     ///< m; a tick's
   std::optional<Grab_type> grab_;   ///< while a vertex is held
   std::optional<Probe_type> probe_; ///< never while a vertex is held
   bool is_anchored_ = false, carries_probe_ = true;
@@ -180,6 +176,7 @@ private:
   Journaled_edits<Sculptor> mesh_edits_;
   std::optional<Result> last_drag_;
 
+  double reach() const { return reach_ * map_.scale(); } ///< in the scene
   Eigen::Vector3d place_of(Vertex_index v) const { return internal::vector_of(sculptor_->mesh().point(v)); }
   void anchor(const Eigen::Vector3d& held, const Eigen::Vector3d& hand) { offset_ = held - hand, is_anchored_ = true; }
 
@@ -206,7 +203,7 @@ private:
       drop_probe();
       for (const double share : {0.0, 0.02}) // pressed on, it may be nearer to a face than a probe may begin
         if (!probe_)
-          put_probe(place + share * reach_ * last_push_);
+          put_probe(place + share * reach() * last_push_);
     }
     if (!probe_ && carries_probe_) {
       offset_.setZero();
@@ -257,7 +254,7 @@ private:
   }
 
   Tool_event grab_or_create(const Eigen::Vector3d& hand) {
-    const Vertex_index nearest = internal::nearest_vertex(*sculptor_, aim(hand), reach_);
+    const Vertex_index nearest = internal::nearest_vertex(*sculptor_, aim(hand), reach());
     if (nearest.is_valid()) {
       mesh_edits_.begin_stroke();
       hold(nearest);
@@ -297,7 +294,7 @@ private:
     Way_out& out = *way_out_;
     const int tried = out.tried++;
     if (tried < near)
-      put_probe(out.place + shares[tried] * reach_ * out.away);
+      put_probe(out.place + shares[tried] * reach() * out.away);
     else {
       const bool is_second = tried >= near + most_surfaces;
       const Eigen::Vector3d& direction = is_second ? last_push_ : out.away;
@@ -306,7 +303,7 @@ private:
       const auto hit = sculptor_->first_hit(internal::point_of<Point>(out.from),
                                             internal::point_of<Point>(out.place + 4 * map_.scale() * direction));
       if (hit) {
-        out.from = internal::vector_of(hit->point) + 0.2 * reach_ * direction;
+        out.from = internal::vector_of(hit->point) + 0.2 * reach() * direction;
         put_probe(out.from);
       } else
         out.tried = near + (is_second ? 2 : 1) * most_surfaces;
@@ -318,7 +315,7 @@ private:
   }
 
   Tool_event remove(const Eigen::Vector3d& hand) {
-    const Vertex_index v = grab_ ? grab_->vertex() : internal::nearest_vertex(*sculptor_, aim(hand), reach_);
+    const Vertex_index v = grab_ ? grab_->vertex() : internal::nearest_vertex(*sculptor_, aim(hand), reach());
     if (!v.is_valid())
       return Tool_event::refused;
     const Eigen::Vector3d place = place_of(v), away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));

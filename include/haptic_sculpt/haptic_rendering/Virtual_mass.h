@@ -34,8 +34,9 @@ public:
     parameters.check();
   }
 
-  /// Once a tick. \param step of the handle since the last tick, m \return the force on the hand, N. No allocation.
-  Eigen::Vector3d force(const Eigen::Vector3d& step, bool is_grabbed) {
+  /// Once a tick. \param step of the handle since the last tick, m \param elapsed since then, s \return the force on
+  /// the hand, N. No allocation.
+  Eigen::Vector3d force(const Eigen::Vector3d& step, double elapsed, bool is_grabbed) {
     if (mass_ == 0)
       return Eigen::Vector3d::Zero();
     energy_.add_step(step, 0, step);
@@ -44,7 +45,7 @@ public:
       return Eigen::Vector3d::Zero();
     }
     share_ = std::clamp(share_ + (is_grabbed ? 1 : -1) * tick_ / fade_time, 0.0, 1.0);
-    const Eigen::Vector3d force = -mass_ * share_ * handle_.add(step);
+    const Eigen::Vector3d force = -mass_ * share_ * handle_.add(step, elapsed);
     energy_.command(force);
     return force;
   }

@@ -33,6 +33,8 @@ public:
   }
   void end() noexcept { is_writing_ = false; }
 
+  bool is_under_way() const noexcept { return is_writing_; }
+
   /// \throw Unfinished_change if a change has been begun and never ended
   void check() const {
     if (is_writing_)

@@ -129,8 +129,8 @@ inline Face_soup rounded_to_float(Face_soup soup) {
   soup = std::move(rounded);
 }
 
-/// \throw Write_error if a face has more corners than the byte that PLY counts them with can say, or a header cannot name
-/// an attribute
+/// \throw Write_error if a face has more corners than the byte that PLY counts them with can say, or a header cannot
+/// name an attribute
 inline void prepare_ply(const Face_soup& soup, bool binary) {
   std::set<std::string> names = {"x", "y", "z"};
   for (const Vertex_attribute& attribute : soup.attributes) {

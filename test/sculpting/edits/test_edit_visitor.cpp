@@ -113,8 +113,8 @@ BOOST_AUTO_TEST_CASE(an_exception_of_the_visitor) {
   BOOST_TEST(is_enough(after_it, 60));
 }
 
-// The undo or redo of a stroke that is broken off in any call is made whole or not at all, also where the visitor throws
-// again while it is made undone.
+// The undo or redo of a stroke that is broken off in any call is made whole or not at all, also where the visitor
+// throws again while it is made undone.
 BOOST_AUTO_TEST_CASE(an_exception_of_the_visitor_within_a_stroke) {
   using Throwing_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Throwing_visitor>;
   std::size_t as_it_was = 0, whole = 0;

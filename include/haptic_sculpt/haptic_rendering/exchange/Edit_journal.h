@@ -6,6 +6,7 @@
 #include <boost/lockfree/spsc_queue.hpp>
 
 #include <atomic>
+#include <new>
 
 namespace haptic_sculpt {
 
@@ -24,10 +25,13 @@ public:
   /// \name The loop's thread
   ///@{
 
-  /// Takes what was done in the tick under way; where there is no room the journal has overrun.
+  /// Takes what was done in the tick under way; where there is no room, or no memory, the journal has overrun.
   void add(const Edit& edit) {
-    if (!has_overrun_ && !queue_.push(edit))
+    try {
+      has_overrun_ = has_overrun_ || !queue_.push(edit);
+    } catch (const std::bad_alloc&) {
       has_overrun_ = true;
+    }
     lost_ += has_overrun_;
     has_entries_ = true;
   }

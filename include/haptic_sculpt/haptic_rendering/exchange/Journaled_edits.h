@@ -35,8 +35,9 @@ public:
   void enter(Sculptor& sculptor) { sculptor_ = &sculptor, journal_ = nullptr; }
   void keep_journal(Edit_journal* journal) { journal_ = journal; } ///< nullptr: none
 
-  /// What follows is one step of undo.
+  /// What follows is one step of undo; the stroke under way ends.
   void begin_stroke() {
+    end_stroke();
     stroke_.emplace(sculptor_->stroke());
     add(Edit::of(Edit_kind::stroke));
   }
@@ -54,8 +55,9 @@ public:
       tell(made.edit);
     return made;
   }
-  /// Makes an edit and begins a stroke with it. Where it is refused, or throws, there is no stroke.
+  /// Makes an edit and begins a stroke with it; the one under way ends. Where it is refused, or throws, there is none.
   Edited make_in_stroke(const Edit& wanted) {
+    end_stroke();
     std::optional<typename Sculptor::Stroke_type> begun(sculptor_->stroke());
     auto made = sculptor_->apply(wanted);
     if (made) {
@@ -158,18 +160,20 @@ private:
       std::vector<double> before;
       for (const auto& [v, end] : ways)
         before.push_back(vertex_coordinates(mesh(), v)[axis]);
+      Edit made = Edit::of(Edit_kind::shift);
+      made.axis = axis;
+      made.ways.reserve(ways.size()); // what is done has to be told
       try {
         const bool is_done = move();
-        tell_shift(axis, ways, before);
+        tell_shift(ways, before, made);
         return is_done;
       } catch (...) { // the visitor's, when all has moved
-        tell_shift(axis, ways, before);
+        tell_shift(ways, before, made);
         throw;
       }
     }
-    void tell_shift(int axis, const internal::Axis_ways<Mesh_type>& ways, const std::vector<double>& before) {
-      Edit made = Edit::of(Edit_kind::shift);
-      made.axis = axis;
+    void tell_shift(const internal::Axis_ways<Mesh_type>& ways, const std::vector<double>& before, Edit& made) {
+      const int axis = made.axis;
       for (std::size_t k = 0; k < ways.size(); ++k)
         if (const double now = vertex_coordinates(mesh(), ways[k].first)[axis]; now != before[k])
           made.ways.emplace_back(edits_->sculptor_->id(ways[k].first), now);

@@ -5,6 +5,8 @@
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
 
 #include <cstring>
+#include <new>
+#include <utility>
 
 namespace haptic_sculpt {
 
@@ -85,8 +87,12 @@ private:
   /// A command is taken first, so that tasks see what the asking thread did before it asked for that.
   void serve() {
     Loop_command<Scene> command;
-    if (!next_ && tasks_.size() < most_tasks && queue_->take(command))
-      next_ = command;
+    try {
+      if (!next_ && tasks_.size() < most_tasks && queue_->take(command))
+        next_ = std::move(command);
+    } catch (const std::bad_alloc&) { // of a copy: it stays in the queue, and is taken by a later tick
+      return;
+    }
     for (std::size_t i = 0; i < tasks_.size();) {
       Loop_answer<Scene> answer = answer_to(tasks_[i], true);
       if (attempt(answer, [&] { return tasks_[i].task->go_on(*scene_, loop_->tool()); })) {
@@ -98,7 +104,7 @@ private:
     }
     if (!next_ || (next_->kind == Kind::enter && !tasks_.empty())) // a task is of this scene
       return;
-    command = *next_;
+    command = std::move(*next_);
     next_.reset();
     carry_out(command);
   }

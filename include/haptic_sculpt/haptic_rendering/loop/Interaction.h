@@ -4,6 +4,8 @@
 #include <haptic_sculpt/haptic_rendering/loop/Joint_side.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
 
+#include <utility>
+
 namespace haptic_sculpt {
 
 /// What a scene does to the hand in a tick, in axes of the device.
@@ -62,7 +64,7 @@ public:
     if (!touch.is_starved) // what the spring holds is not known then
       observer_.forget_beyond(reserve_ + (pulls ? 0.5 * stiffness_ * touch.way.squaredNorm() : 0));
     if (side_.has_force())
-      wanted_ += virtual_mass_.force(side_.step(), touch.holds) + controller_.force(observer_, side_.step());
+      wanted_ += virtual_mass_.force(side_.step(), elapsed_, touch.holds) + controller_.force(observer_, side_.step());
     rendered_ = side_.render(wanted_, touch.is_starved ? 0 : side_.step().norm());
     if (rendered_.is_overloaded)
       watchdog_.report(Loop_fault::torque);
@@ -73,7 +75,7 @@ public:
   /// Ends a tick: after a fault the force is what is left of the last one.
   void end_tick() {
     if (watchdog_.fault() != Loop_fault::none) {
-      rendered_ = side_.fade_out(elapsed_);
+      rendered_ = side_.fade_out(std::exchange(elapsed_, 0)); // no reading is followed after a fault
       spring_.setZero();
     }
     observer_.command(rendered_.interaction_torque);
@@ -137,7 +139,7 @@ private:
   /// A device that gives no force may come when it likes.
   static Watchdog_limits limits_for(const Side& side, Watchdog_limits limits) {
     if (!side.has_force())
-      limits.late_ticks = std::numeric_limits<double>::infinity();
+      limits.late_ticks = std::numeric_limits<double>::infinity(), limits.stall_time = Watchdog_limits::longest_stall;
     return limits;
   }
 };

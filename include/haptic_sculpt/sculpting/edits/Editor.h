@@ -195,7 +195,7 @@ private:
           return Result::done(v);
         }
       } catch (...) {
-        if (has_changed_ && history_.is_between_steps())
+        if (writing_->is_under_way() || (has_changed_ && history_.is_between_steps()))
           history_.end_stroke();
         else
           reverse(changes + has_changed_, is_back);
@@ -211,7 +211,7 @@ private:
       try {
         is_back ? make_again() : take_back();
       } catch (...) {
-        if (!has_changed_ && !is_heard) {
+        if (writing_->is_under_way() || (!has_changed_ && !is_heard)) {
           history_.end_stroke();
           writing_->begin(); // for good
           throw;
