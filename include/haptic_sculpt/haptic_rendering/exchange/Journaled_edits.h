@@ -162,7 +162,7 @@ private:
         before.push_back(vertex_coordinates(mesh(), v)[axis]);
       Edit made = Edit::of(Edit_kind::shift);
       made.axis = axis;
-      made.ways.reserve(ways.size()); // what is done has to be told
+      made.ways.reserve(ways.size()); // what is done has to be in the journal
       try {
         const bool is_done = move();
         tell_shift(ways, before, made);
