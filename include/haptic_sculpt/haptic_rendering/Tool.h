@@ -182,7 +182,7 @@ private:
 
   /// From where things are sought that the hand wants.
   Eigen::Vector3d aim(const Eigen::Vector3d& hand) const {
-    return probe_ ? internal::vector_of(probe_->position()) : hand;
+    return probe_ ? internal::vector_of(probe_->position()) : way_out_ ? way_out_->place : hand;
   }
 
   void drop_probe() { probe_.reset(), touched_.reset(), way_out_.reset(); }

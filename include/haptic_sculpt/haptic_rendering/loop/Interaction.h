@@ -4,8 +4,6 @@
 #include <haptic_sculpt/haptic_rendering/loop/Joint_side.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
 
-#include <utility>
-
 namespace haptic_sculpt {
 
 /// What a scene does to the hand in a tick, in axes of the device.
@@ -75,7 +73,9 @@ public:
   /// Ends a tick: after a fault the force is what is left of the last one.
   void end_tick() {
     if (watchdog_.fault() != Loop_fault::none) {
-      rendered_ = side_.fade_out(std::exchange(elapsed_, 0)); // no reading is followed after a fault
+      rendered_ = side_.fade_out(elapsed_);
+      if (watchdog_.fault() != Loop_fault::late) // no reading is followed any more, and a stall counts once
+        elapsed_ = 0;
       spring_.setZero();
     }
     observer_.command(rendered_.interaction_torque);
