@@ -31,11 +31,13 @@ public:
 
   /// Takes the step of one tick, in m or rad. \return m/s^2 or rad/s^2
   const Eigen::Vector3d& add(const Eigen::Vector3d& step) { return add(step, tick_); }
-  /// The same where the tick has truly taken so long; the low-passes go on by the tick. \param elapsed s, > 0
-  const Eigen::Vector3d& add(const Eigen::Vector3d& step, double elapsed) {
+  /// The same where the tick has truly taken so long; the low-passes go on by the tick. \param time since the last, s,
+  /// > 0; half of a tick at least counts
+  const Eigen::Vector3d& add(const Eigen::Vector3d& step, double time) {
+    const double elapsed = std::fmax(time, 0.5 * tick_);
     const Eigen::Vector3d velocity = step / elapsed;
-    const Eigen::Vector3d second = has_step_ ? Eigen::Vector3d(2 * (velocity - velocity_) / (elapsed + elapsed_))
-                                             : Eigen::Vector3d(0, 0, 0);
+    const Eigen::Vector3d second =
+        has_step_ ? Eigen::Vector3d(2 * (velocity - velocity_) / (elapsed + elapsed_)) : Eigen::Vector3d(0, 0, 0);
     velocity_ = velocity, elapsed_ = elapsed, has_step_ = true;
     const Eigen::Vector3d before = second_pass_, change_before = change_;
     first_pass_ += share_ * (second - first_pass_);

@@ -39,9 +39,9 @@ public:
       , mesh_edits_(sculptor) {}
 
   /// One tick: the button first, then the drag. A tick in which a vertex is taken in hand or let go of drags nothing,
-  /// and one that looks for a place of the probe tries one place: no tick has the work of two. Allocates nothing but
-  /// what edits do; its work is that of the drag, bounded as its parameters say; unset: those of the Sculptor. \throw
-  /// what drags throw
+  /// and one that looks for a place of the probe tries one place, too: no tick has the work of two. Allocates nothing
+  /// but what edits do; its work is that of the drag, bounded as its parameters say; unset: those of the Sculptor.
+  /// \throw what drags throw
   Tool_step move(const Eigen::Vector3d& handle, int button, const std::optional<Drag_parameters>& drag = std::nullopt) {
     const internal::Rounding_to_nearest rounding;
     const Eigen::Vector3d hand = map_.to_scene(handle);
@@ -51,13 +51,14 @@ public:
     const bool has_changed_hands = holds_vertex() != held_vertex;
     if (grab_ && !is_anchored_)
       anchor(place_of(grab_->vertex()), hand);
-    if (way_out_ && !has_changed_hands)
+    const bool looks_for_place = way_out_ && !has_changed_hands;
+    if (looks_for_place)
       come_out(hand);
     else if (!grab_ && !way_out_ && (carries_probe_ || probe_))
       bring_probe(hand);
     step.target = step.proxy = hand + offset_;
     last_drag_.reset();
-    if (has_changed_hands || (!grab_ && !probe_))
+    if (has_changed_hands || looks_for_place || (!grab_ && !probe_))
       return step;
     const Point target = internal::point_of<Point>(step.target);
     last_drag_ = grab_ ? mesh_edits_.drag(*grab_, target, drag) : probe_->drag_to(target, drag);

@@ -11,6 +11,7 @@
 
 #include <boost/range/iterator_range.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <locale>

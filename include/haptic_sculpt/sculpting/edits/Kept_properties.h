@@ -71,25 +71,18 @@ public:
   void create(const Vertex_ids<Mesh>& ids, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
     if (maps_.empty())
       return;
-    const End_all end{maps_}; // also where a map throws: the others keep what died
     if (v.is_valid() && !under_way_.is_back)
       under_way_.weights = weights(ids, vertex_coordinates(*mesh_, v));
     for_each_element(ids, v, faces, halfedges, [&](auto& map, const Element& element, const Element_ids& of) {
       map.created(element, of, under_way_, ids);
     });
+    for (const auto& map : maps_)
+      map->end();
   }
   ///@}
 
 private:
   using Element = typename Kept_map<Mesh>::Element;
-
-  struct End_all {
-    const std::vector<std::unique_ptr<Kept_map<Mesh>>>& maps;
-    ~End_all() {
-      for (const auto& map : maps)
-        map->end();
-    }
-  };
 
   const Mesh* mesh_;
   std::vector<std::unique_ptr<Kept_map<Mesh>>> maps_;

@@ -15,6 +15,9 @@
 #include <haptic_sculpt/sculpting/guarded_mesh/Inside_out_vertices.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
+#include <limits>
+#include <new>
+
 namespace haptic_sculpt::internal {
 
 /// A mesh with all that guards it, and the ways of a drag, a probe, a search and an edit through that. What its users
@@ -224,13 +227,15 @@ public:
     whole_move_.forget();
     inside_out_.forget();
     const Forget_at_end forget{*this};
+    const std::uint64_t before = changes();
     try {
       const Edited result = edit();
       if (result)
         scene_.include(vertex_coordinates(*mesh_, *result.vertex));
       return result;
     } catch (...) {
-      scene_.include_all(); // the edit may stand
+      if (changes() != before) // the edit stands
+        scene_.include_all();
       throw;
     }
   }
@@ -370,7 +375,6 @@ private:
         made.emplace_back(v, p[axis]);
         scene_.include(p);
       }
-    const Forget_at_end forget{*this};
     if (!made.empty())
       editor_.shift(axis, made, run);
   }

@@ -74,14 +74,10 @@ private:
     }
     guarded_.look_around(places);
     std::vector<std::pair<int, Ways>> made;
+    made.reserve(3);
     bool is_free = true;
-    try {
-      for (int axis = 0; axis < 3 && is_free; ++axis)
-        is_free = move_along(axis, places, share, names_contacts, made);
-    } catch (...) {
-      take_back(made);
-      throw;
-    }
+    for (int axis = 0; axis < 3 && is_free; ++axis)
+      is_free = move_along(axis, places, share, names_contacts, made);
     if (!is_free)
       take_back(made);
     return is_free;
@@ -98,8 +94,7 @@ private:
       }
     if (ways.empty())
       return true;
-    made.reserve(3);
-    if (may_move(ways.size(), share) && guarded_.shift(axis, ways, 0, run_, pairs_)) {
+    if (may_move(ways.size(), share, made) && guarded_.shift(axis, ways, 0, run_, pairs_)) {
       made.emplace_back(axis, std::move(before));
       return true;
     }
@@ -114,11 +109,17 @@ private:
       guarded_.shift_back(made.back().first, made.back().second, run_);
   }
 
-  bool may_move(std::size_t vertices, double share) {
+  /// \param made of this step: where the progress function throws, it is taken back
+  bool may_move(std::size_t vertices, double share, std::vector<std::pair<int, Ways>>& made) {
     report_.out_of_work = vertices > parameters_.drag_limit - report_.drags;
-    report_.cancelled =
-        !report_.out_of_work && parameters_.progress_function &&
-        !parameters_.progress_function(Move_progress{vertices_.size(), vertices, report_.drags, share});
+    try {
+      report_.cancelled =
+          !report_.out_of_work && parameters_.progress_function &&
+          !parameters_.progress_function(Move_progress{vertices_.size(), vertices, report_.drags, share});
+    } catch (...) {
+      take_back(made);
+      throw;
+    }
     if (is_ended())
       return false;
     report_.drags += vertices;
