@@ -25,8 +25,9 @@
 /// - *An exception* goes on to the caller of the edit, and the Sculptor works as before. Thrown in one of the `*_dies`,
 /// the change is
 ///   not made, though some of what it would have killed has been named. Thrown in another function, the change stands,
-///   and the rest of it is not told. An undo or redo of several changes is made whole or not at all: what was done of it
-///   is made undone, which is told until a function throws again.
+///   and the rest of it is not told. An undo or redo of several changes is made whole or not at all. What was done of it
+///   is taken back. The functions above hear of that until one throws again; `face_replaces` and `edge_replaces` hear
+///   of all of it.
 class EditVisitor : public haptic_sculpt::Default_edit_visitor {
 public:
   /// v is at its new place.

@@ -125,7 +125,8 @@ with tempfile.TemporaryDirectory() as folder:
     expect(workspace(samples, f"{folder}/none.json").returncode == 3, "a device that is not there")
     expect(workspace("/dev/full", device).returncode == 5, "samples that cannot be written")
     before = open(device).read()
-    expect(workspace(device, device).returncode == 5 and open(device).read() == before, "samples in the place of the device")
+    run = workspace(device, device)
+    expect(run.returncode == 5 and open(device).read() == before, "samples in the place of the device")
     with open("/dev/full", "w") as full:
         expect(workspace("--help", stdout=full).returncode == 5, "words that cannot be written")
 

@@ -16,7 +16,7 @@ struct Pose_loop_parameters {
   Pose_device device;        ///< what it does at its handle
   double delay = 0;          ///< from a command to its force, ticks
   double speed = 10;         ///< of a handle that is in order at most, along each axis, m/s; may be infinite
-  double stall_time = 0.02;  ///< s between two ticks
+  double stall_time = 0.02;  ///< s between two ticks; without force 10 s, whatever it is
   Virtual_mass_parameters virtual_mass;     ///< of what is grabbed; off by default
   std::optional<double> controller_damping; ///< N s/m; nothing: half of what may be asked for
   double reach = 0.001;                     ///< of a grab, m in the device

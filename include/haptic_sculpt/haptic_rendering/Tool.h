@@ -113,7 +113,7 @@ public:
     let_go();
     return mesh_edits_.make(wanted);
   }
-  /// What edit_by() does from here on is one step of undo, until something lets go.
+  /// What edit_by() does from here on is one step of undo, until something lets go or the button takes or creates.
   void begin_stroke() {
     let_go();
     mesh_edits_.begin_stroke();

@@ -12,7 +12,8 @@ namespace haptic_sculpt {
 ///
 /// Memory that runs out does not lead here: an edit asks for all it needs first. What may: a broad phase of the
 /// caller's own that throws, or allocates without a `reserve()`; a property of the mesh whose values throw when they
-/// are made or copied; memory that runs out while a step of the history that could not be undone is made again.
+/// are made or copied; memory that runs out, or a kept property map that throws, while a part of an undo or redo is
+/// taken back.
 class Unfinished_change : public Error {
 public:
   Unfinished_change()

@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_rigid_motion_is_refused) {
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
 }
 
-// Between two axes of a step, all are where one place of the object has them, or where they were.
+// It is where it was, or has arrived: it has not moved along some of the axes alone.
 BOOST_AUTO_TEST_CASE(an_exception_of_the_progress_function_leaves_no_object_sheared) {
   for (int call = 1; call <= 4; ++call) {
     Mesh mesh = meshes::to_mesh(meshes::tetrahedron());

@@ -150,8 +150,8 @@ public:
       ++steps_done_;
     ++(edits_done_ < edits_.end() && edits_[edits_done_].moves_before == moves_done_ ? edits_done_ : moves_done_);
   }
-  /// Whether no step is done in part. One is only while its changes are taken back or made again, and where that was
-  /// broken off.
+  /// Whether no step is done in part. One is only while its changes are taken back or made again, and for good where
+  /// the Sculptor refuses every call.
   bool is_between_steps() const { return is_at(begin_of(steps_done_)); }
   ///@}
 

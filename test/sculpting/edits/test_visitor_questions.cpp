@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a visitor asks the Sculptor in the midst of a change is not used when that is over.
+#include "sculpting/edits/random_edits.h"
+
+#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+/// Asks in the midst of changes.
+struct Asking_visitor : Default_edit_visitor {
+  std::function<void()> ask;
+  Vertex_index moved; ///< the last one
+  void vertex_moved(Vertex_index v) { moved = v, hear(); }
+  void face_dies(Mesh::Face_index) { hear(); }
+  void face_created(Mesh::Face_index) { hear(); }
+
+private:
+  void hear() {
+    if (ask)
+      ask();
+  }
+};
+
+using Asked_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Asking_visitor>;
+
+} // namespace
+
+// The star of a vertex, looked up while a neighbour is not back yet, would miss what stands where that comes to be.
+BOOST_AUTO_TEST_CASE(a_question_within_an_undo_lets_nothing_be_passed_through) {
+  for (const bool asks : {false, true}) {
+    Mesh mesh;
+    const auto add = [&mesh](const std::array<Mesh::Point, 4>& p) {
+      std::array<Vertex_index, 4> v;
+      std::transform(p.begin(), p.end(), v.begin(), [&mesh](const Mesh::Point& q) { return mesh.add_vertex(q); });
+      mesh.add_face(v[0], v[2], v[1]), mesh.add_face(v[0], v[1], v[3]);
+      mesh.add_face(v[1], v[2], v[3]), mesh.add_face(v[2], v[0], v[3]);
+      return v;
+    };
+    // A long one; and a small one over its long end, in the way of the tip's faces, but not once that end is drawn in.
+    const auto v = add({Mesh::Point(-2, -1, 0), Mesh::Point(4, -1, 0), Mesh::Point(0, 1, 0), Mesh::Point(0, 0, 1)});
+    add({Mesh::Point(2, -0.45, 0.9), Mesh::Point(2.125, -0.45, 0.9), Mesh::Point(2, -0.3, 0.9),
+         Mesh::Point(2, -0.45, 1)});
+    Asked_sculptor sculptor(mesh);
+    {
+      const auto stroke = sculptor.stroke();
+      BOOST_REQUIRE(sculptor.drag(v[1], {1, -1, 0}).reached);
+      BOOST_REQUIRE(sculptor.drag(v[0], {-3, -1, 0}).reached);
+    }
+    bool has_asked = false;
+    if (asks)
+      sculptor.visitor().ask = [&] {
+        if (sculptor.visitor().moved == v[0]) { // the first to be moved back
+          has_asked = true;
+          BOOST_TEST(!sculptor.first_impact(v[3], {0, 0, 3}));
+        }
+      };
+    sculptor.undo();
+    sculptor.visitor().ask = nullptr;
+    BOOST_TEST(has_asked == asks);
+    BOOST_TEST(!sculptor.drag(v[3], {0, 0, 3}, Drag_parameters().response(Response::stop)).reached);
+    BOOST_TEST(validate(mesh).is_valid());
+  }
+}
+
+// The index is that of a vertex that was removed, so that an old answer would be there, and wrong.
+BOOST_AUTO_TEST_CASE(a_vertex_created_is_asked_about_anew) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+  meshes::Triangle_list turned = meshes::tetrahedron();
+  CGAL::copy_face_graph(meshes::to_mesh(turned.turn_inside_out().scale_and_move(1, 20, 0, 0)), mesh);
+  const Mesh::Face_index f(static_cast<Mesh::size_type>(mesh.num_faces() - 1)); // of the tetrahedron
+  Asked_sculptor sculptor(mesh);
+  BOOST_REQUIRE(static_cast<bool>(sculptor.remove(Vertex_index(5))));
+  bool has_asked = false;
+  sculptor.visitor().ask = [&] { has_asked = true, sculptor.is_inside_out(Vertex_index(0)); };
+  const auto made = sculptor.insert_on_face(f, in_face(mesh, f, 0.3, 0.3));
+  sculptor.visitor().ask = nullptr;
+  BOOST_REQUIRE((made && *made.vertex == Vertex_index(5) && has_asked));
+  BOOST_TEST(sculptor.is_inside_out(*made.vertex));
+  BOOST_TEST(!sculptor.is_inside_out(Vertex_index(0)));
+}
