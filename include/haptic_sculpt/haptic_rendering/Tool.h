@@ -40,8 +40,8 @@ public:
 
   /// One tick: the button first, then the drag. A tick in which a vertex is taken in hand or let go of drags nothing,
   /// and one that looks for a place of the probe tries one place, too: no tick has the work of two. Allocates nothing
-  /// but what edits do, and exact numbers where a probe is put all but into the plane of a face near by; its work is
-  /// that of the drag, bounded as its parameters say; unset: those of the Sculptor. \throw what drags throw
+  /// but what edits do, and where coordinates are more than 2^199 apart in size; its work is that of the drag, bounded
+  /// as its parameters say; unset: those of the Sculptor. \throw what drags throw
   Tool_step move(const Eigen::Vector3d& handle, int button, const std::optional<Drag_parameters>& drag = std::nullopt) {
     const internal::Rounding_to_nearest rounding;
     const Eigen::Vector3d hand = map_.to_scene(handle);

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/collision/Filter_counters.h>
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/Face_corners.h>
+#include <haptic_sculpt/surface/broad_phase/Box_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
-#include <CGAL/Gmpq.h>
 #include <CGAL/Interval_nt.h>
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <vector>
@@ -33,17 +32,59 @@ inline bool is_surely_off_plane(const Coordinates& p, const Coordinates& a, cons
   return (CGAL::square(height) - limit).inf() > 0;
 }
 
-/// Whether p is at most `distance` from the closed triangle a, b, c; exact, over rationals where p is as near to its
-/// plane, or intervals cannot tell. \pre a, b, c not collinear
+/// Whether p is at most `distance` from the closed triangle a, b, c: from a corner, from a side that it lies beside, or
+/// from the face that it lies over. Each is a sign of integers without a division: of degree 2, 4 and 6.
+///
+/// Integers of n limbs have two bits more than differences need (exact_integers.h), so sums of three products of two
+/// differences fit in 2n limbs, of four in 4n, and of six in 6n.
+template <class Integer>
+bool is_within_distance(const std::array<Integer, 3>& p, const std::array<std::array<Integer, 3>, 3>& corners,
+                        const Integer& distance) {
+  const auto minus = [](const std::array<Integer, 3>& x, const std::array<Integer, 3>& y) {
+    return std::array<Integer, 3>{x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+  };
+  const auto dot = [](const auto& x, const auto& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
+  const auto cross = [](const auto& x, const auto& y) {
+    using Product = decltype(x[0] * y[0]);
+    return std::array<Product, 3>{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+  };
+  const auto square = distance * distance;
+  const auto normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+  bool is_over_face = true;
+  for (int i = 0; i < 3; ++i) {
+    const auto from_corner = minus(p, corners[i]), side = minus(corners[(i + 1) % 3], corners[i]);
+    const auto beyond = dot(from_corner, from_corner) - square;
+    if (sign_of(beyond) <= 0)
+      return true;
+    const auto along = dot(from_corner, side), length = dot(side, side);
+    // Off the line by |from_corner|^2 - along^2 / length.
+    if (sign_of(along) > 0 && sign_of(length - along) > 0 && sign_of(beyond * length - along * along) <= 0)
+      return true;
+    is_over_face = is_over_face && sign_of(dot(normal, cross(side, from_corner))) >= 0;
+  }
+  if (!is_over_face)
+    return false;
+  const auto height = dot(normal, minus(p, corners[0])); // times |normal|
+  return sign_of(height * height - square * dot(normal, normal)) <= 0;
+}
+
+/// The same of doubles; exact, over integers where p is as near to the plane of the triangle, or intervals cannot tell.
+/// Allocates only where these are more than 2^199 apart in size. \pre a, b, c not collinear
 inline bool is_within_distance(const Coordinates& p, const Coordinates& a, const Coordinates& b, const Coordinates& c,
                                double distance) {
   if (is_surely_off_plane(p, a, b, c, distance))
     return false;
-  using Kernel = CGAL::Simple_cartesian<CGAL::Gmpq>;
-  const auto point = [](const Coordinates& q) { return Kernel::Point_3(q[0], q[1], q[2]); };
-  const CGAL::Gmpq limit(distance);
-  return CGAL::compare(CGAL::squared_distance(point(p), Kernel::Triangle_3(point(a), point(b), point(c))),
-                       CGAL::Gmpq(limit * limit)) != CGAL::LARGER;
+  Exponent_range range;
+  for (const Coordinates* q : {&p, &a, &b, &c})
+    range.include(*q);
+  range.include(distance);
+  No_filter_counters uncounted;
+  return with_exact_integers(range, uncounted, [&](auto type) {
+    using Integer = decltype(type);
+    const auto integers = [&](const Coordinates& q) { return to_integers<Integer>(q, range.lowest); };
+    return is_within_distance<Integer>(integers(p), {integers(a), integers(b), integers(c)},
+                                       Integer_of_double<Integer>::convert(distance, range.lowest));
+  });
 }
 
 /// A face on which p lies, or that is nearer to it than the clearance there; of several that of the smallest index, the
