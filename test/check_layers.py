@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only, no example
-names what is internal, and no line of C++ is wider than 120 columns.
+"""check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only, and so do those
+of examples; no example names what is internal, and no line of C++ is wider than 120 columns.
 
 A folder and the one around it may include each other: public names stand at a module's root, what serves them stands below.
 Between all other folders the includes form no cycle. Exit code 1 names each folder of a cycle, with the includes that close it.
@@ -11,6 +11,7 @@ import sys
 
 MOST_COLUMNS = 120
 INCLUDE = re.compile(r"#include <haptic_sculpt/([^>]+)>")
+INCLUDE_OF_EXAMPLES = re.compile(r'#include "([^"]+)"')
 
 
 def includes_between_folders(root):
@@ -25,6 +26,20 @@ def includes_between_folders(root):
             other = pathlib.Path(target.parent)
             if other != folder and other not in folder.parents and folder not in other.parents:
                 found.setdefault((folder, other), []).append(f"{header.relative_to(root)} -> {name}")
+    return found
+
+
+def includes_between_examples(root):
+    """The same of the sources of examples, which name each other from where they stand, or from `root`."""
+    found = {}
+    for file in sorted([*root.rglob("*.h"), *root.rglob("*.cpp")]):
+        for name in INCLUDE_OF_EXAMPLES.findall(file.read_text()):
+            target = next((t.resolve() for t in (file.parent / name, root / name) if t.is_file()), None)
+            if target is None:
+                raise SystemExit(f'{file}: there is no "{name}"')
+            folder, other = file.parent.relative_to(root), target.parent.relative_to(root.resolve())
+            if other != folder and other not in folder.parents and folder not in other.parents:
+                found.setdefault((folder, other), []).append(f"{file.relative_to(root)} -> {name}")
     return found
 
 
@@ -62,9 +77,11 @@ def wide_lines(root):
 
 def main(source):
     edges = includes_between_folders(pathlib.Path(source) / "include" / "haptic_sculpt")
-    if not edges:
+    of_examples = includes_between_examples(pathlib.Path(source) / "examples")
+    if not edges or not of_examples:
         raise SystemExit(f"{source}: no headers found")
-    cycle = cycle_among(edges)
+    cycle = cycle_among(edges) | cycle_among(of_examples)
+    edges.update(of_examples)
     for a, b in sorted(cycle):
         print(f"{a} includes {b}:", *edges[a, b][:4], sep="\n  ")
     print(f"{len(edges)} pairs of folders, {len(cycle)} of them in a cycle")

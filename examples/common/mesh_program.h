@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Log_text.h"
 #include "run_program.h"
-
-#include "../drawing/Scene.h"
-#include "../sculpt/Log_text.h"
 
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Write_error.h>
@@ -42,13 +40,13 @@ bool is_a(const std::exception& error) {
 
 /// The exit code of what a program that sculpts meshes throws. A program looks for its own exceptions first.
 inline int exit_code_of(const std::exception& error) {
-  if (is_a<sculpt_program::Foreign_log>(error))
+  if (is_a<Foreign_log>(error))
     return foreign_log;
   if (is_a<Read_error>(error) || is_a<Invalid_surface>(error) || is_a<Out_of_range>(error))
     return mesh_refused;
-  if (is_a<sculpt_program::Script_error>(error))
+  if (is_a<Script_error>(error))
     return script_error;
-  if (is_a<Write_error>(error) || is_a<drawing::Picture_error>(error))
+  if (is_a<Write_error>(error))
     return cannot_write;
   return is_a<Error>(error) ? usage : failed; // options, and parameters that do not serve
 }

@@ -57,8 +57,8 @@ inline std::string write_file(const std::filesystem::path& path, std::string_vie
 
 /// write_surface(), which keeps the owner. \return for people: what could not be kept \throw Write_error
 template <class Mesh>
-std::string write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Write_options& options = {}) {
-  return write_file(path, surface_bytes(mesh, path, options));
+std::string write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Write_parameters& parameters = {}) {
+  return write_file(path, surface_bytes(mesh, path, parameters));
 }
 
 } // namespace haptic_sculpt::examples

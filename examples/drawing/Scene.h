@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/surface/Write_error.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 namespace haptic_sculpt::drawing {
 
 /// A picture that cannot be drawn or written; says what to do about it.
-class Picture_error : public Error {
+class Picture_error : public Write_error {
 public:
-  using Error::Error;
+  using Write_error::Write_error;
 };
 
 /// Red, green, blue in [0, 1].

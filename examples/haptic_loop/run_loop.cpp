@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Fault_injection.h"
 #include "Run.h"
-#include "Run_log.h"
 #include "Real_time.h"
 #include "Row_file.h"
 #include "Trace.h"
 #include "write_run_picture.h"
 
+#include "../common/Run_log.h"
 #include "../common/numbers.h"
+#include "../common/sha256_of_file.h"
 #include "../common/told_loss.h"
 #include "../common/write_file.h"
 #include "../drawing/surface_mesh_arrays.h"
-
-#include "../sculpt/sha256_of_file.h"
 
 #include <haptic_sculpt/haptic_rendering.h>
 #include <haptic_sculpt/surface.h>
@@ -62,7 +61,7 @@ public:
   Run_result run() {
     if (!home_)
       throw Usage_error("the device has no pose in the middle of its joint limits");
-    const std::string hash = sculpt_program::sha256_of_file(plan_.mesh);
+    const std::string hash = examples::sha256_of_file(plan_.mesh);
     if (plan_.replay && plan_.replay->mesh != hash)
       throw Foreign_recording("the recording is of a mesh with the SHA-256 " + plan_.replay->mesh + ", but that of '" +
                               plan_.mesh + "' is " + hash);
@@ -128,7 +127,7 @@ private:
   Device_parameters<double> device_;
   Outcome<Device_pose<double>> home_;
   Fault_injection faults_;
-  std::optional<Run_log> log_;
+  std::optional<examples::Run_log> log_;
   Session* session_ = nullptr;
   Happenings* happenings_ = nullptr;
   Run_samples samples_;
@@ -314,13 +313,14 @@ private:
                    map.home()[0],
                    map.home()[1],
                    map.home()[2]};
-    Write_options options;
+    Write_parameters parameters;
     for (std::size_t name = 0; name < sculptor.number_of_ids(); ++name)
       if (const auto v = sculptor.vertex(name); v.is_valid())
-        options.vertex_order.emplace_back(static_cast<Mesh::size_type>(v));
+        parameters.vertices_order.emplace_back(static_cast<Mesh::size_type>(v));
     result_.is_valid = validate(scene.mesh).is_valid();
     log_->finish();
-    writer_.write(plan_.out, [&](const std::string& path) { return examples::write_mesh(path, scene.mesh, options); });
+    writer_.write(plan_.out,
+                  [&](const std::string& path) { return examples::write_mesh(path, scene.mesh, parameters); });
     writer_.write(plan_.picture, [&](const std::string& path) {
       return write_run_picture(drawing::scene_of(scene.mesh), samples_, path);
     });

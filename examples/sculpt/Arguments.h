@@ -10,6 +10,8 @@
 
 namespace haptic_sculpt::sculpt_program {
 
+using namespace examples;
+
 /// How `--picture` shows the mesh.
 struct Picture_arguments {
   std::vector<double> view; ///< the direction in which one looks; empty: the usual one

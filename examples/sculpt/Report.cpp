@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <string_view>
 
 namespace haptic_sculpt::sculpt_program {
 namespace {
@@ -28,7 +29,7 @@ Json json_of(const Edit_record& edit) {
   return {{"source", edit.is_logged ? "log" : "script"},
           {"line", edit.line},
           {"script_line", script_line},
-          {"op", name_of(edit.kind)},
+          {"op", edit.op},
           {"status", name_of(edit.status)},
           {"reason", edit.reason ? Json(edit.reason) : Json()},
           {"detail", edit.detail.empty() ? Json() : Json(edit.detail)},
@@ -142,8 +143,8 @@ void print_table(std::ostream& out, const Run_result& result, const Mesh& mesh) 
     if (told++ == 0)
       out << "      line  edit         vertex  outcome  left to go  by (the vertices of what stands still)\n";
     out << std::setw(10) << (edit.is_logged ? "log " : "") + std::to_string(edit.line) << "  " << std::left
-        << std::setw(11) << name_of(edit.kind) << std::right << std::setw(8)
-        << (edit.kind == Command::Kind::drag ? std::to_string(edit.elements[0]) : "-") << "  ";
+        << std::setw(11) << edit.op << std::right << std::setw(8)
+        << (edit.op == std::string_view("drag") ? std::to_string(edit.elements[0]) : "-") << "  ";
     if (edit.is_within_clearance)
       out << "arrived within a clearance";
     else if (edit.motion)

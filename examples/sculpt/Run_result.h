@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Script.h"
-
-#include <haptic_sculpt/sculpting.h>
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "../common/carry_out_line.h"
 
 #include <array>
 #include <cstdint>
@@ -17,18 +13,7 @@
 
 namespace haptic_sculpt::sculpt_program {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Vertex_index = Mesh::Vertex_index;
-
-/// \pre `command` is a brush
-inline Dab_3<Kernel> dab_of(const Command& command) {
-  const auto& c = command.points[0];
-  Dab_3<Kernel> dab{*brush_kind(command.word), {c[0], c[1], c[2]}, command.length, command.strength};
-  if (command.points.size() == 2)
-    dab.direction = Kernel::Vector_3(command.points[1][0], command.points[1][1], command.points[1][2]);
-  return dab;
-}
+using namespace examples;
 
 /// What became of one edit. Small: a benchmark's script has millions of lines.
 struct Edit_record {
@@ -48,7 +33,7 @@ struct Edit_record {
   std::size_t line = 0; ///< of the log where `is_logged`, else of the script
   bool is_logged = false;
   std::size_t script_line = 0; ///< of the script that a line of the log came from; 0 where the log does not say
-  Command::Kind kind = Command::Kind::release;
+  const char* op = nullptr;     ///< the word that its line begins with
   Status status = Status::refused;
   const char* reason = nullptr; ///< why it was not reached, or nullptr
   std::string detail;           ///< for people: what would serve instead, or what was done, where there is more to say

@@ -4,7 +4,6 @@
 #include "Progress.h"
 #include "nearest_vertices.h"
 #include "Run_result.h"
-#include "many_vertices_lines.h"
 
 #include <algorithm>
 #include <chrono>
@@ -70,36 +69,26 @@ private:
   Command with_vertices_found(Command command) const {
     for (const Command::Place& place : command.places) {
       const auto point_of = [this](std::size_t name) { return mesh_.point(sculptor_.vertex(name)); };
-      command.indices[place.which] = nearest_vertices(numbers(), point_of, point(place.point), 1).at(0);
+      command.edit.vertices[place.which] = nearest_vertices(numbers(), point_of, point(place.point), 1).at(0);
     }
     command.places.clear();
     return command;
   }
 
   void carry_out(const Command& command) {
-    if (const auto edit = edit_of(command)) {
-      apply(command, *edit);
-      return;
-    }
-    sculptor_.release(); // only moves that follow each other are one grab
-    switch (command.kind) {
-    case Kind::probe: probe(command); break;
-    case Kind::clearance: clearance(command); break;
-    case Kind::delta: delta(command); break;
-    case Kind::move: move(command); break;
-    case Kind::brush: many_vertices(command, [&] { return carry_out_brush(sculptor_, command); }); break;
-    case Kind::remesh: many_vertices(command, [&] { return carry_out_remesh(sculptor_, command); }); break;
-    case Kind::response:
-      sculptor_.set_drag_parameters(drag().response(*response_named(command.word)));
-      break;
-    default: break; // release; mesh was checked before the first edit
-    }
+    if (command.kind == Kind::edit)
+      apply(command);
+    else if (command.kind == Kind::probe)
+      probe(command);
+    else
+      carry_out_other(command);
   }
 
   static Kernel::Point_3 point(const Edit_record::Coordinates& p) { return {p[0], p[1], p[2]}; }
   static Edit_record::Coordinates coordinates(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-  void apply(const Command& command, const Edit& edit) {
+  void apply(const Command& command) {
+    const Edit& edit = command.edit;
     const Vertex_index v = edit.kind == Edit_kind::move ? sculptor_.vertex(edit.vertices[0]) : Vertex_index();
     const Kernel::Point_3 start = v.is_valid() ? mesh_.point(v) : Kernel::Point_3();
     const auto begin = Clock::now();
@@ -112,22 +101,8 @@ private:
       else if (edit.kind != Edit_kind::stroke && edit.kind != Edit_kind::end)
         tell_edit(command, begin, done);
     } catch (const Invalid_parameter& error) { // the scene has outgrown the clearance
-      refuse(command, clearance_of_no_use, command.indices).detail = outgrown(error);
+      refuse(command, clearance_of_no_use, vertices_of(command)).detail = outgrown(error);
     }
-  }
-
-  /// The component of a vertex, by a vector.
-  void move(const Command& command) {
-    const Vertex_index v = sculptor_.vertex(command.indices[0]);
-    if (!v.is_valid()) {
-      refuse(command, "unknown-element", command.indices);
-      return;
-    }
-    std::vector<Vertex_index> blocking;
-    many_vertices(command,
-                  [&] { return carry_out_move(sculptor_, v, point(command.points[0]) - CGAL::ORIGIN, blocking); });
-    for (const Vertex_index w : blocking)
-      result_.edits.back().elements.push_back(sculptor_.id(w));
   }
 
   template <class Elements>
@@ -135,8 +110,7 @@ private:
     std::vector<std::size_t> elements;
     for (const Vertex_index v : vertices)
       elements.push_back(sculptor_.id(v));
-    const bool names_axis = command.kind == Kind::shift;
-    refuse(command, name_of(reason), elements.empty() && !names_axis ? command.indices : elements);
+    refuse(command, name_of(reason), elements.empty() ? vertices_of(command) : elements);
   }
 
   void tell_drag(const Command& command, Clock::time_point begin, const Applied<Mesh>& done,
@@ -146,9 +120,9 @@ private:
       for (const auto& leg : done.edit.legs)
         way_.push_back(point(leg));
       way_.push_back(point(done.edit.point));
-      moved_.insert(command.indices[0]);
+      moved_.insert(command.edit.vertices[0]);
     }
-    finish(command, begin, *done.drag, coordinates(start), command.points[0], command.indices);
+    finish(command, begin, *done.drag, coordinates(start), command.edit.point, vertices_of(command));
   }
 
   void tell_edit(const Command& command, Clock::time_point begin, const Applied<Mesh>& done) {
@@ -156,40 +130,43 @@ private:
     ++result_.reached;
     for (const auto& way : done.edit.ways)
       moved_.insert(way.first);
-    if (command.kind == Kind::shift) {
+    const Edit_kind kind = command.edit.kind;
+    if (kind == Edit_kind::shift) {
       record(command, Status::reached, nullptr, {});
       return;
     }
     const std::size_t name = sculptor_.id(*done.vertex);
     const Edit_record::Coordinates p = coordinates(mesh_.point(*done.vertex));
-    if (command.kind == Kind::insert_face || command.kind == Kind::insert_edge)
+    if (kind == Edit_kind::insert_on_face || kind == Edit_kind::insert_on_edge)
       moved_.insert(name);
-    const bool names_an_edge = command.kind == Kind::collapse || command.kind == Kind::flip;
+    const bool names_an_edge = kind == Edit_kind::collapse || kind == Edit_kind::flip;
     Edit_record& done_edit =
-        record(command, Status::reached, nullptr, names_an_edge ? command.indices : std::vector{name});
-    if (command.kind != Kind::flip) // which leaves every vertex where it is
+        record(command, Status::reached, nullptr, names_an_edge ? vertices_of(command) : std::vector{name});
+    if (kind != Edit_kind::flip) // which leaves every vertex where it is
       done_edit.motion = {p, p, p};
   }
 
-  template <class Edit>
-  void many_vertices(const Command& command, const Edit& make) {
+  void carry_out_other(const Command& command) {
     const auto begin = Clock::now();
-    const Many_vertices_outcome done = make();
+    const Line_outcome done = carry_out_line(sculptor_, command);
     if (done.refusal) {
-      refuse(command, done.refusal, {}).detail = done.detail;
+      refuse(command, done.refusal, done.elements).detail = done.detail;
       return;
     }
+    if (!done.many) // a directive
+      return;
     result_.nanoseconds.push_back(std::chrono::duration<double, std::nano>(Clock::now() - begin).count());
     // A remesher leaves out what is not proven: that is its work, not a fault of it.
-    const bool is_whole = command.kind == Kind::remesh || done.done == done.asked;
+    const bool is_whole = command.kind == Kind::remesh || (*done.many)[1] == (*done.many)[0];
     ++(is_whole ? result_.reached : result_.blocked);
     Edit_record& edit =
-        record(command, is_whole ? Status::reached : Status::blocked, is_whole ? nullptr : "in-part", {});
-    edit.many = {done.asked, done.done};
+        record(command, is_whole ? Status::reached : Status::blocked, is_whole ? nullptr : "in-part", done.elements);
+    edit.many = done.many;
     edit.detail = done.detail;
   }
 
   void probe(const Command& command) {
+    sculptor_.release(); // only moves that follow each other are one grab
     const auto begin = Clock::now();
     try {
       auto probe = sculptor_.probe(point(command.points[0]), Probe_start::anywhere);
@@ -198,41 +175,6 @@ private:
         refuse(command, "starts-in-clearance", ids(done.contacts[0]));
       else
         finish(command, begin, done, command.points[0], command.points[1], {});
-    } catch (const Invalid_parameter& error) {
-      refuse(command, clearance_of_no_use, {}).detail = outgrown(error);
-    }
-  }
-
-  static constexpr const char* clearance_of_no_use = "clearance-of-no-use";
-
-  Drag_parameters drag() const { return sculptor_.parameters().drag; }
-
-  void clearance(const Command& command) {
-    const bool is_default = command.word == "default";
-    try {
-      sculptor_.set_drag_parameters(is_default ? drag().clearance(std::nullopt) : drag().clearance(command.length));
-    } catch (const Invalid_parameter& error) {
-      refuse(command, clearance_of_no_use, {}).detail = error.what();
-    }
-  }
-
-  /// Of a line that is refused because the scene has outgrown the clearance that an earlier one has set.
-  static std::string outgrown(const Invalid_parameter& error) {
-    return error.what() + std::string("; `clearance default` before this line serves always");
-  }
-
-  void delta(const Command& command) {
-    if (command.length ==
-        sculptor_.parameters().delta_length) // a log begins so; looking at all triangles again finds nothing
-      return;
-    try {
-      sculptor_.set_delta(command.length);
-    } catch (const Invalid_surface& error) {
-      std::set<std::size_t> corners;
-      for (const auto f : error.report().low_faces)
-        for (const auto v : mesh_.vertices_around_face(mesh_.halfedge(f)))
-          corners.insert(sculptor_.id(v));
-      refuse(command, "triangle-lower-than-delta", {corners.begin(), corners.end()});
     } catch (const Invalid_parameter& error) {
       refuse(command, clearance_of_no_use, {}).detail = outgrown(error);
     }
@@ -265,7 +207,7 @@ private:
     edit.line = command.line;
     edit.is_logged = command.is_logged;
     edit.script_line = command.script_line;
-    edit.kind = command.kind;
+    edit.op = name_of(command);
     edit.status = status;
     edit.reason = reason;
     edit.elements = std::move(elements);

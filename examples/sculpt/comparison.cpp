@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "comparison.h"
 
-#include "many_vertices_lines.h"
 #include "nearest_vertices.h"
 
 #include "../drawing/occlusion.h"
@@ -20,7 +19,7 @@ using Kind = Command::Kind;
 
 /// The vertex of a line; not in the mesh where there is none of that number.
 std::size_t vertex_of(const Mesh& mesh, const Command& command) {
-  std::size_t v = command.indices[0];
+  std::size_t v = command.edit.vertices[0];
   if (!command.places.empty()) {
     std::vector<std::size_t> all(mesh.number_of_vertices());
     std::iota(all.begin(), all.end(), std::size_t(0));
@@ -33,14 +32,14 @@ std::size_t vertex_of(const Mesh& mesh, const Command& command) {
 
 void drag(Mesh& mesh, const Command& command) {
   const std::size_t v = vertex_of(mesh, command);
-  const auto& target = command.points[0];
+  const auto& target = command.edit.point;
   if (v < mesh.number_of_vertices())
     mesh.point(Vertex_index(static_cast<Mesh::size_type>(v))) = Kernel::Point_3(target[0], target[1], target[2]);
 }
 
 void move(Mesh& mesh, const Command& command) {
   const std::size_t v = vertex_of(mesh, command);
-  const auto& way = command.points[0];
+  const auto& way = command.edit.point;
   if (v < mesh.number_of_vertices())
     for (const Vertex_index w : component_of(mesh, Vertex_index(static_cast<Mesh::size_type>(v))))
       if (const auto p = mesh.point(w) + Kernel::Vector_3(way[0], way[1], way[2]); is_in_range({p.x(), p.y(), p.z()}))
@@ -118,15 +117,20 @@ Mesh sculpted_without_guard(Mesh mesh, const std::vector<Command>& script) {
   const std::vector<bool> inside_out = inside_out_vertices(mesh);
   for (const Command& command : script)
     switch (command.kind) {
-    case Kind::drag: drag(mesh, command); break;
     case Kind::move: move(mesh, command); break;
     case Kind::brush: dab(mesh, command, inside_out); break;
-    case Kind::release: case Kind::response: case Kind::clearance: case Kind::delta: case Kind::mesh: case Kind::probe:
-    case Kind::stroke: case Kind::end: break;
-    default:
+    case Kind::edit:
+      if (command.edit.kind == Edit_kind::move)
+        drag(mesh, command);
+      if (command.edit.kind == Edit_kind::move || command.edit.kind == Edit_kind::stroke ||
+          command.edit.kind == Edit_kind::end)
+        break;
+      [[fallthrough]];
+    case Kind::remesh:
       throw Script_error(
-          "line " + std::to_string(command.line) + " ('" + name_of(command.kind) +
+          "line " + std::to_string(command.line) + " ('" + name_of(command) +
           "') does more than to move vertices: --compare takes scripts of drags, moves and brushes only");
+    default: break;
     }
   return mesh;
 }

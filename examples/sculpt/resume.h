@@ -2,7 +2,8 @@
 #pragma once
 
 #include "Arguments.h"
-#include "Log_text.h"
+
+#include "../common/Log_text.h"
 
 namespace haptic_sculpt::sculpt_program {
 

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sculpts a mesh from a script. See --help; options, script, report keys and exit codes: doc/use/sculpt.md.
+#include "../common/Log_file.h"
+#include "../common/Result_writer.h"
 #include "../common/contents_of.h"
 #include "../common/mesh_program.h"
 #include "../common/numbers.h"
 #include "../common/output_targets.h"
-#include "../common/Result_writer.h"
+#include "../common/printable.h"
+#include "../common/sha256_of_file.h"
 #include "../common/told_loss.h"
 #include "../common/write_file.h"
-#include "Log_file.h"
 #include "Progress.h"
 #include "Report.h"
 #include "comparison.h"
 #include "nearest_vertices.h"
 #include "picture.h"
-#include "printable.h"
 #include "read_mesh.h"
 #include "resume.h"
-#include "sha256_of_file.h"
 
 #include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
@@ -184,8 +184,7 @@ Plan plan_of(const Script& script, const Log_file* log, const Arguments& argumen
     check_options(arguments, logged, !script.commands.empty() && plan.rest.is_new_pass);
     plan.commands = logged.commands;
     if (!script.commands.empty() && !plan.rest.is_announced) { // as Log_file::begin_pass() writes them
-      Command end;
-      end.kind = Kind::end;
+      Command end(Edit::of(Edit_kind::end));
       end.is_logged = true;
       plan.commands.insert(plan.commands.end(), open_strokes(logged.commands), end);
     }
@@ -202,9 +201,7 @@ void write_all(Result_writer& writer, const Mesh& mesh, const Run_result& result
                       const Arguments& arguments, const std::vector<Near_vertex>& nearest,
                       const drawing::Scene& before, const std::optional<Mesh>& without_guard) {
   writer.write(arguments.out, [&](const std::string& path) {
-    Write_options options;
-    options.vertex_order = result.vertex_order;
-    return examples::write_mesh(path, mesh, options);
+    return examples::write_mesh(path, mesh, Write_parameters().vertex_order(result.vertex_order));
   });
   writer.write(arguments.picture,
           [&](const std::string& path) { return write_picture_of(mesh, result, before, path, arguments.shown); });
@@ -267,7 +264,7 @@ int sculpt(const Arguments& arguments) {
   });
   if (result.failure)
     writer.note((result.failed.is_logged ? arguments.log : arguments.script) + ": line " +
-                std::to_string(result.failed.line) + ": `" + name_of(result.failed.kind) + "` has ended the script: " +
+                std::to_string(result.failed.line) + ": `" + name_of(result.failed) + "` has ended the script: " +
                 examples::message_of(result.failure) + ". What was done until then is written");
   const std::vector<Near_vertex> nearest = nearest_to(arguments, mesh, result);
   write_all(writer, mesh, result, arguments, nearest, before, without_guard);

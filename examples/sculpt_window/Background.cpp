@@ -61,8 +61,8 @@ std::string with_advice(const char* what, const std::string& path, const std::st
 std::unique_ptr<Model> model_of(const std::string& path, const std::string& log) {
   try {
     return std::make_unique<Model>(path, log);
-  } catch (const sculpt_program::Foreign_log& error) {
-    throw sculpt_program::Foreign_log(with_advice(error.what(), path, log));
+  } catch (const examples::Foreign_log& error) {
+    throw examples::Foreign_log(with_advice(error.what(), path, log));
   } catch (const Write_error& error) {
     throw Write_error(with_advice(error.what(), path, log));
   }

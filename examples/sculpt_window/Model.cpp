@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Model.h"
 
-#include "../sculpt/sha256_of_file.h"
+#include "../common/sha256_of_file.h"
 
 #include <haptic_sculpt/surface/read_surface.h>
 
@@ -31,7 +31,7 @@ Model::Model(const std::string& path_given, const std::string& log_given)
           window_program::edits, moves, parameters::known_valid(true))
     , path(path_given)
     , log_path(log_given)
-    , log(log_given, log_given.empty() ? "" : sculpt_program::sha256_of_file(path_given))
+    , log(log_given, log_given.empty() ? "" : examples::sha256_of_file(path_given))
     , edge_length(mean_edge_length(mesh))
     , unit_(std::ldexp(1, std::min(1000, -std::ilogb(extent())))) {
   keep_vertex_attributes(sculptor);

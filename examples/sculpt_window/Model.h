@@ -3,8 +3,8 @@
 
 #include "Mouse.h"
 
+#include "../common/Run_log.h"
 #include "../drawing/surface_mesh_arrays.h"
-#include "../haptic_loop/Run_log.h"
 
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
 
@@ -24,7 +24,7 @@ struct Model : Loop_scene<Mesh> {
 
   std::string path;
   std::string log_path; ///< empty: there is none
-  loop_program::Run_log log;
+  examples::Run_log log;
   std::size_t resumed = 0; ///< edits of the log that were there
   std::string note;        ///< for people: what of the log was not made again
   std::uint64_t edits = 0; ///< ticks that changed the mesh

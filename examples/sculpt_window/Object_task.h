@@ -3,7 +3,7 @@
 
 #include "Stroke_task.h"
 
-#include "../sculpt/many_vertices_lines.h"
+#include "../common/carry_out_line.h"
 
 namespace haptic_sculpt::window_program {
 
@@ -16,7 +16,7 @@ private:
   std::vector<Vertex_index> object_;
 
   void begin(Scene& scene, Tool_type&, const Surface_hit<Mesh>& hit) override {
-    object_ = sculpt_program::component_of(scene.mesh, scene.mesh.source(scene.mesh.halfedge(hit.face)));
+    object_ = examples::component_of(scene.mesh, scene.mesh.source(scene.mesh.halfedge(hit.face)));
   }
 
   void work_at(const Pointer& pointer, Scene&, Tool_type& tool) override {

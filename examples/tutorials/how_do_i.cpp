@@ -65,11 +65,10 @@ int main(int argc, char** argv) try {
   std::cout << "refused: " << report.boundary_edges.size() << " edges have one face only\n";
 
   // Files of floats: refused where rounding would change the surface, unless it is allowed and the result is valid.
-  haptic_sculpt::Write_options options;
-  options.encoding = haptic_sculpt::Write_options::Encoding::binary;
-  options.allow_rounding = true;
+  haptic_sculpt::Write_parameters parameters;
+  parameters.encoding(haptic_sculpt::Write_parameters::Encoding::binary).allow_rounding();
   if (argc == 2)
-    haptic_sculpt::write_surface(argv[1], mesh, options); // .stl
+    haptic_sculpt::write_surface(argv[1], mesh, parameters); // .stl
   return report.is_valid() || moved.reached == moved.asked || !haptic_sculpt::validate(mesh).is_valid() ? 1 : 0;
 } catch (const haptic_sculpt::Error& error) {
   std::cerr << error.what() << '\n';

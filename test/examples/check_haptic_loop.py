@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 import program_runs
-from program_runs import FURTHER as LOOP, SOURCE, check, end
+from program_runs import FURTHER as LOOP, SOURCE, check, end, points
 
 MESH = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
 COLUMNS = "t,theta1,theta2,theta3,tx,ty,tz,x,y,z,fcx,fcy,fcz,fx,fy,fz,tau1,tau2,tau3,end,contacts,pairs,cpu_ns".split(",")
@@ -165,4 +165,9 @@ run(MESH, "--no-wait", "-o", at("missing/a.off"), code=5)
 run(at("a.off"), "--replay", at("a.rec"), code=6)
 run(at("a.off"), "--log", at("g.log"), "--no-wait", code=6)
 run(MESH, "--log", at("g.log"), "--record", at("g.rec"), "--no-wait", code=2)
+# A log that sculpt has written is made again with all its lines, objects that are moved included.
+moved = ("--script", "/dev/stdin", "--log", at("moved.log"), "-o", at("moved.off"))
+check(program_runs.run(MESH, *moved, script="move 0 0 0 -0.25\n").returncode == 0, "an object is moved")
+run(MESH, "--log", at("moved.log"), "--no-wait", "--seconds", "0.01", "-o", at("again.off"))
+check(points(at("again.off")) == points(at("moved.off")) != points(MESH), "the loop makes it another mesh")
 end()

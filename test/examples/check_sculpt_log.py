@@ -9,7 +9,8 @@ import subprocess
 import tempfile
 import time
 
-from program_runs import OCTAHEDRON, SCULPT, TETRAHEDRON, before_open_stroke, bytes_of, check, end, fails, points, run, sha256, surface, write
+from program_runs import (OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, before_open_stroke, bytes_of, check, end, fails, points,
+                          run, sha256, surface, write)
 
 EDITS = ("insert_face 0 1 2 0.2 0.2 0\ndrag 4 0.2 0.2 -0.5\ninsert_edge 1 2 0.55 0.55 0\nundo\nundo\nredo\nremove 4\n"
          "remove 4\nundo\ndrag 4 0.3 0.2 -0.25\nremove 0\nredo\n")
@@ -220,6 +221,37 @@ def strokes(folder, _):
     check(run(mesh, "--script", log, "-o", out).returncode == 0 and bytes_of(out) == result, "three passes as a script")
 
 
+def earlier_version(folder, _):
+    """A log written before there were shifts, with all that a line could say then, is replayed and gone on with."""
+    mesh, log, out, report = (f"{folder}/{name}" for name in ("octahedron.off", "old.log", "old.off", "old.json"))
+    write(mesh, OCTAHEDRON)
+    written = bytes_of(f"{SOURCE}/test/examples/earlier_version.log")
+    write(log, written)
+    done = run(mesh, "--log", log, "-o", out, "--report", report)
+    check(done.returncode == 0 and bytes_of(log) == written, f"a log of an earlier version: {done.stderr}")
+    # By the lines: where vertices were dragged and created; what else was done was undone, or refused.
+    expected = points(mesh)[:4] + [(0.25, 0, 2), (0, 0, -3), (1, 1, 1.5), (-0.75, -0.75, 0)]
+    check(points(out) == expected and len(surface(out)[1]) == 12, f"it is replayed to another mesh: {surface(out)}")
+    edits = json.load(open(report))["edits"]
+    check(len(edits) == 19 and [(e["op"], e["reason"]) for e in edits if e["status"] != "reached"] ==
+          [("remove", "unknown-element"), ("redo", "nothing-to-redo")], f"what is reported of it: {edits}")
+    done = run(mesh, "--log", log, "-o", out, "--script", "/dev/stdin", script="undo\ndrag 4 0 0 2.5\n")
+    expected[4], expected[6] = (0, 0, 2.5), (0.5, 0.5, 1)
+    check(done.returncode == 0 and points(out) == expected, f"it is not gone on with: {done.stderr}")
+    check(bytes_of(log).startswith(written), "what was in it is another")
+
+
+def delta_in_stroke(folder, mesh):
+    """Delta changes between steps of the history only."""
+    log, report = f"{folder}/delta.log", f"{folder}/delta.json"
+    script = write(f"{folder}/delta.script", "stroke\ndelta 0.01\ndrag 3 0.2 0.2 2\nend\ndelta 0.01\n")
+    for source in ("--script", script), ():
+        done = run(mesh, *source, "--log", log, "--report", report)
+        told = [(e["op"], e["status"], e["reason"]) for e in json.load(open(report))["edits"]]
+        expected = [("delta", "refused", "open-stroke"), ("drag", "reached", None)]
+        check(done.returncode == 0 and told == expected, f"delta within a stroke: {told}")
+
+
 def no_logs(folder, mesh):
     """What is no log of this mesh is refused, byte for byte as it was."""
     digest = sha256(mesh)
@@ -355,7 +387,8 @@ def full_disk(folder, mesh):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
-        for part in (edits_and_log, shifts, settings, rerun, strokes, no_logs, changed_logs, without_checksums, two_processes, places, full_disk):
+        for part in (edits_and_log, shifts, settings, rerun, strokes, earlier_version, delta_in_stroke, no_logs,
+                     changed_logs, without_checksums, two_processes, places, full_disk):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             start = time.monotonic()

@@ -27,7 +27,7 @@ using namespace haptic_sculpt;
 using fuzz::require;
 using fuzz::temporary_folder;
 using meshes::Mesh;
-using Encoding = Write_options::Encoding;
+using Encoding = Write_parameters::Encoding;
 
 constexpr std::array<const char*, 4> extensions{"off", "ply", "obj", "stl"};
 std::array<std::size_t, 4> accepted{}, refused{};
@@ -56,8 +56,8 @@ bool same_attributes(const Mesh& a, const Mesh& b) {
 }
 
 void check_way_back(const Mesh& mesh, const char* extension, Encoding encoding) {
-  Write_options options;
-  options.encoding = encoding;
+  Write_parameters options;
+  options.encoding(encoding);
   const auto path = temporary_folder() / (std::string("back.") + extension);
   write_surface(path, mesh, options);
   const Mesh back = read_surface<Mesh>(path);
@@ -83,8 +83,8 @@ std::vector<std::string> good_files() {
       for (const Encoding encoding : {Encoding::ascii, Encoding::binary}) {
         if (encoding == Encoding::binary && format % 2 == 0)
           continue; // OFF and OBJ are text
-        Write_options options;
-        options.encoding = encoding;
+        Write_parameters options;
+        options.encoding(encoding);
         const auto path = temporary_folder() / (std::string("seed.") + extensions[format]);
         write_surface(path, meshes::to_mesh(list), options);
         std::ifstream file(path, std::ios::binary);

@@ -2,7 +2,7 @@
 // A fuzz target: the bytes are a script. What parses is carried out on a small mesh and logged. It must not crash; the
 // mesh must be a valid surface afterwards; the log must replay to the same bits; and no byte of the log may change
 // unnoticed.
-#include "sculpt/Log_text.h"
+#include "common/Log_text.h"
 #include "sculpt/Run_result.h"
 
 #include <fuzz/Fuzz_target.h>
@@ -102,7 +102,8 @@ bool takes_long(const std::vector<Command>& commands) {
   return is([](const Command& c) { return c.kind == Command::Kind::remesh && c.length < 0.2; }) ||
          (is([](const Command& c) { return c.kind == Command::Kind::remesh; }) && is([](const Command& c) {
             const auto is_far = [](const auto& p) { return std::hypot(p[0], p[1], p[2]) > 4; };
-            return std::abs(c.strength) > 4 || std::any_of(c.points.begin(), c.points.end(), is_far);
+            return std::abs(c.strength) > 4 || is_far(c.edit.point) ||
+                   std::any_of(c.points.begin(), c.points.end(), is_far);
           }));
 }
 

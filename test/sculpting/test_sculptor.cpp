@@ -71,6 +71,29 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_refused_and_change_nothing) {
   BOOST_TEST(grab.drag_to(before).reached);
 }
 
+BOOST_AUTO_TEST_CASE(delta_changes_between_steps_of_the_history_only) {
+  Mesh mesh = ball();
+  Sculptor<Mesh> sculptor(mesh);
+  const Vertex_index v(0);
+  const Point_3 near(0.99 * mesh.point(v).x(), 0.99 * mesh.point(v).y(), 0.99 * mesh.point(v).z());
+  auto grab = sculptor.grab(v);
+  {
+    const auto stroke = sculptor.stroke();
+    BOOST_TEST(grab.drag_to(near).reached);
+    BOOST_CHECK_THROW(sculptor.set_delta(1e-6), Open_stroke);
+    BOOST_TEST(sculptor.parameters().delta_length == 0);
+    BOOST_TEST(stroke.is_open());
+    BOOST_TEST((grab.drag_to(near).end == Drag_end::reached)); // the grab is not stale
+    BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
+  }
+  sculptor.set_delta(1e-6);
+  BOOST_TEST(sculptor.parameters().delta_length == 1e-6);
+  sculptor.apply(Edit::of(Edit_kind::stroke));
+  BOOST_CHECK_THROW(sculptor.set_delta(0), Open_stroke);
+  BOOST_TEST(static_cast<bool>(sculptor.undo())); // ends a stroke
+  sculptor.set_delta(0);
+}
+
 // Each leg is asked for again on a copy of the mesh in which the vertex stands where the leg begins.
 BOOST_AUTO_TEST_CASE(the_way_of_a_drag_is_made_of_free_legs) {
   Random random(seed_from_environment(16));

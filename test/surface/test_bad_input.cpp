@@ -41,8 +41,8 @@ BOOST_AUTO_TEST_CASE(files_that_are_none) {
 BOOST_AUTO_TEST_CASE(truncated_text) {
   const Temporary_folder folder;
   const Mesh mesh = meshes::to_mesh(meshes::icosphere(0));
-  Write_options ascii;
-  ascii.encoding = Write_options::Encoding::ascii;
+  Write_parameters ascii;
+  ascii.encoding(Write_parameters::Encoding::ascii);
   for (const char* name : {"m.off", "m.ply", "m.obj"}) {
     write_surface(folder / name, mesh, ascii);
     std::string whole = bytes_of(folder / name);
@@ -67,12 +67,13 @@ BOOST_AUTO_TEST_CASE(damaged_files) {
   const Mesh mesh = meshes::to_mesh(meshes::icosphere(0));
   std::size_t refused = 0, accepted = 0;
   for (const auto& [name, encoding] :
-       {std::pair("m.off", Write_options::Encoding::ascii), std::pair("m.ply", Write_options::Encoding::ascii),
-        std::pair("m.ply", Write_options::Encoding::binary), std::pair("m.obj", Write_options::Encoding::ascii),
-        std::pair("m.stl", Write_options::Encoding::ascii), std::pair("m.stl", Write_options::Encoding::binary)}) {
-    Write_options options;
-    options.encoding = encoding;
-    options.allow_rounding = true;
+       {std::pair("m.off", Write_parameters::Encoding::ascii), std::pair("m.ply", Write_parameters::Encoding::ascii),
+        std::pair("m.ply", Write_parameters::Encoding::binary), std::pair("m.obj", Write_parameters::Encoding::ascii),
+        std::pair("m.stl", Write_parameters::Encoding::ascii),
+        std::pair("m.stl", Write_parameters::Encoding::binary)}) {
+    Write_parameters options;
+    options.encoding(encoding);
+    options.allow_rounding();
     write_surface(folder / name, mesh, options);
     const std::string whole = bytes_of(folder / name);
     for (int i = 0; i < 400; ++i) {

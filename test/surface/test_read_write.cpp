@@ -37,12 +37,12 @@ Mesh all_exponents() {
   return to_mesh(list);
 }
 
-const std::vector<std::pair<std::string, Write_options::Encoding>> lossless{
-    {"m.off", Write_options::Encoding::automatic},
-    {"m.ply", Write_options::Encoding::ascii},
-    {"m.ply", Write_options::Encoding::binary},
-    {"m.obj", Write_options::Encoding::automatic},
-    {"m.PLY", Write_options::Encoding::automatic}};
+const std::vector<std::pair<std::string, Write_parameters::Encoding>> lossless{
+    {"m.off", Write_parameters::Encoding::automatic},
+    {"m.ply", Write_parameters::Encoding::ascii},
+    {"m.ply", Write_parameters::Encoding::binary},
+    {"m.obj", Write_parameters::Encoding::automatic},
+    {"m.PLY", Write_parameters::Encoding::automatic}};
 
 } // namespace
 
@@ -57,8 +57,8 @@ BOOST_AUTO_TEST_CASE(every_bit_comes_back) {
   for (const Mesh& mesh : meshes_) {
     BOOST_REQUIRE(validate(mesh).is_valid());
     for (const auto& [name, encoding] : lossless) {
-      Write_options options;
-      options.encoding = encoding;
+      Write_parameters options;
+      options.encoding(encoding);
       write_surface(folder / name, mesh, options);
       const Mesh back = read_surface<Mesh>(folder / name);
       BOOST_TEST(identical(mesh, back), name);
@@ -87,8 +87,8 @@ BOOST_AUTO_TEST_CASE(random_doubles_come_back) {
   }
   const Temporary_folder folder;
   for (const auto& [name, encoding] : lossless) {
-    Write_options options;
-    options.encoding = encoding;
+    Write_parameters options;
+    options.encoding(encoding);
     write_surface(folder / name, mesh, options);
     const Face_soup soup = read_face_soup(folder / name);
     BOOST_TEST(soup.number_of_faces() == mesh.number_of_faces());
@@ -148,24 +148,24 @@ BOOST_AUTO_TEST_CASE(shuffled_faces_are_read_in_file_order) {
 BOOST_AUTO_TEST_CASE(stl) {
   const Temporary_folder folder;
   const Mesh mesh = to_mesh(meshes::bumpy_sphere(2));
-  Write_options binary;
-  binary.encoding = Write_options::Encoding::binary;
+  Write_parameters binary;
+  binary.encoding(Write_parameters::Encoding::binary);
   BOOST_CHECK_EXCEPTION(write_surface(folder / "b.stl", mesh, binary), Write_error,
                         [](const Error& e) { return std::string(e.what()).find("floats") != std::string::npos; });
   BOOST_TEST(folder.number_of_files() == 0u);
-  binary.allow_rounding = true;
+  binary.allow_rounding();
   write_surface(folder / "b.stl", mesh, binary);
   BOOST_TEST(fs::file_size(folder / "b.stl") == 84 + 50 * mesh.number_of_faces());
   const Mesh rounded = read_surface<Mesh>(folder / "b.stl");
   BOOST_TEST(rounded.number_of_faces() == mesh.number_of_faces());
   // What has been rounded is lossless from now on, up to the numbering.
-  binary.allow_rounding = false;
+  binary.allow_rounding(false);
   write_surface(folder / "c.stl", rounded, binary);
   BOOST_TEST(identical(rounded, read_surface<Mesh>(folder / "c.stl")));
   // A gap of 1e-12 beside coordinates of 1 ... survives floats at 0; moved to 1 it closes, and is refused.
   Mesh gap = to_mesh(meshes::c_tube(1e-12).scale_and_move(1, 1, 0, 0));
   BOOST_REQUIRE(validate(gap).is_valid());
-  binary.allow_rounding = true;
+  binary.allow_rounding();
   BOOST_CHECK_EXCEPTION(write_surface(folder / "g.stl", gap, binary), Write_error, [](const Error& e) {
     return std::string(e.what()).find("no longer valid") != std::string::npos;
   });
@@ -205,9 +205,9 @@ BOOST_AUTO_TEST_CASE(removed_vertices_and_vertex_order) {
   write_surface(folder / "m.off", mesh);
   Mesh back = read_surface<Mesh>(folder / "m.off");
   BOOST_TEST(identical(back, to_mesh(cube)));
-  Write_options options;
+  Write_parameters options;
   for (std::size_t i = 12; i-- > 4;)
-    options.vertex_order.emplace_back(i);
+    options.vertices_order.emplace_back(i);
   write_surface(folder / "m.off", mesh, options);
   back = read_surface<Mesh>(folder / "m.off");
   for (std::size_t i = 0; i < 8; ++i)
@@ -220,11 +220,11 @@ BOOST_AUTO_TEST_CASE(removed_vertices_and_vertex_order) {
     }
     return std::string();
   };
-  options.vertex_order.back() = V(0);
+  options.vertices_order.back() = V(0);
   BOOST_TEST(message().find("vertex 0, which") != std::string::npos);
-  options.vertex_order.back() = V(8);
+  options.vertices_order.back() = V(8);
   BOOST_TEST(message().find("vertex 8 twice") != std::string::npos);
-  options.vertex_order.pop_back();
+  options.vertices_order.pop_back();
   BOOST_TEST(message().find("7 of 8") != std::string::npos);
   BOOST_TEST(folder.number_of_files() == 1u);
 }
@@ -250,8 +250,8 @@ BOOST_AUTO_TEST_CASE(the_global_locale_changes_nothing) {
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new Comma));
   for (const char* name : {"m.off", "m.ply", "m.obj", "m.stl"})
     write_surface(folder / name, mesh);
-  Write_options ascii;
-  ascii.encoding = Write_options::Encoding::ascii;
+  Write_parameters ascii;
+  ascii.encoding(Write_parameters::Encoding::ascii);
   write_surface(folder / "a.ply", mesh, ascii);
   std::vector<Mesh> back;
   for (const char* name : {"m.off", "m.ply", "m.obj", "a.ply", "m.stl"})

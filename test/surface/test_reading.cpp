@@ -203,8 +203,8 @@ void check_mode(const Set& set, const Is_set& is_set, const std::function<void()
   }
   const Mesh thin = to_mesh(meshes::c_tube(1e-12));
   const Temporary_folder folder;
-  Write_options ascii;
-  ascii.encoding = Write_options::Encoding::ascii;
+  Write_parameters ascii;
+  ascii.encoding(Write_parameters::Encoding::ascii);
   for (const char* name : {"m.off", "m.ply", "m.obj", "m.stl"}) {
     const Mesh& written = std::string(name) == "m.stl" ? thin : mesh;
     write_surface(folder / name, written, ascii);

@@ -59,15 +59,15 @@ BOOST_AUTO_TEST_CASE(ply_brings_every_type_back_in_text_and_in_bytes_and_in_the_
   const Temporary_folder folder;
   const Mesh mesh = ball();
   BOOST_TEST(values_of(mesh).size() == 8u);
-  for (const auto encoding : {Write_options::Encoding::ascii, Write_options::Encoding::binary}) {
-    Write_options options;
-    options.encoding = encoding;
+  for (const auto encoding : {Write_parameters::Encoding::ascii, Write_parameters::Encoding::binary}) {
+    Write_parameters options;
+    options.encoding(encoding);
     write_surface(folder / "m.ply", mesh, options);
     const Mesh back = read_surface<Mesh>(folder / "m.ply");
     BOOST_TEST((values_of(back) == values_of(mesh)));
     for (const V v : mesh.vertices()) {
       BOOST_TEST(back.point(v) == mesh.point(v));
-      options.vertex_order.emplace_back(static_cast<Mesh::size_type>(mesh.number_of_vertices() - 1 - v));
+      options.vertices_order.emplace_back(static_cast<Mesh::size_type>(mesh.number_of_vertices() - 1 - v));
     }
     write_surface(folder / "m.ply", mesh, options);
     const Mesh turned = read_surface<Mesh>(folder / "m.ply");

@@ -51,10 +51,10 @@ public:
     const bool has_changed_hands = holds_vertex() != held_vertex;
     if (grab_ && !is_anchored_)
       anchor(place_of(grab_->vertex()), hand);
-    const bool looks_for_place = way_out_ && !has_changed_hands;
+    const bool looks_for_place = placement_ && !has_changed_hands;
     if (looks_for_place)
-      come_out(hand);
-    else if (!grab_ && !way_out_ && (carries_probe_ || probe_))
+      try_next_place(hand);
+    else if (!grab_ && !placement_ && (carries_probe_ || probe_))
       bring_probe(hand);
     step.target = step.proxy = hand + offset_;
     last_drag_.reset();
@@ -168,11 +168,11 @@ private:
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(), last_push_ = Eigen::Vector3d::UnitZ();
   std::optional<std::array<Vertex_index, 3>> touched_; ///< the face that the probe touches
   /// From where a vertex was let go, while the probe has no place yet.
-  struct Way_out {
+  struct Probe_placement {
     Eigen::Vector3d place, away, from; ///< the vertex and its normal then; behind the last surface that was met
     int tried = 0;                     ///< places
   };
-  std::optional<Way_out> way_out_;
+  std::optional<Probe_placement> placement_;
   Tool_edits edits_;
   Journaled_edits<Sculptor> mesh_edits_;
   std::optional<Result> last_drag_;
@@ -183,10 +183,10 @@ private:
 
   /// From where things are sought that the hand wants.
   Eigen::Vector3d aim(const Eigen::Vector3d& hand) const {
-    return probe_ ? internal::vector_of(probe_->position()) : way_out_ ? way_out_->place : hand;
+    return probe_ ? internal::vector_of(probe_->position()) : placement_ ? placement_->place : hand;
   }
 
-  void drop_probe() { probe_.reset(), touched_.reset(), way_out_.reset(); }
+  void drop_probe() { probe_.reset(), touched_.reset(), placement_.reset(); }
 
   /// Puts the probe to p. Returns false, and leaves it, where that is refused: on a face, or inside of a solid.
   bool put_probe(const Eigen::Vector3d& p) {
@@ -283,36 +283,36 @@ private:
     const Eigen::Vector3d place = place_of(v), away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
     grab_.reset();
     mesh_edits_.end_stroke();
-    way_out_ = Way_out{place, away, place};
+    placement_ = Probe_placement{place, away, place};
     return Tool_event::released;
   }
 
   /// Tries the next place of the probe: a little off the surface; from a pit too thin for that, behind what is around
   /// it, along the vertex's normal and then along the last push. In the end bring_probe() has to do.
-  void come_out(const Eigen::Vector3d& hand) {
+  void try_next_place(const Eigen::Vector3d& hand) {
     constexpr std::array<double, 3> shares{0.02, 0.2, 1.0};
     constexpr int near = shares.size(), most_surfaces = 16; // a hand that is deeper inside comes out by itself
-    Way_out& out = *way_out_;
-    const int tried = out.tried++;
+    Probe_placement& next = *placement_;
+    const int tried = next.tried++;
     if (tried < near)
-      put_probe(out.place + shares[tried] * reach() * out.away);
+      put_probe(next.place + shares[tried] * reach() * next.away);
     else {
       const bool is_second = tried >= near + most_surfaces;
-      const Eigen::Vector3d& direction = is_second ? last_push_ : out.away;
+      const Eigen::Vector3d& direction = is_second ? last_push_ : next.away;
       if (tried == near + most_surfaces)
-        out.from = out.place;
-      const auto hit = sculptor_->first_hit(internal::point_of<Point>(out.from),
-                                            internal::point_of<Point>(out.place + 4 * map_.scale() * direction));
+        next.from = next.place;
+      const auto hit = sculptor_->first_hit(internal::point_of<Point>(next.from),
+                                            internal::point_of<Point>(next.place + 4 * map_.scale() * direction));
       if (hit) {
-        out.from = internal::vector_of(hit->point) + 0.2 * reach() * direction;
-        put_probe(out.from);
+        next.from = internal::vector_of(hit->point) + 0.2 * reach() * direction;
+        put_probe(next.from);
       } else
-        out.tried = near + (is_second ? 2 : 1) * most_surfaces;
+        next.tried = near + (is_second ? 2 : 1) * most_surfaces;
     }
     if (probe_)
       anchor(internal::vector_of(probe_->position()), hand);
-    if (probe_ || out.tried == near + 2 * most_surfaces)
-      way_out_.reset();
+    if (probe_ || next.tried == near + 2 * most_surfaces)
+      placement_.reset();
   }
 
   Tool_event remove(const Eigen::Vector3d& hand) {
@@ -325,7 +325,7 @@ private:
     const auto made = mesh_edits_.make(Edit::of(Edit_kind::remove, {sculptor_->id(v), 0, 0}));
     mesh_edits_.end_stroke();
     if (was_held)
-      way_out_ = Way_out{place, away, place};
+      placement_ = Probe_placement{place, away, place};
     return made ? Tool_event::removed : Tool_event::refused;
   }
 };

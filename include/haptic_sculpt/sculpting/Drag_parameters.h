@@ -11,10 +11,10 @@ namespace haptic_sculpt {
 /// How a vertex or a probe is dragged, named and chained: `Drag_parameters().response(Response::stop)`. The last
 /// argument of what drags; where it is left out those of the Sculptor hold.
 struct Drag_parameters {
-  Response response_rule = Response::slide; ///< see response()
-  std::optional<double> clearance_length;   ///< unset: default_clearance() at each contact
-  std::optional<std::size_t> work_bound;    ///< unset: a drag takes what it takes
-  bool is_once = false;                     ///< see once()
+  Response response_rule = Response::slide;    ///< see response()
+  std::optional<double> clearance_length;      ///< unset: default_clearance() at each contact
+  std::optional<std::size_t> work_limit_pairs; ///< unset: a drag takes what it takes
+  bool is_once = false;                        ///< see once()
 
   /// What is done where the way is blocked. Contacts are carried on from drag to drag with the same response only.
   Drag_parameters& response(Response rule) {
@@ -31,7 +31,7 @@ struct Drag_parameters {
   /// Bounds the work, for a loop that has to be in time: after this many pairs decided and candidates looked up the
   /// drag ends as Drag_end::work_limit where it is (doc/use/work.md).
   Drag_parameters& work_limit(std::optional<std::size_t> pairs) {
-    work_bound = pairs;
+    work_limit_pairs = pairs;
     return *this;
   }
   /// Whether a vertex is dragged once, and then another: then what is near is looked up for this drag alone, and only

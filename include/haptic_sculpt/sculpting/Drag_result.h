@@ -46,8 +46,8 @@ struct Drag_result {
   }
 
   typename Mesh::Point position;             ///< where the vertex is now; of a stale Grab, where that Grab had it last
-  bool reached = false;                      ///< whether that is the target, as numbers: +0 is -0; `end` says the same
-  Drag_end end = Drag_end::reached;          ///< why the drag ended
+  bool reached = false; ///< whether that is the target, as numbers: +0 is -0, and `end` is Drag_end::reached
+  Drag_end end = Drag_end::no_progress;      ///< why the drag ended
   Contacts contacts;                         ///< what holds it, in an order that depends on the elements only
   int legs = 0; ///< straight motions, each proven, from where it was to `position`; 0 where that is the same
   /// The distance of a stopped vertex from the nearest contact plane, in the unit of the coordinates; where the contact

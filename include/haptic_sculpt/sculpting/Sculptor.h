@@ -63,16 +63,16 @@ public:
   /// \throw Invalid_surface when the mesh is not closed, 2-manifold, triangular, non-degenerate and embedded, or does
   /// not obey the delta rule; Invalid_parameter; Out_of_range. The mesh is not changed. Cost: that of validate(), n log
   /// n in practice.
-  explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& options = Sculptor_parameters(),
+  explicit Sculptor(Mesh_type& mesh, const Sculptor_parameters& parameters = Sculptor_parameters(),
                     Visitor visitor = Visitor())
       : guarded_(
-            mesh, options, std::move(visitor), [](Filter_counters& counters) { return traits_that_count(counters); },
+            mesh, parameters, std::move(visitor), [](Filter_counters& counters) { return traits_that_count(counters); },
             internal::Rounding_to_nearest()) {}
 
   /// The same with traits of its own, which are copied. \throw as above
-  Sculptor(Mesh_type& mesh, const Sculptor_parameters& options, Visitor visitor, const Traits& traits)
+  Sculptor(Mesh_type& mesh, const Sculptor_parameters& parameters, Visitor visitor, const Traits& traits)
       : guarded_(
-            mesh, options, std::move(visitor), [&traits](Filter_counters&) { return traits; },
+            mesh, parameters, std::move(visitor), [&traits](Filter_counters&) { return traits; },
             internal::Rounding_to_nearest()) {}
   ~Sculptor() { set_hand(nullptr); }
 
@@ -294,10 +294,12 @@ public:
   }
 
   /// Of drags and edits from here on; undo and redo restore what was, and altitudes that are lower then may only grow
-  /// (doc/proofs/stop.md). \throw Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude
-  /// already. Cost: that of validate().
+  /// (doc/proofs/stop.md). It changes between steps of the history: \throw Open_stroke within a stroke; Out_of_range;
+  /// Invalid_parameter; Invalid_surface where the mesh has a lower altitude already. Cost: that of validate().
   void set_delta(double length) {
     const internal::Rounding_to_nearest rounding;
+    if (guarded_.whole_editor().history().is_in_stroke())
+      throw Open_stroke("delta may not change within a stroke: end the stroke first");
     release();
     const Sculptor_parameters changed = Sculptor_parameters(parameters()).delta(length);
     internal::checked_scene(mesh(), changed);

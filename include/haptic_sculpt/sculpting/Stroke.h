@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/Error.h>
+
 #include <cstddef>
 #include <utility>
 
 namespace haptic_sculpt {
+
+/// What is only to be done between steps of the history was asked for within a stroke. Nothing has changed.
+struct Open_stroke : Error {
+  using Error::Error;
+};
 
 /// All drags and edits of a Sculptor while this lives are one step of its history: made by `Sculptor::stroke()`, ended
 /// by `end()` or destruction, an exception included; what was done by then is the step.

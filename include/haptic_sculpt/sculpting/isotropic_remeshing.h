@@ -59,23 +59,23 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
     return {};
 
   const internal::Scaled_points<Mesh> points(sculptor.mesh(), target_edge_length);
-  internal::Remeshing_options options;
-  options.target_edge_length = points.in_unit(target_edge_length);
-  options.iterations = choose_parameter(get_parameter(np, names::number_of_iterations), 1u);
-  options.relaxation_steps = choose_parameter(get_parameter(np, names::number_of_relaxation_steps), 1u);
-  options.protect_constraints = choose_parameter(get_parameter(np, names::protect_constraints), false);
-  options.collapse_constraints = choose_parameter(get_parameter(np, names::collapse_constraints), true);
-  options.relax_constraints = choose_parameter(get_parameter(np, names::relax_constraints), false);
-  options.do_split = choose_parameter(get_parameter(np, names::do_split), true);
-  options.do_collapse = choose_parameter(get_parameter(np, names::do_collapse), true);
-  options.do_flip = choose_parameter(get_parameter(np, names::do_flip), true);
+  internal::Remeshing_named_parameters named;
+  named.target_edge_length = points.in_unit(target_edge_length);
+  named.iterations = choose_parameter(get_parameter(np, names::number_of_iterations), 1u);
+  named.relaxation_steps = choose_parameter(get_parameter(np, names::number_of_relaxation_steps), 1u);
+  named.protect_constraints = choose_parameter(get_parameter(np, names::protect_constraints), false);
+  named.collapse_constraints = choose_parameter(get_parameter(np, names::collapse_constraints), true);
+  named.relax_constraints = choose_parameter(get_parameter(np, names::relax_constraints), false);
+  named.do_split = choose_parameter(get_parameter(np, names::do_split), true);
+  named.do_collapse = choose_parameter(get_parameter(np, names::do_collapse), true);
+  named.do_flip = choose_parameter(get_parameter(np, names::do_flip), true);
   constexpr bool has_functor = !internal::is_not_given<Named_parameters, names::projection_functor_t>;
   const bool projects = choose_parameter(get_parameter(np, names::do_project), true);
   const double infinity = std::numeric_limits<double>::infinity();
   const double distance = parameters.most_distance.value_or(has_functor && projects ? infinity : target_edge_length);
-  options.max_distance = distance < infinity ? points.in_unit(distance) : infinity;
-  if (options.do_split)
-    internal::check_number_of_faces(sculptor.mesh(), points, range, options, target_edge_length, parameters);
+  named.max_distance = distance < infinity ? points.in_unit(distance) : infinity;
+  if (named.do_split)
+    internal::check_number_of_faces(sculptor.mesh(), points, range, named, target_edge_length, parameters);
 
   const auto edge_map = choose_parameter(get_parameter(np, names::edge_is_constrained), No_edges());
   const auto vertex_map = choose_parameter(get_parameter(np, names::vertex_is_constrained), No_vertices());
@@ -89,7 +89,7 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
 
   const auto run = [&](auto&& project) {
     using Project = std::decay_t<decltype(project)>;
-    return internal::Remesher<Sculptor, Marks, Project>(sculptor, points, marks, project, options, parameters).run();
+    return internal::Remesher<Sculptor, Marks, Project>(sculptor, points, marks, project, named, parameters).run();
   };
   if constexpr (has_functor) {
     const auto functor = get_parameter(np, names::projection_functor);

@@ -18,29 +18,42 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace haptic_sculpt {
 
-/// How `write_surface()` writes.
-struct Write_options {
+/// How `write_surface()` writes, named and chained: `Write_parameters().allow_rounding()`.
+struct Write_parameters {
   /// Whether numbers are written as text or as bytes.
   enum class Encoding {
     automatic, ///< binary for PLY, ASCII for OFF, OBJ and STL: the smallest that is lossless
     ascii,     ///< numbers of 17 digits, which bring every double back
     binary     ///< PLY and STL only
   };
-  Encoding encoding = Encoding::automatic; ///< binary OFF and OBJ are refused
+  Encoding encoding_kind = Encoding::automatic;              ///< encoding()
+  bool is_rounding_allowed = false;                          ///< allow_rounding()
+  std::vector<Validity_report::Vertex_index> vertices_order; ///< vertex_order()
 
+  /// Binary OFF and OBJ are refused.
+  Write_parameters& encoding(Encoding kind) {
+    encoding_kind = kind;
+    return *this;
+  }
   /// Allows binary STL to round coordinates to floats, if the rounded surface is still valid.
-  bool allow_rounding = false;
-
+  Write_parameters& allow_rounding(bool on = true) {
+    is_rounding_allowed = on;
+    return *this;
+  }
   /// The order in which vertices are written. Empty: by index. Otherwise every vertex of the mesh stands in it once.
-  std::vector<Validity_report::Vertex_index> vertex_order;
+  Write_parameters& vertex_order(std::vector<Validity_report::Vertex_index> order) {
+    vertices_order = std::move(order);
+    return *this;
+  }
 };
 
 /// "automatic", "ascii" or "binary".
-inline const char* name_of(Write_options::Encoding encoding) {
+inline const char* name_of(Write_parameters::Encoding encoding) {
   constexpr const char* names[] = {"automatic", "ascii", "binary"};
   return names[static_cast<int>(encoding)];
 }
@@ -49,13 +62,13 @@ namespace internal {
 
 /// The vertices in the order asked for, closed up. \throw Write_error
 template <class Mesh>
-std::vector<typename Mesh::Vertex_index> written_order(const Mesh& mesh, const Write_options& options) {
+std::vector<typename Mesh::Vertex_index> written_order(const Mesh& mesh, const Write_parameters& parameters) {
   using Vertex = typename Mesh::Vertex_index;
-  if (options.vertex_order.empty())
+  if (parameters.vertices_order.empty())
     return {mesh.vertices().begin(), mesh.vertices().end()};
   std::vector<Vertex> order;
   std::vector<bool> seen(mesh.number_of_vertices() + mesh.number_of_removed_vertices(), false);
-  for (const auto index : options.vertex_order) {
+  for (const auto index : parameters.vertices_order) {
     const Vertex v(static_cast<std::size_t>(index));
     if (!mesh.has_valid_index(v) || mesh.is_removed(v) || seen[v])
       throw Write_error("the vertex order names vertex " + std::to_string(std::size_t(index)) +
@@ -71,11 +84,11 @@ std::vector<typename Mesh::Vertex_index> written_order(const Mesh& mesh, const W
 
 /// The mesh as it will be written. \throw Write_error if no format can hold it
 template <class Mesh>
-Face_soup compacted(const Mesh& mesh, const Write_options& options) {
+Face_soup compacted(const Mesh& mesh, const Write_parameters& parameters) {
   if (!inconsistent_halfedges(mesh).empty())
     throw Write_error("the connectivity of the mesh contradicts itself; see validate()");
   Face_soup soup = face_soup(mesh);
-  const auto order = written_order(mesh, options);
+  const auto order = written_order(mesh, parameters);
   std::vector<Face_soup::Index> place(soup.points.size());
   std::vector<Face_soup::Point_3> points;
   points.reserve(order.size());
@@ -186,17 +199,17 @@ inline void prepare_ply(const Face_soup& soup, bool binary) {
 
 /// The bytes of the file that write_surface() writes. \throw Write_error
 template <class Mesh>
-std::string surface_bytes(const Mesh& mesh, Mesh_file_format format, const Write_options& options = {}) {
+std::string surface_bytes(const Mesh& mesh, Mesh_file_format format, const Write_parameters& parameters = {}) {
   const internal::Rounding_to_nearest rounding;
-  using Encoding = Write_options::Encoding;
+  using Encoding = Write_parameters::Encoding;
   const bool may_be_binary = format == Mesh_file_format::ply || format == Mesh_file_format::stl;
-  if (options.encoding == Encoding::binary && !may_be_binary)
+  if (parameters.encoding_kind == Encoding::binary && !may_be_binary)
     throw Write_error("only PLY and STL are written in binary");
-  const bool binary = options.encoding == Encoding::binary ||
-                      (options.encoding == Encoding::automatic && format == Mesh_file_format::ply);
-  Face_soup soup = internal::compacted(mesh, options);
+  const bool binary = parameters.encoding_kind == Encoding::binary ||
+                      (parameters.encoding_kind == Encoding::automatic && format == Mesh_file_format::ply);
+  Face_soup soup = internal::compacted(mesh, parameters);
   if (format == Mesh_file_format::stl)
-    internal::prepare_stl(soup, binary, options.allow_rounding);
+    internal::prepare_stl(soup, binary, parameters.is_rounding_allowed);
   if (format == Mesh_file_format::ply)
     internal::prepare_ply(soup, binary);
   return internal::file_contents(soup, format, binary);
@@ -204,10 +217,11 @@ std::string surface_bytes(const Mesh& mesh, Mesh_file_format format, const Write
 
 /// The same for the file of this name. \throw Write_error which names it
 template <class Mesh>
-std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path, const Write_options& options = {}) {
+std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path,
+                          const Write_parameters& parameters = {}) {
   try {
     if (const auto format = mesh_file_format(path))
-      return surface_bytes(mesh, *format, options);
+      return surface_bytes(mesh, *format, parameters);
     throw Write_error("the extension has to be .off, .ply, .obj or .stl");
   } catch (const Write_error& error) {
     throw Write_error("cannot write '" + path.string() + "': " + error.what());
@@ -218,17 +232,17 @@ std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path, c
 ///
 /// The extension says which format: .off, .ply, .obj or .stl. Coordinates come back bit for bit through
 /// `read_surface()` from every format but binary STL, which holds floats: there it is refused unless the coordinates
-/// are floats anyway, or `allow_rounding` is set and the rounded surface validates. ASCII STL holds 17 digits and is
+/// are floats anyway, or `allow_rounding()` is set and the rounded surface validates. ASCII STL holds 17 digits and is
 /// lossless, but numbers vertices anew, in order of first appearance. Removed elements are left out; vertices close up
-/// in index order or in `options.vertex_order`, faces in index order. PLY holds all vertex_attributes(), OBJ colours,
+/// in index order or in `vertex_order()`, faces in index order. PLY holds all vertex_attributes(), OBJ colours,
 /// the other formats none (`attributes_not_held()`). An invalid surface is written as it is (and will
 /// not be read back), unless the format cannot hold it.
 ///
 /// \param path of the file; its folder has to exist. `replace_file()` says what becomes of links and permissions
 /// \throw Write_error
 template <class Mesh>
-void write_surface(const std::filesystem::path& path, const Mesh& mesh, const Write_options& options = {}) {
-  replace_file(path, surface_bytes(mesh, path, options));
+void write_surface(const std::filesystem::path& path, const Mesh& mesh, const Write_parameters& parameters = {}) {
+  replace_file(path, surface_bytes(mesh, path, parameters));
 }
 
 } // namespace haptic_sculpt

@@ -97,3 +97,8 @@ BOOST_AUTO_TEST_CASE(no_result_contradicts_itself) {
   BOOST_TEST(tally.contradictions == 0u);
   BOOST_TEST(tally.ends.size() >= (drags < 4000 ? 4u : 6u));
 }
+
+BOOST_AUTO_TEST_CASE(a_result_that_no_drag_has_made_does_not_contradict_itself) {
+  const Drag_result<Mesh> result;
+  BOOST_TEST(result.reached == (result.end == Drag_end::reached));
+}

@@ -167,8 +167,8 @@ BOOST_AUTO_TEST_CASE(stl) {
   for (std::size_t n = 1; n < end; ++n)
     BOOST_TEST(refusal<Error>(stl(ascii.substr(0, n))) != "");
 
-  Write_options binary;
-  binary.encoding = Write_options::Encoding::binary;
+  Write_parameters binary;
+  binary.encoding(Write_parameters::Encoding::binary);
   write_surface(folder / "b.stl", mesh, binary);
   const std::string bytes = bytes_of(folder / "b.stl");
   BOOST_TEST(refusal<Error>(stl(bytes)) == "");

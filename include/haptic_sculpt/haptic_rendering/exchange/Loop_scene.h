@@ -34,11 +34,11 @@ struct Loop_scene {
   /// \throw Invalid_surface and what else the Sculptor throws. Cost: that of validate()
   template <class Map_of_box>
   Loop_scene(Mesh given, const Map_of_box& map_of_box, std::size_t edits = 1000, std::size_t moves = 100000,
-             const Sculptor_parameters& options = Sculptor_parameters())
+             const Sculptor_parameters& parameters = Sculptor_parameters())
       : mesh(std::move(given))
       , lower(corner_of_box(-1))
       , upper(corner_of_box(1))
-      , sculptor(mesh, options, Scene_visitor<Mesh>(mesh))
+      , sculptor(mesh, parameters, Scene_visitor<Mesh>(mesh))
       , map(map_of_box(lower, upper)) {
     sculptor.reserve(edits, moves);
     sculptor.visitor().mark_all(2 * edits);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/collision/arithmetic/exact_integers.h>
-#include <haptic_sculpt/sculpting/geometry/separation.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/star.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 

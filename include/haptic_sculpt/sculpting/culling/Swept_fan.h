@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/culling/Outcodes.h>
-#include <haptic_sculpt/sculpting/geometry/separation.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
 #include <cstddef>
 #include <vector>

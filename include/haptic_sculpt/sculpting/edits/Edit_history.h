@@ -48,8 +48,7 @@ public:
 
   /// \name Strokes
   ///@{
-  /// Begins a stroke, or joins the one under way. \return its number \param ids how many numbers of vertices there
-  /// are
+  /// Begins a stroke, or joins the one under way. \return its number \param ids how many numbers of vertices there are
   std::size_t begin_stroke(std::size_t ids) {
     if (!is_off() && latest_.size() < ids)
       latest_.resize(ids, no_move);

@@ -5,9 +5,6 @@
 /// Lower bounds of distances by separating planes. Whatever direction n they have, min n . p over one set less max n .
 /// q over the other, over |n|, is no more than the distance of the two hulls. So n may be found by rounded numbers,
 /// degenerate cases and all.
-///
-/// Sums of products are rounded as they come: std::fma() and std::fmax() are calls where the processor at hand is not
-/// asked for.
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 
@@ -15,33 +12,6 @@
 #include <limits>
 
 namespace haptic_sculpt::internal {
-
-inline double quick_dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Vector quick_cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-/// a + factor * b
-inline Vector quick_sum(const Vector& a, double factor, const Vector& b) {
-  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
-inline double larger(double a, double b) {
-  return a > b ? a : b;
-}
-inline double smaller(double a, double b) {
-  return a < b ? a : b;
-}
-inline double quick_magnitude(const Vector& a) {
-  return larger(std::abs(a[0]), larger(std::abs(a[1]), std::abs(a[2])));
-}
-
-/// Largest coordinate 1; zero for what is so small that its reciprocal is not a number.
-inline Vector of_size_one(const Vector& a) {
-  constexpr double least_size = 0x1p-1000;
-  const double size = quick_magnitude(a);
-  return size > least_size ? scaled(a, 1 / size) : Vector{};
-}
 
 /// How far two sets of points are apart along n, at least, up to the roundings of the sums; 0 where that is not known.
 /// Where |n|, as a rule the distance itself, is no more than `least`, roundings are all of it.

@@ -4,8 +4,8 @@
 /// \file
 /// The little vector arithmetic behind stops and slides. Nothing here decides about geometry: it only proposes points.
 ///
-/// Every product-sum is an explicit fused multiply-add, so that compilers cannot choose: the same edits give the same
-/// bits in every build.
+/// Every product-sum of what follows is an explicit fused multiply-add, so that compilers cannot choose: the same edits
+/// give the same bits in every build.
 
 #include <haptic_sculpt/collision/arithmetic/unit_of.h>
 
@@ -77,5 +77,41 @@ inline double nearer_by(const Vector& target, const Vector& from, const Vector& 
   const double sum = length(a) + length(b);
   return sum > 0 ? dot(minus(to, from), {(a[0] + b[0]) / sum, (a[1] + b[1]) / sum, (a[2] + b[2]) / sum}) : 0;
 }
+
+/// \name Quick ones
+/// For bounds, choices and proposals in the inner loops. Sums of products are rounded as they come, for std::fma() and
+/// std::fmax() are calls where the processor at hand is not asked for.
+///@{
+inline double quick_dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Vector quick_cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double quick_squared_distance(const Vector& a, const Vector& b) {
+  const Vector d = minus(a, b);
+  return quick_dot(d, d);
+}
+/// a + factor * b
+inline Vector quick_sum(const Vector& a, double factor, const Vector& b) {
+  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
+}
+inline double larger(double a, double b) {
+  return a > b ? a : b;
+}
+inline double smaller(double a, double b) {
+  return a < b ? a : b;
+}
+inline double quick_magnitude(const Vector& a) {
+  return larger(std::abs(a[0]), larger(std::abs(a[1]), std::abs(a[2])));
+}
+
+/// Largest coordinate 1; zero for what is so small that its reciprocal is not a number.
+inline Vector of_size_one(const Vector& a) {
+  constexpr double least_size = 0x1p-1000;
+  const double size = quick_magnitude(a);
+  return size > least_size ? scaled(a, 1 / size) : Vector{};
+}
+///@}
 
 } // namespace haptic_sculpt::internal

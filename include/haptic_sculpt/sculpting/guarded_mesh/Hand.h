@@ -86,7 +86,7 @@ public:
                    double delta, Drag_result<Mesh>& result) {
     if (std::exchange(last_response_, parameters.response_rule) != parameters.response_rule)
       responses_.forget();
-    begin_to_decide(parameters.work_bound);
+    begin_to_decide(parameters.work_limit_pairs);
     const Drag_rules rules = {Clearance_rule(parameters.clearance_length), delta};
     const Coordinates end = responses_.move(parameters.response_rule, guard_, *mesh_, source, target, rules, result);
     result.work = guard_.work().done();
@@ -105,7 +105,7 @@ public:
 
   /// Whether the straight way is free, and that has been decided within the bound on the work.
   bool is_free(const Coordinates& source, const Coordinates& target, const Drag_parameters& parameters, double delta) {
-    begin_to_decide(parameters.work_bound);
+    begin_to_decide(parameters.work_limit_pairs);
     return guard_.is_free(source, target, delta);
   }
 
@@ -154,8 +154,8 @@ private:
     is_held_once_ = on;
   }
 
-  void begin_to_decide(const std::optional<std::size_t>& work_bound) {
-    guard_.work().begin(work_bound.value_or(Work::unbounded));
+  void begin_to_decide(const std::optional<std::size_t>& work_limit) {
+    guard_.work().begin(work_limit.value_or(Work::unbounded));
     is_ready_ = false;
   }
 

@@ -18,18 +18,19 @@ template <class Mesh>
 void settle_result(const Coordinates& source, const Coordinates& target, const Coordinates& end,
                    Drag_result<Mesh>& result) {
   result.position = typename Mesh::Point(end[0], end[1], end[2]);
-  result.reached = end == target;
   if (end == source)
     result.legs = 0; // whatever was tried, or gone and come back
-  if (result.reached) {
+  const bool explains_nothing = result.end == Drag_end::held && result.contacts.empty();
+  if (end == target)
     result.end = Drag_end::reached;
+  else if (result.end == Drag_end::reached || explains_nothing)
+    result.end = Drag_end::stuck;
+  result.reached = result.end == Drag_end::reached;
+  if (result.reached) {
     result.contacts.clear(); // nothing holds it
     result.stop_error = result.stop_error_along_path = 0;
     return;
   }
-  const bool explains_nothing = result.end == Drag_end::held && result.contacts.empty();
-  if (result.end == Drag_end::reached || explains_nothing)
-    result.end = Drag_end::stuck;
   if (end == source &&
       (result.end == Drag_end::leg_limit || (result.end == Drag_end::stuck && result.contacts.empty())))
     result.end = Drag_end::no_progress;

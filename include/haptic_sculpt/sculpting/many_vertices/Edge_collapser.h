@@ -62,7 +62,7 @@ private:
     const int degree = state_.marks.constrained_degree(v);
     if (!state_.marks.is_constrained(mesh_.edge(h)))
       return degree == 0;
-    return degree == 2 && state_.options.collapse_constraints && !state_.options.protect_constraints;
+    return degree == 2 && state_.named.collapse_constraints && !state_.named.protect_constraints;
   }
 
   /// The measure of the least angle that stays, or -1 where the collapse is not wanted: constraints, a normal that
@@ -73,7 +73,7 @@ private:
     state_.collect(mesh_.source(h));
     const Coordinates target = state_.place(mesh_.target(h));
     for (const Coordinates& p : state_.star.link_points)
-      if (squared_length(p, target) > state_.high)
+      if (quick_squared_distance(p, target) > state_.high)
         return -1;
     return shape_after_move(state_.star, state_.place(state_.star.centre), target, position_in_link(mesh_.target(h)));
   }
@@ -83,7 +83,7 @@ private:
     return {h, shape,
             shape < 0 ? 0
                       : volume_of_collapse(state_.star, state_.place(state_.star.centre),
-                                           position_in_link(mesh_.target(h)), state_.options.target_edge_length)};
+                                           position_in_link(mesh_.target(h)), state_.named.target_edge_length)};
   }
 
   std::size_t position_in_link(Vertex_index v) const {

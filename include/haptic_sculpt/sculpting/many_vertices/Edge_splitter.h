@@ -46,7 +46,7 @@ private:
   std::unordered_set<Edge_index> unsplit_; ///< those that were refused
 
   bool may_split(Edge_index e) const {
-    return state_.marks.is_inside(e) && !(state_.options.protect_constraints && state_.marks.is_constrained(e)) &&
+    return state_.marks.is_inside(e) && !(state_.named.protect_constraints && state_.marks.is_constrained(e)) &&
            unsplit_.count(e) == 0;
   }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/Sculptor.h>
-#include <haptic_sculpt/sculpting/geometry/separation.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt::internal {

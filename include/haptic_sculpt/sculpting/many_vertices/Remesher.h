@@ -25,23 +25,23 @@ public:
   using Face_index = typename Mesh::Face_index;
 
   Remesher(Sculptor& sculptor, const Scaled_points<Mesh>& points, Marks& marks, Project& project,
-           const Remeshing_options& options, const Remeshing_parameters& parameters)
-      : state_(sculptor, points, marks, project, options, parameters)
+           const Remeshing_named_parameters& named, const Remeshing_parameters& parameters)
+      : state_(sculptor, points, marks, project, named, parameters)
       , mesh_(sculptor.mesh())
       , marks_(marks)
-      , options_(options)
+      , named_(named)
       , drag_(Drag_parameters(sculptor.parameters().drag).once()) {}
 
   Remeshing_report run() {
     using Phase = Remeshing_progress::Phase;
-    while (state_.report.iterations < options_.iterations) {
-      if (options_.do_split && !in(Phase::split, [this] { Edge_splitter<State>(state_).run(); }))
+    while (state_.report.iterations < named_.iterations) {
+      if (named_.do_split && !in(Phase::split, [this] { Edge_splitter<State>(state_).run(); }))
         break;
       if (state_.report.iterations == 0) // so far no point is off the input
         state_.samples.begin(mesh_, state_.points, marks_);
-      if (options_.do_collapse && !in(Phase::collapse, [this] { Edge_collapser<State>(state_).run(); }))
+      if (named_.do_collapse && !in(Phase::collapse, [this] { Edge_collapser<State>(state_).run(); }))
         break;
-      if (options_.do_flip && !in(Phase::flip, [this] { flip_for_valence(); }))
+      if (named_.do_flip && !in(Phase::flip, [this] { flip_for_valence(); }))
         break;
       if (!in(Phase::relax, [this] { relax(); }))
         break;
@@ -60,7 +60,7 @@ private:
   State state_;
   const Mesh& mesh_;
   Marks& marks_;
-  const Remeshing_options& options_;
+  const Remeshing_named_parameters& named_;
   const Drag_parameters drag_;
   std::vector<int> valence_;
 
@@ -145,13 +145,13 @@ private:
   /// are one drag.
   void relax() {
     std::vector<std::pair<Vertex_index, Coordinates>> targets;
-    for (unsigned step = 1; step <= options_.relaxation_steps || step == 1; ++step) {
+    for (unsigned step = 1; step <= named_.relaxation_steps || step == 1; ++step) {
       targets.clear();
       for (const Vertex_index v : mesh_.vertices())
         if (const int degree = movable_degree(v); degree == 0) {
-          const Coordinates p = step <= options_.relaxation_steps ? relaxed(v) : state_.place(v);
-          targets.emplace_back(v, step >= options_.relaxation_steps ? state_.project(v, p, patch(v)) : p);
-        } else if (degree == 2 && options_.relax_constraints && step <= options_.relaxation_steps) {
+          const Coordinates p = step <= named_.relaxation_steps ? relaxed(v) : state_.place(v);
+          targets.emplace_back(v, step >= named_.relaxation_steps ? state_.project(v, p, patch(v)) : p);
+        } else if (degree == 2 && named_.relax_constraints && step <= named_.relaxation_steps) {
           targets.emplace_back(v, relaxed_on_line(v));
         }
       move_all(targets);

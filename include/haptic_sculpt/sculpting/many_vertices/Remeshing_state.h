@@ -9,7 +9,7 @@
 namespace haptic_sculpt::internal {
 
 /// What is asked of a remeshing; the names are CGAL's. Lengths are in the unit of the points.
-struct Remeshing_options {
+struct Remeshing_named_parameters {
   double target_edge_length = 0;
   double max_distance = 0; ///< may be infinite
   unsigned iterations = 1, relaxation_steps = 1;
@@ -30,13 +30,13 @@ struct Remeshing_state {
   using Point = typename Mesh::Point;
 
   Remeshing_state(Sculptor& s, const Scaled_points<Mesh>& scaled_points, Marks& m, Project& p,
-                  const Remeshing_options& asked, const Remeshing_parameters& more)
+                  const Remeshing_named_parameters& asked, const Remeshing_parameters& more)
       : sculptor(s)
       , mesh(s.mesh())
       , points(scaled_points)
       , marks(m)
       , project(p)
-      , options(asked)
+      , named(asked)
       , parameters(more)
       , low(square(asked.target_edge_length * 4 / 5))
       , high(square(asked.target_edge_length * 4 / 3))
@@ -47,7 +47,7 @@ struct Remeshing_state {
   const Scaled_points<Mesh>& points;
   Marks& marks;
   Project& project;
-  const Remeshing_options& options;
+  const Remeshing_named_parameters& named;
   const Remeshing_parameters& parameters;
   double low, high; ///< squares of the lengths at which edges are collapsed and split
   Input_samples<Mesh> samples;

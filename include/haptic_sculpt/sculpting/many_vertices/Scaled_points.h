@@ -33,7 +33,7 @@ public:
   Coordinates operator()(Vertex_index v) const { return in_unit(vertex_coordinates(*mesh_, v)); }
   /// In squares of the unit.
   double squared_length(Edge_index e) const {
-    return internal::squared_length((*this)(mesh_->vertex(e, 0)), (*this)(mesh_->vertex(e, 1)));
+    return quick_squared_distance((*this)(mesh_->vertex(e, 0)), (*this)(mesh_->vertex(e, 1)));
   }
   /// With the points of its link in the unit.
   void collect(Star<Mesh>& star, Vertex_index v) const {

@@ -26,7 +26,7 @@ public:
       , run_(run)
       , budget_(parameters, report)
       , drag_(sculptor.parameters().drag)
-      , bound_(drag_.work_bound) {}
+      , bound_(drag_.work_limit_pairs) {}
 
   /// Fills in what the report tells of drags, `cancelled` and `out_of_work`.
   void run() {

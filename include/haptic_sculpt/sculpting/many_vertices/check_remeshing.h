@@ -39,9 +39,9 @@ inline void check_remeshing(double target_edge_length, const Remeshing_parameter
 /// \throw Invalid_parameter
 template <class Mesh>
 void check_number_of_faces(const Mesh& mesh, const Scaled_points<Mesh>& points,
-                           const std::vector<typename Mesh::Face_index>& faces, const Remeshing_options& options,
+                           const std::vector<typename Mesh::Face_index>& faces, const Remeshing_named_parameters& named,
                            double target_edge_length, const Remeshing_parameters& parameters) {
-  const double longest = options.target_edge_length * 4 / 3;
+  const double longest = named.target_edge_length * 4 / 3;
   const double largest_area = std::sqrt(3.0) / 4 * longest * longest;
   double area = 0, more_edges = 0;
   for (const auto f : faces) {

@@ -4,14 +4,11 @@
 /// \file
 /// What makes a triangle worth having, in rounded numbers: nothing here proves anything.
 
-#include <haptic_sculpt/sculpting/geometry/separation.h>
+#include <haptic_sculpt/sculpting/geometry/vector_3.h>
+
+#include <limits>
 
 namespace haptic_sculpt::internal {
-
-inline double squared_length(const Vector& a, const Vector& b) {
-  const Vector d = minus(a, b);
-  return quick_dot(d, d);
-}
 
 /// Its length is twice the area.
 inline Vector area_normal(const Vector& a, const Vector& b, const Vector& c) {
@@ -24,7 +21,7 @@ inline Vector area_normal(const Vector& a, const Vector& b, const Vector& c) {
 /// sine.
 inline double least_angle_measure(const Vector& a, const Vector& b, const Vector& c) {
   const Vector n = area_normal(a, b, c);
-  const double ab = squared_length(a, b), bc = squared_length(b, c), ca = squared_length(c, a);
+  const double ab = quick_squared_distance(a, b), bc = quick_squared_distance(b, c), ca = quick_squared_distance(c, a);
   const double shortest = smaller(ab, smaller(bc, ca)), longest = larger(ab, larger(bc, ca));
   const double middle = ab + bc + ca - shortest - longest, product = middle * longest;
   return product > 0 ? quick_dot(n, n) / product : 0;

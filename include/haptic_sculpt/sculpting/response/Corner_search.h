@@ -7,7 +7,7 @@
 namespace haptic_sculpt::internal {
 
 /// Half-spaces forbid more than facets do: at a corner that is neither convex nor concave there may be a way on
-/// although the planes meet. Looks for one where a walk has settled (doc/proofs/slide.md, "The way out").
+/// although the planes meet. Looks for one where a walk has settled (doc/proofs/slide.md, "The search at corners").
 template <class Mesh>
 class Corner_search {
 public:

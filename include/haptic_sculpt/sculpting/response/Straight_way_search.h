@@ -7,7 +7,7 @@
 namespace haptic_sculpt::internal {
 
 /// Where a walk has ended, no plane is taken at its word any more: looks for a free straight way that leads nearer to
-/// the target, by deciding motions (doc/proofs/slide.md, "The last look").
+/// the target, by deciding motions (doc/proofs/slide.md, "The search for straight ways").
 ///
 /// Near J what is free is bounded by planes: those of contacts, and those through J that graze the border of a facet,
 /// past which there is no obstacle. Of all directions in which it is free the best is that of the target, or that as
@@ -24,7 +24,7 @@ public:
   /// Something has changed: where none was found there may be one now.
   void forget() { memory_.forget(); }
 
-  /// Whether the last look has found nothing, or there was no need for one: as far as is known J is at a nearest point.
+  /// Whether the search has found nothing, or there was no need for one: as far as is known J is at a nearest point.
   bool is_settled() const { return is_settled_; }
 
   /// Goes such ways, each followed by a walk, as long as there are any. Returns whether there was one.

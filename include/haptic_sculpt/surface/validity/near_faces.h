@@ -45,8 +45,7 @@ public:
   Near_faces(const Face_soup& soup, const std::vector<Index>& faces) : soup_(soup), faces_(faces) {}
 
   /// Calls do_this(f, g) with f < g: at least once for each pair that meets improperly, mostly not more than a few
-  /// times; where threads share the work, in no order, and several at a time.
-  /// O(n log^3 n + pairs of meeting boxes).
+  /// times; where threads share the work, in no order, and several at a time. O(n log^3 n + pairs of meeting boxes).
   template <class Function>
   void for_each_pair(const Function& do_this, const Part_runner& run = Part_runner()) const {
     const std::vector<bool> is_hub = find_hubs();

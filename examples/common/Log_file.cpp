@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Log_file.h"
 
-#include "../common/contents_of.h"
-#include "../common/write_file.h"
+#include "contents_of.h"
+#include "write_file.h"
 
 #include <haptic_sculpt/surface/Write_error.h>
 
@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt::examples {
 namespace {
 
 std::string in_words(const std::string& path) {
@@ -30,7 +30,7 @@ Log_file::Log_file(const std::string& path, const std::string& mesh)
     : path_(path), mesh_(mesh), target_(follow_links(path)) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
-    if (const std::string why = examples::why_not_writable(target_); !why.empty())
+    if (const std::string why = why_not_writable(target_); !why.empty())
       throw Write_error("cannot make " + in_words(path) + ": " + why);
     return; // made when the work begins
   }
@@ -43,7 +43,7 @@ Log_file::Log_file(const std::string& path, const std::string& mesh)
   try {
     lock();
     std::string text;
-    examples::read_to_end<Write_error>(file_, in_words(path_), [&](std::string_view block) {
+    read_to_end<Write_error>(file_, in_words(path_), [&](std::string_view block) {
       if (text.empty()) // before a file that is none, of any size, is read
         check_begin_of_log(block, path_);
       text += block;
@@ -154,4 +154,4 @@ void Log_file::fail(const std::string& why) {
   failure_ = "cannot append to " + in_words(path_) + ": " + why;
 }
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt::examples

@@ -3,8 +3,8 @@
 
 #include <chrono>
 
-namespace haptic_sculpt::loop_program {
-Journal_writer::Journal_writer(sculpt_program::Log_file& log, Edit_journal& journal)
+namespace haptic_sculpt::examples {
+Journal_writer::Journal_writer(Log_file& log, Edit_journal& journal)
     : log_(&log), journal_(&journal), thread_([this] { run(); }) {}
 
 void Journal_writer::finish() {
@@ -30,7 +30,7 @@ bool Journal_writer::write_what_is_there() {
   if (!journal_->take(edit))
     return false;
   if (edit.kind != Edit_kind::none) {
-    commands_.push_back(sculpt_program::command_of(edit));
+    commands_.emplace_back(std::move(edit)); // straight, as a journal has moves
     return true;
   }
   log_->append_tick(commands_, edit.vertices[0] + 1); // from 1, as lines are
@@ -40,4 +40,4 @@ bool Journal_writer::write_what_is_there() {
   return true;
 }
 
-} // namespace haptic_sculpt::loop_program
+} // namespace haptic_sculpt::examples

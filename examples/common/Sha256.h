@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt::examples {
 
 /// A SHA-256 that is fed piece by piece.
 class Sha256 {
@@ -40,4 +40,4 @@ inline bool is_sha256(std::string_view word) {
   return word.size() == 64 && word.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt::examples

@@ -8,61 +8,53 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt::examples {
 
-/// One line of a script: an edit or a directive.
+/// One line of a script: an edit by value, what takes more than that, or a directive.
 struct Command {
-  enum class Kind {
-    drag,
-    insert_face,
-    insert_edge,
-    remove,
-    collapse,
-    flip,
-    shift,
-    undo,
-    redo,
-    stroke,
-    end, // as Edit_kind has them
-    release,
-    probe,
-    move,
-    brush,
-    remesh, // what takes more than an Edit
-    response,
-    clearance,
-    delta,
-    mesh // directives
-  };
+  enum class Kind { edit, release, probe, move, brush, remesh, response, clearance, delta, mesh }; // directives last
+
+  Command() = default;
+  explicit Command(Edit what) : kind(Kind::edit), edit(std::move(what)) {}
 
   std::size_t line = 0;        ///< from 1
   bool is_logged = false;      ///< read from a log, not from a script
-  std::size_t script_line =
-      0; ///< of what is logged: the line of the script that it came from; 0 where the log does not say
+  /// Of what is logged: the line of the script that it came from; 0 where the log does not say.
+  std::size_t script_line = 0;
   Kind kind = Kind::release;
-  std::vector<std::size_t> indices;        ///< of vertices; of a shift, the axis
-  /// Of `indices` those that are yet to be found: the vertex nearest to a point when the line's turn comes.
+  Edit edit; ///< of a move, which none is by value: the vertex, and the way as `point`
+  /// Of `edit.vertices` those that are yet to be found: the vertex nearest to a point when the line's turn comes.
   struct Place {
     std::size_t which;
     std::array<double, 3> point;
   };
   std::vector<Place> places;
-  std::vector<std::array<double, 3>> points; ///< brush: the centre, and the direction where one is given
+  std::vector<std::array<double, 3>> points; ///< probe; brush: the centre, and the direction where one is given
   double length = 0;                         ///< clearance, delta; brush: the radius; remesh: of an edge
   double strength = 0;                       ///< brush
-  std::vector<std::pair<std::size_t, double>> ways; ///< shift
   std::string word; ///< response; brush: its kind; mesh: in lower case; clearance: "default", or empty for `length`
 };
 
-/// The word that a line of this kind begins with.
-const char* name_of(Command::Kind kind);
+/// What follows the first word of a line.
+struct Syntax {
+  enum Last { nothing, two_points, length, word, brush, count };
 
-/// Of a line that is an edit by value.
-std::optional<Edit> edit_of(const Command& command);
-/// The line of an edit. \pre it is not of kind `none`, and straight: as a loop's journal has them
-Command command_of(const Edit& edit);
+  const char* name; ///< that word
+  Command::Kind kind;
+  Edit_kind edit;
+  int vertices;   ///< of `Command::edit`
+  bool has_point; ///< that of `Command::edit`
+  Last last;
+};
+const Syntax& syntax_of(const Command& command);
+
+/// The word that a line begins with.
+inline const char* name_of(const Command& command) { return syntax_of(command).name; }
+/// The vertices that a line names.
+std::vector<std::size_t> vertices_of(const Command& command);
 
 /// A script that cannot be read. Says line and column (both from 1).
 class Script_error : public Error {
@@ -72,13 +64,10 @@ public:
   explicit Script_error(const std::string& what) : Error(what) {}
 };
 
-/// Reads a line, without its end. \param script how messages call the whole. \return none of a line that holds a
-/// comment only, or nothing \throw Script_error
-std::optional<Command> read_line(const std::string& text, std::size_t number, const std::string& script);
-
 /// Puts lines together: each is a command, but a shift, which goes on until its `end`.
 class Line_joiner {
 public:
+  /// \param text of a line, without its end \param script how messages call the whole
   /// \return the command that the line completes, if any \throw Script_error
   std::optional<Command> take(const std::string& text, std::size_t number, const std::string& script);
   /// Lines of a shift have been taken, and not its `end`.
@@ -88,6 +77,7 @@ public:
 
 private:
   std::optional<Command> shift_;
+  std::size_t shifted_ = 0; ///< how many vertices it moves
 };
 
 /// Edits and directives that a script may have; a shift is one. Each takes up to 500 bytes of memory while it runs.
@@ -99,4 +89,4 @@ std::vector<Command> read_script(std::string_view text, const std::string& name)
 /// How many strokes these lines begin and do not end.
 std::size_t open_strokes(const std::vector<Command>& commands);
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt::examples

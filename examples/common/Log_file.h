@@ -8,7 +8,7 @@
 
 #include <sys/types.h>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt::examples {
 
 /// An edit log on the disk, locked against other processes as long as the object lives. One write a line, when the edit
 /// is done, so that a killed process loses at most the edit under way.
@@ -61,4 +61,4 @@ private:
   void fail(const std::string& why);
 };
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt::examples

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "Sha256.h"
-
-#include "../common/contents_of.h"
+#include "contents_of.h"
 
 #include <haptic_sculpt/surface/io/check_regular_file.h>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt::examples {
 
 /// The SHA-256 of a file's bytes. \throw Read_error when it cannot be read
 inline std::string sha256_of_file(const std::string& path) {
@@ -17,8 +16,8 @@ inline std::string sha256_of_file(const std::string& path) {
     throw Read_error("cannot read '" + path + "': " + error.what());
   }
   Sha256 hash;
-  examples::read_blocks<Read_error>(path, "", [&](std::string_view block) { hash.add(block); });
+  read_blocks<Read_error>(path, "", [&](std::string_view block) { hash.add(block); });
   return hash.digest();
 }
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt::examples

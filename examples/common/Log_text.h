@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt::examples {
 
 /// A file that is no log, or a log or script of another mesh.
 struct Foreign_log : Error {
@@ -89,4 +89,4 @@ void check_begin_of_log(std::string_view text, const std::string& name);
 /// that has been changed or cannot be read
 Log_contents read_log(std::string_view text, const std::string& name, const std::string& mesh);
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt::examples

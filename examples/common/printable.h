@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt::examples {
 
 /// What a message may quote of a file: cut to 60 bytes, control bytes written as \x1b, for a terminal obeys them.
 inline std::string printable(std::string_view bytes) {
@@ -23,4 +23,4 @@ inline std::string printable(std::string_view bytes) {
   return bytes.size() > most ? text + "..." : text;
 }
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt::examples

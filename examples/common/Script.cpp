@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Script.h"
 
+#include "contents_of.h"
+#include "numbers.h"
 #include "printable.h"
-
-#include "../common/contents_of.h"
-#include "../common/numbers.h"
 
 #include <haptic_sculpt/sculpting/Response.h>
 #include <haptic_sculpt/sculpting/brushes/Dab_3.h>
@@ -16,40 +15,31 @@
 #include <cmath>
 #include <utility>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt::examples {
 namespace {
 
 using Kind = Command::Kind;
 
-/// What follows the first word of a line.
-struct Syntax {
-  const char* name;
-  Kind kind;
-  int indices, points;
-  enum Last { nothing, length, word, brush, count } last;
-  Edit_kind edit = Edit_kind::none; ///< that it is by value
-};
-
-constexpr Syntax syntaxes[] = {{"drag", Kind::drag, 1, 1, Syntax::nothing, Edit_kind::move},
-                               {"release", Kind::release, 0, 0, Syntax::nothing},
-                               {"probe", Kind::probe, 0, 2, Syntax::nothing},
-                               {"move", Kind::move, 1, 1, Syntax::nothing},
-                               {"insert_face", Kind::insert_face, 3, 1, Syntax::nothing, Edit_kind::insert_on_face},
-                               {"insert_edge", Kind::insert_edge, 2, 1, Syntax::nothing, Edit_kind::insert_on_edge},
-                               {"remove", Kind::remove, 1, 0, Syntax::nothing, Edit_kind::remove},
-                               {"collapse", Kind::collapse, 2, 0, Syntax::nothing, Edit_kind::collapse},
-                               {"flip", Kind::flip, 2, 0, Syntax::nothing, Edit_kind::flip},
-                               {"shift", Kind::shift, 0, 0, Syntax::count, Edit_kind::shift},
-                               {"brush", Kind::brush, 0, 0, Syntax::brush},
-                               {"remesh", Kind::remesh, 0, 0, Syntax::length},
-                               {"undo", Kind::undo, 0, 0, Syntax::nothing, Edit_kind::undo},
-                               {"redo", Kind::redo, 0, 0, Syntax::nothing, Edit_kind::redo},
-                               {"stroke", Kind::stroke, 0, 0, Syntax::nothing, Edit_kind::stroke},
-                               {"end", Kind::end, 0, 0, Syntax::nothing, Edit_kind::end},
-                               {"response", Kind::response, 0, 0, Syntax::word},
-                               {"clearance", Kind::clearance, 0, 0, Syntax::length},
-                               {"delta", Kind::delta, 0, 0, Syntax::length},
-                               {"mesh", Kind::mesh, 0, 0, Syntax::word}};
+constexpr Syntax syntaxes[] = {{"drag", Kind::edit, Edit_kind::move, 1, true, Syntax::nothing},
+                              {"release", Kind::release, Edit_kind::none, 0, false, Syntax::nothing},
+                              {"probe", Kind::probe, Edit_kind::none, 0, false, Syntax::two_points},
+                              {"move", Kind::move, Edit_kind::none, 1, true, Syntax::nothing},
+                              {"insert_face", Kind::edit, Edit_kind::insert_on_face, 3, true, Syntax::nothing},
+                              {"insert_edge", Kind::edit, Edit_kind::insert_on_edge, 2, true, Syntax::nothing},
+                              {"remove", Kind::edit, Edit_kind::remove, 1, false, Syntax::nothing},
+                              {"collapse", Kind::edit, Edit_kind::collapse, 2, false, Syntax::nothing},
+                              {"flip", Kind::edit, Edit_kind::flip, 2, false, Syntax::nothing},
+                              {"shift", Kind::edit, Edit_kind::shift, 0, false, Syntax::count},
+                              {"brush", Kind::brush, Edit_kind::none, 0, false, Syntax::brush},
+                              {"remesh", Kind::remesh, Edit_kind::none, 0, false, Syntax::length},
+                              {"undo", Kind::edit, Edit_kind::undo, 0, false, Syntax::nothing},
+                              {"redo", Kind::edit, Edit_kind::redo, 0, false, Syntax::nothing},
+                              {"stroke", Kind::edit, Edit_kind::stroke, 0, false, Syntax::nothing},
+                              {"end", Kind::edit, Edit_kind::end, 0, false, Syntax::nothing},
+                              {"response", Kind::response, Edit_kind::none, 0, false, Syntax::word},
+                              {"clearance", Kind::clearance, Edit_kind::none, 0, false, Syntax::length},
+                              {"delta", Kind::delta, Edit_kind::none, 0, false, Syntax::length},
+                              {"mesh", Kind::mesh, Edit_kind::none, 0, false, Syntax::word}};
 
 class Line {
 public:
@@ -81,7 +71,7 @@ public:
 
   /// The one place where a number is read. \param found the word just read
   double number(const std::string& expected, const std::string& found) const {
-    const auto value = examples::number_of(found);
+    const auto value = number_of(found);
     if (!value)
       fail("'" + printable(found) + "' is not " + expected + " (a decimal or hexadecimal number)");
     if (!std::isfinite(*value))
@@ -99,11 +89,12 @@ public:
   }
 
   /// A vertex by index, or as @X,Y,Z.
-  void vertex(Command& command) {
+  void vertex(Command& command, std::size_t which) {
     const std::string found = word("a vertex index, or @X,Y,Z,");
     if (found[0] == '@')
-      command.places.push_back({command.indices.size(), place(found)});
-    command.indices.push_back(found[0] == '@' ? 0 : index(found));
+      command.places.push_back({which, place(found)});
+    else
+      command.edit.vertices[which] = index(found);
   }
 
   /// \param found the word just read
@@ -123,7 +114,7 @@ private:
   }
 
   std::array<double, 3> place(const std::string& found) const {
-    const auto words = examples::words_of_place(found);
+    const auto words = words_of_place(found);
     if (!words)
       fail("'" + printable(found) + "' is not @X,Y,Z: three numbers, commas and no blanks between them");
     std::array<double, 3> point;
@@ -155,14 +146,18 @@ void read_brush(Line& line, Command& command) {
     line.fail("the direction must not be 0 0 0; leave it out for the mean normal");
 }
 
-void read_last(Line& line, const Syntax& syntax, Command& command) {
-  if (syntax.last == Syntax::brush) {
+void read_last(Line& line, const Syntax& syntax, Command& command, std::size_t& shifted) {
+  if (syntax.last == Syntax::two_points) {
+    for (int i = 0; i < 2; ++i)
+      command.points.push_back(line.coordinates("a coordinate"));
+  } else if (syntax.last == Syntax::brush) {
     read_brush(line, command);
   } else if (syntax.last == Syntax::count) {
-    command.indices = {line.next_index("an axis, 0, 1 or 2"), 0};
-    if (command.indices[0] > 2)
+    const std::size_t axis = line.next_index("an axis, 0, 1 or 2");
+    if (axis > 2)
       line.fail("the axis must be 0, 1 or 2");
-    command.indices[1] = line.next_index("how many vertices are moved");
+    command.edit.axis = static_cast<int>(axis);
+    shifted = line.next_index("how many vertices are moved");
   } else if (syntax.last == Syntax::length) {
     const bool may_be_default = command.kind == Kind::clearance;
     const std::string expected = may_be_default ? "a length, or 'default'" : "a length";
@@ -188,72 +183,9 @@ void read_last(Line& line, const Syntax& syntax, Command& command) {
   }
 }
 
-} // namespace
-
-const char* name_of(Kind kind) {
-  return std::find_if(std::begin(syntaxes), std::end(syntaxes), [kind](const Syntax& s) { return s.kind == kind; })
-      ->name;
-}
-
-std::optional<Edit> edit_of(const Command& command) {
-  const auto syntax =
-      std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return s.kind == command.kind; });
-  if (syntax->edit == Edit_kind::none)
-    return std::nullopt;
-  Edit edit;
-  edit.kind = syntax->edit;
-  std::copy_n(command.indices.begin(), syntax->indices, edit.vertices.begin());
-  if (!command.points.empty())
-    edit.point = command.points[0];
-  if (edit.kind == Edit_kind::shift)
-    edit.axis = static_cast<int>(command.indices[0]), edit.ways = command.ways;
-  return edit;
-}
-
-Command command_of(const Edit& edit) {
-  const auto syntax =
-      std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) { return s.edit == edit.kind; });
-  Command command;
-  command.kind = syntax->kind;
-  command.indices.assign(edit.vertices.begin(), edit.vertices.begin() + syntax->indices);
-  command.points.assign(static_cast<std::size_t>(syntax->points), edit.point);
-  if (edit.kind == Edit_kind::shift)
-    command.indices = {static_cast<std::size_t>(edit.axis), edit.ways.size()}, command.ways = edit.ways;
-  return command;
-}
-
-std::optional<Command> Line_joiner::take(const std::string& text, std::size_t number, const std::string& script) {
-  if (!shift_) {
-    auto command = read_line(text, number, script);
-    if (!command || command->kind != Kind::shift)
-      return command;
-    shift_ = std::move(command);
-    return std::nullopt;
-  }
-  Line line(script, text, number);
-  const bool is_whole = shift_->ways.size() == shift_->indices[1];
-  const auto first = line.next_word();
-  if (!first)
-    return std::nullopt;
-  if (is_whole && *first != "end")
-    line.fail("'" + printable(*first) + "' stands where the shift of line " + std::to_string(shift_->line) +
-              " has to end");
-  if (!is_whole) {
-    const std::size_t vertex = line.index_in(*first);
-    shift_->ways.emplace_back(vertex, line.number("a coordinate"));
-  }
-  line.end();
-  return is_whole ? std::exchange(shift_, std::nullopt) : std::nullopt;
-}
-
-void Line_joiner::check_end(const std::string& script) const {
-  if (shift_)
-    throw Script_error(script, shift_->line, 1,
-                       "this shift of " + std::to_string(shift_->indices[1]) + " vertices has " +
-                           std::to_string(shift_->ways.size()) + " lines of a vertex and a coordinate, and no `end`");
-}
-
-std::optional<Command> read_line(const std::string& text, std::size_t number, const std::string& script) {
+/// \param shifted gets how many lines follow a shift \return none of a line that holds a comment only, or nothing
+std::optional<Command> read_line(const std::string& text, std::size_t number, const std::string& script,
+                                 std::size_t& shifted) {
   Line line(script, text, number);
   const auto first = line.next_word();
   if (!first)
@@ -264,20 +196,65 @@ std::optional<Command> read_line(const std::string& text, std::size_t number, co
     line.fail("'" + printable(*first) + "' is not an edit or a directive");
   Command command;
   command.line = number;
-  command.kind = syntax->kind;
-  for (int i = 0; i < syntax->indices; ++i)
-    line.vertex(command);
-  for (int i = 0; i < syntax->points; ++i)
-    command.points.push_back(line.coordinates("a coordinate"));
-  read_last(line, *syntax, command);
+  command.kind = syntax->kind, command.edit.kind = syntax->edit;
+  for (int i = 0; i < syntax->vertices; ++i)
+    line.vertex(command, static_cast<std::size_t>(i));
+  if (syntax->has_point)
+    command.edit.point = line.coordinates("a coordinate");
+  read_last(line, *syntax, command, shifted);
   line.end("'" + *first + "'");
   return command;
+}
+
+} // namespace
+
+const Syntax& syntax_of(const Command& command) {
+  return *std::find_if(std::begin(syntaxes), std::end(syntaxes), [&](const Syntax& s) {
+    return s.kind == command.kind && (s.kind != Kind::edit || s.edit == command.edit.kind);
+  });
+}
+
+std::vector<std::size_t> vertices_of(const Command& command) {
+  const auto& all = command.edit.vertices;
+  return {all.begin(), all.begin() + syntax_of(command).vertices};
+}
+
+std::optional<Command> Line_joiner::take(const std::string& text, std::size_t number, const std::string& script) {
+  if (!shift_) {
+    auto command = read_line(text, number, script, shifted_);
+    if (!command || command->edit.kind != Edit_kind::shift)
+      return command;
+    shift_ = std::move(command);
+    return std::nullopt;
+  }
+  Line line(script, text, number);
+  const bool is_whole = shift_->edit.ways.size() == shifted_;
+  const auto first = line.next_word();
+  if (!first)
+    return std::nullopt;
+  if (is_whole && *first != "end")
+    line.fail("'" + printable(*first) + "' stands where the shift of line " + std::to_string(shift_->line) +
+              " has to end");
+  if (!is_whole) {
+    const std::size_t vertex = line.index_in(*first);
+    shift_->edit.ways.emplace_back(vertex, line.number("a coordinate"));
+  }
+  line.end();
+  return is_whole ? std::exchange(shift_, std::nullopt) : std::nullopt;
+}
+
+void Line_joiner::check_end(const std::string& script) const {
+  if (shift_)
+    throw Script_error(script, shift_->line, 1,
+                       "this shift of " + std::to_string(shifted_) + " vertices has " +
+                           std::to_string(shift_->edit.ways.size()) +
+                           " lines of a vertex and a coordinate, and no `end`");
 }
 
 std::vector<Command> read_script(std::string_view text, const std::string& name) {
   std::vector<Command> commands;
   Line_joiner lines;
-  text = examples::without_byte_order_mark(text);
+  text = without_byte_order_mark(text);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     if (auto command = lines.take(std::string(text.substr(0, end)), number, name)) {
@@ -297,11 +274,11 @@ std::vector<Command> read_script(std::string_view text, const std::string& name)
 std::size_t open_strokes(const std::vector<Command>& commands) {
   std::size_t open = 0;
   for (const Command& command : commands)
-    if (command.kind == Kind::stroke)
+    if (command.edit.kind == Edit_kind::stroke)
       ++open;
-    else if (command.kind == Kind::end && open != 0)
+    else if (command.edit.kind == Edit_kind::end && open != 0)
       --open;
   return open;
 }
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt::examples

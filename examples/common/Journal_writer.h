@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "../sculpt/Log_file.h"
+#include "Log_file.h"
 
 #include <haptic_sculpt/haptic_rendering/exchange/Edit_journal.h>
 
 #include <chrono>
 #include <thread>
 
-namespace haptic_sculpt::loop_program {
+namespace haptic_sculpt::examples {
 
 /// Writes a journal into a log, in a thread of its own: one write a tick, so that a log always ends at the end of a
 /// tick or in the middle of one write.
@@ -18,7 +18,7 @@ public:
   static constexpr double pause = 0.001;
 
   /// Both must outlive this. \pre the log has been begun
-  Journal_writer(sculpt_program::Log_file& log, Edit_journal& journal);
+  Journal_writer(Log_file& log, Edit_journal& journal);
   ~Journal_writer() { finish(); }
 
   /// Writes what is left, and ends. After it the log is the caller's again.
@@ -30,15 +30,15 @@ public:
   std::uint64_t ticks() const { return ticks_; }
 
 private:
-  sculpt_program::Log_file* log_;
+  Log_file* log_;
   Edit_journal* journal_;
   std::atomic<bool> is_ending_{false}, is_stalled_{false};
   std::uint64_t ticks_ = 0;
-  std::vector<sculpt_program::Command> commands_;
+  std::vector<Command> commands_;
   std::thread thread_; ///< last: it uses the others
 
   void run();
   bool write_what_is_there();
 };
 
-} // namespace haptic_sculpt::loop_program
+} // namespace haptic_sculpt::examples

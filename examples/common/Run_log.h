@@ -2,11 +2,10 @@
 #pragma once
 
 #include "Journal_writer.h"
+#include "Sha256.h"
 #include "replay_log.h"
 
-#include "../sculpt/Sha256.h"
-
-namespace haptic_sculpt::loop_program {
+namespace haptic_sculpt::examples {
 
 /// The log of a run, if it is to have one: made again where it was left, then gone on with by a thread of its own.
 class Run_log {
@@ -24,8 +23,8 @@ public:
   std::size_t number_of_edits() const {
     std::size_t edits = 0;
     if (file_ && file_->contents())
-      for (const sculpt_program::Command& command : file_->contents()->commands)
-        edits += command.kind < sculpt_program::Command::Kind::response;
+      for (const Command& command : file_->contents()->commands)
+        edits += command.kind < Command::Kind::response;
     return edits;
   }
 
@@ -34,7 +33,7 @@ public:
   std::string resume(Scene& scene) {
     if (!file_ || !file_->contents())
       return "";
-    Log_replay<Scene>(scene).run(file_->contents()->commands);
+    replay_log(scene.sculptor, file_->contents()->commands);
     return file_->contents()->unfinished.empty() ? "" : "the end of the log, of a tick that is not whole, was dropped";
   }
 
@@ -42,13 +41,13 @@ public:
   void begin(const std::string& run, std::uint64_t most_age, std::size_t entries_a_tick = 36) {
     if (!file_)
       return;
-    run_ = sculpt_program::Sha256().add(run).digest();
+    run_ = Sha256().add(run).digest();
     // Legs are free motions: made again they stop nowhere, whatever slides did.
-    sculpt_program::Settings settings;
+    Settings settings;
     settings.response = "stop";
     file_->begin(settings);
     file_->begin_pass(run_, 0);
-    file_->append_tick(file_->contents() ? settings.directives() : std::vector<sculpt_program::Command>(), 0);
+    file_->append_tick(file_->contents() ? settings.directives() : std::vector<Command>(), 0);
     journal_.emplace(most_age, entries_a_tick);
     writer_.emplace(*file_, *journal_);
   }
@@ -89,11 +88,11 @@ public:
   std::string failure() const { return file_ ? file_->failure() : ""; }
 
 private:
-  std::optional<sculpt_program::Log_file> file_;
+  std::optional<Log_file> file_;
   std::optional<Edit_journal> journal_;
   std::optional<Journal_writer> writer_; ///< last: it uses the others
   std::string run_;
   std::uint64_t ticks_ = 0;
 };
 
-} // namespace haptic_sculpt::loop_program
+} // namespace haptic_sculpt::examples

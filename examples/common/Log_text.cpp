@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cstdio>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt::examples {
 namespace {
 
 using Kind = Command::Kind;
@@ -16,6 +16,7 @@ using Kind = Command::Kind;
 constexpr std::string_view version_word = "# haptic_sculpt log ", current_version = "1", pass_word = "# script ",
                            tick_word = "# tick ", after_word = " after line ", done_word = " done",
                            line_word = " # line ", checksum_word = " # ";
+const std::string end_word = "end";
 constexpr std::size_t checksum_size = 16; // digits: 64 bits
 
 bool begins_with(std::string_view text, std::string_view start) {
@@ -29,25 +30,28 @@ std::string hexadecimal(double x) {
 }
 
 std::string text_of(const Command& command) {
-  std::string text = name_of(command.kind);
+  const Syntax& syntax = syntax_of(command);
+  std::string text = syntax.name;
   const auto add = [&text](const std::array<double, 3>& point) {
     for (const double x : point)
       text += ' ' + hexadecimal(x);
   };
-  if (command.kind == Kind::brush) {
-    text += ' ' + command.word;
-    add(command.points[0]);
-    text += ' ' + hexadecimal(command.length) + ' ' + hexadecimal(command.strength);
-    std::for_each(command.points.begin() + 1, command.points.end(), add);
-    return text;
-  }
-  for (const std::size_t index : command.indices) // of a shift: the axis, and how many lines follow
-    text += ' ' + std::to_string(index);
-  std::for_each(command.points.begin(), command.points.end(), add);
-  if ((command.kind == Kind::clearance && command.word.empty()) || command.kind == Kind::delta ||
-      command.kind == Kind::remesh)
+  for (const std::size_t v : vertices_of(command))
+    text += ' ' + std::to_string(v);
+  if (syntax.has_point)
+    add(command.edit.point);
+  if (syntax.last == Syntax::count)
+    text += ' ' + std::to_string(command.edit.axis) + ' ' + std::to_string(command.edit.ways.size());
+  if (syntax.last == Syntax::length && command.word.empty())
     text += ' ' + hexadecimal(command.length);
-  return command.word.empty() ? text : text + ' ' + command.word;
+  if (!command.word.empty())
+    text += ' ' + command.word;
+  for (std::size_t i = 0; i < command.points.size(); ++i) {
+    add(command.points[i]);
+    if (syntax.last == Syntax::brush && i == 0)
+      text += ' ' + hexadecimal(command.length) + ' ' + hexadecimal(command.strength);
+  }
+  return text;
 }
 
 std::optional<std::size_t> number(std::string_view text) {
@@ -262,11 +266,11 @@ std::string Log_writer::head(const std::string& mesh, const Settings& settings) 
 
 std::string Log_writer::command(const Command& command, std::size_t script_line) {
   std::string lines, last = text_of(command);
-  if (command.kind == Kind::shift) {
+  if (command.edit.kind == Edit_kind::shift) {
     lines = line(last);
-    for (const auto& [vertex, coordinate] : command.ways)
+    for (const auto& [vertex, coordinate] : command.edit.ways)
       lines += line(std::to_string(vertex) + ' ' + hexadecimal(coordinate));
-    last = name_of(Kind::end);
+    last = end_word;
   }
   return lines + line(last + std::string(line_word) + std::to_string(script_line));
 }
@@ -274,7 +278,7 @@ std::string Log_writer::command(const Command& command, std::size_t script_line)
 std::string Log_writer::ends(std::size_t open) {
   std::string text;
   for (; open != 0; --open)
-    text += line(name_of(Kind::end));
+    text += line(end_word);
   return text;
 }
 
@@ -310,7 +314,7 @@ void check_begin_of_log(std::string_view text, const std::string& name) {
   // The first line of a script that a log might be made of.
   const auto is_mesh_line = [&](std::string_view line) {
     try {
-      const auto command = read_line(std::string(line), 1, name);
+      const auto command = Line_joiner().take(std::string(line), 1, name);
       return command && command->kind == Kind::mesh;
     } catch (const Script_error&) {
       return false;
@@ -326,4 +330,4 @@ Log_contents read_log(std::string_view text, const std::string& name, const std:
   return Log_reader(text, name, mesh).read();
 }
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt::examples
