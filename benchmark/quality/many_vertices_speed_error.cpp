@@ -13,6 +13,7 @@
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <functional>
@@ -131,7 +132,8 @@ std::vector<Motion> motions(int level, std::uint64_t seed) {
           crumpled(seed)};
 }
 
-/// Turns and a twist of a mesh about its middle; every vertex by a tenth of an edge and by one; inflation.
+/// Turns and a twist of a mesh about its middle; a translation by ten edges, and a pull by as much, which grows less
+/// towards half the diagonal; every vertex by a tenth of an edge and by one; inflation.
 std::vector<Motion> motions_of(const Mesh& mesh, std::uint64_t seed) {
   using Transformation = CGAL::Aff_transformation_3<meshes::Kernel>;
   const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());
@@ -150,6 +152,12 @@ std::vector<Motion> motions_of(const Mesh& mesh, std::uint64_t seed) {
     return length / std::sqrt(way.squared_length()) * way;
   };
   const double edge = mean_edge(mesh), height = box.zmax() - box.zmin();
+  const Vector_3 diagonal(box.xmax() - box.xmin(), box.ymax() - box.ymin(), height), slanted = edge * Vector_3(3, 5, 8);
+  const Point_3 top = *std::max_element(mesh.points().begin(), mesh.points().end(),
+                                        [](const Point_3& p, const Point_3& q) { return p.z() < q.z(); });
+  const auto weight = [&](const Point_3& p) { // that of a brush
+    return std::pow(std::max(0., 1 - 4 * CGAL::squared_distance(p, top) / diagonal.squared_length()), 2);
+  };
   return {motion("a right angle about z", mesh, [&](Vertex_index v) { return about_middle(about_z, v); }),
           motion("a right angle about (1, 2, 2)", mesh, [&](Vertex_index v) { return about_middle(generic, v); }),
           motion("half a twist about z", mesh,
@@ -158,6 +166,9 @@ std::vector<Motion> motions_of(const Mesh& mesh, std::uint64_t seed) {
                    const double c = std::cos(angle), d = std::sin(angle);
                    return about_middle(Transformation(c, -d, 0, d, c, 0, 0, 0, 1), v);
                  }),
+          motion("a translation by ten edges", mesh, [&](Vertex_index v) { return mesh.point(v) + slanted; }),
+          motion("a pull by ten edges", mesh,
+                 [&](Vertex_index v) { return mesh.point(v) + weight(mesh.point(v)) * slanted; }),
           motion("every vertex by a tenth of an edge", mesh,
                  [&](Vertex_index v) { return mesh.point(v) + by(0.1 * edge); }),
           motion("noise of one edge", mesh, [&](Vertex_index v) { return mesh.point(v) + by(edge); }),
@@ -281,7 +292,7 @@ int main(int argc, char** argv) {
   int level = 4, rounds = 1;
   Shard shard;
   app.add_option("--json", file, "Write all figures to this file");
-  app.add_option("--mesh", given, "Turns, a twist, noise, inflation of this mesh instead: times of the motion alone");
+  app.add_option("--mesh", given, "Motions of this mesh instead: times of the motion alone");
   app.add_option("--level", level, "Fineness: 20 * 4^level triangles")->check(CLI::Range(1, 8))->capture_default_str();
   app.add_option("--rounds", rounds, "Each with another seed")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();

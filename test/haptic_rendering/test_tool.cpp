@@ -269,8 +269,34 @@ BOOST_AUTO_TEST_CASE(functions_that_take_a_sculptor_take_edits_of_a_tool_and_are
   BOOST_TEST((jammed.share < 1 && !jammed.contacts.empty()));
   BOOST_TEST(bool(bench.tool.edit(Edit::of(Edit_kind::undo))));
   BOOST_TEST(bool(bench.tool.edit(Edit::of(Edit_kind::undo))));
+  const auto held = bench.tool.edit_by([&](auto& edits) { // an edit that changes nothing is none
+    const Kernel::Vector_3 far(-2e4, 1e4, 1e4);
+    return move_rigidly(edits, half, CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, far));
+  });
+  BOOST_TEST((held.share == 0 && !held.contacts.empty()));
   BOOST_TEST(bool(bench.tool.edit(Edit::of(Edit_kind::redo))));
   BOOST_TEST(bench.is_made_again());
+}
+
+BOOST_AUTO_TEST_CASE(an_object_is_in_the_journal_as_shifts_within_one_stroke) {
+  using Kernel = CGAL::Kernel_traits<Mesh::Point>::Kernel;
+  Bench bench;
+  const std::vector<Mesh::Vertex_index> all(ball.vertices().begin(), ball.vertices().end());
+  const Kernel::Vector_3 way(3, 5, 7);
+  bench.tool.edit_by([&](auto& edits) {
+    return move_rigidly(edits, all, CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, way));
+  });
+  Entries entries;
+  for (Edit entry; bench.journal.take(entry);)
+    entries.push_back(entry);
+  BOOST_REQUIRE(entries.size() == 5u);
+  BOOST_TEST((entries.front().kind == Edit_kind::stroke && entries.back().kind == Edit_kind::end));
+  for (int axis = 0; axis < 3; ++axis) {
+    const Edit& shift = entries[1 + axis];
+    BOOST_TEST((shift.kind == Edit_kind::shift && shift.axis == axis && shift.ways.size() == all.size()));
+    for (const auto& [id, end] : shift.ways)
+      BOOST_TEST(end == ball.point(all[id])[axis] + way[axis]);
+  }
 }
 
 } // namespace

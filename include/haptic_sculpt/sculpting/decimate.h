@@ -44,8 +44,8 @@ struct Decimation_report {
 ///
 /// It is not called edge_collapse, for CGAL's would be found by its arguments, too.
 ///
-/// The whole is one stroke; after undo all is as it was. The mesh has removed elements afterwards. Values of property
-/// maps go on as Sculptor::keep() says.
+/// The whole is one stroke, and no step of undo where nothing has changed; after undo all is as it was. The mesh has
+/// removed elements afterwards. Values of property maps go on as Sculptor::keep() says.
 /// \throw Mesh_changed, Out_of_range if a placement is; what the policies throw
 /// Cost: that of CGAL's function and two drags an edge.
 template <class Sculptor, class Should_stop, class Named_parameters = CGAL::parameters::Default_named_parameters>
@@ -107,6 +107,8 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     cost ? queue.push(e, CGAL::to_double(*cost), false) : queue.leave_out(e);
   };
   const auto stroke = sculptor.stroke();
+  auto& guarded = internal::Sculptor_access::guarded(sculptor);
+  const internal::Edit_trial<std::decay_t<decltype(guarded)>> trial(guarded); // draws for nothing are no edits
   // The source of h into its target, once that is at p. What was drawn there for nothing goes back the way it came.
   const auto collapses = [&](Halfedge_index h, const Point& p) {
     const Vertex_index kept = mesh.target(h);

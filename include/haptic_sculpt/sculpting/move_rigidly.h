@@ -21,9 +21,10 @@ namespace haptic_sculpt {
 /// The way is a straight one or an arc. It is gone in steps of at least a 1024th, made by all vertices or by none; each
 /// is an axis move along x, one along y and one along z to places on the way, so that between steps what moves may be
 /// sheared (doc/use/many_vertices.md). Nothing meets anything at any time, proven. The whole is one stroke, one step of
-/// the history. \throw Invalid_parameter where the transformation is something else, Unknown_vertex, Out_of_range:
-/// nothing has moved; Mesh_changed. Cost: some microseconds a vertex where the way is free; where it is blocked, some
-/// twenty times that.
+/// the history; none, where nothing has moved. \throw Invalid_parameter where the transformation is something else,
+/// Unknown_vertex, Out_of_range: nothing has moved; Mesh_changed; std::bad_alloc, and what the visitor and the progress
+/// function throw: the step at hand is taken back, unless it was made. Cost: some microseconds a vertex where the way
+/// is free; where it is blocked, some twenty times that.
 template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Vertex_range>
 Rigid_move_report<typename Sculptor::Mesh_type> move_rigidly(
     Sculptor& sculptor, const Vertex_range& vertices,

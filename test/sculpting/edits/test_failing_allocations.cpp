@@ -6,6 +6,7 @@
 #include "sculpting/Mesh_snapshot.h"
 #include "sculpting/edits/random_edits.h"
 
+#include <haptic_sculpt/sculpting/move_rigidly.h>
 #include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 
 #include <boost/test/unit_test.hpp>
@@ -337,4 +338,35 @@ BOOST_AUTO_TEST_CASE(a_property_whose_values_allocate) {
   Mesh mesh = scene();
   mesh.add_property_map<Mesh::Face_index, std::string>("f:label", std::string(100, 'a'));
   try_all<Box_tree_broad_phase<Mesh>>("labelled faces", false, {}, mesh);
+}
+
+// Nor where all of memory is used up in the second axis of a step: what takes it back is there already.
+BOOST_AUTO_TEST_CASE(an_object_is_where_it_was_or_has_arrived) {
+  std::size_t tries = 0;
+  for (const bool for_good : {false, true}) {
+    bool has_failed = true;
+    for (std::size_t n = 1; has_failed; ++n) {
+      Mesh mesh = scene();
+      const Mesh at_first = mesh;
+      Sculptor<Mesh> sculptor(mesh);
+      const std::vector<Vertex_index> all(mesh.vertices().begin(), mesh.vertices().end());
+      const Vector_3 way(3, 5, 7);
+      const CGAL::Aff_transformation_3<meshes::Kernel> translation(CGAL::TRANSLATION, way);
+      has_failed = false;
+      try {
+        const Failing_allocations failing(n, for_good);
+        move_rigidly(sculptor, all, translation);
+      } catch (const std::bad_alloc&) {
+        has_failed = true;
+      }
+      tries += has_failed;
+      for (const Vertex_index v : all)
+        BOOST_TEST((mesh.point(v) == (has_failed ? at_first.point(v) : translation.transform(at_first.point(v)))));
+      BOOST_TEST(sculptor.history().number_of_undo_steps() == std::size_t{!has_failed});
+      sculptor.check_unchanged();
+      BOOST_TEST(move_rigidly(sculptor, all, translation).share == 1); // it works on
+      BOOST_TEST(validate(mesh).is_valid());
+    }
+  }
+  BOOST_TEST(tries > 40u);
 }

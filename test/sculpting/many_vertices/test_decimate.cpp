@@ -184,4 +184,23 @@ BOOST_AUTO_TEST_CASE(an_error_stops_it_and_constrained_edges_stay) {
         }));
 }
 
+// A tetrahedron cannot lose a vertex: the ends of its edges are drawn to their placements, and back.
+BOOST_AUTO_TEST_CASE(nothing_done_is_no_step_and_what_was_undone_can_be_redone) {
+  Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  Sculptor<Mesh> sculptor(mesh);
+  const Mesh::Vertex_index v(0);
+  sculptor.drag(v, mesh.point(v) + meshes::Kernel::Vector_3(0, 0, 0.125));
+  sculptor.undo();
+  const Mesh before = mesh;
+  const auto report = haptic_sculpt::decimate(sculptor, SMS::Count_stop_predicate<Mesh>(0));
+  BOOST_TEST(report.collapsed == 0u);
+  BOOST_TEST(report.refused > 5u);
+  BOOST_TEST(reading_and_writing::identical(mesh, before));
+  BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
+  BOOST_TEST(sculptor.history().number_of_redo_steps() == 1u);
+  BOOST_TEST(static_cast<bool>(sculptor.redo()));
+  BOOST_TEST((mesh.point(v) == before.point(v) + meshes::Kernel::Vector_3(0, 0, 0.125)));
+  sculptor.check_unchanged();
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -64,6 +64,18 @@ struct State_visitor : Default_edit_visitor {
 };
 using Watched_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, State_visitor>;
 
+/// Throws when it has heard this often that a vertex moved, and once more after as many calls.
+struct Throwing_visitor : Default_edit_visitor {
+  std::size_t calls_left = ~std::size_t{0}, again = 0;
+  void vertex_moved(Vertex_index) {
+    if (--calls_left != 0)
+      return;
+    calls_left = std::exchange(again, 0);
+    throw std::runtime_error("enough");
+  }
+};
+using Throwing_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Throwing_visitor>;
+
 /// Two states that differ along one axis only, if they do. \return -1 where they differ along more
 int only_axis(const std::vector<std::array<double, 3>>& a, const std::vector<std::array<double, 3>>& b) {
   int axis = -1;
@@ -263,4 +275,84 @@ BOOST_AUTO_TEST_CASE(an_exception_of_the_progress_function_leaves_no_object_shea
     BOOST_TEST(validate(mesh).is_valid());
     sculptor.check_unchanged();
   }
+}
+
+// All of a step is made or none, whichever call the visitor throws in, and though it throws again while what was made
+// goes back. A floor stops the second of two steps along z: some calls come while that is taken back.
+BOOST_AUTO_TEST_CASE(an_exception_of_the_visitor_leaves_no_object_sheared) {
+  for (const bool is_blocked : {false, true})
+    for (const std::size_t again : {0, 1, 3}) {
+      std::size_t whole = 0, as_it_was = 0;
+      bool has_thrown = true;
+      for (std::size_t call = 1; has_thrown; ++call) {
+        meshes::Triangle_list list;
+        const auto box = add_box(list, {0, 0, 0}, {1, 1, 1});
+        if (is_blocked)
+          add_box(list, {-9, -9, -9 - 0x1p-12}, {18, 18, 9});
+        Mesh mesh = meshes::to_mesh(list);
+        const Mesh at_first = mesh;
+        Throwing_sculptor sculptor(mesh);
+        const Mesh_snapshot before = snapshot(sculptor);
+        sculptor.visitor().calls_left = call, sculptor.visitor().again = again;
+        has_thrown = false;
+        const Vector_3 way(3, 5, -4);
+        try {
+          const auto report = move_rigidly(sculptor, box, translation(is_blocked ? way : -way));
+          BOOST_TEST(report.share == !is_blocked);
+        } catch (const std::runtime_error&) {
+          has_thrown = true;
+        }
+        sculptor.visitor().calls_left = ~std::size_t{0};
+        const bool is_there = mesh.point(box[0]) != at_first.point(box[0]);
+        ++(is_there ? whole : as_it_was);
+        for (const Vertex_index v : box)
+          BOOST_TEST((mesh.point(v) == at_first.point(v) - static_cast<double>(is_there) * way));
+        BOOST_TEST(sculptor.history().number_of_undo_steps() == std::size_t{is_there});
+        BOOST_TEST(validate(mesh).is_valid());
+        sculptor.check_unchanged();
+        sculptor.drag(box[0], mesh.point(box[0]) + Vector_3(-0.1, 0, 0.1)); // it goes on, and the visitor hears
+        BOOST_TEST(sculptor.visitor().calls_left == ~std::size_t{0} - 1);
+        while (sculptor.undo())
+          ;
+        BOOST_TEST((snapshot(sculptor) == before));
+      }
+      BOOST_TEST(as_it_was > 8u + is_blocked);
+      BOOST_TEST((whole > 1) == !is_blocked);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(an_object_that_has_not_moved_is_no_step_and_what_was_undone_can_be_redone) {
+  meshes::Triangle_list list;
+  const auto box = add_box(list, {0, 0, 0}, {1, 1, 1});
+  add_box(list, {-9, -9, -9 - 0x1p-12}, {18, 18, 9});
+  Mesh mesh = meshes::to_mesh(list);
+  Sculptor<Mesh> sculptor(mesh);
+  const auto steps = [&sculptor] {
+    return std::pair(sculptor.history().number_of_undo_steps(), sculptor.history().number_of_redo_steps());
+  };
+  sculptor.drag(box[0], mesh.point(box[0]) + Vector_3(0, 0, 0.1));
+  sculptor.drag(box[1], mesh.point(box[1]) + Vector_3(0, 0, 0.2));
+  const Mesh_snapshot both = snapshot(sculptor);
+  sculptor.undo();
+  const Mesh_snapshot before = snapshot(sculptor);
+  for (const bool in_stroke : {false, true}) {
+    auto stroke = std::optional(sculptor.stroke());
+    if (!in_stroke)
+      stroke.reset();
+    const auto report = move_rigidly(sculptor, box, translation({3, 5, -4})); // free along x and y
+    BOOST_TEST((report.share == 0 && !report.contacts.empty()));
+    BOOST_TEST((snapshot(sculptor) == before));
+    BOOST_TEST((steps() == std::pair(std::size_t{1}, std::size_t{1})));
+  }
+  BOOST_TEST(static_cast<bool>(sculptor.redo()));
+  BOOST_TEST((snapshot(sculptor) == both));
+  // What it did gain is one step, and clears what could be redone.
+  sculptor.undo();
+  BOOST_TEST(move_rigidly(sculptor, box, translation({3, 5, -1})).share == 0);
+  BOOST_TEST((steps() == std::pair(std::size_t{1}, std::size_t{1})));
+  BOOST_TEST(move_rigidly(sculptor, box, translation({3, 5, -0x1p-11})).share == 511. / 1024);
+  BOOST_TEST((steps() == std::pair(std::size_t{2}, std::size_t{0})));
+  sculptor.undo();
+  BOOST_TEST((snapshot(sculptor) == before));
+  sculptor.check_unchanged();
 }

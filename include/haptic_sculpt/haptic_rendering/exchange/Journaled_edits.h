@@ -145,6 +145,29 @@ private:
     void shift_back(int axis, const internal::Axis_ways<Mesh_type>& before, const Part_runner& run) {
       told(axis, before, [&] { return guarded().shift_back(axis, before, run), true; });
     }
+    void begin_trial() {
+      guarded().begin_trial();
+      is_trial_ = true;
+    }
+    void end_trial() noexcept {
+      is_trial_ = false;
+      for (const Edit& edit : tried_)
+        edits_->add(edit);
+      tried_.clear();
+      guarded().end_trial();
+    }
+    std::size_t tried_shifts() { return guarded().tried_shifts(); }
+    void take_back_tried_shift(const Part_runner& run) {
+      const auto forget = [this] { tried_.erase(tried_.begin() + tried_shifts(), tried_.end()); };
+      try {
+        guarded().take_back_tried_shift(run);
+      } catch (...) { // the visitor's, when all has moved
+        forget();
+        throw;
+      }
+      forget();
+    }
+    void tell_visitor(bool does) { guarded().tell_visitor(does); }
     auto& axis_move() { return guarded().axis_move(); }
     const auto& obstacles_to(int axis, const internal::Axis_ways<Mesh_type>& ways, const Part_runner& run,
                              internal::Pair_budget* pairs = nullptr) {
@@ -153,6 +176,8 @@ private:
 
   private:
     Journaled_edits* edits_;
+    bool is_trial_ = false;
+    std::vector<Edit> tried_; ///< shifts for the journal at the end, if they stand
 
     auto& guarded() { return internal::Sculptor_access::guarded(*edits_->sculptor_); }
     template <class Move>
@@ -163,6 +188,7 @@ private:
       Edit made = Edit::of(Edit_kind::shift);
       made.axis = axis;
       made.ways.reserve(ways.size()); // what is done has to be in the journal
+      tried_.reserve(tried_.size() + 1);
       try {
         const bool is_done = move();
         tell_shift(ways, before, made);
@@ -177,7 +203,11 @@ private:
       for (std::size_t k = 0; k < ways.size(); ++k)
         if (const double now = vertex_coordinates(mesh(), ways[k].first)[axis]; now != before[k])
           made.ways.emplace_back(edits_->sculptor_->id(ways[k].first), now);
-      if (!made.ways.empty())
+      if (made.ways.empty())
+        return;
+      if (is_trial_)
+        tried_.push_back(std::move(made));
+      else
         edits_->add(made);
     }
   };

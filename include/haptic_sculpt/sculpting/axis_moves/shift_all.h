@@ -20,6 +20,19 @@ struct Sculptor_access {
   }
 };
 
+/// Shifts, or moves, made while one lives are noted at its end; those taken back by then are not.
+template <class Guarded>
+class [[nodiscard]] Edit_trial {
+public:
+  explicit Edit_trial(Guarded& guarded) : guarded_(guarded) { guarded_.begin_trial(); }
+  ~Edit_trial() { guarded_.end_trial(); }
+  Edit_trial(const Edit_trial&) = delete;
+  Edit_trial& operator=(const Edit_trial&) = delete;
+
+private:
+  Guarded& guarded_;
+};
+
 /// Whole ways or none. \throw Invalid_parameter, Unknown_vertex, Out_of_range, Mesh_changed
 template <class Guarded, class Mesh = std::decay_t<decltype(std::declval<Guarded&>().mesh())>>
 Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways, const Part_runner& run) {

@@ -83,14 +83,15 @@ public:
   /// \return the vertex moved or revived; of a creation, a neighbour of what was created; of a flip, an end of the old
   /// edge
   template <class Noted>
-  Vertex_index take_back(const Change& change, const Place& place, const Noted& noted) {
+  Vertex_index take_back(const Change& change, const Place& place, const Noted& noted,
+                         const Part_runner& run = Part_runner()) {
     const Edit& edit = change.edit;
     begin(change, true, place);
     switch (edit.kind) {
     case Edit_kind::move:
       return put(edit.vertices[0], change.before, noted);
     case Edit_kind::shift:
-      return put_all(edit, [&change](std::size_t k) { return change.starts[k]; }, noted, Part_runner());
+      return put_all(edit, [&change](std::size_t k) { return change.starts[k]; }, noted, run);
     case Edit_kind::collapse:
       return star_instead_of_fan(change, noted);
     case Edit_kind::flip:

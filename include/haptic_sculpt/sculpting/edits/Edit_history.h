@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
+#include <optional>
+#include <utility>
 
 namespace haptic_sculpt::internal {
 
@@ -75,52 +78,70 @@ public:
   void make_room_for_move(std::size_t ids) {
     if (is_off())
       return;
-    moves_.reserve(1);
-    steps_.reserve(1);
+    const std::size_t moves = 1 + is_trial_; // the one tried before it may become a record
+    moves_.reserve(moves);
+    steps_.reserve(moves);
     if (is_in_stroke() && latest_.size() < ids)
       latest_.resize(ids, no_move);
   }
   void make_room_for(const Change& change) {
+    std::size_t words = words_of(change);
+    for (const auto& tried : tried_shifts_)
+      words += words_of(*tried);
+    tried_shifts_.reserve(tried_shifts_.size() + is_trial_);
     if (is_off())
       return;
-    edits_.reserve(1);
-    words_.reserve(words_of(change));
-    steps_.reserve(1);
+    edits_.reserve(1 + tried_shifts_.size());
+    words_.reserve(words);
+    steps_.reserve(2 + tried_shifts_.size()); // a move that was tried is one
   }
 
   /// A new change. Clears what could be redone. Allocates nothing. \pre room has been made for it
   void push_move(std::size_t vertex, const Coordinates& before, const Coordinates& after) {
-    if (!begin_record())
+    if (is_trial_) {
+      if (tried_move_ && tried_move_->vertex != vertex)
+        note_tried();
+      if (!tried_move_)
+        tried_move_ = Move{vertex, before, before};
+      tried_move_->after = after;
+      if (tried_move_->before == after)
+        tried_move_.reset();
       return;
-    if (is_in_stroke()) {
-      const std::size_t latest = latest_[vertex]; // maybe of another time
-      if (latest >= first_of_run_ && latest < moves_.end() && moves_[latest].vertex == vertex) {
-        moves_[latest].after = after;
-        return;
-      }
-      latest_[vertex] = moves_done_;
     }
-    moves_.push_back({vertex, before, after});
-    ++moves_done_;
-    end_record();
+    record_move(vertex, before, after);
   }
   /// \pre it is no move
   void push(const Change& change) {
-    if (!begin_record())
-      return;
-    const Edit& edit = change.edit;
-    edits_.push_back({edit.kind == Edit_kind::collapse ? change.before : edit.point, moves_done_, words_.end(),
-                      static_cast<std::uint32_t>(words_of(change)), edit.kind, static_cast<std::uint8_t>(edit.axis)});
-    const auto add = [this](std::size_t word) { words_.push_back(word); };
-    if (edit.kind != Edit_kind::shift)
-      std::for_each(edit.vertices.begin(), edit.vertices.end(), add);
-    std::for_each(change.around.begin(), change.around.end(), add);
-    for (std::size_t k = 0; k < edit.ways.size(); ++k)
-      add(edit.ways[k].first), add(word_of(edit.ways[k].second)), add(word_of(change.starts[k]));
-    ++edits_done_;
-    first_of_run_ = moves_done_;
-    end_record();
+    note_tried();
+    record(change);
   }
+
+  /// \name What is tried
+  /// From begin_trial() to end_trial() shifts, or else moves, are no records yet: those that are made undone meanwhile
+  /// never are, and clear nothing that could be redone. Another edit makes records of those that stand.
+  ///@{
+  void begin_trial() { is_trial_ = true; }
+  /// Allocates nothing.
+  void end_trial() noexcept {
+    note_tried();
+    is_trial_ = false;
+  }
+  /// As push(). \param shift is kept where it is until the trial ends: whoever makes it may still read it
+  void push_shift(std::unique_ptr<Change>& shift) {
+    if (!is_trial_)
+      return push(*shift);
+    tried_shifts_.push_back(std::move(shift));
+  }
+  /// How many shifts of the trial under way stand, and the last of them.
+  std::size_t tried_shifts() const { return tried_shifts_.size(); }
+  const Change& tried_shift() const { return *tried_shifts_.back(); }
+  /// It has been taken back. \return it
+  std::unique_ptr<Change> drop_tried_shift() {
+    auto dropped = std::move(tried_shifts_.back());
+    tried_shifts_.pop_back();
+    return dropped;
+  }
+  ///@}
 
   /// \name Going back and forth, change by change
   /// What is given here is good until something is given again.
@@ -208,6 +229,10 @@ private:
   std::size_t first_of_run_ = 0;            ///< the first move of the stroke since its last other edit
   std::vector<std::size_t> latest_;         ///< by number of vertex, its last move; maybe one that is no more
 
+  bool is_trial_ = false;
+  std::optional<Move> tried_move_;
+  std::vector<std::unique_ptr<Change>> tried_shifts_; ///< in their order
+
   static_assert(sizeof(std::size_t) == sizeof(double), "coordinates are kept among numbers of vertices");
   /// That are kept of it besides.
   static std::size_t words_of(const Change& change) {
@@ -262,6 +287,47 @@ private:
       for (edit.vertices = {words_[k], words_[k + 1], words_[k + 2]}, k += 3; k < end; ++k)
         current_.around.push_back(words_[k]);
     return &current_;
+  }
+
+  /// What was tried and stands.
+  void note_tried() {
+    if (const auto move = std::exchange(tried_move_, std::nullopt))
+      record_move(move->vertex, move->before, move->after);
+    for (const auto& shift : tried_shifts_)
+      record(*shift);
+    tried_shifts_.clear();
+  }
+
+  void record_move(std::size_t vertex, const Coordinates& before, const Coordinates& after) {
+    if (!begin_record())
+      return;
+    if (is_in_stroke()) {
+      const std::size_t latest = latest_[vertex]; // maybe of another time
+      if (latest >= first_of_run_ && latest < moves_.end() && moves_[latest].vertex == vertex) {
+        moves_[latest].after = after;
+        return;
+      }
+      latest_[vertex] = moves_done_;
+    }
+    moves_.push_back({vertex, before, after});
+    ++moves_done_;
+    end_record();
+  }
+  void record(const Change& change) {
+    if (!begin_record())
+      return;
+    const Edit& edit = change.edit;
+    edits_.push_back({edit.kind == Edit_kind::collapse ? change.before : edit.point, moves_done_, words_.end(),
+                      static_cast<std::uint32_t>(words_of(change)), edit.kind, static_cast<std::uint8_t>(edit.axis)});
+    const auto add = [this](std::size_t word) { words_.push_back(word); };
+    if (edit.kind != Edit_kind::shift)
+      std::for_each(edit.vertices.begin(), edit.vertices.end(), add);
+    std::for_each(change.around.begin(), change.around.end(), add);
+    for (std::size_t k = 0; k < edit.ways.size(); ++k)
+      add(edit.ways[k].first), add(word_of(edit.ways[k].second)), add(word_of(change.starts[k]));
+    ++edits_done_;
+    first_of_run_ = moves_done_;
+    end_record();
   }
 
   /// \return false where nothing is to be kept of it

@@ -10,6 +10,8 @@
 #include <haptic_sculpt/sculpting/edits/Pivot_order.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
+#include <memory>
+
 namespace haptic_sculpt::internal {
 
 /// Creates and removes vertices of a mesh and flips edges by Euler operations: each is proven and then done, or refused
@@ -122,7 +124,8 @@ public:
   /// be
   void shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways,
              const Part_runner& run = Part_runner()) {
-    Change change; // not kept: there may be millions
+    auto made = std::make_unique<Change>(); // kept in a trial only: there may be millions
+    Change& change = *made;
     change.edit = Edit::of(Edit_kind::shift);
     change.edit.axis = axis;
     change.edit.ways.reserve(ways.size());
@@ -131,8 +134,26 @@ public:
       change.edit.ways.emplace_back(ids().id(v), end);
       change.starts.push_back(vertex_coordinates(*mesh_, v)[axis]);
     }
-    make(change, run);
+    history_.make_room_for(change);
+    const auto noted = [&](Vertex_index changed) {
+      watch(changed, change.edit);
+      history_.push_shift(made);
+    };
+    changes_.make(change, place(history_.number_of_next(), true), noted, run);
   }
+  /// Takes the last shift of a trial back. Allocates nothing, but a broad phase of the caller's own may.
+  void take_back_tried_shift(const Part_runner& run) {
+    const Change& change = history_.tried_shift();
+    std::unique_ptr<Change> dropped; // once the visitor has heard
+    const auto noted = [&](Vertex_index changed) {
+      watch(changed, change.edit);
+      dropped = history_.drop_tried_shift();
+    };
+    changes_.take_back(change, place(history_.number_of_next(), true), noted, run);
+  }
+
+  /// Whether the visitor hears of what changes; at first it does.
+  void tell_visitor(bool does) { changes_.tell_visitor(does); }
 
   /// Takes the last step back. No proof is needed: the mesh was embedded before it, and moved back it is so again. What
   /// delta is now does not matter.
@@ -265,13 +286,13 @@ private:
   }
 
   Result make() { return Result::done(make(change_)); }
-  Vertex_index make(const Change& change, const Part_runner& run = Part_runner()) {
+  Vertex_index make(const Change& change) {
     history_.make_room_for(change);
     const auto noted = [&](Vertex_index changed) {
       watch(changed, change.edit);
       history_.push(change);
     };
-    return changes_.make(change, place(history_.number_of_next(), true), noted, run);
+    return changes_.make(change, place(history_.number_of_next(), true), noted);
   }
 
   /// Of a shift all that it moves.

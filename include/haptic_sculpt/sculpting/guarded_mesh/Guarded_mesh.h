@@ -290,6 +290,22 @@ public:
     check_looked_at();
     write_shift(axis, before, [](Vertex_index, double end) { return end; }, run);
   }
+  /// \name What is tried: what is taken back before the end is not noted, and clears nothing that could be redone
+  ///@{
+  void begin_trial() { editor_.history().begin_trial(); }
+  void end_trial() noexcept { editor_.history().end_trial(); }
+  std::size_t tried_shifts() const { return editor_.history().tried_shifts(); }
+  /// The last shift back. \pre nothing else has moved since
+  void take_back_tried_shift(const Part_runner& run) {
+    const Rounding_to_nearest rounding;
+    release();
+    look_for_changes();
+    check_looked_at();
+    editor_.take_back_tried_shift(run);
+  }
+  /// Whether the visitor hears of edits.
+  void tell_visitor(bool does) { editor_.tell_visitor(does); }
+  ///@}
   /// The last one.
   Axis_move<Mesh>& axis_move() { return are_many_ ? whole_move_ : near_move_; }
   /// All that is in the way of a motion, not only what was found until it was given up. \pre as of shift()

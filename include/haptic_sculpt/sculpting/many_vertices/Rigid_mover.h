@@ -7,10 +7,14 @@
 #include <haptic_sculpt/sculpting/many_vertices/Moving_vertex.h>
 #include <haptic_sculpt/sculpting/many_vertices/Rigid_way.h>
 
+#include <algorithm>
+#include <exception>
+
 namespace haptic_sculpt::internal {
 
 /// Moves vertices as one, in steps that are made by all or by none, each along x, then y, then z, to places worked out
-/// from where all were at the start: so what is rounded does not add up.
+/// from where all were at the start: so what is rounded does not add up. A step that is broken off is taken back, and
+/// leaves nothing in the history.
 template <class Sculptor>
 class Rigid_mover {
 public:
@@ -46,9 +50,9 @@ public:
 private:
   static constexpr double least_step = 1.0 / 1024;
 
-  using Ways = Axis_ways<Mesh>;
+  using Guarded = std::decay_t<decltype(Sculptor_access::guarded(std::declval<Sculptor&>()))>;
 
-  std::decay_t<decltype(Sculptor_access::guarded(std::declval<Sculptor&>()))>& guarded_;
+  Guarded& guarded_;
   const std::vector<Moving>& vertices_;
   const Rigid_way& way_;
   const Move_parameters& parameters_;
@@ -73,60 +77,78 @@ private:
         return false; // an arc may lead farther out than both of its ends are
     }
     guarded_.look_around(places);
-    std::vector<std::pair<int, Ways>> made;
-    made.reserve(3);
-    bool is_free = true;
-    for (int axis = 0; axis < 3 && is_free; ++axis)
-      is_free = move_along(axis, places, share, names_contacts, made);
-    if (!is_free)
-      take_back(made);
-    return is_free;
+    const Edit_trial<Guarded> trial(guarded_);
+    try {
+      bool is_free = true;
+      for (int axis = 0; axis < 3 && is_free; ++axis)
+        is_free = move_along(axis, places, share, names_contacts);
+      if (!is_free)
+        take_back();
+      return is_free;
+    } catch (...) { // the visitor's, the progress function's, or memory's
+      if (!are_at(places))
+        take_back_silently();
+      throw;
+    }
   }
 
-  /// \param made is what was done, and from where, put behind
-  bool move_along(int axis, const Vertex_targets<Mesh>& places, double share, bool names_contacts,
-                  std::vector<std::pair<int, Ways>>& made) {
-    Ways ways, before;
+  bool are_at(const Vertex_targets<Mesh>& places) const {
+    return std::all_of(places.begin(), places.end(), [this](const auto& place) {
+      return vertex_coordinates(guarded_.mesh(), place.first) == place.second;
+    });
+  }
+
+  bool move_along(int axis, const Vertex_targets<Mesh>& places, double share, bool names_contacts) {
+    Axis_ways<Mesh> ways;
     for (const auto& [v, to] : places)
-      if (const double at = vertex_coordinates(guarded_.mesh(), v)[axis]; at != to[axis]) {
+      if (vertex_coordinates(guarded_.mesh(), v)[axis] != to[axis])
         ways.emplace_back(v, to[axis]);
-        before.emplace_back(v, at);
-      }
     if (ways.empty())
       return true;
-    if (may_move(ways.size(), share, made) && guarded_.shift(axis, ways, 0, run_, pairs_)) {
-      made.emplace_back(axis, std::move(before));
+    if (may_move(ways.size(), share) && guarded_.shift(axis, ways, 0, run_, pairs_))
       return true;
-    }
     report_.out_of_work |= !is_ended() && guarded_.axis_move().is_too_much();
     if (names_contacts && !is_ended())
       name_contacts(axis, ways);
     return false;
   }
 
-  void take_back(std::vector<std::pair<int, Ways>>& made) {
-    for (; !made.empty(); made.pop_back())
-      guarded_.shift_back(made.back().first, made.back().second, run_);
+  /// What was made of the step. Where the visitor throws, the rest goes back all the same, and it hears no more of it.
+  /// \throw what was thrown last
+  void take_back() {
+    std::exception_ptr thrown;
+    for (std::size_t left = guarded_.tried_shifts(); left != 0; --left)
+      try {
+        guarded_.take_back_tried_shift(run_);
+      } catch (...) {
+        thrown = std::current_exception();
+        if (guarded_.tried_shifts() == left)
+          break; // not the visitor's: as it is now it stays
+        guarded_.tell_visitor(false);
+      }
+    guarded_.tell_visitor(true);
+    if (thrown)
+      std::rethrow_exception(thrown);
+  }
+  void take_back_silently() noexcept {
+    try {
+      take_back();
+    } catch (...) { // what came first goes on
+    }
   }
 
-  /// \param made of this step: where the progress function throws, it is taken back
-  bool may_move(std::size_t vertices, double share, std::vector<std::pair<int, Ways>>& made) {
+  bool may_move(std::size_t vertices, double share) {
     report_.out_of_work = vertices > parameters_.drag_limit - report_.drags;
-    try {
-      report_.cancelled =
-          !report_.out_of_work && parameters_.progress_function &&
-          !parameters_.progress_function(Move_progress{vertices_.size(), vertices, report_.drags, share});
-    } catch (...) {
-      take_back(made);
-      throw;
-    }
+    report_.cancelled =
+        !report_.out_of_work && parameters_.progress_function &&
+        !parameters_.progress_function(Move_progress{vertices_.size(), vertices, report_.drags, share});
     if (is_ended())
       return false;
     report_.drags += vertices;
     return true;
   }
 
-  void name_contacts(int axis, const Ways& ways) {
+  void name_contacts(int axis, const Axis_ways<Mesh>& ways) {
     const auto& obstacles = guarded_.obstacles_to(axis, ways, run_, pairs_);
     report_.out_of_work = guarded_.axis_move().is_too_much();
     if (report_.out_of_work)
