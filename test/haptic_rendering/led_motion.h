@@ -28,6 +28,7 @@ inline Force_error error_of(const Led_motion& led, std::uint64_t seed) {
   Random random(seed);
   Device_description<double> description = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
   description.torque_limit = 100, description.encoder_step = led.encoder_step;
+  description.viscous_friction = 0.2; // N m s/rad: enough for the slowest and latest loop
   const Device_parameters<double> device(description);
   const auto home = home_pose(device);
   Mesh mesh = meshes::to_mesh(meshes::box(3, 1));
@@ -39,10 +40,13 @@ inline Force_error error_of(const Led_motion& led, std::uint64_t seed) {
     direction = (direction + 0.5 * random_vector(random).cross(normal).normalized()).normalized();
   Haptic_parameters parameters;
   parameters.tick = 1 / led.rate, parameters.delay = led.delay, parameters.coupling = {stiffness, 0};
-  parameters.gravity = Gravity_compensation::none, parameters.follows_pose = false;
+  parameters.gravity = Gravity_compensation::none, parameters.controller_damping = 0;
   parameters.limits.slew = parameters.limits.largest = 1e9, parameters.limits.ramp_time = 1e-9;
-  Passivity_limits limits;
-  limits.passive_stiffness = 1e7, limits.tick = parameters.tick, limits.delay = led.delay;
+  const auto is_near = [&](const Vector3d& p) { return (p - home->position).norm() <= 0.025; }; // m
+  static const Worst_pose worst = worst_pose(device, parameters.limits, is_near, 15),
+                          lightest = lightest_pose(device, parameters.limits, is_near, 9);
+  const Passivity_limits limits =
+      passivity_limits(device, parameters.limits, map, worst, lightest, 0, parameters.tick, led.delay);
   const double before = 0.001 + 3 * led.speed / led.rate,
                after = std::max(0.003, 8 * led.speed / led.rate); // metres before and behind the plane
   const auto start = reach_position(device, *home, Vector3d(home->position - before * direction));

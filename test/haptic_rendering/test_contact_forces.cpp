@@ -209,17 +209,17 @@ BOOST_AUTO_TEST_CASE(encoders_add_their_share_to_the_error_of_the_force) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_grabbed_is_heavy_and_nothing_else_is) {
-  const Device_parameters<double> device(named_design<double>(Named_design::D1, Device_form::ditetrahedral));
+  Device_description<double> description = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
+  description.viscous_friction = 0.02;
+  const Device_parameters<double> device(description);
   const auto home = home_pose(device);
   const Workspace_map map(20, Vector3d(0.3, -0.2, 0.9), Vector3d(0, 0, -0.02), home->position);
   Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
   Sculptor<Mesh> sculptor(mesh);
   Haptic_parameters parameters;
-  parameters.virtual_mass.mass = 0.05, parameters.limits.ramp_time = 1e-9, parameters.reach = 0.002;
-  parameters.follows_pose = false; // this device has no friction, which would leave no force
-  Passivity_limits limits;
-  limits.passive_stiffness = 1e7, limits.tick = parameters.tick, limits.largest_mass = parameters.virtual_mass.mass;
-  Haptic_loop<Sculptor<Mesh>> loop(sculptor, device, *home, map, parameters, limits);
+  const double mass = 0.005; // kg; near home 18 g are the most that serve, and less far from it
+  parameters.virtual_mass.mass = mass, parameters.limits.ramp_time = 1e-9, parameters.reach = 0.002;
+  Haptic_loop<Sculptor<Mesh>> loop(sculptor, device, *home, map, parameters);
   const Vector3d away = -map.direction_to_device(Vector3d(1, 1, 1)).normalized();
   const double omega = 2 * M_PI * 3, amplitude = 0.002;
   Device_pose<double> pose = *home;
@@ -238,13 +238,13 @@ BOOST_AUTO_TEST_CASE(what_is_grabbed_is_heavy_and_nothing_else_is) {
       BOOST_TEST((made.tool.event == Tool_event::grabbed));
     if (k < 900)
       continue; // the acceleration begins with a step, which low-passes follow
-    const Vector3d exact = -0.05 * amplitude * omega * omega * std::cos(omega * swing) * away;
+    const Vector3d exact = -mass * amplitude * omega * omega * std::cos(omega * swing) * away;
     worst = std::max(worst, (made.rendered.force - exact).norm()), largest = std::max(largest, exact.norm());
-    const double kinetic = 0.05 * std::pow(amplitude * omega * std::sin(omega * swing), 2) / 2;
+    const double kinetic = mass * std::pow(amplitude * omega * std::sin(omega * swing), 2) / 2;
     worst_energy = std::max(worst_energy, std::abs(loop.interaction().virtual_mass().energy() - kinetic));
     largest_energy = std::max(largest_energy, kinetic);
   }
-  BOOST_TEST_MESSAGE("a vertex of 50 g in the loop: force off by " << 100 * worst / largest << " %, its energy by "
+  BOOST_TEST_MESSAGE("a vertex of 5 g in the loop: force off by " << 100 * worst / largest << " %, its energy by "
                                                                    << 100 * worst_energy / largest_energy << " %");
   BOOST_TEST(worst <= 0.01 * largest);
   BOOST_TEST(worst_energy <= 0.1 * largest_energy);

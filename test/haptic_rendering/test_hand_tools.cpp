@@ -163,4 +163,39 @@ BOOST_AUTO_TEST_CASE(a_button_that_bounces_is_pressed_once_and_at_once) {
     BOOST_CHECK_THROW(Debounced_button{bad}, Error);
 }
 
+BOOST_AUTO_TEST_CASE(one_press_of_a_button_that_bounces_removes_one_vertex_and_is_felt_at_once) {
+  for (const bool is_bare : {false, true}) {
+    meshes::Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
+    Sculptor<meshes::Mesh> sculptor(mesh);
+    Pose_loop_parameters parameters = parameters_of_tests();
+    parameters.reach = 0.02; // m: a large part of the ball
+    if (is_bare)
+      parameters.button_quiet_time = 0; // all that the contacts say
+    Pose_loop<Sculptor<meshes::Mesh>> loop(sculptor, map_of_tests, parameters);
+    const auto say = [&](int button, int ticks) {
+      const Pose_reading reading{map_of_tests.to_device(Vector3d(0.1, 0.2, 1.3)), button, 0.001};
+      for (int k = 0; k < ticks; ++k)
+        BOOST_REQUIRE((loop.tick(reading).fault == Loop_fault::none));
+    };
+    const auto edits = [&] { return loop.tool().edits(); };
+    say(0, 300);
+    say(2, 1);
+    BOOST_TEST(edits().removed == 1u);
+    for (int k = 0; k < 6; ++k) // 18 ms, as a contact comes to rest
+      say(0, 2), say(2, 1);
+    say(2, 60);
+    for (int k = 0; k < 6; ++k)
+      say(0, 1), say(2, 2);
+    say(0, 60);
+    if (is_bare)
+      BOOST_TEST(edits().removed > 6u);
+    else
+      BOOST_TEST(edits().removed == 1u);
+    say(2, 60), say(0, 60); // the next press counts
+    BOOST_TEST(edits().refused == 0u);
+    if (!is_bare)
+      BOOST_TEST(edits().removed == 2u);
+  }
+}
+
 } // namespace

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
+#include <haptic_sculpt/haptic_rendering/check_coupling.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
 
 #include <boost/test/unit_test.hpp>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 using namespace haptic_sculpt;
@@ -144,6 +146,51 @@ BOOST_AUTO_TEST_CASE(all_encoders_between_two_counts_make_no_more_of_a_calm_spri
     BOOST_TEST(calm_stiffness(worst.count(device(form, 0.005)), 1) == std::numeric_limits<double>::infinity());
     BOOST_TEST(calm_stiffness(worst.count(parameters), 1) < calm - 600); // 2 pi 100 Hz
   }
+}
+
+BOOST_AUTO_TEST_CASE(limits_that_were_made_for_something_else_or_by_nobody_are_refused) {
+  const Device_parameters<double> parameters = device(Device_form::ditetrahedral, 0.005, 1.53e-4);
+  const auto home = home_pose(parameters);
+  const Workspace_map map(50, Vector3d(0.3, -0.2, 0.9), Vector3d(1, 2, 3), home->position);
+  const auto is_inside = [&](const Vector3d& p) { return (p - home->position).norm() <= 0.02; };
+  const Haptic_parameters asked;
+  const Worst_pose worst = worst_pose(parameters, asked.limits, is_inside, 9),
+                   lightest = lightest_pose(parameters, asked.limits, is_inside, 7);
+  const Passivity_limits made = passivity_limits(parameters, asked.limits, map, worst, lightest, 0, 0.001, 0);
+  check_limits(made, parameters, map, asked);
+  const auto is_refused = [](const Passivity_limits& limits, const Device_parameters<double>& device,
+                             const Workspace_map& place, const Haptic_parameters& wanted) {
+    BOOST_CHECK_EXCEPTION(check_limits(limits, device, place, wanted), Error, [](const Error& error) {
+      return std::string(error.what()).find("were made for another") != std::string::npos;
+    });
+  };
+  is_refused(made, device(Device_form::ditetrahedral, 0.006, 1.53e-4), map, asked);
+  is_refused(made, device(Device_form::ditetrahedral, 0.005, 1e-4), map, asked);
+  is_refused(made, device(Device_form::general, 0.005, 1.53e-4), map, asked);
+  for (const Workspace_map& other : {Workspace_map(51, Vector3d(0.3, -0.2, 0.9), Vector3d(1, 2, 3), home->position),
+                                     Workspace_map(50, Vector3d(0.3, -0.2, 0.8), Vector3d(1, 2, 3), home->position),
+                                     Workspace_map(50, Vector3d(0.3, -0.2, 0.9), Vector3d(1, 2, 4), home->position),
+                                     Workspace_map(50, Vector3d(0.3, -0.2, 0.9), Vector3d(1, 2, 3), Vector3d(0, 0, 0))})
+    is_refused(made, parameters, other, asked);
+  const auto is_refused_with = [&](const auto& change) {
+    Haptic_parameters wanted = asked;
+    change(wanted);
+    is_refused(made, parameters, map, wanted);
+  };
+  is_refused_with([](Haptic_parameters& p) { p.tick = 0.0011; });
+  is_refused_with([](Haptic_parameters& p) { p.delay = 1; });
+  is_refused_with([](Haptic_parameters& p) { p.coupling.damping = 0.01; });
+  is_refused_with([](Haptic_parameters& p) { p.virtual_mass.cutoff = 90; });
+  is_refused_with([](Haptic_parameters& p) { p.limits.full_condition = 11; });
+  is_refused_with([](Haptic_parameters& p) { p.limits.no_condition = 21; });
+  Passivity_limits by_hand; // no worst pose was sought
+  by_hand.passive_stiffness = 1e7, by_hand.tick = asked.tick;
+  is_refused(by_hand, parameters, map, asked);
+  by_hand.map = map, by_hand.full_condition = 10, by_hand.no_condition = 20;
+  is_refused(by_hand, parameters, map, asked);
+  Passivity_limits changed = made;
+  changed.passive_stiffness *= 2;
+  is_refused(changed, parameters, map, asked);
 }
 
 BOOST_AUTO_TEST_CASE(a_device_within_the_passive_limit_gives_no_energy) {

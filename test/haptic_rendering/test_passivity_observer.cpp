@@ -5,6 +5,8 @@
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
+#include <haptic_sculpt/haptic_rendering/loop/Interaction.h>
+#include <haptic_sculpt/haptic_rendering/loop/Pose_side.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
 
 #include <boost/test/unit_test.hpp>
@@ -32,6 +34,44 @@ BOOST_AUTO_TEST_CASE(the_friction_of_a_joint_that_is_known_by_counts_is_that_of_
     BOOST_TEST(observer.dissipated() / taken > 0.95);
     BOOST_TEST(observer.dissipated() / taken < 1.15); // two counts in three ticks: of 1 and 2 ticks in turn
   }
+}
+
+BOOST_AUTO_TEST_CASE(friction_takes_the_same_of_a_motion_whatever_its_ticks_truly_take) {
+  constexpr double friction = 2, speed = 0.1; // N s/m, m/s
+  Random random(31);
+  std::uniform_real_distribution<double> uneven(0.0006, 0.0014), late(0.0013, 0.0014); // s; declared is 1 ms
+  for (auto* elapsed : {&uneven, &late}) {
+    const Haptic_parameters parameters;
+    Interaction<Pose_side> loop(Pose_side(Pose_device(friction), parameters), parameters, 0);
+    Pose_reading reading;
+    reading.elapsed = 1e9; // does not count at the first
+    double time = 0;
+    for (int k = 0; k < 2000; ++k) {
+      BOOST_REQUIRE(loop.follow(reading));
+      loop.render(Touch()), loop.end_tick();
+      reading.elapsed = (*elapsed)(random);
+      reading.position[0] += speed * reading.elapsed;
+      time += k + 1 < 2000 ? reading.elapsed : 0;
+    }
+    BOOST_TEST(std::abs(loop.observer().dissipated() / (friction * speed * speed * time) - 1) <= 1e-9); // rounding
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_controller_damps_the_true_velocity_and_takes_no_more_than_is_missing_in_a_tick_as_long) {
+  constexpr double tick = 0.001, missing = 0.01; // s, J
+  Passivity_observer observer(0, tick, 0, 0);
+  observer.command(Vector3d(0, 0, 1));
+  observer.add_step(Vector3d(0, 0, missing), 0, Vector3d(0, 0, missing)); // given to the hand
+  const Vector3d velocity(0, 0, 0.1);                                    // m/s
+  for (const double elapsed : {0.0005, 0.001, 0.002, 0.01}) {
+    Passivity_controller weak(3, tick), strong(1e5, tick);
+    BOOST_TEST((weak.force(observer, velocity * elapsed, elapsed) + 3 * velocity).norm() <= 1e-12);
+    const Vector3d force = strong.force(observer, velocity * elapsed, elapsed);
+    BOOST_TEST(-force.dot(velocity) * std::max(tick, elapsed) <= missing * (1 + 1e-12));
+    BOOST_TEST(-force.dot(velocity) * std::max(tick, elapsed) >= missing * (1 - 1e-12));
+  }
+  Passivity_controller hasty(3, tick); // two readings at all but one time: no speed beyond all measure
+  BOOST_TEST(hasty.force(observer, 0.1 * tick * velocity, 1e-12).norm() <= 3 * 0.2 * velocity.norm() * (1 + 1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(the_observer_counts_the_true_energy_of_the_port) {

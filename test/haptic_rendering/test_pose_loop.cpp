@@ -6,6 +6,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -130,12 +131,23 @@ BOOST_AUTO_TEST_CASE(parameters_are_checked_where_they_are_given) {
     refuses("Watchdog_limits::stall_time", [&](P& p) { p.stall_time = bad; });
     refuses("controller_damping", [&](P& p) { p.controller_damping = bad; });
     refuses("reach", [&](P& p) { p.reach = bad; });
+    refuses("button_quiet_time", [&](P& p) { p.button_quiet_time = bad; });
   }
   refuses("tick", [](P& p) { p.tick = 0; });
   refuses("work_limit", [](P& p) { p.work_limit = 0; });
   refuses("work_of_a_face", [](P& p) { p.work_of_a_face = std::numeric_limits<std::size_t>::max(); });
   refuses("Pose_device::friction", [](P& p) { p.device.friction = -1; });
   refuses("Pose_device::friction", [](P& p) { p.device.friction = NAN; });
+  refuses("Pose_device::friction", [&](P& p) { p = P(inf); }); // no way to say "no force"
+  refuses("Pose_device::friction", [&](P& p) { p.device.friction = inf; });
+  P mouse = P::without_force();
+  BOOST_TEST((!mouse.has_force() && mouse.passive_stiffness() == inf && mouse.calm_stiffness() == inf));
+  BOOST_TEST((mouse.device.friction == 0 && P(0).has_force() && P(0).passive_stiffness() == 0));
+  Ball_loop{mouse};
+  mouse.device.mass = NAN;
+  BOOST_CHECK_THROW(Ball_loop{mouse}, Error);
+  for (const double bad : {std::nan(""), inf, -1.0})
+    BOOST_CHECK_THROW(Pose_side(Pose_device(bad), Haptic_parameters()), Error); // checked by itself, too
   refuses("Watchdog_limits::joint_rate", [](P& p) { p.speed = NAN; });
   refuses("damping", [](P& p) { p.coupling.damping = 2.1; }); // more than the friction
   Ball_loop{Pose_loop_parameters(2)};
@@ -240,6 +252,34 @@ BOOST_AUTO_TEST_CASE(a_vertex_of_any_valence_follows_the_hand_and_one_that_is_cu
         BOOST_TEST(largest_jump == 0);
       }
     }
+}
+
+BOOST_AUTO_TEST_CASE(a_viewer_is_passed_which_ticks_were_starved) {
+  using Scene = Loop_scene<Mesh>;
+  Scene scene(double_cone(300), [](const Vector3d&, const Vector3d&) { return map_of_tests; });
+  auto parameters = parameters_of_tests();
+  parameters.work_limit = 150, parameters.work_of_a_face = 0; // too little for the vertex in hand
+  Pose_loop<Scene::Sculptor_type> loop(scene.sculptor, scene.map, parameters);
+  Scene_feed feed;
+  Loop_session<decltype(loop), Scene> session(loop, scene, nullptr, &feed, nullptr);
+  Pose_reading reading;
+  reading.elapsed = 0.001;
+  int starved = 0;
+  for (int k = 0; k < 500; ++k) { // taken at 100, drawn upwards from 300 on
+    const double z = k < 300 ? 1.05 : 1.05 + 0.002 * (k - 300);
+    reading.position = map_of_tests.to_device(Vector3d(0.1 * (z - 1.05), 0, z)), reading.button = k < 100 ? 0 : 1;
+    session.tick(reading);
+    Tick_view view;
+    BOOST_REQUIRE(feed.take(view));
+    if (k < 300)
+      BOOST_TEST(!view.starved);
+    else if (view.starved) { // not where the hand wants it, held by nothing, and without a force
+      ++starved;
+      BOOST_TEST((view.holds_vertex && !view.reached && view.contacts == 0));
+      BOOST_TEST((view.proxy != view.target && view.force == std::array<double, 3>{}));
+    }
+  }
+  BOOST_TEST(starved > 100);
 }
 
 } // namespace

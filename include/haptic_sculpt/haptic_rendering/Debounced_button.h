@@ -5,8 +5,8 @@
 
 namespace haptic_sculpt {
 
-/// One press where the contacts of a button bounce. For drivers whose button does: what it gives is the button of a
-/// reading. A change counts at once, so nothing comes late; the next one counts only when the contact has said the same
+/// One press where the contacts of a button bounce. Every loop has one; and it is for whoever calls a Tool without a
+/// loop. A change counts at once, so nothing comes late; the next one counts only when the contact has said the same
 /// for a while. Reads no clock, allocates nothing.
 class Debounced_button {
 public:

@@ -13,14 +13,14 @@ public:
   using Base = Interaction_loop<Sculptor_, Joint_side>; ///< what all loops do
   using Vertex_index = typename Base::Vertex_index;     ///< of the mesh that is sculpted
 
-  /// \param start a pose near the first reading \param limits made for this device, tick, delay and damping
-  /// (passivity_limits) \throw Unstable_coupling if they do not permit the coupling, the virtual mass or the passivity
-  /// controller; Error for parameters that cannot be used, and for limits that were made for others
+  /// \param start a pose near the first reading \param limits made for this device, map, tick, delay, damping and
+  /// fading (passivity_limits) \throw Unstable_coupling if they do not permit the coupling, the virtual mass or the
+  /// passivity controller; Error for parameters that cannot be used, and for limits that were made for others
   Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device,
               const Device_pose<double>& start, const Workspace_map& map, const Haptic_parameters& parameters,
               const Passivity_limits& limits)
       : Base(sculptor, Joint_side(device, start, parameters), map, parameters, limits.default_controller()) {
-    check_limits(limits, device, parameters);
+    check_limits(limits, device, map, parameters);
   }
   /// Makes the limits by itself, for the box of the mesh as it is and a tenth beyond. Some tenths of a second.
   Haptic_loop(Sculptor_& sculptor, const Device_parameters<double>& device,

@@ -14,19 +14,27 @@ namespace haptic_sculpt {
 /// A net, not a licence: what it can take in a tick is bounded, because too strong a damper is unstable itself.
 class Passivity_controller {
 public:
-  /// \param most_damping of the damper, N s/m; 0: never there
-  Passivity_controller(double most_damping, double tick) : most_damping_(most_damping), tick_(tick) {}
+  /// \param most_damping of the damper, N s/m; 0: never there \param tick s \throw Error naming what cannot be used
+  Passivity_controller(double most_damping, double tick) : most_damping_(most_damping), tick_(tick) {
+    internal::require_number("the most damping of a Passivity_controller", "N s/m", most_damping, 0, 1e5);
+    internal::require_number("the tick of a Passivity_controller", "s", tick, 1e-6, 1);
+  }
 
   /// The force on the hand, N; exactly 0 where nothing is missing.
   /// \param step of the handle since the last tick, m
   Eigen::Vector3d force(const Passivity_observer& observer, const Eigen::Vector3d& step) {
+    return force(observer, step, tick_);
+  }
+  /// The same where the tick has truly taken so long. \param elapsed s, > 0; half of a tick at least counts
+  Eigen::Vector3d force(const Passivity_observer& observer, const Eigen::Vector3d& step, double elapsed) {
     const double missing = -observer.balance();
-    const Eigen::Vector3d velocity = step / tick_; // a low-pass would come too late for what buzzes
+    // A low-pass would come too late for what buzzes.
+    const Eigen::Vector3d velocity = step / std::fmax(elapsed, 0.5 * tick_);
     const double square = velocity.squaredNorm();
     damping_ = 0;
     if (!(most_damping_ > 0 && missing > 0) || !(square > least_speed * least_speed))
       return Eigen::Vector3d::Zero();
-    damping_ = std::fmin(most_damping_, missing / (tick_ * square));
+    damping_ = std::fmin(most_damping_, missing / (std::fmax(elapsed, tick_) * square)); // as long as the next may be
     return -damping_ * velocity;
   }
   /// The damper of the last tick, N s/m.

@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/device/dynamics.h>
 #include <haptic_sculpt/device/forward_by_all_modes.h>
+#include <haptic_sculpt/device/simulation/Torque_delay.h>
 #include <haptic_sculpt/haptic_rendering/Force_limit.h>
 #include <haptic_sculpt/haptic_rendering/Acceleration_estimate.h>
 #include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
@@ -12,6 +13,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -156,7 +158,7 @@ Worst_pose lightest_pose(const Device_parameters<double>& parameters, const Forc
       parameters, limits, contains, [&](const Worst_pose& p) { return 1 / p.apparent_mass(parameters); }, per_joint);
 }
 
-/// What may be asked of a loop, and what these limits were made for.
+/// What may be asked of a loop, and what these limits were made for. Made by passivity_limits().
 struct Passivity_limits {
   double friction = 0;           ///< b_phys at the worst pose, N s/m
   double passive_stiffness = 0;  ///< k_p at the damping asked for, N/m; < 0 where that alone is too much
@@ -171,6 +173,9 @@ struct Passivity_limits {
   double tick = 0;    ///< for which they were made, s
   double delay = 0;   ///< for which they were made, ticks
   double cutoff = Acceleration_estimate::default_cutoff; ///< of the acceleration, Hz
+  std::optional<Workspace_map> map; ///< for which they were made; none: they are for no loop
+  double full_condition = 0,        ///< for which they were made, as in Force_limits
+      no_condition = 0;             ///< for which they were made, as in Force_limits
 
   /// Both passive and calm, N/m; never < 0.
   double largest_stiffness() const { return std::fmax(std::fmin(passive_stiffness, calm_stiffness), 0.0); }
@@ -181,41 +186,75 @@ struct Passivity_limits {
   /// Whether the coupling can give no energy to any hand, and is calm. \pre the damping is the one that the limits were
   /// made for
   bool permits(const Virtual_coupling& coupling) const { return coupling.stiffness <= largest_stiffness(); }
-  /// Whether they were made for these, N s/m, s, ticks, Hz, and a device with the Jacobian, friction and encoders of
-  /// this one.
-  bool are_for(const Device_parameters<double>& device, double b, double seconds, double ticks, double hertz) const {
-    if (damping != b || tick != seconds || delay != ticks || cutoff != hertz || worst.friction(device) != friction ||
+  /// Whether they were made for these, N s/m, s, ticks, Hz, for the conditions at which these forces fade, and a device
+  /// with the Jacobian, friction and encoders of this one.
+  bool are_for(const Device_parameters<double>& device, const Force_limits& forces, const Workspace_map& place,
+               double b, double seconds, double ticks, double hertz) const {
+    if (!map || !(*map == place) || full_condition != forces.full_condition || no_condition != forces.no_condition ||
+        damping != b || tick != seconds || delay != ticks || cutoff != hertz || worst.friction(device) != friction ||
+        haptic_sculpt::passive_stiffness(friction, b, seconds, ticks) != passive_stiffness ||
         haptic_sculpt::calm_stiffness(worst.count(device), b) != calm_stiffness)
       return false;
-    const auto map = worst.is_found ? jacobian(device, worst.pose) : Outcome<Device_jacobian<double>>();
-    return !worst.is_found || (map && translation_conditioning(*map).greatest == worst.greatest);
+    if (!worst.is_found) // then nothing is passive
+      return true;
+    const auto jacobian_there = jacobian(device, worst.pose);
+    return jacobian_there && translation_conditioning(*jacobian_there).greatest == worst.greatest;
   }
 };
 
-/// The limits over the device's places whose scene is in a box. \param delay ticks
-/// \param cutoff of the acceleration that a virtual mass follows, Hz
+namespace internal {
+
+inline void check_asked_of_limits(const Force_limits& limits, double damping, double tick, double delay,
+                                  double cutoff) {
+  limits.check();
+  require_number("the damping of passivity_limits()", "N s/m", damping, 0, 1e5);
+  require_number("the tick of passivity_limits()", "s", tick, 1e-6, 1);
+  require_number("the delay of passivity_limits()", "ticks", delay, 0, Torque_delay<double>::most_ticks);
+  require_number("the cutoff of passivity_limits()", "Hz", cutoff, 1e-3, 1e6);
+}
+
+} // namespace internal
+
+/// The limits of a device whose worst poses are known. \param delay ticks
+/// \param cutoff of the acceleration that a virtual mass follows, Hz \throw Error naming what cannot be used
 inline Passivity_limits passivity_limits(const Device_parameters<double>& parameters, const Force_limits& limits,
-                                         const Workspace_map& map, const Eigen::Vector3d& lower,
-                                         const Eigen::Vector3d& upper, double damping, double tick, double delay,
+                                         const Workspace_map& map, const Worst_pose& worst,
+                                         const Worst_pose& lightest, double damping, double tick, double delay,
                                          double cutoff = Acceleration_estimate::default_cutoff) {
+  internal::check_asked_of_limits(limits, damping, tick, delay, cutoff);
   Passivity_limits found;
-  const auto is_in_scene = [&](const Eigen::Vector3d& device) {
-    const Eigen::Vector3d p = map.to_scene(device);
-    return (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all();
-  };
-  found.worst = worst_pose(parameters, limits, is_in_scene);
+  found.worst = worst;
   found.friction = found.worst.friction(parameters);
   found.passive_stiffness = passive_stiffness(found.friction, damping, tick, delay);
   found.calm_stiffness = calm_stiffness(found.worst.count(parameters), damping);
-  found.lightest = lightest_pose(parameters, limits, is_in_scene);
+  found.lightest = lightest;
   found.apparent_mass = found.lightest.apparent_mass(parameters);
   found.largest_mass = stable_share * found.apparent_mass * critical_mass_ratio(tick, delay, cutoff);
   // Beyond the friction it is not passive, whatever the stiffness, and a stiff hand may swing with it.
   found.largest_damping = std::fmin(found.friction, found.apparent_mass * largest_damping_rate(tick, delay));
   found.largest_controller =
       found.apparent_mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity());
-  found.damping = damping, found.tick = tick, found.delay = delay, found.cutoff = cutoff;
+  found.damping = damping, found.tick = tick, found.delay = delay, found.cutoff = cutoff, found.map = map;
+  found.full_condition = limits.full_condition, found.no_condition = limits.no_condition;
   return found;
+}
+
+/// The limits over the device's places whose scene is in a box. Some tenths of a second. \param delay ticks
+/// \param cutoff of the acceleration that a virtual mass follows, Hz \throw Error naming what cannot be used
+inline Passivity_limits passivity_limits(const Device_parameters<double>& parameters, const Force_limits& limits,
+                                         const Workspace_map& map, const Eigen::Vector3d& lower,
+                                         const Eigen::Vector3d& upper, double damping, double tick, double delay,
+                                         double cutoff = Acceleration_estimate::default_cutoff) {
+  if (!lower.allFinite() || !upper.allFinite() || (lower.array() > upper.array()).any())
+    throw Error("the box of passivity_limits() must be of finite numbers, none of its lower corner above that of its "
+                "upper one");
+  internal::check_asked_of_limits(limits, damping, tick, delay, cutoff); // before the search, which takes its time
+  const auto is_in_scene = [&](const Eigen::Vector3d& device) {
+    const Eigen::Vector3d p = map.to_scene(device);
+    return (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all();
+  };
+  return passivity_limits(parameters, limits, map, worst_pose(parameters, limits, is_in_scene),
+                          lightest_pose(parameters, limits, is_in_scene), damping, tick, delay, cutoff);
 }
 
 } // namespace haptic_sculpt

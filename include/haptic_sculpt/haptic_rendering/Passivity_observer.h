@@ -2,9 +2,10 @@
 #pragma once
 
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
+#include <haptic_sculpt/haptic_rendering/loop/require_number.h>
 
 #include <array>
-#include <cstdint>
+#include <cmath>
 
 namespace haptic_sculpt {
 
@@ -16,20 +17,31 @@ namespace haptic_sculpt {
 /// (1 - f) tau(k - n) + f tau(k - n - 1). Exact for whole delays and exact angles.
 class Passivity_observer {
 public:
-  /// \param encoder_step rad; 0: exact angles
+  /// \param tick s \param viscous_friction N m s/rad \param encoder_step rad; 0: exact angles
+  /// \throw Error naming what no device has
   Passivity_observer(double delay_in_ticks, double tick, double viscous_friction, double encoder_step)
-      : delay_(delay_in_ticks), tick_(tick), friction_(viscous_friction), encoder_step_(encoder_step) {}
+      : delay_(delay_in_ticks), tick_(tick), friction_(viscous_friction), encoder_step_(encoder_step) {
+    internal::require_number("the tick of a Passivity_observer", "s", tick, 1e-6, 1);
+    internal::require_number("the viscous friction of a Passivity_observer", "N m s/rad", viscous_friction, 0, 1e5);
+    internal::require_number("the encoder step of a Passivity_observer", "rad", encoder_step, 0, 1);
+  }
 
   /// Takes the joint step since the last tick, before the torque of this one is commanded.
   /// \param stiffness N/m, of the credit for encoders \param handle_step the handle's way, m
   void add_step(const Eigen::Vector3d& joint_step, double stiffness, const Eigen::Vector3d& handle_step) {
+    add_step(joint_step, stiffness, handle_step, tick_);
+  }
+  /// The same where the tick has truly taken so long: friction takes from a slow joint less than from a fast one on the
+  /// same way. \param elapsed s, > 0; half of a tick at least counts
+  void add_step(const Eigen::Vector3d& joint_step, double stiffness, const Eigen::Vector3d& handle_step,
+                double elapsed) {
     port_ -= delay_.mean().dot(joint_step);
     // A joint known by counts has moved ever since the last one: as if it had moved in this tick alone, at a high rate,
     // friction would seem to take many times what it takes.
     for (int joint = 0; joint < 3; ++joint) {
-      ++since_[joint];
+      since_[joint] += std::fmax(elapsed, 0.5 * tick_);
       if (const double step = joint_step[joint]; step != 0) {
-        dissipated_ += friction_ * step * step / (tick_ * static_cast<double>(since_[joint]));
+        dissipated_ += friction_ * step * step / since_[joint];
         since_[joint] = 0;
       }
     }
@@ -65,7 +77,7 @@ private:
   Torque_delay<double> delay_;
   double tick_, friction_, encoder_step_;
   double port_ = 0, credit_ = 0, dissipated_ = 0, least_ = 0, forgotten_ = 0;
-  std::array<std::uint64_t, 3> since_{}; ///< ticks, of each joint's last step
+  std::array<double, 3> since_{}; ///< s, since each joint's last step
 };
 
 } // namespace haptic_sculpt

@@ -22,18 +22,20 @@ struct Pose_loop_parameters {
   double reach = 0.001;                     ///< of a grab, m in the device
   std::size_t work_limit = 400;             ///< pairs a drag may decide (doc/use/work.md)
   std::size_t work_of_a_face = 4;           ///< pairs more for each face about the vertex in hand
+  /// For which the button has to be quiet before its next change counts, s (Debounced_button).
+  double button_quiet_time = Debounced_button::default_quiet_time;
 
   /// For a device that dissipates so much at its handle, N s/m: with the delay it bounds the stiffness.
-  explicit Pose_loop_parameters(double friction) { device.friction = friction; }
+  explicit Pose_loop_parameters(double friction) : Pose_loop_parameters(Pose_device(friction)) {}
+  explicit Pose_loop_parameters(const Pose_device& device) : device(device) {} ///< for a device
   /// For a device that gives no force, such as a mouse: nothing can swing, and ticks may come when they like.
-  static Pose_loop_parameters without_force() {
-    return Pose_loop_parameters(std::numeric_limits<double>::infinity());
-  }
+  static Pose_loop_parameters without_force() { return Pose_loop_parameters(Pose_device::without_force()); }
 
   bool has_force() const { return device.has_force(); } ///< whether the device gives any
   /// 2 (friction - |b|) / (T (1 + 2 d)), N/m: up to it no hand can be given energy. Infinite without force.
   double passive_stiffness() const {
-    return haptic_sculpt::passive_stiffness(device.friction, coupling.damping, tick, delay);
+    return has_force() ? haptic_sculpt::passive_stiffness(device.friction, coupling.damping, tick, delay)
+                       : std::numeric_limits<double>::infinity();
   }
   /// Beyond it steps of the position are felt, N/m. Infinite without force, or where it is exact.
   double calm_stiffness() const {
@@ -51,15 +53,12 @@ struct Pose_loop_parameters {
 
   /// As all loops have them. \throw Error naming what cannot be used
   Haptic_parameters checked() const {
-    if (has_force())
-      internal::require_number("Pose_device::friction", "N s/m", device.friction, 0, 1e5);
-    internal::require_number("Pose_device::mass, that of the handle,", "kg", device.mass, 1e-4, 100);
-    internal::require_number("Pose_device::resolution", "m", device.resolution, 0, 0.01);
+    device.check();
     Haptic_parameters all;
     all.tick = tick, all.delay = delay, all.coupling = coupling, all.snap = snap, all.limits = limits,
     all.reach = reach;
     all.work_limit = work_limit, all.work_of_a_face = work_of_a_face, all.controller_damping = controller_damping;
-    all.virtual_mass = virtual_mass;
+    all.virtual_mass = virtual_mass, all.button_quiet_time = button_quiet_time;
     all.watchdog.joint_rate = speed, all.watchdog.stall_time = stall_time;
     all.check();
     return all;

@@ -4,6 +4,7 @@
 #include <haptic_sculpt/haptic_rendering/Tool_step.h>
 #include <haptic_sculpt/haptic_rendering/exchange/Journaled_edits.h>
 #include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
+#include <haptic_sculpt/haptic_rendering/loop/require_number.h>
 
 namespace haptic_sculpt {
 
@@ -30,13 +31,16 @@ public:
   /// In free motion the offset of the target fades with this time, s.
   static constexpr double offset_time = 0.2;
 
-  /// \param reach of a grab, in the device, m
+  /// \param reach of a grab, in the device, m \param tick s \throw Error naming what cannot be used
   Tool(Sculptor& sculptor, const Workspace_map& map, double reach, double tick)
       : sculptor_(&sculptor)
       , map_(map)
       , reach_(reach)
       , offset_share_(std::exp(-tick / offset_time))
-      , mesh_edits_(sculptor) {}
+      , mesh_edits_(sculptor) {
+    internal::require_number("the reach of a Tool, that of a grab,", "m", reach, 0, 1);
+    internal::require_number("the tick of a Tool", "s", tick, 0, 1);
+  }
 
   /// One tick: the button first, then the drag. A tick in which a vertex is taken in hand or let go of drags nothing,
   /// and one that looks for a place of the probe tries one place, too: no tick has the work of two. Allocates nothing

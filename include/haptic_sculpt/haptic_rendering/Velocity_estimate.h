@@ -11,8 +11,8 @@ namespace haptic_sculpt {
 /// The handle's velocity from its steps: the finite difference behind a low-pass of first order, exact for a held
 /// input.
 ///
-/// At 100 Hz encoder steps are felt as 9 to 13 mN of ripple with b = 2 N s/m, and two thirds of the largest stable
-/// stiffness are left; without a low-pass it is 14 to 26 mN; at 30 Hz the loop is no longer stable.
+/// At 100 Hz encoder steps are felt as 9 to 13 mN of ripple with b = 2 N s/m; without a low-pass it is 14 to 26 mN, and
+/// at 30 Hz the damper comes so late that the loop swings.
 class Velocity_estimate {
 public:
   static constexpr double default_cutoff = 100; ///< Hz

@@ -49,6 +49,12 @@ public:
     return Workspace_map(scale, rotation_vector_, scene - scale * (rotation_ * (device - home_)), home_);
   }
 
+  /// The same numbers.
+  bool operator==(const Workspace_map& other) const {
+    return scale_ == other.scale_ && rotation_vector_ == other.rotation_vector_ && origin_ == other.origin_ &&
+           home_ == other.home_;
+  }
+
   double scale() const { return scale_; }                       ///< units of the scene a metre of the device
   const Eigen::Matrix3d& rotation() const { return rotation_; } ///< R: from axes of the device to those of the scene
   const Eigen::Vector3d& rotation_vector() const { return rotation_vector_; } ///< of R, as given, rad

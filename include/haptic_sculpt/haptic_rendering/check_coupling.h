@@ -40,15 +40,15 @@ inline void check_dynamics(double damping, double virtual_mass, double controlle
   check("damping of the passivity controller", "N s/m", controller, limits.largest_controller);
 }
 
-/// All of the above for a device of joints. \throw Unstable_coupling; Error for limits made for another device, tick,
-/// delay, damping or cutoff
+/// All of the above for a device of joints. \throw Unstable_coupling; Error for limits made for another device, map,
+/// tick, delay, damping, cutoff or fading
 inline void check_limits(const Passivity_limits& limits, const Device_parameters<double>& device,
-                         const Haptic_parameters& parameters) {
+                         const Workspace_map& map, const Haptic_parameters& parameters) {
   parameters.check();
-  if (!limits.are_for(device, parameters.coupling.damping, parameters.tick, parameters.delay,
+  if (!limits.are_for(device, parameters.limits, map, parameters.coupling.damping, parameters.tick, parameters.delay,
                       parameters.virtual_mass.cutoff))
-    throw Error("the limits of passivity were made for another device, tick, delay, damping or cutoff; make them anew "
-                "with passivity_limits()");
+    throw Error("the limits of passivity were made for another device, map, tick, delay, damping, cutoff or fading of "
+                "the force; make them anew with passivity_limits()");
   check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass, parameters.controller_damping.value_or(0),
                  limits);
   check_coupling(parameters.stiffest(), limits);

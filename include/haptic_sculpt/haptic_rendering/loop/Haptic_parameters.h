@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/haptic_rendering/Debounced_button.h>
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
 #include <haptic_sculpt/haptic_rendering/Vertex_snap.h>
 #include <haptic_sculpt/haptic_rendering/Virtual_mass.h>
@@ -25,7 +26,9 @@ struct Haptic_parameters {
   /// Where the device has less friction at its handle than the coupling needs, the force is less: beyond the scene as
   /// it was loaded. false: for measuring what a coupling that is not passive does.
   bool follows_pose = true;
-  double reach = 0.001;   ///< of a grab, m in the device
+  double reach = 0.001; ///< of a grab, m in the device
+  /// For which the button has to be quiet before its next change counts, s: contacts bounce. 0: all changes count.
+  double button_quiet_time = Debounced_button::default_quiet_time;
   std::size_t work_limit = 400;   ///< pairs a drag may decide (doc/use/work.md)
   /// Pairs more for each face about the vertex in hand, up to most_work_of_faces or one a face.
   std::size_t work_of_a_face = 4;
@@ -46,6 +49,7 @@ struct Haptic_parameters {
     internal::require_number("controller_damping, of the passivity controller,", "N s/m",
                              controller_damping.value_or(0), 0, 1e5);
     internal::require_number("reach, of a grab,", "m", reach, 0, 1);
+    internal::require_number("button_quiet_time", "s", button_quiet_time, 0, 1);
     internal::require_number("work_limit, of a drag,", "pairs", static_cast<double>(work_limit), 1, 1e15);
     internal::require_number("work_of_a_face, of a drag,", "pairs", static_cast<double>(work_of_a_face), 0, 1e6);
   }

@@ -4,6 +4,8 @@
 #include <haptic_sculpt/haptic_rendering/loop/Joint_side.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
 
+#include <utility>
+
 namespace haptic_sculpt {
 
 /// What a scene does to the hand in a tick, in axes of the device.
@@ -34,19 +36,23 @@ public:
       , stiffness_(parameters.stiffest().stiffness)
       , reserve_(reserve_of(parameters.limits))
       , watchdog_(limits_for(side, parameters.watchdog), parameters.tick, side.effort_limit())
-      , observer_(parameters.delay, parameters.tick, side.has_force() ? side.friction() : 0, side.resolution())
+      , observer_(parameters.delay, parameters.tick, side.friction(), side.resolution())
       , controller_(controller_damping, parameters.tick)
-      , virtual_mass_(parameters.virtual_mass, parameters.tick, parameters.delay) {
+      , virtual_mass_(parameters.virtual_mass, parameters.tick, parameters.delay)
+      , tick_(parameters.tick) {
     parameters.check();
   }
 
   /// Begins a tick. \return whether the reading may be used; false where there is a fault
   bool follow(const Reading& reading) {
-    elapsed_ = std::isfinite(reading.elapsed) ? reading.elapsed : 0;
+    // At the first reading, as everywhere, it does not count; one that is no time is a fault below.
+    const bool is_first = !std::exchange(has_last_, true);
+    elapsed_ = is_first || !std::isfinite(reading.elapsed) ? tick_ : reading.elapsed;
     if (!watchdog_.check(Side::coordinates(reading), Side::efforts(reading), reading.elapsed) ||
         !watchdog_.check_condition(side_.follow(reading, reading.elapsed)))
       return false;
-    observer_.add_step(side_.effort_step(), stiffness_, side_.step());
+    if (!is_first) // no step leads to where a loop begins
+      observer_.add_step(side_.effort_step(), stiffness_, side_.step(), elapsed_);
     if (side_.has_force() && observer_.is_active())
       watchdog_.report(Loop_fault::energy);
     return watchdog_.fault() == Loop_fault::none;
@@ -62,7 +68,8 @@ public:
     if (!touch.is_starved) // what the spring holds is not known then
       observer_.forget_beyond(reserve_ + (pulls ? 0.5 * stiffness_ * touch.way.squaredNorm() : 0));
     if (side_.has_force())
-      wanted_ += virtual_mass_.force(side_.step(), elapsed_, touch.holds) + controller_.force(observer_, side_.step());
+      wanted_ += virtual_mass_.force(side_.step(), elapsed_, touch.holds) +
+                 controller_.force(observer_, side_.step(), elapsed_);
     rendered_ = side_.render(wanted_, touch.is_starved ? 0 : side_.step().norm());
     if (rendered_.is_overloaded)
       watchdog_.report(Loop_fault::torque);
@@ -99,7 +106,7 @@ public:
     if (watchdog_.fault() == Loop_fault::energy)
       observer_.restart();
     watchdog_.reset(), side_.restart(), virtual_mass_.restart();
-    spring_.setZero(), rendered_ = Rendered_force(), is_paid_ = false;
+    spring_.setZero(), rendered_ = Rendered_force(), is_paid_ = false, has_last_ = false;
   }
 
 private:
@@ -113,8 +120,9 @@ private:
   Virtual_mass virtual_mass_;
   Eigen::Vector3d spring_ = Eigen::Vector3d::Zero(), wanted_ = Eigen::Vector3d::Zero();
   Rendered_force rendered_;
-  double elapsed_ = 0;
-  bool is_paid_ = false; ///< the spring has been whole ever since nothing was touched
+  double tick_, elapsed_ = 0; ///< s
+  bool has_last_ = false; ///< a reading, since the last restart()
+  bool is_paid_ = false;  ///< the spring has been whole ever since nothing was touched
 
   /// The share of the spring that is rendered. Where it gets stiffer while a hand presses it, under a ramp, or is back
   /// after work was cut short, nobody has put in what it holds: it holds no more than hand and friction have paid then,

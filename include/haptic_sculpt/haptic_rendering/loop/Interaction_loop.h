@@ -108,7 +108,8 @@ protected:
       , parameters_(parameters)
       , map_(map)
       , interaction_(side, parameters, parameters.controller_damping.value_or(controller))
-      , tool_(sculptor, map, parameters.reach, parameters.tick) {
+      , tool_(sculptor, map, parameters.reach, parameters.tick)
+      , button_(parameters.button_quiet_time) {
     parameters_.controller_damping = parameters.controller_damping.value_or(controller);
   }
 
@@ -118,6 +119,7 @@ private:
   Workspace_map map_;
   Interaction<Side> interaction_;
   Tool<Sculptor> tool_;
+  Debounced_button button_;
   Haptic_tick tick_;
   std::array<char, 256> failure_{};
   bool is_clutch_open_ = false, is_map_due_ = false, has_place_ = false;
@@ -128,6 +130,7 @@ private:
     if (!interaction_.follow(reading))
       return;
     const Eigen::Vector3d handle = interaction_.side().position();
+    const int button = button_.next(reading.button, reading.elapsed);
     if (is_clutch_open_) {
       tick_.tool = Tool_step();
       tick_.tool.target = tick_.tool.proxy = has_place_ ? place_ : map_.to_scene(handle);
@@ -139,7 +142,7 @@ private:
       tool_.change_map(map_);
       zoom_ = 1, is_map_due_ = false;
     }
-    tick_.tool = tool_.move(handle, reading.button, Drag_parameters(sculptor_->parameters().drag).work_limit(work()));
+    tick_.tool = tool_.move(handle, button, Drag_parameters(sculptor_->parameters().drag).work_limit(work()));
     const Tool_step& tool = tick_.tool;
     place_ = tool.proxy, has_place_ = true;
     if (tool.event == Tool_event::refused)

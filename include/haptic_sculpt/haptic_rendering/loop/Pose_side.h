@@ -7,12 +7,31 @@
 namespace haptic_sculpt {
 
 /// What a device of pose and force does at its handle.
-struct Pose_device {
-  double friction = 0;   ///< dissipated at the handle, N s/m; infinite: the device has no force
+class Pose_device {
+public:
+  double friction;       ///< dissipated at the handle, N s/m; nobody else knows it, so it has no default
   double mass = 0.05;    ///< of the free handle, kg
   double resolution = 0; ///< of a position, m; 0: exact
 
-  bool has_force() const { return friction != std::numeric_limits<double>::infinity(); } ///< NaN is not taken for none
+  /// \param friction N s/m
+  explicit Pose_device(double friction) : friction(friction) {}
+  /// A device that gives no force, such as a mouse.
+  static Pose_device without_force() {
+    Pose_device device(0);
+    device.has_force_ = false;
+    return device;
+  }
+  bool has_force() const { return has_force_; } ///< false: it is without_force()
+
+  /// \throw Error naming what no device has
+  void check() const {
+    internal::require_number("Pose_device::friction", "N s/m", friction, 0, 1e5);
+    internal::require_number("Pose_device::mass, that of the handle,", "kg", mass, 1e-4, 100);
+    internal::require_number("Pose_device::resolution", "m", resolution, 0, 0.01);
+  }
+
+private:
+  bool has_force_ = true;
 };
 
 /// A loop's side towards a device of pose and force (Interaction; Joint_side is the one of joints).
@@ -24,7 +43,9 @@ public:
   Pose_side(const Pose_device& device, const Haptic_parameters& parameters)
       : device_(device)
       , chain_(parameters.limits, parameters.stiffest(), parameters.tick)
-      , velocity_(parameters.tick) {}
+      , velocity_(parameters.tick) {
+    device.check();
+  }
 
   /// \name What a reading says
   ///@{
