@@ -16,7 +16,7 @@ import shutil
 import subprocess
 import tempfile
 
-from program_runs import FURTHER as LOOP, SCULPT, SOURCE, bytes_of, check, end, surface, up_to_last_tick
+from program_runs import FURTHER as LOOP, SCULPT, SOURCE, bytes_of, check, end, failing_calls, surface, up_to_last_tick
 
 MOST = os.environ.get("HAPTIC_SCULPT_FAILING_CALLS", "12")
 SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "1"))
@@ -144,7 +144,6 @@ def main():
 SCRIPT = "".join(f"drag {v} {0.01 * v} 0.2 0.1\n" for v in range(0, 60, 3)) + "stroke\ninsert_face 0 1 2 0.1 0.1 0.1\nremove 7\nend\nundo\nredo\nflip 3 4\ncollapse 5 6\n"
 
 with tempfile.TemporaryDirectory() as shim_folder:
-    SHIM = f"{shim_folder}/failing_calls.so"
-    subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-o", SHIM, f"{os.path.dirname(os.path.abspath(__file__))}/failing_calls.c", "-ldl"], check=True)
+    SHIM = failing_calls(shim_folder)
     main()
 end()

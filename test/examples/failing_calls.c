@@ -6,16 +6,25 @@
  * FAILING_MORE   1: so do all after it
  * FAILING_COUNT  a file that the number of calls is written to at the end
  *
+ * Or the process sends itself a signal within a write:
+ *
+ * FAILING_SIGNAL  which signal
+ * FAILING_WRITE   within which write, from 1
+ * FAILING_START   only those count whose bytes begin so
+ * FAILING_SHARE   of its bytes this many thousandths are written before
+ *
  * A failing write of more than a byte has written half before, as a full disk does; the next fails then.
  * Calls on the standard streams do not count. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -48,10 +57,25 @@ __attribute__((destructor)) static void tell(void) {
     close(file);
 }
 
+/* Whether the signal comes within this write. */
+static int is_interrupted(const void *bytes, size_t size) {
+  static atomic_long writes;
+  const long n = number("FAILING_WRITE");
+  const char *start = getenv("FAILING_START");
+  if (n == 0 || (start && (size < strlen(start) || memcmp(bytes, start, strlen(start)) != 0)))
+    return 0;
+  return atomic_fetch_add(&writes, 1) + 1 == n;
+}
+
 ssize_t write(int file, const void *bytes, size_t size) {
   static _Thread_local int is_short; /* half of a write has been made, and the rest is to fail */
   if (file <= 2)
     return REAL(write)(file, bytes, size);
+  if (is_interrupted(bytes, size)) {
+    const ssize_t part = REAL(write)(file, bytes, size * (size_t)number("FAILING_SHARE") / 1000);
+    raise((int)number("FAILING_SIGNAL"));
+    return part; /* the caller goes on with the rest */
+  }
   if (is_short) {
     is_short = 0;
     errno = (int)number("FAILING_ERROR");

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """kill -9, and other signals, while `sculpt` edits and logs, with options, directives, strokes, brushes and batches
-mixed in; the same command goes on until it is through, and then another script on the same log.
+mixed in; the same command goes on until it is through, and then another script on the same log. One of three kills falls within the
+write of a line or of a batch, and some have to leave a part of it. A second program that wants the log while the first is stopped
+within a write is refused.
 
 Whenever it is killed, its log is the beginning of the log of a run that is not killed, byte for byte; replayed, it gives what its lines
 give as a script; a stroke it was killed in is taken back by one undo; and in the end log and result are those of the run that is not
@@ -13,7 +15,8 @@ import subprocess
 import tempfile
 import time
 
-from program_runs import SCULPT, SOURCE, before_open_stroke, bytes_of, check, end, run, surface, whole_edits, write
+from program_runs import (SCULPT, SOURCE, before_open_stroke, bytes_of, check, end, failing_calls, fails, run, surface,
+                          whole_edits, write)
 
 MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
 KILLS = int(os.environ.get("HAPTIC_SCULPT_KILLS", "12"))
@@ -44,7 +47,7 @@ def random_script(rng, lines):
         kind = rng.choice(["grab", "inflate", "smooth", "flatten", "pinch"])
         return f"brush {kind} {near(rng.randrange(vertices))} {rng.uniform(0.1, 0.5)} {rng.uniform(-0.1, 0.1)}"
 
-    script = []
+    script = [batch() + "\n", batch() + "\n"]
     for _ in range(lines):
         face, v = rng.choice(corners), rng.randrange(vertices + 50)
         script.append(rng.choices(
@@ -73,9 +76,39 @@ def undo_gives(folder, left, lines, before):
     return True
 
 
+def within_a_write(rng, sound, left, name, is_batch):
+    """The environment in which the program sends itself the signal of that name within a write to the log: of a batch, where
+    one is still to come, or of any line."""
+    to_come = sound[len(left):]
+    batches, lines = to_come.count(b"\nshift "), to_come.count(b"\n")
+    is_batch = is_batch and batches > 0
+    # A batch has seven lines or fewer; with less than 3 tenths of it not even the first is whole.
+    return {**os.environ, "LD_PRELOAD": SHIM, "FAILING_SIGNAL": str(int(name)), "FAILING_START": "shift " if is_batch else "",
+            "FAILING_WRITE": str(rng.randint(1, batches if is_batch else 1 + lines // 8)),
+            "FAILING_SHARE": str(rng.randint(300, 900))}
+
+
+def refuse_a_second(rng, folder, script):
+    """One is stopped within a write; another that wants its log is refused, and nothing of the log is lost."""
+    log, alone = f"{folder}/both.log", f"{folder}/alone.log"
+    check(run(MESH, "--script", script, "--log", alone).returncode == 0, "a run alone")
+    first = subprocess.Popen([SCULPT, MESH, "--script", script, "--log", log], stdout=subprocess.DEVNULL,
+                             stderr=subprocess.DEVNULL, env=within_a_write(rng, bytes_of(alone), b"", signal.SIGSTOP, True))
+    _, status = os.waitpid(first.pid, os.WUNTRACED)
+    check(os.WIFSTOPPED(status), "the first program is not stopped within a write")
+    if os.WIFSTOPPED(status):
+        left = bytes_of(log)
+        for arguments in ([], ["--script", script]):
+            fails(5, ["in use"], run(MESH, "--log", log, *arguments), "a second program on the log")
+        check(bytes_of(log) == left, "the second program has changed the log of the first")
+        first.send_signal(signal.SIGCONT)
+        check(first.wait() == 0, "the first program does not come through")
+    check(bytes_of(log) == bytes_of(alone), "the log of the first is not as it is alone")
+
+
 class Killed:
     """Counts what was killed."""
-    kills = runs = within_a_line = within_a_batch = within_strokes = strokes_undone = before_log = complete = 0
+    aimed = kills = runs = within_a_line = within_a_batch = within_strokes = strokes_undone = before_log = complete = 0
 
 
 def kill(rng, folder, script, options, log, whole, counts):
@@ -92,10 +125,15 @@ def kill(rng, folder, script, options, log, whole, counts):
     sound, result = bytes_of(whole), bytes_of(expected)
     where = f"(seed {SEED}, kill {counts.kills})"
     for attempt in range(12):
+        is_killed, environment = attempt < 11 and counts.kills < KILLS, None
+        if is_killed and counts.kills % 3 == 0:
+            left = bytes_of(log) if os.path.exists(log) else b""
+            environment = within_a_write(rng, sound, left, signal.SIGKILL, counts.aimed % 2 == 0)
         process = subprocess.Popen([SCULPT, MESH, "--script", script, "--log", log, "-o", out, *options],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
         counts.runs += 1
-        if attempt < 11 and counts.kills < KILLS:
+        counts.aimed += environment is not None
+        if is_killed and environment is None:
             # Often near the end, where the results are written.
             time.sleep(takes * (rng.uniform(0.85, 1.02) if rng.random() < 0.3 else rng.uniform(0, 1)))
             process.send_signal(rng.choice(SIGNALS))
@@ -143,10 +181,15 @@ def main():
             for turn, options in enumerate((random_options(rng), [])):
                 script = write(f"{folder}/edits_{turn}.script", random_script(rng, rng.choice([30, 300, 1000])))
                 kill(rng, folder, script, options, log, whole, counts)
+        refuse_a_second(rng, folder, write(f"{folder}/both.script", random_script(rng, 300)))
+    check(counts.within_a_line > 0, f"of {counts.aimed} kills aimed at it none fell within a line")
+    check(counts.within_a_batch > 0, f"of {counts.aimed} kills aimed at it none fell within a batch")
     print(f"killed {counts.kills} times in {counts.runs} runs, {counts.before_log} before the log was begun, "
           f"{counts.complete} when it was complete, {counts.within_a_line} within a line, {counts.within_a_batch} within "
           f"a batch, {counts.within_strokes} within a stroke, of which {counts.strokes_undone} with edits in it were undone")
-    end()
 
 
-main()
+with tempfile.TemporaryDirectory() as shim_folder:
+    SHIM = failing_calls(shim_folder)
+    main()
+end()

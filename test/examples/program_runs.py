@@ -100,6 +100,14 @@ def write(path, contents):
     return path
 
 
+def failing_calls(folder):
+    """The library of failing_calls.c, built there."""
+    library = os.path.join(folder, "failing_calls.so")
+    source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "failing_calls.c")
+    subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-o", library, source, "-ldl"], check=True)
+    return library
+
+
 def sha256(path):
     return hashlib.sha256(bytes_of(path)).hexdigest()
 

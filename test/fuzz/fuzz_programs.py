@@ -54,18 +54,23 @@ def options_of(program):
         head = re.split(r" {2,}", rest.strip())[0] if rest.startswith(" ") and not rest.startswith("   ") else ""
         choices = re.search(r"\{([^}]*)\}", head)
         count = re.search(r" x (\d+)", head)
-        kind = re.match(r"(TEXT|FLOAT|UINT|INT|[A-Z])", head)
+        kind = re.match(r"(TEXT|FLOAT|UINT|INT|[A-Z]\b)", head)
         letters = re.match(r"((?:[A-Z] )*[A-Z])(?: |$)", head)
         values = int(count.group(1)) if count else len(letters.group(1).split()) if letters else 1 if kind else 0
         needs = re.search(r"Needs: ((?:--[\w-]+ ?)+)", head)
         options.append(Option(name, values, choices.group(1).split(",") if choices else [], needs.group(1).split() if needs else []))
     exits = text[text.index("Exit:"):] if "Exit:" in text else ""
-    codes = {int(code) for code in re.findall(r"(?:[ ,]|^)(\d+) [a-z]", exits.split("\n")[0])} | {0, 2}
+    named = {int(code) for code in re.findall(r"Exit code (\d+)", text)}
+    codes = named | {int(code) for code in re.findall(r"(?:[ ,]|^)(\d+) [a-z]", exits.split("\n")[0])} | {0, 2}
+    if not exits:  # a benchmark that ends, on wrong use, with the codes of CLI11
+        codes |= set(range(100, 116))
     return options, codes - {FAULT_OF_THE_PROGRAM}, re.search(r"\n *MESH", text) is not None
 
 
 class Draw:
     """One run, from its own random numbers."""
+
+    program = ""  # that these are for
 
     def __init__(self, seed, number, folder, corpus):
         self.random = random.Random(f"{seed}/{number}")
@@ -130,6 +135,8 @@ class Draw:
     def path(self, option, is_good):
         r = self.random
         reads, writes = READ.get(option), WRITTEN.get(option)
+        if self.program == "sculpt_window" and option in ("--script", "--record"):
+            reads, writes = (".window-script", None) if option == "--script" else (None, ".window-script")
         if reads and (is_good or r.random() < 0.8):
             return self.file(reads, "in" + option.strip("-"), not is_good)
         good = os.path.join(self.folder, "out" + option.strip("-") + (writes or ".log"))
@@ -147,9 +154,19 @@ class Draw:
         return self.number() if r.random() < 0.9 else self.text()
 
 
+# Options that a benchmark gets where none were drawn, so that a run takes seconds.
+SMALLEST = {
+    "axis_speed_error": {"--queries": "1"}, "sweep_speed_error": {"--queries": "1"},
+    "drag_speed_error": {"--drags": "1"},
+    "edit_performance": {"--samples": "2", "--largest": "1000", "--largest-valence": "4"},
+    "hand_drags": {"--level": "2", "--drags": "2"},
+    "robustness": {"--drags": "2", "--drags-on-large": "0", "--edits": "2", "--edits-on-large": "0"},
+}
+USUAL = {"sculpt": ["--script", "--output", "--report"], "haptic_loop": ["--output", "--no-wait", "--report"],
+         "sculpt_window": ["--script", "--screenshot", "--no-log"]}
 READ = {"--script": ".script", "--hand": ".json", "--device": ".json", "--path": ".csv", "--replay": ".rec"}
 WRITTEN = {"--output": ".off", "--report": ".json", "--repair-report": ".json", "--picture": ".png", "--compare": ".png", "--record": ".rec",
-           "--trace": ".csv"}
+           "--trace": ".csv", "--json": ".json", "--screenshot": ".png"}
 
 
 def limits():
@@ -208,6 +225,12 @@ def corpus_of(programs, source, folder):
     small = {"tetrahedron.off": "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n",
              "hand.json": '{"mass": [0, 0.2], "stiffness": [2000, 300], "damping": [2, 3]}', "named.json": '{"name": "finger"}',
              "device.json": '{"form": "general", "params": {"R": 0.06, "l1": 0.1, "l2": 0.12, "r": 0.03, "m1": 0.1, "m2": 0.1, "M": 0.1, "g": 9.81}}',
+             "small.window-script": "brush inflate 0.3 0.1\ndrag 300 300 320 310 3\nkey u\ntool create\n"
+                                    "click 300 280\nquit\n",
+             "some.queries": "VF 0.25 0.25 1 0.25 0.25 -2 0 0 0 1 0 0 0 1 0\n"
+                             "EE 0 0 1 0x1p0 0 -1 1 1 0 0 1 0.25 1 0 0.25\n"
+                             "FV 0 0 1 0 0 -1 1 0 1 0 1 1 0.375 0.375 0\n# none\n"
+                             "AX VF 2 0 0 1 0 0 0 1 0 0 0 1 0 -1 0 0 0\n",
              "all.script": "drag 0 0.5 0.5 0.5\ninsert_face 0 1 2 0.2 0.2 0.2\nundo\nredo\nbrush inflate 0 0 0 1 0.1\nremesh 0.3\nstroke\nremove 1\nend\n"
                            "flip 0 1\ncollapse 0 1\ndelta 1e-6\nclearance 1e-9\nresponse stop\n"}
     for name, text in small.items():
@@ -229,7 +252,15 @@ def main():
     parser.add_argument("--first", type=int, default=0, help="begin with this run")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", metavar="FOLDER", help="where the files of runs with faults are kept")
+    parser.add_argument("--display", action="store_true", help="open one without a screen (Xvfb) for sculpt_window; "
+                        "else it refuses to make a window, and its command line is tried only")
     arguments = parser.parse_args()
+    os.environ.pop("DISPLAY", None)
+    if arguments.display:
+        sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples"))
+        from virtual_display import Display
+        display = Display()  # ends with this script
+        os.environ["DISPLAY"] = display.name
     programs = {os.path.basename(path): os.path.abspath(path) for path in arguments.programs}
     for name in ("sculpt", "haptic_loop"):
         if name not in programs:
@@ -249,14 +280,17 @@ def main():
                 command = [programs[name]]
                 if takes_mesh and r.random() < 0.95:
                     command.append(draw.file(".off", "mesh", r.random() < 0.3))
-                usual = {"sculpt": ["--script", "--output", "--report"], "haptic_loop": ["--output", "--no-wait", "--report"]}.get(name, [])
-                usual = {"sculpt": ["--script", "--output", "--report"], "haptic_loop": ["--output", "--no-wait", "--report"]}.get(name, [])
+                draw.program, usual = name, USUAL.get(name, [])
+                if name == "sweep_queries" and r.random() < 0.95:
+                    command.append(draw.file(".queries", "in", r.random() < 0.8))
                 chosen = {o.name for o in options if (o.name in usual and r.random() < 0.8) or r.random() < r.choice([0, 0, 0.05, 0.2])}
                 chosen |= {need for o in options if o.name in chosen and r.random() < 0.9 for need in o.needs}
                 chosen = [o for o in options if o.name in chosen]
                 spoiled = r.sample(range(len(chosen)), min(len(chosen), r.choice([0, 1, 1, 2])))
                 for k, option in enumerate(chosen):
                     command += [option.name, *(draw.value(option.name, option.choices, k not in spoiled) for _ in range(option.values))]
+                for option, value in SMALLEST.get(name, {}).items():
+                    command += [option, value] if option not in command else []
                 if name == "haptic_loop" and "--seconds" not in command:
                     command += ["--seconds", "0.1"]
                 stdin = draw.damaged(b'{"op": "forward", "theta": [0.1, 0.2, 0.3]}\n' * 3) if name == "device_calculator" else b""
