@@ -39,6 +39,11 @@ class Finding:
     figure: str = ""  # a data address
     alternative: str = ""  # what the figure shows, in words
     tables: list = field(default_factory=list)
+    picture: str = ""  # its name among the manual's pictures, where it is one of them
+
+
+PICTURES = {}  # of each figure, by its data address, what a file needs; only where they are asked for
+has_pictures = False
 
 
 def axes(width=7.2, height=4.0):
@@ -52,8 +57,13 @@ def data_address(figure):
     """The figure as it stands in the page, so that the page is one file."""
     file = io.BytesIO()
     figure.savefig(file, format="svg", bbox_inches="tight", metadata={"Date": None})
+    address = "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
+    if has_pictures:
+        png = io.BytesIO()
+        figure.savefig(png, format="png", bbox_inches="tight", dpi=110, metadata={"Software": None})
+        PICTURES[address] = png.getvalue()
     plt.close(figure)
-    return "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
+    return address
 
 
 def seconds_text(seconds):
