@@ -140,11 +140,14 @@ def heights_of(series):
     return [y for points in list(series.values())[:MOST_SERIES] for _, y in points if y > 0]
 
 
-def lines(series, x_label, y_label, times=True):
-    """\\param series {name: [(x, y), ...]}, ours first. Both axes are logarithmic."""
+def lines(series, x_label, y_label, times=True, ticks=()):
+    """\\param series {name: [(x, y), ...]}, ours first. Both axes are logarithmic. \\param ticks places on x that are named"""
     figure, one = axes()
     one.set_ylabel(y_label)
     draw_lines(one, series, x_label, heights_of(series), times)
+    if ticks:
+        one.set_xticks(ticks, [f"{x:g}" for x in ticks])
+        one.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
     return data_address(figure)
 
 
