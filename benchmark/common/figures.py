@@ -39,6 +39,11 @@ class Finding:
     figure: str = ""  # a data address
     alternative: str = ""  # what the figure shows, in words
     tables: list = field(default_factory=list)
+    picture: str = ""  # its name among the manual's pictures, where it is one of them
+
+
+PICTURES = {}  # of each figure, by its data address, what a file needs; only where they are asked for
+has_pictures = False
 
 
 def axes(width=7.2, height=4.0):
@@ -52,8 +57,13 @@ def data_address(figure):
     """The figure as it stands in the page, so that the page is one file."""
     file = io.BytesIO()
     figure.savefig(file, format="svg", bbox_inches="tight", metadata={"Date": None})
+    address = "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
+    if has_pictures:
+        png = io.BytesIO()
+        figure.savefig(png, format="png", bbox_inches="tight", dpi=110, metadata={"Software": None})
+        PICTURES[address] = png.getvalue()
     plt.close(figure)
-    return "data:image/svg+xml;base64," + base64.b64encode(file.getvalue()).decode()
+    return address
 
 
 def seconds_text(seconds):
@@ -130,11 +140,14 @@ def heights_of(series):
     return [y for points in list(series.values())[:MOST_SERIES] for _, y in points if y > 0]
 
 
-def lines(series, x_label, y_label, times=True):
-    """\\param series {name: [(x, y), ...]}, ours first. Both axes are logarithmic."""
+def lines(series, x_label, y_label, times=True, ticks=()):
+    """\\param series {name: [(x, y), ...]}, ours first. Both axes are logarithmic. \\param ticks places on x that are named"""
     figure, one = axes()
     one.set_ylabel(y_label)
     draw_lines(one, series, x_label, heights_of(series), times)
+    if ticks:
+        one.set_xticks(ticks, [f"{x:g}" for x in ticks])
+        one.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
     return data_address(figure)
 
 

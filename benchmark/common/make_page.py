@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes FOLDER/index.html of the reports in a folder of results: make_page.py FOLDER [--answers FILE ...]
+"""Makes FOLDER/index.html of the reports in a folder of results: make_page.py FOLDER [--answers FILE ...] [--pictures FOLDER]
 
 One file: figures are in it, nothing is fetched. Of each part the headline comes first; tables are behind. `--answers`
-adds what other programs have answered to the queries of sweep_speed_error --write-queries.
+adds what other programs have answered to the queries of sweep_speed_error --write-queries. `--pictures` writes those
+figures that the manual shows as files, too: its pictures are the page's own.
 """
 import argparse
 import importlib.util
@@ -12,6 +13,8 @@ import sys
 
 import jinja2
 
+import failing_cases
+import figures
 import results
 import steps
 
@@ -59,13 +62,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--answers", type=pathlib.Path, action="append", default=[])
+    parser.add_argument("--pictures", type=pathlib.Path)
     options = parser.parse_args()
+    figures.has_pictures = options.pictures is not None
     reports = results.reports(options.folder)
     run = results.circumstances(options.folder)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True, trim_blocks=True, lstrip_blocks=True)
     parts = [(part, TITLES[part], findings(part, reports, options.answers)) for part in steps.PARTS]
+    for finding in (f for _, _, found in parts for f in found if options.pictures and f.picture and f.figure):
+        (options.pictures / f"{finding.picture}.png").write_bytes(figures.PICTURES[finding.figure])
+        print("picture:", options.pictures / f"{finding.picture}.png")
     page = environment.get_template("page.html.jinja").render(
         run=run, parts=parts, steps=rows_of_steps(options.folder, run["steps"]), broken=results.broken_promises(options.folder),
+        failures=failing_cases.rows(options.folder, run["steps"]),
         promises=sum(len(r.get("promises", [])) for r in reports.values()))
     target = options.folder / "index.html"
     target.with_suffix(".new").write_text(page)

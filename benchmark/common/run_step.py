@@ -4,7 +4,7 @@
 
 The report appears when it is whole. Beside it go FILE.log, what the program printed, and FILE.note, the command and how
 it went. A broken promise is a result; a program that dies is named in FILE.failed, with the command that repeats it.
-Exit: 0 there is a report, 1 there is none.
+Exit: 0 there is a report, 1 there is none, 3 by `--unless-it-fits` alone.
 """
 import argparse
 import json
@@ -13,6 +13,7 @@ import pathlib
 import platform
 import resource
 import shlex
+import shutil
 import subprocess
 import sys
 import time
@@ -53,6 +54,7 @@ def main():
     parser.add_argument("--repair", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=0, help="for all shards of the step together; 0: no bound")
+    parser.add_argument("--unless-it-fits", action="store_true", help="do no more than write the report of a shard whose minutes are used up; exit 3 where they are not")
     options = parser.parse_args()
     step = steps.all_steps()[options.step]
     minutes = step.effort(options.mode).minutes
@@ -61,11 +63,14 @@ def main():
     if minutes <= 0:
         write_report(options.json, {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"not begun: {options.minutes:g} minutes of the step are used up"})
         return 0
+    if options.unless_it_fits:
+        return 3
     unfinished = options.json.with_suffix(".unfinished")
     unfinished.unlink(missing_ok=True)
     words, extra = steps.command_of(step, options.mode, options.shard, options.shards, options.build, options.meshes, options.seed,
                                     str(unfinished), options.repair)
     shown = " ".join([*(f"{k}={v}" for k, v in extra.items()), shlex.join(words)])
+    shutil.rmtree(steps.dump_folder(step.name, options.shard, options.shards), ignore_errors=True)  # of an earlier try
     begin = time.time()
     with open(options.json.with_suffix(".log"), "wb") as log:
         try:
@@ -94,7 +99,7 @@ def main():
         print(f"{options.step}, shard {options.shard}/{options.shards}, {told(code)}; alone: {shown}", file=sys.stderr)
         return 1
     attempts = 1 + (len(failed.read_text().splitlines()) if failed.exists() else 0)
-    note = {"command": shown, "seconds": round(seconds, 1), "cpu_seconds": round(sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]), 1),
+    note = {"command": shown, "seconds": round(seconds, 3), "cpu_seconds": round(sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]), 1),
             "peak_megabytes": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024, "host": platform.node(), "attempts": attempts,
             "exit": code}
     options.json.with_suffix(".note").write_text(json.dumps(note, indent=1) + "\n")

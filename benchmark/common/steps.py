@@ -12,7 +12,7 @@ MODES = ("tiny", "quick", "full")
 @dataclass(frozen=True)
 class Effort:
     """How much of a step a mode runs."""
-    options: str = ""  # of the program; {seed} and {meshes} are put in
+    options: str = ""  # of the program; {seed}, {meshes} and {dump}, a folder for failing cases, are put in
     minutes: float = 10  # of one shard; what takes longer is ended, and listed as what did not fit
     shards: int = 1
     memory: int = 2000  # MB of one shard
@@ -56,13 +56,18 @@ def chosen_steps(mode, names):
     return [s for s in chosen if not names or s.name in names or s.part in names]
 
 
+def dump_folder(name, shard, shards):
+    """Where a shard writes its failing cases, in the folder of the results."""
+    return f"failures/{name}/{shard}_of_{shards}"
+
+
 def command_of(step, mode, shard, shards, build, meshes, seed, json, repair=False):
     """(words, environment) of one shard."""
     effort = step.effort(mode)
     words = [str(pathlib.Path(build) / step.folder / step.program)]
     options = effort.options + (" " + step.with_meshes if meshes and step.with_meshes else "")
     options += " " + step.with_repair if meshes and repair else ""
-    words += options.format(seed=seed, meshes=meshes).split()
+    words += options.format(seed=seed, meshes=meshes, dump=dump_folder(step.name, shard, shards)).split()
     environment = {name: value.format(seed_of_shard=seed * 1000 + shard, share=-(-step.count.get(mode, 0) // shards))
                    for name, value in step.environment.items()}
     if not step.promise:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the page says of performance."""
-from figures import Finding, Table, lines, seconds_text, two_panels
+from figures import Finding, Table, lines, seconds_text, speed_error, two_panels
 
 
 def row_times(report, **wanted):
@@ -27,7 +27,7 @@ def drags(report):
     growth = seconds / inside[0][1]
     found = [Finding("drags", f"A further step of a drag takes {seconds_text(seconds)} on {size:,} triangles, {growth:.2g} times what it takes on {inside[0][0]:,}.",
                      seconds_text(seconds), f"median of a step of 0.1 edges, {size:,} triangles",
-                     lines(series, "triangles", "median time"), "Time of drags against triangles, ours and with other structures", [table])]
+                     lines(series, "triangles", "median time"), "Time of drags against triangles, ours and with other structures", [table], picture="drag_performance")]
     found += valences(report)
     found += memory(report)
     return found
@@ -50,7 +50,7 @@ def valences(report):
                    for r in report["rows"] if "median_ns" in r and "valence" in r])
     return [Finding("drags", f"A vertex of valence {first[-1][0]:,} is dragged in {seconds_text(first[-1][1])}{said}. The paper expected linear cost in triangles and exponential cost in valence.",
                     seconds_text(first[-1][1]), f"median, valence {first[-1][0]:,}", two_panels((sizes, "triangles"), (series, "valence"), "median time of a drag"),
-                    "The paper's two claims of cost: time of a drag against triangles, and against valence", [table])]
+                    "The paper's two claims of cost: time of a drag against triangles, and against valence", [table], picture="drag_valences")]
 
 
 def memory(report):
@@ -80,7 +80,7 @@ def edits(report):
                    for s in report["sizes"] + report["valences"] for e in s["edits"]])
     return [Finding("edits", f"On {last['triangles']:,} triangles the slowest edit, {slowest['edit']}, takes {seconds_text(slowest['ns']['p50'] * 1e-9)}.",
                     seconds_text(slowest["ns"]["p50"] * 1e-9), f"median, {slowest['edit']}", lines(series, "triangles", "median time"),
-                    "Time of edits against triangles", [table])]
+                    "Time of edits against triangles", [table], picture="edit_cost")]
 
 
 def hand(report):
@@ -123,4 +123,32 @@ def validation(report):
                     "Time of validation against triangles", [table])]
 
 
-CHARTS = {"drags": drags, "edits": edits, "hand": hand, "ticks": ticks, "validation": validation}
+def dabs(report):
+    """Time of a dab against the share of the way that its vertices do not go, by brush."""
+    rows = report["rows"]
+    slowest = max(rows, key=lambda r: r["ms_p50"])
+    points = [(r["brush"], r["ms_p50"] * 1e-3, max(0, 1 - r["share_of_the_way"])) for r in rows]
+    table = Table("Dabs with each brush", ["brush", "dabs", "vertices, median", "median", "p99", "longest", "of the way", "valid"],
+                  [[r["brush"], f"{r['dabs']:,}", f"{r['vertices_p50']:,.0f}", *(seconds_text(r[f"ms_{q}"] * 1e-3) for q in ("p50", "p99", "max")),
+                    f"{100 * r['share_of_the_way']:.4g} %", "yes" if r["is_valid"] else "no"] for r in rows])
+    return [Finding("dabs", f"Of the brushes {slowest['brush']} is the slowest: {seconds_text(slowest['ms_p50'] * 1e-3)} in the median for a dab of {slowest['vertices_p50']:,.0f} "
+                    f"vertices on {report['triangles']:,} triangles.", seconds_text(slowest["ms_p50"] * 1e-3), f"median of a dab with {slowest['brush']}",
+                    speed_error(points, "share of the way not gone", "median time of a dab"), "Time of a dab against the way not gone, by brush", [table])]
+
+
+def threads(report):
+    """By the clock: what more threads save."""
+    rows = report["rows"]
+    names = {"shift_s": "all along one axis", "held_back_s": "moved, most held back", "validate_s": "validation"}
+    series = {name: [(r["threads"], r[key]) for r in rows if r["threads"] > 0] for key, name in names.items()}
+    table = Table("With several threads", ["threads", *names.values(), "same bits"],
+                  [[r["threads"] or "none", *(seconds_text(r[key]) for key in names), "yes" if r["same_bits"] else "no"] for r in rows])
+    most = max(rows, key=lambda r: r["threads"])
+    alone = next((r for r in rows if r["threads"] == 1), most)
+    ratio = alone["shift_s"] / most["shift_s"]
+    return [Finding("threads", f"With {most['threads']} threads all {report['triangles']:,} triangles move along one axis in {seconds_text(most['shift_s'])}, {ratio:.2g} times as fast as with one; "
+                    f"{'the bits are the same' if all(r['same_bits'] for r in rows) else 'the bits differ'}.", f"{ratio:.2g}×", f"as fast, {most['threads']} threads for one",
+                    lines(series, "threads", "time by the clock", ticks=[r["threads"] for r in rows if r["threads"] > 0]) if any(series.values()) else "", "Time against the number of threads", [table])]
+
+
+CHARTS = {"drags": drags, "edits": edits, "hand": hand, "ticks": ticks, "dabs": dabs, "validation": validation, "threads": threads}

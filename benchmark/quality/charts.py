@@ -4,12 +4,14 @@ from figures import Finding, Table, lines, power_text, seconds_text, speed_error
 
 
 def of_arithmetics(populations, names, queries, error):
-    """[(short name, mean seconds, error)] over populations; \\param names {in the report: in the figure}"""
+    """[(short name, mean of the medians in seconds, error)] over populations; \\param names {in the report: in the figure}
+
+    Medians, because a busy machine adds to a mean what has nothing to do with the arithmetic."""
     points = []
     for name, short in names.items():
         rows = [a for p in populations for a in p["arithmetics"] if a["name"] == name]
         if rows:
-            points.append((short, sum(r["mean_ns"] for r in rows) / len(rows) * 1e-9, error(rows, queries)))
+            points.append((short, sum(r.get("median_ns", r["mean_ns"]) for r in rows) / len(rows) * 1e-9, error(rows, queries)))
     return points
 
 
@@ -50,10 +52,10 @@ def sweeps(report):
     total = queries * len(degenerate)
     return [Finding("sweeps", f"On degenerate queries haptic_sculpt gives {'no wrong verdict' if ours[2] == 0 else percent(ours[2]) + ' wrong verdicts'} of {total:,} in "
                     f"{seconds_text(ours[1])} each; doubles give {percent(doubles[2])} wrong ones.", seconds_text(ours[1]), f"a verdict, of {total:,} degenerate sweeps",
-                    speed_error(verdicts, "share of wrong verdicts", "mean time of a sweep"), "Time of a sweep against its wrong verdicts, by arithmetic",
-                    [table_of_arithmetics(report)]),
+                    speed_error(verdicts, "share of wrong verdicts", "median time of a sweep"), "Time of a sweep against its wrong verdicts, by arithmetic",
+                    [table_of_arithmetics(report)], picture="sweep_speed_error"),
             Finding("sweeps", f"The time of impact is enclosed to {power_text(time[2])} of the way in {seconds_text(time[1])}; doubles are off by up to {power_text(times[1][2])}.",
-                    power_text(time[2]), "largest error of a time of impact, of the way", speed_error(times, "largest error of the time of impact", "mean time of a sweep"),
+                    power_text(time[2]), "largest error of a time of impact, of the way", speed_error(times, "largest error of the time of impact", "median time of a sweep"),
                     "Time of a sweep against the error of the time of impact, by arithmetic")]
 
 
@@ -74,32 +76,33 @@ def whole_drags(report):
     for name, short in names.items():
         of = [a for s in report["scripts"] for a in s["arithmetics"] if a["name"] == name]
         drags = sum(a["drags"] for a in of)
-        points.append((short, sum(a["mean_us"] * a["drags"] for a in of) / drags * 1e-6, sum(a["crossed"] + a["wrongly_blocked"] for a in of) / drags))
+        points.append((short, sum(a["median_us"] * a["drags"] for a in of) / drags * 1e-6, sum(a["crossed"] + a["wrongly_blocked"] for a in of) / drags))
     for s in report["scripts"]:
         rows += [[s["name"], a["name"], a["drags"], seconds_text(a["median_us"] * 1e-6), a["crossed"], a["wrongly_blocked"]] for a in s["arithmetics"]]
     drags = sum(a["drags"] for s in report["scripts"] for a in s["arithmetics"] if a["name"] == "haptic_sculpt, exact")
     return [Finding("whole_drags", f"Of {drags:,} whole drags in hard places {'none' if points[0][2] == 0 else percent(points[0][2])} of ours crossed anything or was stopped wrongly, "
                     f"{percent(points[1][2])} by doubles; a drag takes {points[0][1] / points[1][1]:.2g} times as long.",
                     f"{points[0][1] / points[1][1]:.2g}×", "the time of doubles, for the whole drag",
-                    speed_error(points, "share of drags gone wrong", "mean time of a drag"), "Time of whole drags against those gone wrong, by arithmetic",
-                    [Table("Each script", ["script", "arithmetic", "drags", "median", "crossed", "wrongly stopped"], rows)])]
+                    speed_error(points, "share of drags gone wrong", "median time of a drag"), "Time of whole drags against those gone wrong, by arithmetic",
+                    [Table("Each script", ["script", "arithmetic", "drags", "median", "crossed", "wrongly stopped"], rows)], picture="drag_speed_error")]
 
 
 def responses(report):
     of = {r: [row for row in report["chart"] if row["response"] == r] for r in ("slide", "stop", "paper")}
-    mean = {r: (sum(x["mean_ns"] for x in rows) / len(rows) * 1e-9, 1 - sum(x["share_at_minimum"] for x in rows) / len(rows),
+    mean = {r: (sum(x["median_ns"] for x in rows) / len(rows) * 1e-9, 1 - sum(x["share_at_minimum"] for x in rows) / len(rows),
                 sum(x["mean_distance_left"] for x in rows) / len(rows)) for r, rows in of.items() if rows}
     names = {"slide": "slide", "stop": "stop", "paper": "the paper's walk"}
     rows = [[x["scene"], x["response"], x["drags"], f"{x['mean_distance_left']:.3g}", percent(x["share_at_minimum"]), f"{x['mean_legs']:.2g}",
              seconds_text(x["mean_ns"] * 1e-9)] for x in report["chart"]]
     return [Finding("responses", f"A blocked slide ends at a nearest point in {percent(1 - mean['slide'][1])} of the drags, in {seconds_text(mean['slide'][0])}; "
                     f"the paper's walk in {percent(1 - mean['paper'][1])}.", percent(1 - mean["slide"][1]), "of the slides end at a local minimum",
-                    speed_error([(names[r], m[0], m[1]) for r, m in mean.items()], "share of drags not at a minimum", "mean time of a drag"),
+                    speed_error([(names[r], m[0], m[1]) for r, m in mean.items()], "share of drags not at a minimum", "median time of a drag"),
                     "Time of a drag against the share of drags that do not end at a minimum, by response",
-                    [Table("Each scene", ["scene", "response", "drags", "distance left, half extents", "at a minimum", "legs", "mean"], rows)]),
+                    [Table("Each scene", ["scene", "response", "drags", "distance left, half extents", "at a minimum", "legs", "mean"], rows)],
+                    picture="response_quality"),
             Finding("responses", f"What is left to the target is {mean['slide'][2]:.3g} half extents with a slide, {mean['stop'][2]:.3g} with a stop.",
                     f"{mean['slide'][2]:.3g}", "half extents left to the target, slide",
-                    speed_error([(names[r], m[0], m[2]) for r, m in mean.items()], "distance left, half extents", "mean time of a drag"),
+                    speed_error([(names[r], m[0], m[2]) for r, m in mean.items()], "distance left, half extents", "median time of a drag"),
                     "Time of a drag against the distance left, by response")]
 
 
@@ -193,8 +196,27 @@ def device(report):
         if of:
             found.append(Finding("device", f"{title} in doubles take {seconds_text(of[0][1])}, with an error of {power_text(of[0][2])} of the condition.", seconds_text(of[0][1]),
                                  f"{what}, doubles", speed_error(of, "median error over condition", "time of a call"),
-                                 f"Time of the {what} against its error, by number type", [table] if not found else []))
-    return found
+                                 f"Time of the {what} against its error, by number type", [table] if not found else [], picture="" if found else "device_speed_error"))
+    return found + models_of_device(report)
+
+
+def models_of_device(report):
+    """Of torques and positions: what a simpler model saves, and how far off it is."""
+    short = {"ditetrahedral": "di-tetrahedral", "general": "general"}
+    rows = [r for r in report.get("models", []) if r["population"] == "path"]
+    if not rows:
+        return []
+    by = {(r["form"], r["model"]): r for r in rows}
+    points = [(f"{r['model']}, {short[r['form']]}" if r["what"] == "joint torques" else r["model"], r["ns"] * 1e-9, r["relative_error"]["median"]) for r in rows]
+    planar, spatial = (by["general", m] for m in ("links in their planes", "links in space"))
+    point = by["general", "a point for the platform"]
+    table = Table("Each model", ["population", "form", "what", "model", "time", "off by, median", "largest"],
+                  [[r["population"], short[r["form"]], r["what"], r["model"], seconds_text(r["ns"] * 1e-9),
+                    *(f"{r['relative_error'][k]:.2g}" for k in ("median", "max"))] for r in report["models"]])
+    return [Finding("device", f"Links counted as if they stayed in their planes put the torques off by {percent(planar['relative_error']['median'])}, a point in the place of "
+                    f"the platform the handle by {percent(point['relative_error']['median'])} of a link; the true torques take {seconds_text(spatial['ns'] * 1e-9)}.",
+                    percent(planar["relative_error"]["median"]), "of the torques, planar links, median",
+                    speed_error(points, "median relative error", "time of a call"), "Time of the device's models against their error", [table], picture="device_models")]
 
 
 def force(report):

@@ -20,16 +20,19 @@ def drags_and_edits(report):
     broken = [p for p in report["promises"] if not is_kept(p)]
     drags, edits = report["total"]["drags"], report["total_of_edits"]["edits"]
     meshes = len({r["mesh"] for r in report["meshes"]})
-    rows = [[r["mesh"], f"{r['faces']:,}", f"{r.get('drags', 0):,}", f"{r.get('blocked', 0):,}", f"{r.get('mixed_edits', {}).get('edits', 0):,}",
+    rows = [[r["mesh"], r.get("clearance", "default"), f"{r['faces']:,}", f"{r.get('drags', 0):,}", f"{r.get('blocked', 0):,}", f"{r.get('mixed_edits', {}).get('edits', 0):,}",
              r.get("invalid", 0) + r.get("mixed_edits", {}).get("invalid", 0), f"{r.get('largest_stop_error_in_clearances', 0):.3g}",
              *(seconds_text(r[key] * 1e-9) if r.get(key) else "" for key in ("mean_ns", "longest_ns"))] for r in report["meshes"]]
-    tables = [Table("Meshes", ["mesh", "faces", "drags", "blocked", "mixed edits", "not valid after", "largest stop error, clearances", "mean drag", "longest"], rows)]
+    tables = [Table("Meshes", ["mesh", "clearance", "faces", "drags", "blocked", "mixed edits", "not valid after", "largest stop error, clearances", "mean drag", "longest"], rows)]
     if report["refused"]:
         tables.append(Table("Meshes refused", ["file", "had to be", "repaired", "reason"], [[r["file"], *("yes" if r[key] else "no" for key in ("has_to_be", "repaired")), r["reason"]] for r in report["refused"]]))
     how = " by strokes of a hand" if report["motion"] == "hand" else ""
     how += "" if report["response"] == "slide" else f", response {report['response']},"
+    phases = report.get("broad_phases", "box_tree").count(",") + 1
+    how += "" if phases == 1 else f" with {phases} broad phases"
+    how += "" if report.get("clearances", "default") == "default" else f" and clearances of {report['clearances'].replace(' of the extent', '')} of the extent"
     said = "no promise broke" if not broken else "broken: " + "; ".join(p["promise"] for p in broken)
-    name = "drags" + ("_of_a_hand" if report["motion"] == "hand" else "") + ("" if report["response"] == "slide" else f"_{report['response']}")
+    name = "broad_phases" if phases > 1 else "drags" + ("_of_a_hand" if report["motion"] == "hand" else "") + ("" if report["response"] == "slide" else f"_{report['response']}")
     return [of_promises(name, report, f"In {drags:,} drags and {edits:,} mixed edits of {meshes} hard meshes{how} {said}.", str(len(broken)),
                         f"broken promises of {len(report['promises'])}", tables)]
 
@@ -66,6 +69,6 @@ def axis_moves_by_oracle(report):
                         f"{p['asked']:,}", "axis moves looked at", [])]
 
 
-CHARTS = {"drags_and_edits": drags_and_edits, "drags_with_stop": drags_and_edits, "drags_with_paper": drags_and_edits, "drags_of_a_hand": drags_and_edits, "drags_of_a_hand_with_stop": drags_and_edits,
+CHARTS = {"drags_and_edits": drags_and_edits, "broad_phases": drags_and_edits, "drags_with_stop": drags_and_edits, "drags_with_paper": drags_and_edits, "drags_of_a_hand": drags_and_edits, "drags_of_a_hand_with_stop": drags_and_edits,
           "ends": ends, "sweeps_by_oracle": sweeps_by_oracle, "sweeps_by_cgal": sweeps_by_cgal, "drags_by_oracle": drags_by_oracle,
           "axis_moves_by_oracle": axis_moves_by_oracle}

@@ -4,19 +4,19 @@ from steps import Effort, Step
 
 STEPS = [
     Step("drags_and_edits", "robustness",
-         tiny=Effort("--hard --drags 60 --edits 60 --drags-on-large 3 --edits-on-large 2 --batch 20 --edit-batch 20 --seed {seed}", shards=3),
-         quick=Effort("--hard --drags 2000 --edits 500 --drags-on-large 50 --edits-on-large 10 --dump failures --seed {seed}", 10, shards=2),
-         full=Effort("--hard --drags 4200000 --edits 100000 --extreme 20000 --dump failures --seed {seed}", 480, shards=1024),
+         tiny=Effort("--hard --drags 60 --edits 60 --drags-on-large 3 --edits-on-large 2 --batch 20 --edit-batch 20 --dump {dump} --seed {seed}", shards=3),
+         quick=Effort("--hard --drags 2000 --edits 500 --drags-on-large 50 --edits-on-large 10 --dump {dump} --seed {seed}", 10, shards=2),
+         full=Effort("--hard --drags 4200000 --edits 100000 --extreme 20000 --dump {dump} --seed {seed}", 480, shards=1024),
          with_meshes="--meshes {meshes}", with_repair="--repair"),
     *(Step(f"drags_with_{response}", "robustness",
-           full=Effort(f"--hard --drags 100000 --edits 20000 --response {response} --dump failures --seed {{seed}}", 120, shards=64))
+           full=Effort(f"--hard --drags 100000 --edits 20000 --response {response} --dump {{dump}} --seed {{seed}}", 120, shards=64))
       for response in ("stop", "paper")),
     Step("drags_of_a_hand", "robustness",
          tiny=Effort("--hard --motion hand --least-faces 100 --drags 200 --drags-on-large 3 --edits 0 --batch 100 --seed {seed}", shards=2),
-         quick=Effort("--hard --motion hand --least-faces 100 --drags 2000 --drags-on-large 20 --edits 0 --dump failures --seed {seed}", 10, shards=2),
-         full=Effort("--hard --motion hand --least-faces 100 --drags 600000 --edits 0 --batch 5000 --dump failures --seed {seed}", 240, shards=128)),
+         quick=Effort("--hard --motion hand --least-faces 100 --drags 2000 --drags-on-large 20 --edits 0 --dump {dump} --seed {seed}", 10, shards=2),
+         full=Effort("--hard --motion hand --least-faces 100 --drags 600000 --edits 0 --batch 5000 --dump {dump} --seed {seed}", 240, shards=128)),
     Step("drags_of_a_hand_with_stop", "robustness",
-         full=Effort("--hard --motion hand --response stop --least-faces 100 --drags 5300000 --edits 0 --batch 10000 --dump failures --seed {seed}",
+         full=Effort("--hard --motion hand --response stop --least-faces 100 --drags 5300000 --edits 0 --batch 10000 --dump {dump} --seed {seed}",
                      480, shards=256)),
     Step("ends", "certify_ends",
          tiny=Effort("--drags 2 --per-scene 1 --ways 20 --seed {seed}", shards=2),

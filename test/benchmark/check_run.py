@@ -89,6 +89,16 @@ def kill_and_resume(out):
     return done
 
 
+def pictures(out, folder):
+    """The manual's pictures are the page's figures."""
+    (folder / "pictures").mkdir()
+    done = subprocess.run([PYTHON, str(ROOT / "benchmark/common/make_page.py"), str(out), "--pictures", str(folder / "pictures")], capture_output=True, text=True)
+    made = sorted(p.name for p in (folder / "pictures").iterdir())
+    expect(made == ["device_speed_error.png"], f"pictures of axis, device, drags and edits: {made}, {done.stderr}")
+    for name in made:
+        expect((folder / "pictures" / name).read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", f"{name} is no picture")
+
+
 def options_are_known():
     """Every program takes what its steps give it, in every mode."""
     sys.path.insert(0, str(ROOT / "benchmark/common"))
@@ -154,6 +164,83 @@ def own_meshes(out, folder):
     expect(repaired.returncode == 0 and "open.off, repaired" in (out / "index.html").read_text(), f"a mesh that is repaired: exit {repaired.returncode}, {repaired.stderr}")
 
 
+PLANTED_ROBUSTNESS = """#!/usr/bin/python3
+import json, pathlib, shutil, subprocess, sys
+given = dict(zip(sys.argv[1::1], sys.argv[2::1]))
+subprocess.run([REAL, "--drags", "3", "--edits", "3", "--seed", given["--seed"], "--json", given["--json"], "--shard", given["--shard"]], check=True)
+if given["--shard"] != BROKEN:
+    sys.exit(0)
+pathlib.Path(given["--dump"]).mkdir(parents=True)
+for suffix in (".off", ".script"):
+    shutil.copy(CASE + suffix, given["--dump"])
+report = json.load(open(given["--json"]))
+report["promises"][0]["broken"], report["exit"] = 1, 10
+json.dump(report, open(given["--json"], "w"))
+sys.exit(10)
+"""
+
+# Makes a mesh that crosses itself where the script drags a vertex to x = 7.
+PLANTED_SCULPT = """#!/usr/bin/python3
+import subprocess, sys
+done = subprocess.run([REAL, *sys.argv[1:]])
+if done.returncode == 0 and any(line.startswith("drag ") and line.split()[2] == "7" for line in open(sys.argv[sys.argv.index("--script") + 1])):
+    out = sys.argv[sys.argv.index("-o") + 1]
+    lines = open(out).read().splitlines()
+    first = next(i for i, line in enumerate(lines) if len(line.split()) == 3 and not line.startswith("OFF")) + 1
+    open(out, "w").write("\\n".join(lines[:first] + ["2 1.5 1.5"] + lines[first + 1:]) + "\\n")
+sys.exit(done.returncode)
+"""
+
+
+def failing_case(out, folder):
+    """What a program dumps is made small and stands on the page."""
+    if not (BUILD / "examples/sculpt").exists():
+        print("not checked: failing cases, because sculpt is not built")
+        return
+    build, case = folder / "planted", folder / "batch_7"
+    for program, text in (("benchmark/robustness", PLANTED_ROBUSTNESS), ("examples/sculpt", PLANTED_SCULPT)):
+        (build / program).parent.mkdir(parents=True)
+        (build / program).write_text(text.replace("REAL", repr(str(BUILD / program))).replace("CASE", repr(str(case))).replace("BROKEN", "'1/3'"))
+        (build / program).chmod(0o755)
+    (build / "CMakeCache.txt").write_text((BUILD / "CMakeCache.txt").read_text())
+    # A tetrahedron and, far from it, a cube: of this only what the fault needs is left.
+    corners = [(i & 1, i >> 1 & 1, i >> 2 & 1) for i in range(8)]
+    points = [*corners, (40, 0, 0), (41, 0, 0), (40, 1, 0), (40, 0, 1)]
+    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    faces = [t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))] + [(8, 10, 9), (8, 9, 11), (9, 10, 11), (8, 11, 10)]
+    case.with_suffix(".off").write_text(f"OFF\n{len(points)} {len(faces)} 0\n" + "".join("%d %d %d\n" % p for p in points) + "".join("3 %d %d %d\n" % f for f in faces))
+    lines = [f"drag {v} {40.1 + 0.01 * v} 0.1 {0.01 * k}" for k in range(6) for v in (8, 10)]
+    case.with_suffix(".script").write_text("\n".join([*lines[:5], "drag 11 7 0 1", *lines[5:]]) + "\n")
+    done = run(out, "drags_and_edits", build=build)
+    expect(done.returncode == 4 and "fails: drags_and_edits, shard 1/3: " in done.stderr, f"a case that is dumped: exit {done.returncode}, {done.stderr}")
+    small = out / "failures/drags_and_edits/1_of_3/batch_7.small.script"
+    left = [line for line in small.read_text().splitlines() if not line.startswith("#")] if small.exists() else []
+    expect(len(left) == 1 and left[0].split()[2] == "7", f"the case is not made small: {left}")
+    page = (out / "index.html").read_text()
+    expect("failures/drags_and_edits/1_of_3/batch_7.script" in page and str(small.relative_to(out)) in page, "the page does not list the failing case")
+    # Made again by a program that keeps its promises nothing is left of it.
+    program = build / "benchmark/robustness"
+    program.write_text(program.read_text().replace("'1/3'", "'no shard'"))
+    mended = run(out, "drags_and_edits", build=build)
+    expect(mended.returncode == 0 and "batch_7" not in (out / "index.html").read_text(), f"mended, it ends with {mended.returncode}: {mended.stderr}")
+
+
+def few_jobs(out, folder):
+    """With a cluster, shards that no longer fit are listed without a job each. Slurm is played by two scripts."""
+    cluster = folder / "cluster"
+    cluster.mkdir()
+    (cluster / "sbatch").write_text(f'#!/bin/bash\necho "$*" >> {cluster}/jobs\nbash "${{!#}}" > {cluster}/log 2>&1\nwc -l < {cluster}/jobs\n')
+    (cluster / "scontrol").write_text("#!/bin/bash\n")  # it has forgotten the job, which has ended
+    for name in ("sbatch", "scontrol"):
+        (cluster / name).chmod(0o755)
+    words = [PYTHON, str(ROOT / "benchmark/run"), "--tiny", "--no-build", "--build", str(BUILD), "--out", str(out), "--profile", "slurm", "--shards", "4",
+             "--minutes", "0.0001", "device"]
+    done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "PATH": f"{cluster}:{os.environ['PATH']}"})
+    jobs = (cluster / "jobs").read_text().splitlines()
+    expect(done.returncode == 0 and "did not fit: 0/4, 1/4, 2/4, 3/4 of 4" in (out / "index.html").read_text(), f"on a cluster: exit {done.returncode}, {done.stderr}")
+    expect(len(jobs) == 1 and "--mem=2000" in jobs[0], f"of 4 shards 1 uses up the minutes, but {len(jobs)} jobs were submitted: {jobs}")
+
+
 def answers(out, folder):
     """Of a program that is right but for one in ten."""
     queries = folder / "queries"
@@ -189,6 +276,9 @@ def main():
         death(folder / "death", folder)
         own_meshes(folder / "own", folder)
         answers(folder / "answers", folder)
+        failing_case(folder / "failing", folder)
+        few_jobs(folder / "few_jobs", folder)
+        pictures(folder / "resumed", folder)
     print(*faults, sep="\n")
     return 1 if faults else 0
 

@@ -16,7 +16,10 @@ import merge_shards
 SHARDS = 3
 OPTIONS = {"robustness": "--drags 40 --edits 40 --batch 20 --edit-batch 20 --extreme 20", "drag_speed_error": "--drags 6",
            "edit_performance": "--samples 20 --largest 6000 --largest-valence 16", "certify_ends": "--drags 3 --per-scene 1 --ways 20",
-           "device_speed_error": "--count 64", "axis_speed_error": "--queries 30", "haptic_passivity": "--parts rate"}
+           "device_speed_error": "--count 64", "axis_speed_error": "--queries 30", "haptic_passivity": "--parts rate",
+           "brush_dabs": "--level 3 --dabs 4 --vertices 40", "threads": "--level 3 --moves 2 --threads 1,2", "validation": "--largest 1000",
+           "response_quality": "--drags 3", "sweep_speed_error": "--queries 10", "many_vertices_speed_error": "--rounds 1 --level 2",
+           "drag_performance": "--sizes 1000 --valences 3,8 --drags 30 --peer-drags 10 --core -1"}
 
 
 def untimed(value):

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `robustness --dump` has left of a run: each case, a mesh and a script, is made small within a bounded time."""
+import pathlib
+import subprocess
+import sys
+
+import steps
+
+SECONDS_A_CASE = 60  # a batch of 1,000 drags takes 1 s to replay, so this is some dozens of tries
+MOST_CASES = 10  # of a run: with more of them the first tell enough
+SMALL = ".small"
+
+
+def scripts(out, names):
+    """(step, shard, script) of each case of these steps, as the programs wrote it."""
+    found = []
+    for name in names:
+        for script in sorted((out / "failures" / name).glob("*_of_*/*.script")):
+            if not script.stem.endswith(SMALL):
+                found.append((name, script.parent.name.replace("_of_", "/"), script))
+    return found
+
+
+def small(script, suffix):
+    return script.with_name(script.stem + SMALL + suffix)
+
+
+def minimise(out, names, sculpt):
+    """Makes the cases small that are not yet."""
+    for _, _, script in scripts(out, names)[:MOST_CASES]:
+        note = small(script, ".txt")
+        if note.exists() and note.stat().st_mtime > script.stat().st_mtime:
+            continue
+        done = subprocess.run([sys.executable, str(steps.BENCHMARK / "robustness" / "minimise"), str(sculpt), str(script.with_suffix(".off")), str(script),
+                               "--out", str(script.with_name(script.stem + SMALL)), "--seconds", str(SECONDS_A_CASE)], capture_output=True, text=True)
+        said = {0: done.stdout.split(" tries")[0] + " tries", 1: "replayed by sculpt it does not fail"}
+        note.write_text(said.get(done.returncode, f"minimise ended with {done.returncode}: {done.stderr.strip()[-300:]}") + "\n")
+
+
+def rows(out, names):
+    """For the page: where each case lies, and what was made of it."""
+    result = []
+    for step, shard, script in scripts(out, names):
+        files, note = small(script, ".script"), small(script, ".txt")
+        result.append({"step": step, "shard": shard, "case": str(script.relative_to(out)), "small": str(files.relative_to(out)) if files.exists() else "",
+                       "note": note.read_text().strip() if note.exists() else "not made small: the first ten are"})
+    return result
