@@ -29,8 +29,8 @@ CGAL::Gmpq squared_distance_by_rationals(const Coordinates& p, const Coordinates
   return CGAL::squared_distance(exact(p), Kernel::Triangle_3(exact(a), exact(b), exact(c)));
 }
 
-/// Whole numbers to 4 that are often equal or in one plane; doubles at random; and these times powers of two that lie up
-/// to 2^300 apart.
+/// Whole numbers to 4 that are often equal or in one plane; doubles at random; and these times powers of two that lie
+/// up to 2^300 apart.
 Coordinates random_place(Random& random, int population) {
   std::uniform_real_distribution<double> number(-1, 1);
   Coordinates q;
@@ -65,7 +65,8 @@ BOOST_AUTO_TEST_CASE(whether_a_point_is_as_near_to_a_triangle) {
     }
     const CGAL::Gmpq square = squared_distance_by_rationals(p, a, b, c);
     const double near = std::sqrt(CGAL::to_double(square));
-    for (const double distance : {0.0, std::nextafter(near, 0.0), near, std::nextafter(near, 2 * near), 2 * near, 1.0}) {
+    for (const double distance :
+         {0.0, std::nextafter(near, 0.0), near, std::nextafter(near, 2 * near), 2 * near, 1.0}) {
       if (!(distance >= 0) || !std::isfinite(distance))
         continue;
       const CGAL::Gmpq limit(distance);
