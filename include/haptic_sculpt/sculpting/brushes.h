@@ -11,6 +11,7 @@ namespace haptic_sculpt {
 /// Makes dabs with a brush, all at once: each vertex that is touched goes where the dabs want it, the sum of what they
 /// want if it is touched by several, as far as nothing is in its way. No surface passes through a surface.
 ///
+/// \tparam Concurrency_tag as of move_vertices()
 /// \param dabs a range of Dab_3 of the kernel of the mesh's points: one, or one and what mirrored() makes of it
 /// \param mask a readable property map from vertices to how much they take part, from 0 to 1
 /// \param parameters as of move_vertices(). By default whole ways are tried, and what is held back stays there, neither
@@ -19,7 +20,7 @@ namespace haptic_sculpt {
 ///
 /// One step of the history. \throw Out_of_range where a dab wants a vertex out of range, Invalid_parameter where a
 /// radius is not >= 0: nothing has moved; Mesh_changed. Cost: some microseconds for each vertex touched.
-template <class Sculptor, class Dab_range,
+template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Dab_range,
           class Mask_map = boost::static_property_map<double, typename Sculptor::Vertex_index>>
 Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_map& mask = Mask_map(1.0),
                         const Move_parameters& parameters = Move_parameters().drags(false)) {
@@ -43,7 +44,7 @@ Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_ma
       vertices.push_back(v), targets.push_back(p);
   return internal::move_to_targets(
       sculptor, vertices, [&, k = std::size_t{0}](Vertex_index) mutable { return targets[k++]; }, parameters,
-      CGAL::Emptyset_iterator());
+      CGAL::Emptyset_iterator(), Part_runner::by<Concurrency_tag>());
 }
 
 } // namespace haptic_sculpt

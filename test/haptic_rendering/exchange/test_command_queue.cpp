@@ -55,6 +55,29 @@ struct Queue {
 
 using Tickets = std::vector<std::uint64_t>;
 
+// Each answer finds room: as much is asked for as has not been answered and taken.
+BOOST_AUTO_TEST_CASE(a_full_queue_takes_nothing_until_an_answer_is_taken) {
+  Command_queue<Scene> queue(4);
+  Command command, taken;
+  Loop_answer<Scene> answer;
+  for (command.ticket = 0; command.ticket < 4; ++command.ticket)
+    BOOST_TEST(queue.ask(command));
+  BOOST_TEST(!queue.ask(command));
+  for (int k = 0; k < 4; ++k) {
+    BOOST_TEST(queue.take(taken));
+    BOOST_TEST(!queue.ask(command)); // there is room for commands, and none for their answers
+    answer.ticket = taken.ticket;
+    queue.answer(answer);
+  }
+  BOOST_TEST(!queue.ask(command));
+  for (std::uint64_t ticket = 0; ticket < 4; ++ticket) {
+    BOOST_TEST(queue.waiting() == 4u);
+    BOOST_TEST((queue.take(answer) && answer.ticket == ticket));
+    BOOST_TEST(queue.ask(command));
+    BOOST_TEST(!queue.ask(command));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(tasks_go_on_once_a_tick_beside_what_is_asked_for_later) {
   Queue d;
   Counting at_once(1), three(3), two(2);

@@ -83,6 +83,20 @@ void move_about(Threads_outcome& outcome, const meshes::Triangle_list& list, dou
   note(outcome, mesh, {rigid.contacts.size(), rigid.contacts.empty() ? 0 : std::size_t{rigid.contacts[0].vertices[0]}});
 }
 
+/// One dab of each kind that touches most of it, one after the other.
+template <class Tag>
+void dab_about(Threads_outcome& outcome, const meshes::Triangle_list& list, double size) {
+  Mesh mesh = meshes::to_mesh(list);
+  Sculptor<Mesh> sculptor(mesh);
+  const Point_3 centre = mesh.point(Vertex_index(0));
+  for (const Brush_kind kind :
+       {Brush_kind::grab, Brush_kind::inflate, Brush_kind::smooth, Brush_kind::flatten, Brush_kind::pinch}) {
+    const std::vector<Dab_3<meshes::Kernel>> dabs(2, {kind, centre, 1.5, kind == Brush_kind::smooth ? 0.5 : size, {}});
+    const auto report = apply_brush<Tag>(sculptor, dabs);
+    note(outcome, mesh, {report.asked, report.reached});
+  }
+}
+
 template <class Tag>
 void validate_about(Threads_outcome& outcome, const meshes::Triangle_list& list) {
   Face_soup soup;
@@ -105,6 +119,7 @@ Threads_outcome outcome_by(std::uint64_t seed) {
   move_about<Tag>(outcome, meshes::torus(80, 40), 0.05, 0.002, seed + 1);
   move_about<Tag>(outcome, meshes::box(20), 1.0 / 20, 0, seed + 2); // faces in planes along the axes
   move_about<Tag>(outcome, meshes::ball_in_a_cavity(3), 0.1, 0, seed + 3);
+  dab_about<Tag>(outcome, meshes::bumpy_sphere(4, 0.2, 0.02), 0.4);
   validate_about<Tag>(outcome, meshes::bumpy_sphere(6, 0.2, 0.02)); // 81,920 faces: several slabs
   validate_about<Tag>(outcome, meshes::overlapping_balls(5));       // many pairs
   validate_about<Tag>(outcome, meshes::bipyramid(20000));           // long faces

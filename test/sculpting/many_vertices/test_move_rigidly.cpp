@@ -284,7 +284,7 @@ BOOST_AUTO_TEST_CASE(an_exception_of_the_visitor_leaves_no_object_sheared) {
     for (const std::size_t again : {0, 1, 3}) {
       std::size_t whole = 0, as_it_was = 0;
       bool has_thrown = true;
-      for (std::size_t call = 1; has_thrown; ++call) {
+      for (std::size_t call = 1; has_thrown; call += is_blocked ? 7 : 1) { // of hundreds each kind comes up
         meshes::Triangle_list list;
         const auto box = add_box(list, {0, 0, 0}, {1, 1, 1});
         if (is_blocked)
