@@ -9,8 +9,9 @@
 namespace haptic_sculpt {
 
 /// What is only to be done between steps of the history was asked for within a stroke. Nothing has changed.
-struct Open_stroke : Error {
-  using Error::Error;
+class Open_stroke : public Error {
+public:
+  using Error::Error; ///< takes the message that `what()` gives
 };
 
 /// All drags and edits of a Sculptor while this lives are one step of its history: made by `Sculptor::stroke()`, ended
