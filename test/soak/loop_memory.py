@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One long run of the haptic loop, in one process, whose memory is looked at: loop_memory.py HAPTIC_LOOP MESH [--minutes M]
-[--seed S] [--touch].
+"""One long run of the haptic loop, in one process, whose memory is looked at: loop_memory.py HAPTIC_LOOP MESH
+[--minutes M] [--seed S] [--touch].
 
 A hand goes about at random, in and out of the mesh; it presses its buttons, or touches only. What it edits may cost
 memory: the history and the journal keep it. What it touches may not. Exit code 0: the memory is as flat as the named
@@ -19,7 +19,7 @@ RADIUS = 0.030  # m: the scene is fitted into a ball of 34 mm about the handle's
 TICKS_A_SECOND = 1000
 # Simulated seconds that one of the clock may bring: more than the fastest machine makes of a path.
 FASTEST = 200
-# Bytes after the first quarter, touching only: what allocators keep in pieces, and pages that are used for the first time.
+# Bytes after the first quarter, touching only: what allocators keep in pieces, and pages used for the first time.
 ALLOWED = 4 << 20
 # Bytes that an edit may keep: those of a grab, a creation or a removal in the history, the mesh and the tables; 1.2 to
 # 1.6 KB were seen on two meshes.
@@ -69,8 +69,8 @@ def main():
             home = json.load(file)["map"][7:10]
         with open(at("path.csv"), "w") as file:
             file.write(random_path(rng, seconds, home, [0] if options.touch else [0, 0, 1, 1, 2, 2]))
-        command = [options.loop, options.mesh, "--no-wait", "--seconds", str(seconds), "--path", at("path.csv"), "--rate",
-                   str(TICKS_A_SECOND), "--report", at("report.json"), "--log", at("run.log")]
+        command = [options.loop, options.mesh, "--no-wait", "--seconds", str(seconds), "--path", at("path.csv"),
+                   "--rate", str(TICKS_A_SECOND), "--report", at("report.json"), "--log", at("run.log")]
         samples, begin = [], time.monotonic()
         with open(at("said"), "w+") as said, subprocess.Popen(command, stdout=said, stderr=said) as process:
             while process.poll() is None and time.monotonic() < begin + 60 * options.minutes:
