@@ -29,8 +29,8 @@ def refused(folder, code, words, *arguments, program=SCULPT, size=0):
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     with open(f"{folder}/said", "w+b") as said:
-        process = subprocess.Popen([program, *arguments], stdin=subprocess.DEVNULL, stdout=said, stderr=said, cwd=folder,
-                                   preexec_fn=lambda: (limit(), resource.setrlimit(resource.RLIMIT_CPU,
+        process = subprocess.Popen([program, *arguments], stdin=subprocess.DEVNULL, stdout=said, stderr=said,
+                                   cwd=folder, preexec_fn=lambda: (limit(), resource.setrlimit(resource.RLIMIT_CPU,
                                                                                     (PATIENCE, PATIENCE))))
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)

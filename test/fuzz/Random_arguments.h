@@ -18,6 +18,7 @@ namespace haptic_sculpt::fuzz {
 class Random_arguments {
 public:
   using Mesh = meshes::Mesh;
+  using Kernel = meshes::Kernel;
   using Point_3 = meshes::Point_3;
   using Vertex_index = Mesh::Vertex_index;
 
@@ -93,12 +94,36 @@ public:
     Move_parameters move;
     move.most_drags(choices_.byte() * 8u).steps(choices_.below(4) != 0).drags(choices_.flag()).slide(choices_.flag());
     if (choices_.below(4) == 0)
+      move.most_pairs(choices_.below(4) * choices_.integer<std::uint16_t>());
+    if (choices_.below(4) == 0)
       move.progress([left = choices_.byte()](const Move_progress&) mutable {
         if (left % 2 == 1 && left < 3)
           throw Thrown();
         return left == 0 || --left > 0;
       });
     return move;
+  }
+  /// One dab, or several, of which each may be the last one in a mirror.
+  std::vector<Dab_3<Kernel>> dabs() {
+    std::vector<Dab_3<Kernel>> all;
+    for (std::size_t n = choices_.flag() ? 1 : choices_.below(4); n > 0; --n) {
+      Dab_3<Kernel> dab{static_cast<Brush_kind>(choices_.below(5)), point(), length(), length(), {}};
+      if (choices_.flag())
+        dab.direction = point() - CGAL::ORIGIN;
+      if (!all.empty() && choices_.flag()) {
+        const Point_3 in_plane = point(), normal = point();
+        dab = mirrored(all.back(), Kernel::Plane_3(in_plane, normal - CGAL::ORIGIN));
+      }
+      all.push_back(dab);
+    }
+    return all;
+  }
+  /// How much each vertex takes part: of those that are there between 0 and 1, mostly.
+  std::vector<double> mask() {
+    std::vector<double> shares(mesh_.num_vertices());
+    for (double& share : shares)
+      share = choices_.below(16) == 0 ? choices_.number() : static_cast<double>(choices_.below(5)) / 4;
+    return shares;
   }
 
 private:

@@ -13,6 +13,7 @@
 #include <haptic_sculpt/sculpting.h>
 
 #include <cfenv>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -61,7 +62,16 @@ public:
 
   Sculptor_type& sculptor() { return sculptor_; }
   const Mesh& mesh() const { return mesh_; }
+  Mesh& mesh_to_write() { return mesh_; }      ///< as a function of CGAL has it
   bool is_broken_off() const { return is_broken_off_; } ///< whether the Sculptor refuses for good
+
+  /// A map of vertices to keep from now on, whose values are all 1; once.
+  std::optional<Mesh::Property_map<Vertex_index, double>> one_more_map() {
+    if (ones_)
+      return std::nullopt;
+    ones_ = mesh_.add_property_map<Vertex_index, double>("v:ones", 1).first;
+    return ones_;
+  }
 
   /// One call: in a mode, with failures. Ends the program where a promise is broken.
   template <class Function>
@@ -133,6 +143,9 @@ public:
     require(report.is_valid(), report.message().c_str());
     for (const auto v : mesh_.vertices())
       require(sculptor_.vertex(sculptor_.id(v)) == v, "numbers lead back");
+    if (ones_)
+      for (const auto v : mesh_.vertices()) // shares of ones, rounded in each edit
+        require(std::fabs((*ones_)[v] - 1) < 1e-6, "a map that is kept from the middle on has the values of its own");
     if (!by_integers || mesh_.number_of_faces() > 16)
       return;
     oracle::Mesh_list list;
@@ -204,6 +217,7 @@ private:
   Mesh mesh_;
   Mesh::Property_map<Vertex_index, double> heat_;
   Mesh::Property_map<Mesh::Face_index, std::int64_t> label_;
+  std::optional<Mesh::Property_map<Vertex_index, double>> ones_; ///< one_more_map()
   std::size_t visits_left_ = 0;
   const Sculptor_parameters parameters_;
   Sculptor_type sculptor_;

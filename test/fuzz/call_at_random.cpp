@@ -6,7 +6,12 @@
 #include <sculpting/result_contradiction.h>
 
 #include <haptic_sculpt/sculpting.h>
+#include <haptic_sculpt/sculpting/decimate.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
+
+#include <boost/property_map/function_property_map.hpp>
 #include <boost/property_map/vector_property_map.hpp>
 
 #include <array>
@@ -81,7 +86,7 @@ private:
 
 inline void Caller::call() {
   call_ = {};
-  call_.which = is_by_value_ ? 25 : choices_.below(32);
+  call_.which = is_by_value_ ? 25 : choices_.below(38);
   switch (call_.which) {
   default: {
     const auto v = random_.vertex();
@@ -145,7 +150,9 @@ inline void Caller::call() {
       ways.emplace_back(v, choices_.flag() || !random_.lives(v)
                                ? random_.length()
                                : internal::coordinates(random_.near(mesh_.point(v)))[axis]);
-    return make([&] { sculptor_.shift(axis, ways); });
+    return make([&, parallel = choices_.flag()] {
+      parallel ? sculptor_.shift<CGAL::Parallel_if_available_tag>(axis, ways) : sculptor_.shift(axis, ways);
+    });
   }
   case 15:
   case 16:
@@ -209,9 +216,37 @@ inline void Caller::call() {
       made_.push_back(*applied);
     return;
   }
-  case 26: case 27: case 28: case 29: case 30: case 31:
+  case 26: case 27: case 28: case 29: case 30: case 31: case 35:
     call_.is_compound = true;
     return call_for_many(call_.which - 26);
+  case 32:
+    if (choices_.flag())
+      return make([&] { sculptor_.release(); });
+    if (grab_ && choices_.flag()) {
+      auto other = std::move(*grab_); // has the hand now
+      return make([&] { *grab_ = std::move(other); });
+    }
+    if (grab_)
+      make([&] { grab_->release(); });
+    return;
+  case 33:
+    if (const auto map = watched_.one_more_map())
+      make([&] { sculptor_.keep(*map, Interpolate_property()); });
+    return;
+  case 34: {
+    const auto v = random_.vertex();
+    if (!random_.lives(v)) // CGAL asks about those that are there
+      return;
+    return make([&, to = random_.target(v)] {
+      auto& mesh = watched_.mesh_to_write();
+      const auto allow = allow_embedded_move(sculptor_, mesh);
+      const Point_3 before = mesh.point(v);
+      mesh.point(v) = to;
+      const bool is_allowed = allow(v, before, to);
+      require(mesh.point(v) == (is_allowed ? to : before), "a move is made where it is allowed, and only there");
+      require(allow.refused() == !is_allowed, "moves that are refused are counted");
+    });
+  }
   }
 }
 
@@ -226,7 +261,10 @@ inline void Caller::call_for_many(std::size_t which) {
       if (random_.lives(v))
         targets[v] = is_all_alike ? Point_3(mesh_.point(v).x() + x, mesh_.point(v).y() + y, mesh_.point(v).z() + z)
                                   : random_.target(v);
-    return make([&, parameters = random_.move_parameters()] { move_vertices(sculptor_, some, targets, parameters); });
+    return make([&, parameters = random_.move_parameters(), parallel = choices_.flag()] {
+      parallel ? move_vertices<CGAL::Parallel_if_available_tag>(sculptor_, some, targets, parameters)
+               : move_vertices(sculptor_, some, targets, parameters);
+    });
   }
   case 1:
     for (const auto v : mesh_.vertices())
@@ -241,11 +279,16 @@ inline void Caller::call_for_many(std::size_t which) {
           parameters);
     });
   case 2: {
-    Dab_3<Kernel> dab{
-        static_cast<Brush_kind>(choices_.below(5)), random_.point(), random_.length(), random_.length(), {}};
+    const auto dabs = random_.dabs();
     if (choices_.flag())
-      dab.direction = random_.point() - CGAL::ORIGIN;
-    return make([&] { apply_brush(sculptor_, std::array<Dab_3<Kernel>, 1>{dab}); });
+      return make([&] { apply_brush(sculptor_, dabs); });
+    const auto shares = random_.mask();
+    return make([&, parameters = random_.move_parameters()] {
+      apply_brush(sculptor_, dabs, boost::make_function_property_map<Vertex_index>([&](Vertex_index v) {
+                    return shares[v];
+                  }),
+                  parameters);
+    });
   }
   case 3: {
     const auto some = random_.some_vertices();
@@ -253,7 +296,10 @@ inline void Caller::call_for_many(std::size_t which) {
     CGAL::Aff_transformation_3<Kernel> way(CGAL::TRANSLATION, by);
     if (choices_.flag())
       way = CGAL::Aff_transformation_3<Kernel>(0.6, -0.8, 0, by.x(), 0.8, 0.6, 0, by.y(), 0, 0, 1, by.z());
-    return make([&] { move_rigidly(sculptor_, some, way); });
+    return make([&, parameters = random_.move_parameters(), parallel = choices_.flag()] {
+      parallel ? move_rigidly<CGAL::Parallel_if_available_tag>(sculptor_, some, way, parameters)
+               : move_rigidly(sculptor_, some, way, parameters);
+    });
   }
   case 4: {
     std::vector<Mesh::Face_index> faces(mesh_.faces().begin(), mesh_.faces().end());
@@ -266,6 +312,17 @@ inline void Caller::call_for_many(std::size_t which) {
     return make([&, edge = random_.length(), protects = choices_.flag(), relaxes = choices_.flag()] {
       isotropic_remeshing(faces, sculptor_, edge,
                           CGAL::parameters::protect_constraints(protects).relax_constraints(relaxes), parameters);
+    });
+  }
+  case 9: {
+    const std::size_t least = choices_.byte();
+    const auto stop = [&](double, const auto&, std::size_t, std::size_t edges) { return edges <= least; };
+    if (choices_.flag())
+      return make([&] { decimate(sculptor_, stop); });
+    return make([&] {
+      namespace SMS = CGAL::Surface_mesh_simplification;
+      decimate(sculptor_, stop, CGAL::parameters::get_cost(SMS::Edge_length_cost<Mesh>())
+                                    .get_placement(SMS::Midpoint_placement<Mesh>()));
     });
   }
   default: {

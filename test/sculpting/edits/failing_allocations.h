@@ -10,7 +10,7 @@
 
 namespace haptic_sculpt::test {
 
-/// While one lives, the n-th request for memory fails, and those after it where it fails for good.
+/// While one lives, the n-th request of its thread for memory fails, and those after it where it fails for good.
 class Failing_allocations {
 public:
   Failing_allocations(std::size_t n, bool for_good) {
@@ -37,8 +37,8 @@ public:
   }
 
 private:
-  static inline std::size_t left_ = 0; ///< until one fails; 0: none does
-  static inline bool for_good_ = false;
+  static inline thread_local std::size_t left_ = 0; ///< until one fails; 0: none does
+  static inline thread_local bool for_good_ = false;
 };
 
 } // namespace haptic_sculpt::test
