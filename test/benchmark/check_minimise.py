@@ -22,6 +22,17 @@ sys.exit(10 if any(e['op'] == 'drag' and e['status'] == 'blocked' and lines[e['l
 """
 
 
+# A broad phase that leads elsewhere where a vertex is dragged to x = 7: the mesh it makes has a comment more.
+PLANTED = """#!/usr/bin/env python3
+import subprocess, sys
+done = subprocess.run([REAL, *sys.argv[1:]])
+script, out = (open(sys.argv[sys.argv.index(o) + 1], m) for o, m in (("--script", "r"), ("-o", "a")))
+if done.returncode == 0 and "brute" in sys.argv and any(line.startswith("drag ") and line.split()[2] == "7" for line in script):
+    out.write("# elsewhere\\n")
+sys.exit(done.returncode)
+"""
+
+
 def box(x):
     """A cube of side 1 from x on, two triangles a side."""
     points = [(x + (i & 1), i >> 1 & 1, i >> 2 & 1) for i in range(8)]
@@ -71,6 +82,16 @@ def main():
                               capture_output=True, text=True)
         if kept.returncode != 1 or "does not fail" not in kept.stderr:
             faults.append(f"a case that keeps its promise: exit {kept.returncode}, {kept.stderr}")
+        planted, other = folder / "planted", folder / "other.script"
+        planted.write_text(PLANTED.replace("REAL", repr(SCULPT)))
+        planted.chmod(0o755)
+        other.write_text("# other broad phases lead elsewhere\n" + "\n".join(lines[30:42]) + "\n")
+        for seconds, most in (("0", 1), ("0.0001", 12)):  # without a bound one line is left; with none to speak of all
+            bits = subprocess.run([sys.executable, str(ROOT / "benchmark/robustness/minimise"), str(planted), str(mesh), str(other), "--out", str(folder / "bits"),
+                                   "--seconds", seconds], capture_output=True, text=True)
+            left = (folder / "bits.script").read_text().splitlines() if bits.returncode == 0 else []
+            if not left or left[0] != "# other broad phases lead elsewhere" or sum(line.startswith("drag ") for line in left) != most:
+                faults.append(f"other bits, {seconds} s: exit {bits.returncode}, {left}, {bits.stderr}")
         print(*faults, sep="\n")
         return 1 if faults else 0
 

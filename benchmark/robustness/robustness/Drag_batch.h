@@ -1,33 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Drag_tally.h"
+#include "Batch_bits.h"
+#include "Batch_script.h"
 #include "Random_places.h"
+#include "batches.h"
 #include "sculpting/clearances.h"
 #include "sculpting/result_contradiction.h"
 
-#include <haptic_sculpt/surface.h>
-
 #include <chrono>
-#include <filesystem>
-#include <sstream>
 
 namespace haptic_sculpt::robustness {
 
 /// One batch of drags, each batch on a fresh copy of the mesh.
+template <class Broad_phase>
 class Drag_batch {
 public:
-  /// \param mesh has to outlive it
-  Drag_batch(const Mesh& mesh, Response response, std::uint64_t seed, std::size_t validate_every)
-      : input_(mesh)
-      , response_(response)
-      , mesh_(mesh)
-      , sculptor_(mesh_, parameters::response(response))
-      , places_(mesh_, seed)
-      , validate_every_(validate_every) {}
+  /// \throw Invalid_parameter where the clearance does not serve
+  Drag_batch(const Mesh& mesh, const Batch& batch)
+      : batch_(batch), mesh_(mesh), sculptor_(mesh_, batch.parameters()), places_(mesh_, batch.seed) {}
+
+  /// \throw Invalid_parameter where the clearance no longer serves
+  Batch_made<Drag_tally> run(Keep keep) {
+    if (batch_.is_of_a_hand)
+      run_strokes(batch_.count);
+    else
+      run_odd_drags(batch_.count);
+    if (!batch_.has_only_bits)
+      finish();
+    bits_.add(mesh_);
+    const bool is_kept = keep == Keep::all || tally_.is_any_promise_broken();
+    return {tally_, bits_.value(), is_kept ? script_.text(batch_.opening()) : std::string(),
+            keep == Keep::all ? mesh_ : Mesh()};
+  }
+
+private:
+  using Sculptor_type = Sculptor<Mesh, Broad_phase>;
+  enum class Kind { short_random, through, other };
+
+  Batch batch_;
+  Batch_script script_;
+  Batch_bits bits_;
+  Mesh mesh_;
+  Sculptor_type sculptor_;
+  Random_places places_;
+  Drag_tally tally_;
 
   /// Single drags, many of them degenerate.
-  Drag_tally run_odd_drags(std::size_t drags) {
+  void run_odd_drags(std::size_t drags) {
     // Short steps first: once the mesh is crumpled by long pushes, most vertices are in contact and held with reason.
     while (tally_.drags < drags / 3) {
       const Vertex_index v = places_.vertex();
@@ -49,11 +69,10 @@ public:
       else
         drag(v, places_.odd_target(v), Kind::other);
     }
-    return finish();
   }
 
   /// As a hand drags: a vertex is held for a hundred short steps in a slowly turning direction, contacts carried along.
-  Drag_tally run_strokes(std::size_t drags) {
+  void run_strokes(std::size_t drags) {
     while (tally_.drags < drags) {
       const Vertex_index v = places_.vertex();
       auto grab = sculptor_.grab(v);
@@ -65,49 +84,18 @@ public:
         hand = hand + step;
         drag(grab, v, hand, Kind::other);
       }
-      grabs_end_at_.push_back(made_.size());
+      script_.add("release");
     }
-    return finish();
   }
-
-  /// NAME.off and NAME.script, a script for `sculpt` that makes the same drags. \throw Error
-  void write(const std::filesystem::path& folder, const std::string& name) const {
-    std::ostringstream script;
-    script << std::hexfloat << "response " << name_of(response_) << '\n';
-    auto end = grabs_end_at_.begin();
-    for (std::size_t i = 0; i < made_.size(); ++i) {
-      const auto& [v, target] = made_[i];
-      script << "drag " << static_cast<std::size_t>(v) << ' ' << target.x() << ' ' << target.y() << ' ' << target.z()
-             << '\n';
-      if (end != grabs_end_at_.end() && *end == i + 1)
-        script << "release\n", ++end;
-    }
-    std::filesystem::create_directories(folder);
-    write_surface(folder / (name + ".off"), input_);
-    replace_file(folder / (name + ".script"), script.str());
-  }
-
-private:
-  enum class Kind { short_random, through, other };
-
-  const Mesh& input_;
-  Response response_;
-  std::vector<std::pair<Vertex_index, Point_3>> made_;
-  std::vector<std::size_t> grabs_end_at_; ///< how many drags had been made when the vertex was let go
-  Mesh mesh_;
-  Sculptor<Mesh> sculptor_;
-  Random_places places_;
-  std::size_t validate_every_;
-  Drag_tally tally_;
 
   void drag(Vertex_index v, const Point_3& target, Kind kind) {
     auto grab = sculptor_.grab(v);
     drag(grab, v, target, kind);
-    grabs_end_at_.push_back(made_.size());
+    script_.add("release");
   }
 
-  void drag(Grab<Sculptor<Mesh>>& grab, Vertex_index v, const Point_3& target, Kind kind) {
-    made_.emplace_back(v, target);
+  void drag(Grab<Sculptor_type>& grab, Vertex_index v, const Point_3& target, Kind kind) {
+    script_.add("drag", {sculptor_.id(v)}, target);
     const Point_3 start = mesh_.point(v);
     const auto begin = std::chrono::steady_clock::now();
     const Drag_result<Mesh> result = grab.drag_to(target);
@@ -115,6 +103,7 @@ private:
     tally_.nanoseconds += taken;
     tally_.longest = std::max(tally_.longest, taken);
     ++tally_.drags;
+    bits_.add(result);
     tally_.contradictions += result.position != mesh_.point(v) || test::contradiction(result, start, target) != nullptr;
     ++(result.reached ? tally_.reached : tally_.blocked);
     const double error = result.stop_error / test::clearance_kept(sculptor_, result);
@@ -134,18 +123,17 @@ private:
       tally_.slow_stops += error > 2;
       tally_.largest_stop_error = std::max(tally_.largest_stop_error, error);
     }
-    if (validate_every_ != 0 && tally_.drags % validate_every_ == 0)
+    if (batch_.validate_every != 0 && tally_.drags % batch_.validate_every == 0 && !batch_.has_only_bits)
       check();
   }
 
-  Drag_tally finish() {
+  void finish() {
     check();
     try {
       sculptor_.check_unchanged();
     } catch (const Mesh_changed&) {
       ++tally_.changed;
     }
-    return tally_;
   }
 
   void check() {

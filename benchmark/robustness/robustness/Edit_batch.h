@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Edit_tally.h"
+#include "Batch_bits.h"
+#include "Batch_script.h"
 #include "Random_places.h"
+#include "batches.h"
 #include "is_feasible_creation.h"
 #include "sculpting/Mesh_snapshot.h"
 
@@ -13,31 +15,63 @@ namespace haptic_sculpt::robustness {
 /// One batch of drags, creations, removals, collapses, flips, undo and redo mixed, part of them in strokes, on a fresh
 /// copy of the mesh; in the end all is undone, which has to give the input bit for bit, and redone, which has to give
 /// the end.
+template <class Broad_phase>
 class Edit_batch {
 public:
-  /// \param validate_every 0: only in the end, undone, and redone
-  Edit_batch(const Mesh& mesh, Response response, std::uint64_t seed, std::size_t validate_every)
-      : mesh_(mesh)
-      , sculptor_(mesh_, parameters::response(response))
-      , places_(mesh_, seed)
-      , validate_every_(validate_every)
+  /// \throw Invalid_parameter where the clearance does not serve
+  Edit_batch(const Mesh& mesh, const Batch& batch)
+      : batch_(batch)
+      , mesh_(mesh)
+      , sculptor_(mesh_, batch.parameters())
+      , places_(mesh_, batch.seed)
       , vertices_at_first_(mesh.number_of_vertices()) {}
 
-  Edit_tally run(std::size_t edits) {
-    const test::Mesh_snapshot input = test::snapshot(sculptor_);
-    std::size_t next_check = validate_every_;
-    while (tally_.edits < edits) {
+  /// \throw Invalid_parameter where the clearance no longer serves
+  Batch_made<Edit_tally> run(Keep keep) {
+    std::optional<test::Mesh_snapshot> input;
+    if (!batch_.has_only_bits)
+      input = test::snapshot(sculptor_);
+    std::size_t next_check = batch_.validate_every;
+    while (tally_.edits < batch_.count) {
       begin_or_end_stroke();
       one();
-      if (validate_every_ != 0 && tally_.edits >= next_check) { // a run of undos may have gone past it by a few
+      if (batch_.validate_every != 0 && tally_.edits >= next_check) { // a run of undos may have gone past it by a few
         check();
-        next_check += validate_every_;
+        next_check += batch_.validate_every;
       }
     }
-    stroke_.reset();
+    end_stroke();
     check();
-    while (sculptor_.redo())
+    for (script_.add("redo"); sculptor_.redo(); script_.add("redo"))
       ;
+    bits_.add(mesh_);
+    Batch_made<Edit_tally> made{{}, bits_.value(), {}, keep == Keep::all ? mesh_ : Mesh()};
+    if (!batch_.has_only_bits)
+      undo_and_redo_all(*input);
+    if (keep == Keep::all || tally_.is_any_promise_broken())
+      made.script = script_.text(batch_.opening());
+    made.tally = tally_;
+    return made;
+  }
+
+private:
+  static constexpr std::size_t judged_share = 16; ///< the decision is linear in the mesh
+
+  using Sculptor_type = Sculptor<Mesh, Broad_phase>;
+  using Edited = Edit_result<Mesh>;
+
+  Batch batch_;
+  Batch_script script_;
+  Batch_bits bits_;
+  Mesh mesh_;
+  Sculptor_type sculptor_;
+  Random_places places_;
+  std::size_t vertices_at_first_;
+  std::optional<Grab<Sculptor_type>> grab_; ///< kept in hand while other edits go on
+  std::optional<Stroke<Sculptor_type>> stroke_;
+  Edit_tally tally_;
+
+  void undo_and_redo_all(const test::Mesh_snapshot& input) {
     const test::Mesh_snapshot end = test::snapshot(sculptor_);
     tally_.longest_history = sculptor_.history().number_of_undo_steps();
     while (sculptor_.undo())
@@ -48,30 +82,22 @@ public:
       ;
     tally_.redo_differs += test::snapshot(sculptor_) != end;
     check();
-    return tally_;
   }
-
-private:
-  static constexpr std::size_t judged_share = 16; ///< the decision is linear in the mesh
-
-  using Edited = Edit_result<Mesh>;
-
-  Mesh mesh_;
-  Sculptor<Mesh> sculptor_;
-  Random_places places_;
-  std::size_t validate_every_, vertices_at_first_;
-  std::optional<Grab<Sculptor<Mesh>>> grab_; ///< kept in hand while other edits go on
-  std::optional<Stroke<Sculptor<Mesh>>> stroke_;
-  Edit_tally tally_;
 
   /// Half of the edits are in strokes, of ten on average; one that undo has ended is ended again.
   void begin_or_end_stroke() {
     if (places_.below(10) != 0)
       return;
     if (stroke_)
-      stroke_.reset();
-    else
-      stroke_.emplace(sculptor_.stroke()), ++tally_.strokes;
+      return end_stroke();
+    script_.add("stroke");
+    stroke_.emplace(sculptor_.stroke()), ++tally_.strokes;
+  }
+
+  void end_stroke() {
+    if (stroke_)
+      script_.add("end");
+    stroke_.reset();
   }
 
   void one() {
@@ -85,26 +111,54 @@ private:
     else if (kind < 12 && !is_full)
       create_on_edge();
     else if (kind < 16)
-      count("remove", sculptor_.remove(places_.vertex()));
+      remove();
     else if (kind < 19)
       go_back();
     else if (kind < 20)
-      count("redo", sculptor_.redo());
+      redo();
     else if (kind < 22)
-      count("collapse", sculptor_.collapse(places_.halfedge()));
+      collapse();
     else
-      count("flip", sculptor_.flip(mesh_.edge(places_.halfedge())));
+      flip();
+  }
+
+  std::size_t id_of_source(Halfedge_index h) const { return sculptor_.id(mesh_.source(h)); }
+  std::size_t id_of_target(Halfedge_index h) const { return sculptor_.id(mesh_.target(h)); }
+
+  void remove() {
+    const Vertex_index v = places_.vertex();
+    script_.add("remove", {sculptor_.id(v)});
+    count("remove", sculptor_.remove(v));
+  }
+  void collapse() {
+    const Halfedge_index h = places_.halfedge();
+    script_.add("collapse", {id_of_source(h), id_of_target(h)});
+    count("collapse", sculptor_.collapse(h));
+  }
+  void flip() {
+    const Halfedge_index h = places_.halfedge();
+    script_.add("flip", {id_of_source(h), id_of_target(h)});
+    count("flip", sculptor_.flip(mesh_.edge(h)));
+  }
+  void undo() {
+    script_.add("undo");
+    count("undo", sculptor_.undo());
+  }
+  void redo() {
+    script_.add("redo");
+    count("redo", sculptor_.redo());
   }
 
   /// A few steps back and, half of the time, some forth before a new edit clears them.
   void go_back() {
     for (std::size_t steps = 1 + places_.below(4); steps > 0; --steps)
-      count("undo", sculptor_.undo());
+      undo();
     for (std::size_t steps = places_.below(2) * (1 + places_.below(4)); steps > 0; --steps)
-      count("redo", sculptor_.redo());
+      redo();
   }
 
   void count(const char* kind, const Edited& edited) {
+    bits_.add(std::uint64_t{edited ? 1u : 0u});
     tally_.count(kind, edited ? nullptr : name_of(edited.refusal->reason));
   }
 
@@ -116,7 +170,10 @@ private:
     const Vertex_index v = grab_->vertex();
     const Point_3 target = kind < 3 ? places_.short_step(v) : kind < 5 ? places_.through(v) : places_.odd_target(v);
     const char* name = kind < 3 ? "drag, short" : kind < 5 ? "drag, through" : "drag, odd";
-    tally_.count(name, grab_->drag_to(target).reached ? nullptr : "stopped short");
+    script_.add("drag", {sculptor_.id(v)}, target);
+    const auto result = grab_->drag_to(target);
+    bits_.add(result);
+    tally_.count(name, result.reached ? nullptr : "stopped short");
   }
 
   void create_on_face() {
@@ -131,6 +188,7 @@ private:
   }
 
   void create_on_face(const char* kind, Halfedge_index h, const Point_3& p) {
+    script_.add("insert_face", {id_of_source(h), id_of_target(h), id_of_target(mesh_.next(h))}, p);
     create(kind, {h}, p, [&] { return sculptor_.insert_on_face(mesh_.face(h), p); });
   }
 
@@ -145,6 +203,7 @@ private:
   }
 
   void create_on_edge(const char* kind, Halfedge_index h, const Point_3& p) {
+    script_.add("insert_edge", {id_of_source(h), id_of_target(h)}, p);
     create(kind, {h, mesh_.opposite(h)}, p, [&] { return sculptor_.insert_on_edge(mesh_.edge(h), p); });
   }
 
@@ -152,6 +211,8 @@ private:
   /// it.
   template <class Make>
   void create(const char* kind, const std::vector<Halfedge_index>& old_halfedges, const Point_3& p, const Make& make) {
+    if (batch_.has_only_bits)
+      return count(kind, make());
     const bool is_judged = tally_.edits % judged_share == 0;
     const bool is_feasible = is_judged && is_feasible_creation(mesh_, old_halfedges, p);
     const Edited edited = make();
@@ -164,6 +225,8 @@ private:
   }
 
   void check() {
+    if (batch_.has_only_bits)
+      return;
     ++tally_.validations;
     tally_.invalid += !mesh_.is_valid(false) || !validate(mesh_).is_valid();
     try {

@@ -20,6 +20,10 @@ struct Edit_tally {
               creations_wrongly_refused = 0; ///< what is feasible is one or the other
   std::size_t longest_history = 0;
 
+  bool is_any_promise_broken() const {
+    return invalid + undo_differs + redo_differs + changed + creations_wrongly_accepted > 0;
+  }
+
   void count(const std::string& kind, const char* refusal) {
     ++edits;
     Row& row = rows[kind];

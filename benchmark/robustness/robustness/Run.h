@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Drag_batch.h"
-#include "Edit_batch.h"
+#include "Compared_batches.h"
 #include "Extreme_batch.h"
 #include "Shard.h"
+#include "broad_phases.h"
 #include "end_run.h"
 
 #include <haptic_sculpt/surface.h>
@@ -32,6 +32,7 @@ enum Exit {
   not_finite = 20,       ///< an extreme drag left a coordinate that is no finite number
   went_away = 21,        ///< an extreme drag ended farther from its target than it began
   contradiction = 23,    ///< a result contradicts itself
+  other_bits = 24,       ///< another broad phase has led to other results, if only in the last bit
   moved_though_refused = 22 ///< an extreme drag was refused with an error, and something had moved
 };
 
@@ -40,8 +41,9 @@ struct Options {
   std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000,
               edit_batch = 5000, least_faces = 0;
   std::uint64_t seed = 1;
-  std::vector<std::string> refuse;
-  bool has_hard_meshes = false, repairs = false;
+  std::vector<std::string> refuse, broad_phases = {"box_tree"};
+  std::vector<double> clearances = {0}; ///< shares of the extent of a mesh; 0: the default of the library
+  bool has_hard_meshes = false, repairs = false, dumps_all = false;
   benchmark::Shard shard;
 };
 
@@ -59,17 +61,33 @@ inline bool is_large(const Mesh& mesh) {
 class Run {
 public:
   explicit Run(const Options& options)
-      : options_(options), shard_(options.shard), response_(*response_named(options.response)) {}
+      : options_(options)
+      , shard_(options.shard)
+      , response_(*response_named(options.response))
+      , batches_(broad_phases_named(options.broad_phases), options.dump,
+                 options.dumps_all ? Keep::all : Keep::what_fails) {}
 
-  /// \param is_hard short drags may be held with reason: they are not counted among those that have to arrive
+  /// With each of the clearances. \param is_hard short drags may be held with reason: they are not counted among those
+  /// that have to arrive
   void mesh(const std::string& name, const Mesh& mesh, bool is_hard = false) {
     if (mesh.number_of_faces() < options_.least_faces)
       return;
-    is_hard_ = is_hard;
-    Json row = {{"unit", shard_.next_unit()}, {"mesh", name}, {"faces", mesh.number_of_faces()}};
-    const bool has_drags = drag(name, mesh, row), has_edits = edit(name, mesh, row);
-    if (has_drags || has_edits)
-      rows_.push_back(row);
+    for (const double share : options_.clearances) {
+      is_held_with_reason_ = is_hard || share != 0; // a wide clearance holds as a hard mesh does
+      clearance_.reset();
+      Json row = {{"unit", shard_.next_unit()}, {"mesh", name}, {"faces", mesh.number_of_faces()}};
+      if (share != 0) {
+        clearance_ = share * largest_extent(mesh);
+        row["clearance"] = text_of_clearance(share);
+      }
+      counts_ = {};
+      const bool has_drags = drag(name, mesh, row), has_edits = edit(name, mesh, row);
+      row["compared"] = counts_.compared, row["other_bits"] = counts_.other_bits;
+      row["clearance_refused"] = counts_.clearance_refused;
+      all_counts_ += counts_;
+      if (has_drags || has_edits || counts_.clearance_refused > 0)
+        rows_.push_back(row);
+    }
   }
 
   /// Drags with extreme targets, clearances and deltas: a share of all that are asked for.
@@ -117,7 +135,8 @@ public:
     const int exit = promises.exit();
     std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, "
               << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response << ", motion "
-              << options_.motion << ", seed " << options_.seed << ", exit " << exit << '\n';
+              << options_.motion << ", " << all_counts_.compared << " batches compared, "
+              << all_counts_.other_bits << " with other bits, seed " << options_.seed << ", exit " << exit << '\n';
     for (const auto& [kind, counts] : edits_.rows) {
       std::cout << "  " << kind << ": " << counts.asked << " asked, " << counts.done << " done";
       for (const auto& [reason, count] : counts.refused)
@@ -129,6 +148,8 @@ public:
                     {"shard", shard_.text()},
                     {"response", options_.response},
                     {"motion", options_.motion},
+                    {"broad_phases", joined(options_.broad_phases)},
+                    {"clearances", joined(texts_of_clearances())},
                     {"meshes", rows_},
                     {"total", drags_.json()},
                     {"total_of_edits", edits_.json()},
@@ -154,7 +175,10 @@ private:
   benchmark::Shard shard_;
   Response response_;
   std::size_t files_read_ = 0, wrongly_accepted_ = 0, wrongly_refused_ = 0;
-  bool is_hard_ = false; ///< the mesh at hand
+  Compared_batches batches_;
+  Compared_batches::Counts counts_, all_counts_; ///< of the mesh at hand; of all
+  bool is_held_with_reason_ = false; ///< of the mesh at hand
+  std::optional<double> clearance_; ///< the same
   Drag_tally drags_;
   Edit_tally edits_;
   Extreme_tally extremes_;
@@ -164,23 +188,50 @@ private:
   bool is_ours() { return shard_.takes_next(); }
   std::uint64_t seed_of_batch() const { return options_.seed * 1000003 + shard_.next_unit(); }
 
+  static double largest_extent(const Mesh& mesh) {
+    const Box_3 box = internal::Scene_extent(mesh).box;
+    double widest = 0;
+    for (int i = 0; i < 3; ++i)
+      widest = std::fmax(widest, box.upper[i] - box.lower[i]);
+    return widest;
+  }
+
+  static std::string text_of_clearance(double share) {
+    std::ostringstream text;
+    text << share << " of the extent";
+    return share == 0 ? "default" : text.str();
+  }
+  std::vector<std::string> texts_of_clearances() const {
+    std::vector<std::string> texts;
+    for (const double share : options_.clearances)
+      texts.push_back(text_of_clearance(share));
+    return texts;
+  }
+  static std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words)
+      text += (text.empty() ? "" : ", ") + word;
+    return text;
+  }
+
+  template <class Tally>
+  Tally made(const Mesh& mesh, std::size_t count, bool has_few, Batch_maker<Tally> Broad_phase_choice::*make) {
+    const Batch batch{response_, clearance_, seed_of_batch(), count, std::size_t{has_few ? 0u : 100u},
+                      options_.motion == "hand"};
+    return batches_.make(mesh, batch, make, "batch_" + std::to_string(shard_.next_unit() - 1), counts_);
+  }
+
   bool drag(const std::string& name, const Mesh& mesh, Json& row) {
     const bool has_few = is_large(mesh);
     const std::size_t drags = has_few ? options_.drags_on_large : options_.drags;
     Drag_tally tally;
     for (std::size_t done = 0; done < drags; done += options_.batch)
-      if (is_ours()) {
-        Drag_batch batch(mesh, response_, seed_of_batch(), has_few ? 0 : 100);
-        const std::size_t asked = std::min(options_.batch, drags - done);
-        const Drag_tally made = options_.motion == "hand" ? batch.run_strokes(asked) : batch.run_odd_drags(asked);
-        tally += made;
-        if (!options_.dump.empty() && made.is_any_promise_broken())
-          batch.write(options_.dump, "batch_" + std::to_string(shard_.next_unit() - 1));
-      }
+      if (is_ours())
+        tally += made(mesh, std::min(options_.batch, drags - done), has_few, &Broad_phase_choice::drag_batch);
     if (tally.drags == 0)
       return false;
     row.update(tally.json());
-    if (is_hard_)
+    if (is_held_with_reason_)
       tally.short_asked = tally.short_arrived = 0;
     drags_ += tally;
     std::cout << name << ": " << tally.drags << " drags, " << tally.blocked << " blocked, short " << tally.short_arrived
@@ -198,8 +249,7 @@ private:
     Edit_tally tally;
     for (std::size_t done = 0; done < edits; done += options_.edit_batch)
       if (is_ours())
-        tally += Edit_batch(mesh, response_, seed_of_batch(), has_few ? 0 : 100)
-                     .run(std::min(options_.edit_batch, edits - done));
+        tally += made(mesh, std::min(options_.edit_batch, edits - done), has_few, &Broad_phase_choice::edit_batch);
     if (tally.edits == 0)
       return false;
     edits_ += tally;
@@ -225,6 +275,8 @@ private:
     promises.add(went_away, "no drag ends farther from its target", extremes_.drags, extremes_.farther);
     promises.add(contradiction, "no result contradicts itself", drags + extremes,
                  drags_.contradictions + extremes_.contradictions);
+    promises.add(other_bits, "every broad phase gives the same bits", all_counts_.compared,
+                 all_counts_.other_bits);
     promises.add(jumped_over, "no creation crosses the surface", edits_.creations_judged,
                  edits_.creations_wrongly_accepted);
     promises.add(mesh_changed, "nothing moves but what is in hand", drags_.validations + edits_.validations,

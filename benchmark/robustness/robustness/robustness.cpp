@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
       "20 an extreme drag "
       "left a coordinate that is not finite, 21 one ended farther from its target than it began, 22 one was refused "
       "but moved something, 23 "
-      "the result of a drag contradicts itself.");
+      "the result of a drag contradicts itself, 24 another broad phase has led to other results.");
   app.add_option("--meshes", options.folder, "Folder of meshes to work on, beside the generated ones")
       ->check(CLI::ExistingDirectory);
   app.add_flag("--repair", options.repairs, "Files of the folder that are refused are repaired, and worked on then");
@@ -53,12 +53,27 @@ int main(int argc, char** argv) {
                  "odd: single drags, many of them degenerate; hand: strokes of a hundred short steps with one vertex")
       ->check(CLI::IsMember({"odd", "hand"}))
       ->capture_default_str();
+  app.add_option("--broad-phase", options.broad_phases,
+                 "One or more, e.g. box_tree,six_lists: the first one counts; each batch is made with the others, too, "
+                 "which has to give the same bits")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"box_tree", "six_lists", "all_faces"}))
+      ->capture_default_str();
+  app.add_option("--clearance", options.clearances,
+                 "One or more, e.g. 0,1e-9: of the extent of each mesh; 0: the default, 4 ulp. Where one does not "
+                 "serve a mesh its batches are counted as refused")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   app.add_option("--least-faces", options.least_faces, "Leave out meshes with fewer faces");
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
   app.add_flag("--hard", options.has_hard_meshes,
                "On meshes, too, that are an ulp thick, almost flat, nested, crumpled and so on");
   app.add_option("--dump", options.dump,
-                 "Folder for batches of drags that break a promise: a mesh and a script, for `sculpt` and `minimise`");
+                 "Folder for batches that break a promise: a mesh and a script, for `sculpt` and `minimise`. Drags are "
+                 "replayed to the bit; of mixed edits, where a vertex stays in hand meanwhile, most are");
+  app.add_flag("--dump-all", options.dumps_all,
+               "All batches are written there, and what has become of the mesh, NAME.end.off");
   options.shard.add_option(app, "batch");
   app.add_option("--json", options.json, "Where the report goes");
   try {
