@@ -49,6 +49,7 @@ std::string report_of(const Run_result& r, const Settings& settings, const std::
                          {"is_true", r.has_true_energy}}},
                        {"limits",
                         {{"passive_k", r.passive_stiffness},
+                         {"calm_k", std::isfinite(r.calm_stiffness) ? json(r.calm_stiffness) : json()}, // null: none
                          {"stable_k", nullptr},
                          {"friction", r.friction},
                          {"largest_b", r.largest_damping},
@@ -79,7 +80,8 @@ void print_summary(std::ostream& out, const Run_result& r, const Settings& setti
       << r.missed << " (by CPU time " << r.missed_by_cpu << "), woken late " << r.missed_by_wakeup << ", allocations "
       << r.allocations << '\n';
   out << std::setprecision(3) << "force: at most " << r.largest_force << " N, in free motion " << r.largest_free_force
-      << " N; stiffness " << settings.stiffness << " N/m, passive up to " << r.passive_stiffness << '\n';
+      << " N; stiffness " << settings.stiffness << " N/m, passive up to " << r.passive_stiffness << ", calm up to "
+      << r.calm_stiffness << '\n';
   out << std::setprecision(6) << "energy: from the hand " << r.port << " J, friction " << r.dissipated
       << " J, observer " << r.observed << " J\n";
   out << "edits: " << r.grabbed << " grabbed, " << r.created << " created, " << r.removed << " removed, " << r.refused

@@ -38,7 +38,7 @@ struct Run_result {
          largest_free_force = 0; ///< N; free: nothing is touched, and the slew limit has had its time
   bool has_true_energy = false;
   double port = 0, dissipated = 0, observed = 0, least_observed = 0; ///< J
-  double friction = 0, passive_stiffness = 0;
+  double friction = 0, passive_stiffness = 0, calm_stiffness = 0;
   double largest_damping = 0, largest_mass = 0, largest_controller = 0; ///< that serve
   double mass_energy = 0; ///< taken by the virtual mass, J
   std::size_t grabbed = 0, created = 0, removed = 0, released = 0, refused = 0;

@@ -157,7 +157,7 @@ private:
     if (!limits.worst.is_found)
       throw Usage_error("the map leads to no place that the device can reach; see --map");
     result_.friction = limits.friction;
-    result_.passive_stiffness = limits.passive_stiffness;
+    result_.passive_stiffness = limits.passive_stiffness, result_.calm_stiffness = limits.calm_stiffness;
     result_.largest_damping = limits.largest_damping, result_.largest_mass = limits.largest_mass;
     result_.largest_controller = limits.largest_controller;
     const double stiffness = parameters.stiffest().stiffness;

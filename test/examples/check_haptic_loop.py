@@ -79,6 +79,11 @@ check(set(report["cpu_ns"]) == {"p50", "p99", "p999", "p9999", "max"}, "percenti
 check({"port", "dissipated", "observer"} <= set(report["energy"]), "energies")
 check(report["energy"]["port"] + report["energy"]["dissipated"] > 0, "the device gives no energy")
 check(report["limits"]["passive_k"] > 500, "the default is passive")
+# A handle has friction / sigma^2, and moves by encoder step * sigma in a count, both at the worst pose.
+limits, encoder_step = report["limits"], report["settings"]["device"]["encoder_step"]
+check(limits["stable_k"] is None, f"there is no stable limit any more: {limits}")
+sigma = math.sqrt(report["settings"]["device"]["friction"] / limits["friction"])
+check(abs(limits["calm_k"] * math.sqrt(3) * encoder_step * sigma / 0.1 - 1) < 1e-9, f"the calm limit: {limits}")
 check(report["allocations"] == 0, f"{report['allocations']} allocations after the start")
 check(all(time is not None for time in report["happened"].values()) and len(report["happened"]) == 10, f"happened: {report['happened']}")
 edits = report["edits"]
@@ -95,6 +100,16 @@ for row in rows:  # the fitted map is not turned
         check(coupling == [0, 0, 0], f"no force in free motion at {row['t']}")
     touching += row["end"] != "reached"
 check(touching > 500, f"touching in {touching} ticks")
+told = run(MESH, "--no-wait", "--rate", 10000, "--stiffness", 1.001 * limits["calm_k"], code=7).stderr
+check("not calm" in told and f"{limits['calm_k']:.4g}"[:4] in told, f"at a high rate counts bound it: {told}")
+run(MESH, "--no-wait", "--rate", 10000, "--stiffness", 0.999 * limits["calm_k"], "--seconds", 0.01,
+    "--report", at("k.json"))
+high = json.load(open(at("k.json")))["limits"]
+check(high["calm_k"] == limits["calm_k"] < high["passive_k"] and high["stable_k"] is None, f"limits at 10 kHz: {high}")
+with open(at("exact.json"), "w") as file:
+    json.dump({**report["settings"]["device"], "encoder_step": 0}, file)
+run(MESH, "--no-wait", "--device", at("exact.json"), "--seconds", 0.01, "--report", at("e.json"))
+check(json.load(open(at("e.json")))["limits"]["calm_k"] is None, "exact angles are calm at any stiffness")
 print("report:", {key: report[key] for key in ("ticks", "cpu_ns", "allocations", "force", "energy", "limits", "edits", "missed_by_cpu")})
 
 run(MESH, "--replay", at("a.rec"), "-o", at("b.off"), "--trace", at("b.csv"))
@@ -109,6 +124,37 @@ for kind in ("nan", "jump", "stall", "singular", "torque"):
     check(report["valid"] is True, f"{kind}: the mesh is valid")
     last = rows_of(at("f.csv"))[-1]
     check(vector(last, "fx", "fy", "fz", "tau1", "tau2", "tau3") == [0] * 6, f"{kind} ends at zero")
+
+# A stiff and fast loop, on which a finger comes down 30 mm in 0.1 s: calm after half a second, or refused or a fault by
+# name; it gives no energy.
+open(at("finger.json"), "w").write('{"name": "finger"}')
+with open(at("down.csv"), "w") as file:
+    places = ((0, 0.15508), (0.4, 0.15508), (0.5, 0.12508), (1.2, 0.12508))  # s, m
+    file.write("t,x,y,z,button\n" + "".join(f"{t},-0.00898,-0.00003,{z},0\n" for t, z in places))
+done = program_runs.run(MESH, "--no-wait", "--rate", 4000, "--stiffness", 2300, "--hand", at("finger.json"),
+                        "--path", at("down.csv"), "--trace", at("d.csv"), "--report", at("d.json"), program=LOOP,
+                        seconds=300)
+check(done.returncode in (0, 7, 8), f"a finger that comes down: exit {done.returncode}: {done.stderr}")
+if done.returncode == 7:
+    check("is not passive" in done.stderr or "is not calm" in done.stderr, f"refused by name: {done.stderr}")
+else:
+    report = json.load(open(at("d.json")))
+    energy, faults = report["energy"], [fault["what"] for fault in report["faults"]]
+    check(energy["is_true"] and energy["port"] + energy["dissipated"] >= -1e-3, f"a finger is given energy: {energy}")
+    forces = [(float(row["t"]), math.hypot(*vector(row, "fx", "fy", "fz"))) for row in rows_of(at("d.csv"))]
+    check(max(force for _, force in forces) > 0.5, "the finger has touched")
+    late = [force for t, force in forces if t >= 1.0]  # it has come down at 0.5
+    check((done.returncode == 8) == bool(faults), f"a fault has a name: {faults}")
+    swing = max(late, default=0) - min(late, default=0)
+    check(faults or (late and swing <= 0.1), f"not calm: {swing} N peak to peak")
+    print("a finger that comes down:", energy, faults, f"{swing:.3f} N peak to peak")
+
+# So little work that a drag cannot tell what is there: no force, and the trace says why.
+run(MESH, "--no-wait", "--work", 1, "--seconds", 1.5, "--trace", at("w.csv"), "-o", at("w.off"))
+starved = [row for row in rows_of(at("w.csv")) if row["end"] == "starved"]
+check(starved, "no drag was starved")
+check(all(vector(row, "fcx", "fcy", "fcz") == [0, 0, 0] and row["contacts"] == "0" for row in starved),
+      "where work runs out nothing pushes")
 
 # The log's thread does not come: the run ends in order, what is not in the log is not older than 100 ms. (Without waiting, the thread
 # may be some ticks behind before.)

@@ -9,6 +9,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <optional>
+
 namespace haptic_rendering_tests {
 
 /// A mechanism in a hand beside a plane: what a run is made of. The plane stands for a surface that answers exactly,
@@ -25,8 +27,8 @@ struct Contact_setup {
   double most_condition = 10; ///< cond(J) beyond which it ends too
   Force_limits limits{};
   Virtual_mass_parameters virtual_mass{};
-  double controller_damping = 0; ///< N s/m
-  bool follows_pose = false;     ///< Haptic_parameters::follows_pose; couplings are chosen for the poses of a run
+  std::optional<double> controller_damping{};            ///< N s/m; none: half of what may be asked for, as in a loop
+  bool follows_pose = Haptic_parameters().follows_pose; ///< couplings are chosen for the poses of a run
   double burst_every = 0;        ///< s; 0: no edits are refused
   double starved_share = 0;      ///< of the ticks, the first of each 0.1 s: work is cut short before the plane is found
   Eigen::Vector3d speed = Eigen::Vector3d::Zero(); ///< that the handle is given, m/s
@@ -71,7 +73,7 @@ Contact_outcome run_contact(Contact_setup setup, double seconds, const Each& eac
   const Device_parameters<double>& device = setup.device;
   Simulated_device simulated(device, setup.start, setup.hand, setup.path, setup.tick, setup.delay);
   Interaction<Joint_side> loop(Joint_side(device, setup.start, setup.parameters()), setup.parameters(),
-                               setup.controller_damping);
+                               setup.controller_damping.value_or(setup.largest_controller() / 2));
   const Handle_motion& handle = loop.side().handle();
   const Passivity_observer& observer = loop.observer();
   Touch touch;

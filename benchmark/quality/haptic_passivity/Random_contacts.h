@@ -46,6 +46,15 @@ struct Contact_wishes {
   double most_condition = 10; ///< of all poses
   double fixed_tick = 0;      ///< s; 0: drawn from 0.25 to 4 ms
   bool is_at_limit = false;   ///< k = k_p; else a share of it
+  bool is_calm = false;       ///< k is, too, at most what is calm with the encoders
+
+  /// Encoders and motors as they are built, and a stiffness that the loop takes with them.
+  static Contact_wishes as_built() {
+    Contact_wishes wishes;
+    wishes.encoder_step = 1.53e-4, wishes.torque_limit = Device_description<double>().torque_limit;
+    wishes.is_calm = true;
+    return wishes;
+  }
 };
 
 /// Poses with a handle near one place.
@@ -130,9 +139,11 @@ inline Contact_setup random_contact(std::uint64_t seed, Device_form form, const 
   const auto start = reach_position(device, region.centre, path.rows().front().position);
   Contact_setup setup{device, *start, region.centre.position, normal, path, random_hand(draw)};
   setup.tick = tick, setup.delay = delay, setup.greatest = region.greatest;
-  setup.coupling = {share * passive_stiffness(friction, damping, tick, delay), damping};
+  const double calm = wishes.is_calm ? calm_stiffness(wishes.encoder_step * region.greatest, damping)
+                                     : std::numeric_limits<double>::infinity();
+  setup.coupling = {share * std::fmax(0, std::fmin(passive_stiffness(friction, damping, tick, delay), calm)), damping};
   setup.most_condition = wishes.most_condition * 1.05;
-  setup.limits = no_limits();
+  setup.limits = no_limits(), setup.controller_damping = 0, setup.follows_pose = false; // nothing else at work
   return setup;
 }
 

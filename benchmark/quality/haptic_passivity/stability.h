@@ -46,6 +46,7 @@ inline Contact_setup pressed(const Device_parameters<double>& device, const Devi
   Contact_setup setup{device, *start, pose.position, normal, path, hand};
   setup.tick = tick, setup.delay = delay, setup.coupling = coupling;
   setup.greatest = 1e9, setup.most_condition = 100;
+  setup.controller_damping = 0, setup.follows_pose = false; // stability of the coupling alone
   return setup;
 }
 
