@@ -31,10 +31,12 @@ def minimise(out, names, sculpt):
         note = small(script, ".txt")
         if note.exists() and note.stat().st_mtime > script.stat().st_mtime:
             continue
-        done = subprocess.run([sys.executable, str(steps.BENCHMARK / "robustness" / "minimise"), str(sculpt), str(script.with_suffix(".off")), str(script),
-                               "--out", str(script.with_name(script.stem + SMALL)), "--seconds", str(SECONDS_A_CASE)], capture_output=True, text=True)
+        words = [sys.executable, steps.BENCHMARK / "robustness" / "minimise", sculpt, script.with_suffix(".off"),
+                 script, "--out", script.with_name(script.stem + SMALL), "--seconds", SECONDS_A_CASE]
+        done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
         said = {0: done.stdout.split(" tries")[0] + " tries", 1: "replayed by sculpt it does not fail"}
-        note.write_text(said.get(done.returncode, f"minimise ended with {done.returncode}: {done.stderr.strip()[-300:]}") + "\n")
+        otherwise = f"minimise ended with {done.returncode}: {done.stderr.strip()[-300:]}"
+        note.write_text(said.get(done.returncode, otherwise) + "\n")
 
 
 def rows(out, names):
@@ -42,6 +44,7 @@ def rows(out, names):
     result = []
     for step, shard, script in scripts(out, names):
         files, note = small(script, ".script"), small(script, ".txt")
-        result.append({"step": step, "shard": shard, "case": str(script.relative_to(out)), "small": str(files.relative_to(out)) if files.exists() else "",
+        result.append({"step": step, "shard": shard, "case": str(script.relative_to(out)),
+                       "small": str(files.relative_to(out)) if files.exists() else "",
                        "note": note.read_text().strip() if note.exists() else "not made small: the first ten are"})
     return result

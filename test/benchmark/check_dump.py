@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """check_dump.py ROBUSTNESS SCULPT: what `robustness` dumps of a batch, replayed by `sculpt`, gives the same mesh.
 
-Drags and strokes of a hand, with two clearances: the corners of all faces are compared, to the last bit. Mixed edits with
-undo, redo and strokes have to be replayed; most give the same mesh, but not all, because a script lets go of a vertex
-that the batch keeps in hand during other edits."""
+Drags and strokes of a hand, with two clearances: the corners of all faces are compared, to the last bit. Mixed edits
+with undo, redo and strokes have to be replayed; most give the same mesh, but not all, because a script lets go of a
+vertex that the batch keeps in hand during other edits."""
 import pathlib
 import subprocess
 import sys
@@ -12,7 +12,8 @@ import tempfile
 
 ROBUSTNESS, SCULPT = sys.argv[1:3]
 COMMON = "--drags-on-large 0 --edits-on-large 0 --seed 7 --dump-all --dump"
-RUNS = {"odd": "--drags 40 --edits 150 --clearance 0,1e-6", "hand": "--motion hand --drags 150 --edits 0 --response stop"}
+RUNS = {"odd": "--drags 40 --edits 150 --clearance 0,1e-6",
+        "hand": "--motion hand --drags 150 --edits 0 --response stop"}
 
 
 def faces(path):
@@ -38,7 +39,8 @@ with tempfile.TemporaryDirectory() as place:
             faults.append(f"{name}: robustness ended with {done.returncode}: {done.stdout[-1000:]}{done.stderr}")
         for script in sorted(folder.glob("*.script"))[:20]:
             out = folder / "out.off"
-            replayed = subprocess.run([SCULPT, str(script.with_suffix(".off")), "--script", str(script), "-o", str(out)], capture_output=True, text=True)
+            words = [SCULPT, str(script.with_suffix(".off")), "--script", str(script), "-o", str(out)]
+            replayed = subprocess.run(words, capture_output=True, text=True)
             kind = "edits" if "\nflip " in script.read_text() else f"drags, {name}"
             counts[kind] = counts.get(kind, 0) + 1
             if replayed.returncode != 0:

@@ -6,38 +6,24 @@
 Arguments: sculpt, source folder, haptic_loop, further meshes. HAPTIC_SCULPT_SECONDS says how long in all, in simulated
 time (20)."""
 import json
-import math
 import os
 import random
 import sys
 import tempfile
 
 import program_runs
+from hand_paths import BUTTONS_OF_A_HAND, random_path
 from program_runs import FURTHER as LOOP, SCULPT, SOURCE, check, end, surface
 
 MESHES = [f"{SOURCE}/examples/data/ball_and_moon.off", *sys.argv[4:]]
 SECONDS = float(os.environ.get("HAPTIC_SCULPT_SECONDS", "20"))
 SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "1"))
-RADIUS = 0.030  # m: the scene is fitted into a ball of 34 mm about the handle's home
 
 
 def run(program, *arguments):
     done = program_runs.run(*arguments, program=program, seconds=1200)
     check(done.returncode == 0, f"{arguments}: exit {done.returncode}: {done.stderr.strip()[-300:]}")
     return done.returncode == 0
-
-
-def random_path(rng, seconds, home):
-    """Straight ways of 20 to 200 mm/s between places in the ball, more of them near its middle; a button on two ways of three."""
-    rows, t, at, button = ["t,x,y,z,button"], 0.0, (0.0, 0.0, 0.9 * RADIUS), 0
-    while t < seconds:
-        rows.append(f"{t:.3f},{home[0] + at[0]:.5f},{home[1] + at[1]:.5f},{home[2] + at[2]:.5f},{button}")
-        direction = [rng.gauss(0, 1) for _ in range(3)]
-        length = RADIUS * rng.uniform(0.2, 0.95) / math.hypot(*direction)
-        to = tuple(length * d for d in direction)
-        t += max(0.05, math.dist(at, to) / rng.uniform(0.02, 0.2))
-        at, button = to, rng.choice([0, 0, 1, 1, 2, 2])
-    return "\n".join(rows) + "\n"
 
 
 def main():
@@ -51,7 +37,7 @@ def main():
         home = json.load(open(at("home.json")))["map"][7:10]
         for mesh in MESHES:
             seconds = SECONDS / len(MESHES)
-            open(at("path.csv"), "w").write(random_path(rng, seconds, home))
+            open(at("path.csv"), "w").write(random_path(rng, seconds, home, BUTTONS_OF_A_HAND))
             for old in ("a.log", "a.off", "b.off"):
                 if os.path.exists(at(old)):
                     os.remove(at(old))

@@ -7,15 +7,17 @@ memory: the history and the journal keep it. What it touches may not. Exit code 
 bounds say; 1: it is not, or the loop failed."""
 import argparse
 import json
-import math
 import os
+import pathlib
 import random
 import subprocess
 import sys
 import tempfile
 import time
 
-RADIUS = 0.030  # m: the scene is fitted into a ball of 34 mm about the handle's home
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "examples"))
+from hand_paths import BUTTONS_OF_A_HAND, random_path
+
 TICKS_A_SECOND = 1000
 # Simulated seconds that one of the clock may bring: more than the fastest machine makes of a path.
 FASTEST = 200
@@ -24,19 +26,6 @@ ALLOWED = 4 << 20
 # Bytes that an edit may keep: those of a grab, a creation or a removal in the history, the mesh and the tables; 1.2 to
 # 1.6 KB were seen on two meshes.
 ALLOWED_AN_EDIT = 8 << 10
-
-
-def random_path(rng, seconds, home, buttons):
-    """Straight ways of 20 to 200 mm/s between places in the ball."""
-    rows, t, at, button = ["t,x,y,z,button"], 0.0, (0.0, 0.0, 0.9 * RADIUS), 0
-    while t < seconds:
-        rows.append(f"{t:.3f},{home[0] + at[0]:.5f},{home[1] + at[1]:.5f},{home[2] + at[2]:.5f},{button}")
-        direction = [rng.gauss(0, 1) for _ in range(3)]
-        length = RADIUS * rng.uniform(0.2, 0.95) / math.hypot(*direction)
-        to = tuple(length * d for d in direction)
-        t += max(0.05, math.dist(at, to) / rng.uniform(0.02, 0.2))
-        at, button = to, rng.choice(buttons)
-    return "\n".join(rows) + "\n"
 
 
 def slope_of(samples):
@@ -68,7 +57,7 @@ def main():
         with open(at("home.json")) as file:
             home = json.load(file)["map"][7:10]
         with open(at("path.csv"), "w") as file:
-            file.write(random_path(rng, seconds, home, [0] if options.touch else [0, 0, 1, 1, 2, 2]))
+            file.write(random_path(rng, seconds, home, [0] if options.touch else BUTTONS_OF_A_HAND))
         command = [options.loop, options.mesh, "--no-wait", "--seconds", str(seconds), "--path", at("path.csv"),
                    "--rate", str(TICKS_A_SECOND), "--report", at("report.json"), "--log", at("run.log")]
         samples, begin = [], time.monotonic()

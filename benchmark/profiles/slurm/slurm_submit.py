@@ -17,10 +17,12 @@ script = sys.argv[1]
 about = json.loads(next(line.split("=", 1)[1] for line in open(script) if line.startswith("# properties")))
 job, resources = about["wildcards"], about["resources"]
 if about["rule"] == "shard" and "BENCHMARK_RUN_STEP" in os.environ:  # which the Snakefile sets
-    words = [*shlex.split(os.environ["BENCHMARK_RUN_STEP"]), job["step"], job["i"], job["n"], "--json", about["output"][0], "--unless-it-fits"]
+    words = [*shlex.split(os.environ["BENCHMARK_RUN_STEP"]), job["step"], job["i"], job["n"],
+             "--json", about["output"][0], "--unless-it-fits"]
     if subprocess.run(words, stdout=sys.stderr, check=False).returncode == 0:
         print(f"did_not_fit.{os.getpid()}")
         sys.exit(0)
 pathlib.Path("slurm").mkdir(exist_ok=True)
-sys.exit(subprocess.run(["sbatch", "--parsable", f"--job-name=benchmark.{'.'.join(job.values())}", f"--cpus-per-task={about['threads']}",
-                         f"--mem={resources['mem_mb']}", f"--time={resources['runtime']}", "--output=slurm/%j.log", script], check=False).returncode)
+words = ["sbatch", "--parsable", f"--job-name=benchmark.{'.'.join(job.values())}",
+         f"--cpus-per-task={about['threads']}", f"--mem={resources['mem_mb']}", f"--time={resources['runtime']}", "--output=slurm/%j.log", script]
+sys.exit(subprocess.run(words, check=False).returncode)
