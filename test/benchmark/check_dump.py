@@ -34,7 +34,8 @@ faults, counts, same = [], {}, {}
 with tempfile.TemporaryDirectory() as place:
     for name, options in RUNS.items():
         folder = pathlib.Path(place) / name
-        done = subprocess.run([ROBUSTNESS, *options.split(), *COMMON.split(), str(folder)], capture_output=True, text=True)
+        words = [ROBUSTNESS, *options.split(), *COMMON.split(), str(folder)]
+        done = subprocess.run(words, capture_output=True, text=True)
         if done.returncode != 0:
             faults.append(f"{name}: robustness ended with {done.returncode}: {done.stdout[-1000:]}{done.stderr}")
         for script in sorted(folder.glob("*.script"))[:20]:

@@ -24,5 +24,6 @@ if about["rule"] == "shard" and "BENCHMARK_RUN_STEP" in os.environ:  # which the
         sys.exit(0)
 pathlib.Path("slurm").mkdir(exist_ok=True)
 words = ["sbatch", "--parsable", f"--job-name=benchmark.{'.'.join(job.values())}",
-         f"--cpus-per-task={about['threads']}", f"--mem={resources['mem_mb']}", f"--time={resources['runtime']}", "--output=slurm/%j.log", script]
+         f"--cpus-per-task={about['threads']}", f"--mem={resources['mem_mb']}",
+         f"--time={resources['runtime']}", "--output=slurm/%j.log", script]
 sys.exit(subprocess.run(words, check=False).returncode)

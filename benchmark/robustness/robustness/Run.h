@@ -10,6 +10,9 @@
 #include <haptic_sculpt/surface.h>
 #include <haptic_sculpt/surface/repair.h>
 
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -189,11 +192,8 @@ private:
   std::uint64_t seed_of_batch() const { return options_.seed * 1000003 + shard_.next_unit(); }
 
   static double largest_extent(const Mesh& mesh) {
-    const Box_3 box = internal::Scene_extent(mesh).box;
-    double widest = 0;
-    for (int i = 0; i < 3; ++i)
-      widest = std::fmax(widest, box.upper[i] - box.lower[i]);
-    return widest;
+    const CGAL::Bbox_3 box = CGAL::bbox_3(mesh.points().begin(), mesh.points().end());
+    return std::max({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()});
   }
 
   static std::string text_of_clearance(double share) {

@@ -17,7 +17,7 @@ public:
   /// \param most_damping of the damper, N s/m; 0: never there \param tick s \throw Error naming what cannot be used
   Passivity_controller(double most_damping, double tick) : most_damping_(most_damping), tick_(tick) {
     internal::require_number("the most damping of a Passivity_controller", "N s/m", most_damping, 0, 1e5);
-    internal::require_number("the tick of a Passivity_controller", "s", tick, 1e-6, 1);
+    internal::require_tick("the tick of a Passivity_controller", tick);
   }
 
   /// The force on the hand, N; exactly 0 where nothing is missing.

@@ -208,7 +208,7 @@ inline void check_asked_of_limits(const Force_limits& limits, double damping, do
                                   double cutoff) {
   limits.check();
   require_number("the damping of passivity_limits()", "N s/m", damping, 0, 1e5);
-  require_number("the tick of passivity_limits()", "s", tick, 1e-6, 1);
+  require_tick("the tick of passivity_limits()", tick);
   require_number("the delay of passivity_limits()", "ticks", delay, 0, Torque_delay<double>::most_ticks);
   require_number("the cutoff of passivity_limits()", "Hz", cutoff, 1e-3, 1e6);
 }

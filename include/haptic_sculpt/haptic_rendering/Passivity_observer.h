@@ -21,7 +21,7 @@ public:
   /// \throw Error naming what no device has
   Passivity_observer(double delay_in_ticks, double tick, double viscous_friction, double encoder_step)
       : delay_(delay_in_ticks), tick_(tick), friction_(viscous_friction), encoder_step_(encoder_step) {
-    internal::require_number("the tick of a Passivity_observer", "s", tick, 1e-6, 1);
+    internal::require_tick("the tick of a Passivity_observer", tick);
     internal::require_number("the viscous friction of a Passivity_observer", "N m s/rad", viscous_friction, 0, 1e5);
     internal::require_number("the encoder step of a Passivity_observer", "rad", encoder_step, 0, 1);
   }

@@ -15,4 +15,10 @@ inline void require_number(const char* what, const char* unit, double x, double 
               number(x) + "; set it within that");
 }
 
+/// A tick, s, of what is of use without a chain of forces, whose own range is narrower: from 1 MHz to 1 Hz.
+inline void require_tick(const char* what, double tick) {
+  constexpr double shortest = 1e-6, longest = 1;
+  require_number(what, "s", tick, shortest, longest);
+}
+
 } // namespace haptic_sculpt::internal
