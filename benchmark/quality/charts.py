@@ -197,7 +197,26 @@ def device(report):
             found.append(Finding("device", f"{title} in doubles take {seconds_text(of[0][1])}, with an error of {power_text(of[0][2])} of the condition.", seconds_text(of[0][1]),
                                  f"{what}, doubles", speed_error(of, "median error over condition", "time of a call"),
                                  f"Time of the {what} against its error, by number type", [table] if not found else [], picture="" if found else "device_speed_error"))
-    return found
+    return found + models_of_device(report)
+
+
+def models_of_device(report):
+    """Of torques and positions: what a simpler model saves, and how far off it is."""
+    short = {"ditetrahedral": "di-tetrahedral", "general": "general"}
+    rows = [r for r in report.get("models", []) if r["population"] == "path"]
+    if not rows:
+        return []
+    by = {(r["form"], r["model"]): r for r in rows}
+    points = [(f"{r['model']}, {short[r['form']]}" if r["what"] == "joint torques" else r["model"], r["ns"] * 1e-9, r["relative_error"]["median"]) for r in rows]
+    planar, spatial = (by["general", m] for m in ("links in their planes", "links in space"))
+    point = by["general", "a point for the platform"]
+    table = Table("Each model", ["population", "form", "what", "model", "time", "off by, median", "largest"],
+                  [[r["population"], short[r["form"]], r["what"], r["model"], seconds_text(r["ns"] * 1e-9),
+                    *(f"{r['relative_error'][k]:.2g}" for k in ("median", "max"))] for r in report["models"]])
+    return [Finding("device", f"Links counted as if they stayed in their planes put the torques off by {percent(planar['relative_error']['median'])}, a point in the place of "
+                    f"the platform the handle by {percent(point['relative_error']['median'])} of a link; the true torques take {seconds_text(spatial['ns'] * 1e-9)}.",
+                    percent(planar["relative_error"]["median"]), "of the torques, planar links, median",
+                    speed_error(points, "median relative error", "time of a call"), "Time of the device's models against their error", [table], picture="device_models")]
 
 
 def force(report):

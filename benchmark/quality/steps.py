@@ -37,6 +37,6 @@ STEPS = [
     Step("force", "haptic_passivity",
          tiny=Effort("--parts rate --seed {seed}"),
          quick=Effort("--parts rate --seed {seed}", 10),
-         full=Effort("--parts rate,gravity,activity,passive,knocks --runs 1000 --knock-runs 1000 --seconds 60"
-                     " --seed {seed}", 120, shards=5)),
+         full=Effort("--parts rate,gravity,activity,damping,passive,knocks --runs 1000 --knock-runs 1000 --seconds 60"
+                     " --seed {seed}", 120, shards=6)),
 ]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Speed against error of the device's kinematics and dynamics, for four number types: ns per call beside the error
-// against 60 digits.
+// Speed against error of the device's kinematics and dynamics, for four number types and for simpler models: ns per
+// call beside the error against 60 digits.
 #include "Shard.h"
 #include "device/Mpfr_scalar.h"
 #include "device/populations.h"
@@ -40,7 +40,8 @@ Population make_population(unsigned seed, int count, bool path) {
 
 int main(int argument_count, char** arguments) {
   CLI::App app(
-      "Speed against error of the device's kinematics and dynamics for float, double, long double and MPFR numbers");
+      "Speed against error of the device's kinematics and dynamics for float, double, long double and MPFR numbers, "
+      "and of simpler models");
   std::string path;
   unsigned seed = 1;
   int count = 4096;
@@ -48,29 +49,33 @@ int main(int argument_count, char** arguments) {
   app.add_option("--seed", seed, "of the random configurations");
   app.add_option("--count", count, "configurations")->check(CLI::PositiveNumber);
   Shard shard;
-  shard.add_option(app, "number type and population");
+  shard.add_option(app, "number type, or all models, and population");
   CLI11_PARSE(app, argument_count, arguments);
-  json rows = json::array();
+  json rows = json::array(), models = json::array();
   for (bool along_a_path : {true, false}) {
     const Population p = make_population(seed, count, along_a_path);
     Population few = p;
     few.theta.resize(std::min<std::size_t>(few.theta.size(), 64));
     const auto unit = [&](const auto& work) {
-      const std::size_t first = rows.size(), number = shard.next_unit();
+      const std::size_t first = rows.size(), first_model = models.size(), number = shard.next_unit();
       if (shard.takes_next())
         work();
       for (std::size_t k = first; k < rows.size(); ++k)
         rows[k]["unit"] = number;
+      for (std::size_t k = first_model; k < models.size(); ++k)
+        models[k]["unit"] = number;
     };
     unit([&] { measure<float>("float", p, 500, 15, rows); });
     unit([&] { measure<double>("double", p, 500, 15, rows); });
     unit([&] { measure<long double>("long double", p, 500, 5, rows); });
     unit([&] { measure<Mpfr<34>>("MPFR 34", few, 64, 2, rows); });
+    unit([&] { measure_models(p, 500, 15, models); });
   }
   if (!path.empty()) {
     std::ofstream file(path);
-    file << json{{"seed", seed}, {"shard", shard.text()}, {"count", count}, {"design", "D1"}, {"rows", rows}}.dump(1)
-         << '\n';
+    const json report = {{"seed", seed},    {"shard", shard.text()}, {"count", count},
+                         {"design", "D1"}, {"rows", rows},           {"models", models}};
+    file << report.dump(1) << '\n';
     if (!file) {
       std::cerr << "cannot write " << path << '\n';
       return 1;

@@ -21,4 +21,8 @@ struct Population {
 template <class S>
 void measure(const char* scalar, const Population& population, int checked, int repetitions, nlohmann::json& rows);
 
+/// The same of simpler models, in doubles: relative errors, of torques by their size, of positions by the length of a
+/// secondary link. \param rows another list
+void measure_models(const Population& population, int checked, int repetitions, nlohmann::json& rows);
+
 } // namespace haptic_sculpt::benchmark

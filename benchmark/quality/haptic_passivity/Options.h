@@ -20,7 +20,8 @@ struct Options {
   double seconds = 3, effect_seconds = 3, alarm_seconds = 60;
   std::uint64_t seed = 1;
   bool chart = false;
-  std::vector<std::string> parts{"activity", "gravity", "rate", "effects", "alarms", "dynamics", "knocks", "passive"};
+  std::vector<std::string> parts{"activity", "gravity", "rate",   "effects", "alarms",
+                                 "dynamics", "damping", "knocks", "passive"};
   std::string json;
   bool has(const char* part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
 };

@@ -4,6 +4,7 @@
 #include "Shard.h"
 #include "haptic_passivity/chart.h"
 #include "haptic_passivity/contact_reports.h"
+#include "haptic_passivity/damping_limit.h"
 #include "haptic_passivity/limit_reports.h"
 
 #include <CLI/CLI.hpp>
@@ -40,6 +41,9 @@ std::vector<std::string> broken_bounds(const Json& report) {
           "a damped handle does not begin to swing between 0.6 (or twice what may be asked for) and twice the "
           "critical damping");
   }
+  for (const Json& row : report.value("damping", Json::array()))
+    if (row["calm"] != row["hands"])
+      broken.push_back("a damping that may be asked for buzzes in a hand; which is in the report");
   for (const Json& row : report.value("gravity", Json::array()))
     if (row["source"] == "encoders and holding" && row["largest_N"] > 0.06)
       broken.push_back("more than 60 mN of the mechanism's weight is left");
@@ -83,7 +87,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--parts", options.parts, "What to measure")
       ->delimiter(',')
-      ->check(CLI::IsMember({"activity", "gravity", "rate", "effects", "alarms", "dynamics", "knocks", "passive"}))
+      ->check(CLI::IsMember({"activity", "gravity", "rate", "effects", "alarms", "dynamics", "damping", "knocks",
+                              "passive"}))
       ->capture_default_str();
   app.add_flag("--chart", options.chart, "Where activity and instability begin, over tick, delay and damping; minutes");
   app.add_option("--seed", options.seed, "Of everything random")->capture_default_str();
@@ -104,7 +109,7 @@ int main(int argc, char** argv) {
   };
   part("activity", activity_report), part("gravity", gravity), part("rate", rates), part("effects", effects),
       part("alarms", alarms), part("dynamics", dynamics_report);
-  part("knocks", knocks), part("passive", passivity);
+  part("damping", damping_in_hands), part("knocks", knocks), part("passive", passivity);
   if (options.chart && shard.takes_next())
     report["chart"] = chart();
   const std::vector<std::string> broken = broken_bounds(report);
