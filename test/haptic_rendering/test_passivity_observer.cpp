@@ -36,6 +36,31 @@ BOOST_AUTO_TEST_CASE(the_friction_of_a_joint_that_is_known_by_counts_is_that_of_
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_credit_for_counts_is_what_they_hide_however_fast_the_handle_is) {
+  constexpr double tick = 0.001, stiffness = 500, count = 1e-5; // s, N/m, m
+  constexpr int ticks = 20000;
+  for (const double amplitude : {5e-5, 2e-4, 2e-3, 2e-2}) { // m: from less than a count a tick to some hundred
+    Passivity_observer observer(0, tick, 0, count);
+    double energy = 0, way = 0, last = 0, last_seen = 0, force = 0;
+    for (int k = 0; k < ticks; ++k) {
+      const double now = amplitude * std::sin(0.0137 * k + 0.3 * std::sin(0.00731 * k)),
+                   seen = count * std::round(now / count);
+      energy -= force * (now - last), way += (now - last) * (now - last);
+      observer.add_step(Vector3d(0, 0, seen - last_seen), stiffness, Vector3d(0, 0, seen - last_seen));
+      force = -stiffness * seen;
+      observer.command(Vector3d(0, 0, force));
+      last = now, last_seen = seen;
+    }
+    const double hidden = energy - observer.port(), credited = observer.energy() - observer.port();
+    // Counts that are off by chance are worth as much in one direction as in the other; and the ends of the motion.
+    const double chance = stiffness * count * (4 * std::sqrt(way / 12) + 4 * count);
+    BOOST_TEST_MESSAGE(amplitude << " m: hidden " << hidden << ", credited " << credited << ", chance " << chance);
+    BOOST_TEST(hidden > 0);
+    BOOST_TEST(std::abs(credited - hidden) <= 0.35 * hidden + chance);
+    BOOST_TEST(credited <= stiffness * count * count / 2 * ticks);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(friction_takes_the_same_of_a_motion_whatever_its_ticks_truly_take) {
   constexpr double friction = 2, speed = 0.1; // N s/m, m/s
   Random random(31);

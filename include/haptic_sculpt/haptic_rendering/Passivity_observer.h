@@ -38,16 +38,19 @@ public:
     port_ -= delay_.mean().dot(joint_step);
     // A joint known by counts has moved ever since the last one: as if it had moved in this tick alone, at a high rate,
     // friction would seem to take many times what it takes.
+    double hidden = 0; // counts^2
     for (int joint = 0; joint < 3; ++joint) {
       since_[joint] += std::fmax(elapsed, 0.5 * tick_);
       if (const double step = joint_step[joint]; step != 0) {
         dissipated_ += friction_ * step * step / since_[joint];
+        hidden += std::fmax(1.0 / 6, 1 - tick_ / since_[joint]);
         since_[joint] = 0;
       }
     }
-    // A spring that sees steps is pulled half a step late on the way in and on the way out: it seems to give energy.
-    if (encoder_step_ > 0 && delay_.mean().squaredNorm() > 0)
-      credit_ += stiffness * handle_step.squaredNorm() / 12;
+    // A spring that sees counts seems to give energy (doc/proofs/haptic_stability.md, "What rounding can do").
+    if (encoder_step_ > 0 && hidden > 0 && delay_.mean().squaredNorm() > 0)
+      credit_ += 0.5 * stiffness * handle_step.squaredNorm() / joint_step.squaredNorm() * encoder_step_ *
+                 encoder_step_ * hidden;
     least_ = std::fmin(least_, energy() + dissipated_);
   }
   /// What the hand has put in counts up to what can come back of it, J: the rest is friction's, and must not hide what
