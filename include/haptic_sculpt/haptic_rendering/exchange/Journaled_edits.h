@@ -144,9 +144,6 @@ private:
                internal::Pair_budget* pairs = nullptr) {
       return told(axis, ways, [&] { return guarded().shift(axis, ways, most_held, run, pairs); });
     }
-    void shift_back(int axis, const internal::Axis_ways<Mesh_type>& before, const Part_runner& run) {
-      told(axis, before, [&] { return guarded().shift_back(axis, before, run), true; });
-    }
     void begin_trial() {
       guarded().begin_trial();
       is_trial_ = true;
