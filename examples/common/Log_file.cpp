@@ -111,13 +111,21 @@ void Log_file::begin(const Settings& settings) {
 void Log_file::drop_unfinished_tick() {
   if (!contents_ || !contents_->last_tick)
     return;
-  const Log_contents::Tick& tick = *contents_->last_tick;
-  if (tick.size == contents_->whole_size)
-    return;
-  contents_->commands.resize(tick.commands);
-  contents_->unfinished = "a tick"; // begin() cuts it off
-  size_ = static_cast<off_t>(contents_->whole_size = tick.size);
-  writer_ = contents_->writer = Log_writer(tick.checksum);
+  if (contents_->last_tick->end.size != contents_->whole_size)
+    cut_to(contents_->last_tick->end, "a tick");
+}
+
+void Log_file::drop_last_line() {
+  contents_->passes.back().last_line = contents_->last_line->before;
+  cut_to(contents_->last_line->begin, "a move without its end, which the script makes again");
+  contents_->last_line.reset();
+}
+
+void Log_file::cut_to(const Log_contents::Place& place, const char* what) {
+  contents_->commands.resize(place.commands);
+  contents_->unfinished = what; // begin() cuts it off
+  size_ = static_cast<off_t>(contents_->whole_size = place.size);
+  writer_ = contents_->writer = Log_writer(place.checksum);
 }
 
 void Log_file::append_tick(const std::vector<Command>& commands, std::size_t tick) {

@@ -31,6 +31,9 @@ public:
   /// Of a log that a killed loop has left, drops what was done in a tick that is not whole. To be called before
   /// `begin()`.
   void drop_unfinished_tick();
+  /// Drops what comes from the last line of the last pass's script, which makes it again. To be called before
+  /// `begin()`. \pre the contents have one
+  void drop_last_line();
 
   /// \name Appending
   /// After a failure, at once and for good, nothing is appended: a log ends where the first line is missing.
@@ -56,6 +59,7 @@ private:
   Log_writer writer_;
   std::string failure_;
 
+  void cut_to(const Log_contents::Place& place, const char* what);
   void append(const std::string& lines);
   void lock() const;
   void fail(const std::string& why);

@@ -89,7 +89,7 @@ public:
     contents_.unfinished = text_.substr(at_);
     check_unfinished();
     if (lines_.is_within_shift()) { // a killed process may leave part of it
-      at_ = shift_at_, checksum_ = shift_checksum_;
+      at_ = command_at_, checksum_ = command_checksum_;
       contents_.unfinished = "a shift without its end";
     }
     contents_.whole_size = at_;
@@ -109,8 +109,8 @@ private:
   std::string checksum_; ///< of the line before
   std::size_t at_ = 0, number_ = 0;
   Line_joiner lines_;
-  std::string shift_checksum_; ///< before the shift under way
-  std::size_t shift_at_ = 0;   ///< where that begins
+  std::string command_checksum_; ///< before the command under way
+  std::size_t command_at_ = 0;   ///< where that begins
 
   [[noreturn]] void fail(const std::string& what) const { throw Script_error(name_, number_, 1, what); }
 
@@ -124,7 +124,7 @@ private:
       return false;
     const std::string_view line = text_.substr(at_, end - at_);
     if (!lines_.is_within_shift())
-      shift_at_ = at_, shift_checksum_ = checksum_;
+      command_at_ = at_, command_checksum_ = checksum_;
     if (number_ == 1)
       read_version(line);
     else
@@ -172,19 +172,22 @@ private:
     const auto script_line = number(payload.substr(from + line_word.size()));
     if (!script_line || *script_line == 0 || contents_.passes.empty())
       fail("the line of the script is not understood");
+    std::size_t& last = contents_.passes.back().last_line;
+    if (*script_line != last)
+      contents_.last_line = {{command_at_, contents_.commands.size(), command_checksum_}, last};
+    last = *script_line;
     read_command(payload.substr(0, from), *script_line);
-    contents_.passes.back().last_line = *script_line;
   }
 
   void read_tick(std::string_view text, std::size_t size) {
     const auto tick = number(text);
     if (!tick)
       fail("the number of the tick is not understood");
-    contents_.last_tick = {*tick, size, contents_.commands.size(), checksum_};
+    contents_.last_tick = {*tick, {size, contents_.commands.size(), checksum_}};
   }
 
   void read_pass(std::string_view text) {
-    contents_.last_tick.reset();
+    contents_.last_tick.reset(), contents_.last_line.reset();
     Log_contents::Pass pass;
     pass.script = text.substr(0, 64);
     const std::string_view rest = text.substr(pass.script.size());

@@ -66,13 +66,24 @@ struct Log_contents {
   std::vector<Pass> passes;
   std::size_t whole_size = 0; ///< bytes up to the end of the last whole line
   std::string unfinished;     ///< what follows: a killed process may leave part of a line
+  /// Between two lines.
+  struct Place {
+    std::size_t size, commands; ///< size: in bytes, commands: this many stand before it
+    std::string checksum;       ///< of the line before
+  };
   /// Where the state of a tick ends.
   struct Tick {
-    std::size_t number, size, commands; ///< size: in bytes, commands: this many stand before it
-    std::string checksum;               ///< of its line
+    std::size_t number;
+    Place end;
   };
   std::optional<Tick> last_tick; ///< of the last pass, if that was a loop's
-  Log_writer writer;          ///< goes on after the last whole line
+  /// Where what comes from the last line of the last pass's script begins, and the line that came before it.
+  struct Last_line {
+    Place begin;
+    std::size_t before;
+  };
+  std::optional<Last_line> last_line; ///< none where nothing of the last pass says where it comes from
+  Log_writer writer;                  ///< goes on after the last whole line
 
   /// What held at the first edit.
   Settings first_settings() const;

@@ -3,6 +3,7 @@
 
 #include "Script.h"
 
+#include <haptic_sculpt/haptic_rendering/exchange/Journaled_edits.h>
 #include <haptic_sculpt/sculpting.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -80,14 +81,16 @@ inline std::vector<Vertex_index> component_of(const Mesh& mesh, Vertex_index v) 
   return component;
 }
 
-/// The component of a vertex by a vector.
-template <class Sculptor>
-Line_outcome carry_out_move(Sculptor& sculptor, const Command& command) {
+/// The component of a vertex by a vector. \param journal of Journaled_edits, or nullptr
+template <class Sculptor, class Journal>
+Line_outcome carry_out_move(Sculptor& sculptor, const Command& command, Journal* journal) {
   const Vertex_index v = sculptor.vertex(command.edit.vertices[0]);
   if (!v.is_valid())
     return Line_outcome::refused("unknown-element", "", vertices_of(command));
   const auto& [x, y, z] = command.edit.point;
-  const auto report = move_rigidly(sculptor, component_of(sculptor.mesh(), v),
+  Journaled_edits<Sculptor, Journal> edits(sculptor);
+  edits.keep_journal(journal);
+  const auto report = move_rigidly(edits, component_of(sculptor.mesh(), v),
                                    CGAL::Aff_transformation_3<Kernel>(CGAL::TRANSLATION, Kernel::Vector_3(x, y, z)));
   std::ostringstream detail;
   detail << "an object of " << report.asked << " vertices has gone " << 100 * report.share << " % of the way";
@@ -165,15 +168,15 @@ Line_outcome carry_out_delta(Sculptor& sculptor, const Command& command) {
 }
 
 /// What is in the hand is let go: only moves that follow each other are one grab. A probe changes nothing.
-/// \pre the line is no edit by value
-template <class Sculptor>
-Line_outcome carry_out_line(Sculptor& sculptor, const Command& command) {
+/// \param journal hears what a move does, edit by edit \pre the line is no edit by value
+template <class Sculptor, class Journal = Edit_journal>
+Line_outcome carry_out_line(Sculptor& sculptor, const Command& command, Journal* journal = nullptr) {
   using Kind = Command::Kind;
   sculptor.release();
   Drag_parameters drag = sculptor.parameters().drag;
   try {
     switch (command.kind) {
-    case Kind::move: return carry_out_move(sculptor, command);
+    case Kind::move: return carry_out_move(sculptor, command, journal);
     case Kind::brush: return carry_out_brush(sculptor, command);
     case Kind::remesh: return carry_out_remesh(sculptor, command);
     case Kind::delta: return carry_out_delta(sculptor, command);

@@ -70,7 +70,8 @@ struct Run_result {
   std::size_t asked() const { return reached + blocked + refused; }
 };
 
-/// Called after a command has been carried out.
+/// Called with what has been done, once it is, as a log has it: a line of the script; of a `move` what it did, and
+/// nothing of one that did nothing.
 using After_command = std::function<void(const Command&)>;
 
 /// Carries out a script on a mesh. \throw Invalid_surface, Invalid_parameter, and what `after` throws

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Move_lines.h"
 #include "Progress.h"
 #include "nearest_vertices.h"
 #include "Run_result.h"
@@ -28,8 +29,12 @@ public:
       try {
         std::optional<Command> found;
         const Command& command = script[i].places.empty() ? script[i] : found.emplace(with_vertices_found(script[i]));
-        carry_out(command);
-        after(command);
+        if (command.kind == Kind::move) {
+          carry_out_move(command, i != 0 && script[i - 1].edit.kind == Edit_kind::move, after);
+        } else {
+          carry_out(command);
+          after(command);
+        }
       } catch (const std::exception&) { // told with what was done so far, which is not lost
         result_.failure = std::current_exception();
         result_.failed = script[i];
@@ -146,9 +151,17 @@ private:
       done_edit.motion = {p, p, p};
   }
 
-  void carry_out_other(const Command& command) {
+  /// A move that has moved nothing may have ended a grab, and then tells that: the next drag begins anew.
+  void carry_out_move(const Command& move, bool ends_grab, const After_command& after) {
+    Move_lines lines(move, after);
+    carry_out_other(move, &lines);
+    if (!lines.end() && ends_grab)
+      after(lines.line_of({}));
+  }
+
+  void carry_out_other(const Command& command, Move_lines* lines = nullptr) {
     const auto begin = Clock::now();
-    const Line_outcome done = carry_out_line(sculptor_, command);
+    const Line_outcome done = carry_out_line(sculptor_, command, lines);
     if (done.refusal) {
       refuse(command, done.refusal, done.elements).detail = done.detail;
       return;

@@ -48,6 +48,17 @@ Rest rest_of(const std::vector<Command>& script, const std::string& script_hash,
   return rest;
 }
 
+bool ends_within_move(const std::vector<Command>& script, const std::string& script_hash, const Log_contents& log) {
+  if (!log.last_line || log.passes.back().script != script_hash || log.passes.back().is_done)
+    return false;
+  // Of a `stroke` in the script the log looks the same.
+  const bool is_move = std::any_of(script.begin(), script.end(), [&](const Command& c) {
+    return c.kind == Command::Kind::move && c.line == log.passes.back().last_line;
+  });
+  return is_move && log.commands[log.last_line->begin.commands].edit.kind == Edit_kind::stroke &&
+         log.commands.back().edit.kind != Edit_kind::end;
+}
+
 Settings settings_of(const Arguments& arguments) {
   Settings settings;
   if (!arguments.response.empty())

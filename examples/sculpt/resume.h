@@ -20,6 +20,9 @@ struct Rest {
 Rest rest_of(const std::vector<Command>& script, const std::string& script_hash, const Log_contents& log,
              const Arguments& arguments);
 
+/// Whether a `move` of this script broke off at the end of the log: the script makes it again from its beginning.
+bool ends_within_move(const std::vector<Command>& script, const std::string& script_hash, const Log_contents& log);
+
 /// The settings that the options ask for.
 Settings settings_of(const Arguments& arguments);
 

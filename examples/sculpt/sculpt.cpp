@@ -219,6 +219,8 @@ int sculpt(const Arguments& arguments) {
   std::optional<Log_file> log;
   if (!arguments.log.empty())
     log.emplace(arguments.log, sha256_of_file(arguments.mesh));
+  if (log && log->contents() && ends_within_move(script.commands, script.hash, *log->contents()))
+    log->drop_last_line();
   const Plan plan = plan_of(script, log ? &*log : nullptr, arguments);
   std::vector<std::string> left_out;
   Validity_report found;
@@ -255,9 +257,8 @@ int sculpt(const Arguments& arguments) {
   std::optional<Mesh> without_guard;
   if (!arguments.comparison.empty())
     without_guard = sculpted_without_guard(mesh, script.commands);
-  std::size_t made = 0;
   const Run_result result = run(mesh, plan.commands, arguments, [&](const Command& command) {
-    if (log && ++made > plan.replayed) {
+    if (log && !command.is_logged) {
       log->append(command);
       tell_failure();
     }

@@ -8,7 +8,7 @@ import struct
 import tempfile
 
 from program_runs import (FURTHER as QUERIES, OCTAHEDRON, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points, run,
-                          surface, write)
+                          surface, two_octahedra, write)
 
 
 def happy_path(folder, mesh):
@@ -176,12 +176,8 @@ def finding_vertices(folder, mesh):
 
 def objects(folder):
     """An object that goes as far as another lets it: places by arithmetic of our own, one step of undo, logged, refused by name."""
-    two, out, report, log = f"{folder}/two.off", f"{folder}/two_moved.off", f"{folder}/two.json", f"{folder}/two.log"
-    lines = OCTAHEDRON.split("\n")
-    at, faces = lines[2:8], lines[8:16]
-    beyond = [f"{int(p.split()[0]) + 4} {p.split()[1]} {p.split()[2]}" for p in at]
-    others = ["3 " + " ".join(str(int(v) + 6) for v in f.split()[1:]) for f in faces]
-    write(two, "\n".join(["OFF", "12 16 0", *at, *beyond, *faces, *others, ""]))
+    two, out, report, log = (f"{folder}/{name}" for name in ("two.off", "two_moved.off", "two.json", "two.log"))
+    two_octahedra(two)
 
     def sculpt(script, *more):
         done = run(two, "--script", "-", "-o", out, "--report", report, *more, script=script)

@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The edit log of `sculpt`: resumed, refused, spoilt, locked, on a full disk, and in the format of earlier versions."""
 import fcntl
+import hashlib
 import json
 import os
 import random
+import re
 import subprocess
 import tempfile
 import time
 
 from program_runs import (OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, before_open_stroke, bytes_of, check, end, fails, points,
-                          run, sha256, surface, write)
+                          run, sha256, surface, two_octahedra, write)
 
 EDITS = ("insert_face 0 1 2 0.2 0.2 0\ndrag 4 0.2 0.2 -0.5\ninsert_edge 1 2 0.55 0.55 0\nundo\nundo\nredo\nremove 4\n"
          "remove 4\nundo\ndrag 4 0.3 0.2 -0.25\nremove 0\nredo\n")
@@ -101,6 +103,115 @@ def shifts(folder, mesh):
                                      ("shift 0 1\n0 0\n1 0\nend\n", 3, 1, "has to end"), ("drag 0 0 0 0\nshift 0 1\n0 0\n", 2, 1, "no `end`"),
                                      ("shift 0 1\n0 inf\nend\n", 2, 3, "finite"), ("shift 0 1\n0 0 0\nend\n", 2, 5, "more than")):
         fails(4, [f"line {line}, column {column}", part], run(mesh, "--script", "/dev/stdin", script=text), f"shift: {text!r}")
+
+
+def c_hexadecimal(x):
+    """As `%a` prints it: Python leaves no zeros out at the end."""
+    return re.sub(r"\.?0*p", "p", float(x).hex()).encode()
+
+
+def shifted(at, lines):
+    """Where the vertices are that the whole shifts of these lines move; by arithmetic of our own. \\return that, and
+    how many lines are left of a shift that is not whole"""
+    at, i = [list(p) for p in at], 0
+    while i < len(lines):
+        word = words(lines[i])
+        size = int(word[2]) + 2 if word[:1] == [b"shift"] else 1
+        if i + size > len(lines):
+            break
+        for way in map(words, lines[i + 1:i + size - 1]):
+            at[int(way[0])][int(word[1])] = float.fromhex(way[1].decode())
+        i += size
+    return [tuple(p) for p in at], len(lines) - i
+
+
+def moves(folder, _):
+    """A moved object is logged as the shifts that it was, in a stroke; as soon as each stands."""
+    mesh = two_octahedra(f"{folder}/two.off")
+    log, out, again, part = (f"{folder}/{name}" for name in ("moves.log", "moved.off", "again.off", "part.off"))
+    undo = write(f"{folder}/undo.script", "undo\n")
+    at = points(mesh)
+
+    def logged(script):
+        """The lines after the head, without comments; what a shift moves in the order of the vertices."""
+        if os.path.exists(log):
+            os.remove(log)
+        done = run(mesh, "--script", write(f"{folder}/moves.script", script), "--log", log, "-o", out)
+        check(done.returncode == 0, f"{script!r}: {done.stderr}")
+        check(run(mesh, "--log", log, "-o", again).returncode == 0 and bytes_of(again) == bytes_of(out), f"{script!r} replayed")
+        lines = [line for line in map(words, bytes_of(log).splitlines()[HEAD:]) if line]
+        for i, line in enumerate(lines):
+            if line[0] == b"shift":
+                ways = slice(i + 1, i + 1 + int(line[2]))
+                lines[ways] = sorted(lines[ways], key=lambda way: int(way[0]))
+        return lines
+
+    def along(axis, by, first=0):
+        """The shift of six vertices from the first on, with numbers as C prints them."""
+        ways = [(v, at[v][axis] + by) for v in range(first, first + 6)]
+        return [[b"shift", b"%d" % axis, b"6"], *([b"%d" % v, c_hexadecimal(x)] for v, x in ways), [b"end"]]
+
+    lines = logged("move 3 0.5 0.25 -1\n")
+    check(lines == [[b"stroke"], *along(0, 0.5), *along(1, 0.25), *along(2, -1), [b"end"]], f"of a free way: {lines}")
+    check(run(mesh, "--log", log, "--script", undo, "-o", out).returncode == 0 and points(out) == at, "undone once")
+    # What does nothing is not there, and leaves what can be redone; but the drag after it begins anew.
+    check(logged("move 0 0 0 0\nmove 99 1 0 0\nmove 0 1e301 1e301 1e301\n") == [], "moves that do nothing")
+    lines = logged("drag 4 0 0 2\nundo\nmove 0 0 0 0\nredo\n")
+    check([line[0] for line in lines] == [b"drag", b"undo", b"redo"] and points(out)[4] == (0, 0, 2), f"redone: {lines}")
+    lines = logged("drag 4 0 0 2\nmove 0 0 0 0\nmove 0 0 0 0\ndrag 4 0 0 3\n")
+    check([line[0] for line in lines] == [b"drag", b"release", b"drag"], f"a grab that a move has ended: {lines}")
+    # Within a stroke it is a part of that.
+    lines = logged("stroke\ndrag 4 0 0 2\nmove 6 0 0.5 0\ndrag 5 0 0 -2\nend\nmove 6 0 0.25 0\nundo\n")
+    check(lines[2:12] == [[b"stroke"], *along(1, 0.5, 6), [b"end"]] and lines[12][0] == b"drag", f"in a stroke: {lines}")
+    expected = at[:4] + [(0, 0, 2), (0, 0, -2)] + [(x, y + 0.5, z) for x, y, z in at[6:]]
+    check(points(out) == expected, f"the last one undone: {points(out)}")
+    done = run(mesh, "--log", log, "--script", undo, "-o", out)
+    check(done.returncode == 0 and points(out) == at, "the stroke undone once")
+    # One that is blocked, in steps. The last before the points touch, at an eighth, is the 127th 1024th.
+    logged("move 6 0 1 0\nmove 6 0 -1 0\nmove 0 16 0 0\nmove 6 0 0 1\n")
+    script, complete, expected = f"{folder}/moves.script", bytes_of(log), bytes_of(out)
+    lines = complete.splitlines(keepends=True)
+    by = 16 * 127 / 1024
+    lifted = [(x, y, z + 1) for x, y, z in at[6:]]
+    pushed = [(x + by, y, z) for x, y, z in at[:6]]
+    check(b"move" not in [word for line in lines for word in words(line)[:1]], "a move in the log")
+    check(points(out) == pushed + lifted, f"where they went: {points(out)}")
+    other = write(f"{folder}/other.script", "drag 4 -1 0 1.5\n")
+    for length in range(sum(map(len, lines[:HEAD])), len(complete), 61):
+        kept = lines[:complete[:length].count(b"\n")]
+        state, left = shifted(at, kept)
+        kept = b"".join(kept[:len(kept) - left])
+        cut = write(f"{folder}/cut.log", complete[:length])
+        done = run(mesh, "-o", part, "--log", cut)
+        check(done.returncode == 0 and points(part) == state, f"cut at {length}: replayed to {points(part)}")
+        check(bytes_of(cut) == kept, f"cut at {length}: what is left of a shift is dropped")
+        # The script makes the move that broke off from its beginning.
+        done = run(mesh, "-o", again, "--log", cut, "--script", script)
+        check(done.returncode == 0 and bytes_of(again) == expected, f"cut at {length}: goes on: {done.stderr}")
+        check(bytes_of(cut) == complete, f"cut at {length}: the log ends otherwise than without the break")
+    # Behind another script it leaves that move as it is.
+    broken = [i for i in range(HEAD, len(lines)) if lines[i].startswith(b"shift ") and b" line 3 #" in lines[i - 1]]
+    check(len(broken) == 7, f"steps of an eighth less a 1024th: {len(broken)}")
+    for count in broken:
+        cut = write(f"{folder}/cut.log", b"".join(lines[:count]))
+        for name in (other, script):
+            done = run(mesh, "--script", name, "--log", cut, "-o", part)
+            check(done.returncode == 0, f"three passes, cut after {count} lines: {done.stderr}")
+        state = [(x, y, z + (v > 5)) for v, (x, y, z) in enumerate(shifted(at, lines[:count])[0])]
+        state[4] = (-1, 0, 1.5)
+        check(points(part) == state, f"a move is made twice, cut after {count} lines: {points(part)}")
+    # A log of a time when a move was logged as itself.
+    checksum, old = hashlib.sha256().hexdigest(), b""
+    for line in ("# haptic_sculpt log 1", f"mesh {sha256(mesh)}", "response slide", "clearance default", "delta 0x0p+0",
+                 f"# script {'0' * 64} after line 0", "move 0 0x1p+4 0x0p+0 0x0p+0 # line 1",
+                 "move 6 0x0p+0 0x0p+0 0x1p+0 # line 2"):
+        checksum = hashlib.sha256((checksum + line).encode()).hexdigest()[:16]
+        old += f"{line} # {checksum}\n".encode()
+    done = run(mesh, "--log", write(log, old), "-o", out)
+    check(done.returncode == 0 and bytes_of(log) == old and points(out) == pushed + lifted, f"an older log: {done.stderr}")
+    done = run(mesh, "--log", log, "-o", out, "--script", undo)
+    check(done.returncode == 0 and points(out) == pushed + at[6:], "an older log goes on")
+    check(bytes_of(log).startswith(old), "what was in an older log is another")
 
 
 def settings(folder, mesh):
@@ -387,7 +498,7 @@ def full_disk(folder, mesh):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
-        for part in (edits_and_log, shifts, settings, rerun, strokes, earlier_version, delta_in_stroke, no_logs,
+        for part in (edits_and_log, shifts, moves, settings, rerun, strokes, earlier_version, delta_in_stroke, no_logs,
                      changed_logs, without_checksums, two_processes, places, full_disk):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)

@@ -165,6 +165,10 @@ for goal, is_free in ((aside, True), ((0, 0, middle[2]), False)):
     check((math.dist(way, tuple(b - a for a, b in zip(middle, goal))) < 0.05) == is_free, f"as far as it is free: {way}, {goal}")
     check(lines[0]["undo"] == 1, f"one step of undo: {lines}")
     is_valid(at("out.off"), "moved objects")
+    # Its log has shifts of the whole moon, in one stroke; before them stand four lines of the head.
+    log = [line.split("#")[0].split() for line in open(at("work.log")) if line.split("#")[0].strip()][4:]
+    check({line[0] for line in log if line[0].isalpha()} == {"stroke", "shift", "end"}, f"what is logged of it: {log[:9]}")
+    check(max(int(line[2]) for line in log if line[0] == "shift") == len(moon), "shifts of the whole moon")
 
 # Colours of the mesh's file are in what is saved, also of vertices that are new.
 ply = at("coloured.ply")

@@ -82,7 +82,7 @@ def within_a_write(rng, sound, left, name, is_batch):
     to_come = sound[len(left):]
     batches, lines = to_come.count(b"\nshift "), to_come.count(b"\n")
     is_batch = is_batch and batches > 0
-    # A batch has seven lines or fewer; with less than 3 tenths of it not even the first is whole.
+    # The shortest batch has seven lines; with less than 3 tenths of it not even the first is whole.
     return {**os.environ, "LD_PRELOAD": SHIM, "FAILING_SIGNAL": str(int(name)), "FAILING_START": "shift " if is_batch else "",
             "FAILING_WRITE": str(rng.randint(1, batches if is_batch else 1 + lines // 8)),
             "FAILING_SHARE": str(rng.randint(300, 900))}

@@ -100,6 +100,15 @@ def write(path, contents):
     return path
 
 
+def two_octahedra(path):
+    """Apart by 2 along x; the second has the vertices from 6 on."""
+    lines = OCTAHEDRON.split("\n")
+    at, faces = lines[2:8], lines[8:16]
+    beyond = [f"{int(p.split()[0]) + 4} {p.split()[1]} {p.split()[2]}" for p in at]
+    others = ["3 " + " ".join(str(int(v) + 6) for v in f.split()[1:]) for f in faces]
+    return write(path, "\n".join(["OFF", "12 16 0", *at, *beyond, *faces, *others, ""]))
+
+
 def failing_calls(folder):
     """The library of failing_calls.c, built there."""
     library = os.path.join(folder, "failing_calls.so")

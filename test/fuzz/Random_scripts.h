@@ -94,7 +94,7 @@ private:
   std::string point() { return ' ' + number() + ' ' + number() + ' ' + number(); }
 
   std::string line() {
-    switch (below(21)) {
+    switch (below(22)) {
     case 0:
       return "insert_face " + index() + ' ' + index() + ' ' + index() + point();
     case 1:
@@ -131,6 +131,8 @@ private:
         shift += std::to_string(below(6)) + ' ' + number() + '\n';
       return shift + "end";
     }
+    case 15:
+      return "move " + index() + point();
     default:
       return "drag " + index() + point();
     }

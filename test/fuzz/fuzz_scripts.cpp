@@ -143,12 +143,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   ++carried_out;
   Mesh mesh = mesh_of(choice);
-  const bool is_done = carry_out(mesh, commands, parameters,
-                                 [&](const Command& command) { log += writer.command(command, command.line); });
+  std::size_t told = 0;
+  const bool is_done = carry_out(mesh, commands, parameters, [&](const Command& command) {
+    log += writer.command(command, command.line);
+    ++told;
+  });
   if (const Validity_report report = validate(mesh); !report.is_valid())
     fault("the mesh is no longer valid: " + report.message(), script);
   if (is_done)
-    check_log(log, mesh, choice, commands.size(), script);
+    check_log(log, mesh, choice, told, script);
   check_change(log, data[2] * std::size_t(256) + data[3], static_cast<unsigned char>(data[2] ^ (data[3] << 4)), script);
   return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/sculpting/edits/Edit_history.h>
+#include <haptic_sculpt/sculpting/edits/Edit_records.h>
 
 namespace haptic_sculpt {
 
@@ -17,8 +17,8 @@ private:
   template <class, class, class, class>
   friend class Sculptor;
 
-  explicit History_view(const internal::Edit_history& history) : history_(&history) {}
-  const internal::Edit_history* history_;
+  explicit History_view(const internal::Edit_records& history) : history_(&history) {}
+  const internal::Edit_records* history_;
 };
 
 } // namespace haptic_sculpt

@@ -12,6 +12,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <string>
+#include <vector>
 
 namespace haptic_sculpt::test {
 
@@ -44,6 +45,18 @@ inline std::vector<Named_mesh> scenes(bool with_shared = true) {
       if (const auto path = shared_data(std::string("meshes/") + name))
         result.push_back({name, read_surface<Mesh>(*path)});
   return result;
+}
+
+/// A box from a corner on, of these sizes, as a component of its own. \return its vertices
+inline std::vector<Vertex_index> add_box(meshes::Triangle_list& list, const Vector_3& corner, const Vector_3& size) {
+  const std::size_t first = list.points.size();
+  list += meshes::box(1).transform([&](const Point_3& p) {
+    return Point_3(corner.x() + p.x() * size.x(), corner.y() + p.y() * size.y(), corner.z() + p.z() * size.z());
+  });
+  std::vector<Vertex_index> vertices;
+  for (std::size_t v = first; v < list.points.size(); ++v)
+    vertices.emplace_back(static_cast<Mesh::size_type>(v));
+  return vertices;
 }
 
 inline double mean_edge(const Mesh& mesh) {

@@ -89,18 +89,6 @@ int only_axis(const std::vector<std::array<double, 3>>& a, const std::vector<std
   return axis;
 }
 
-/// A box from (x, 0, 0) of these sizes, as a component of its own. \return its vertices
-std::vector<Vertex_index> add_box(meshes::Triangle_list& list, const Vector_3& corner, const Vector_3& size) {
-  const std::size_t first = list.points.size();
-  list += meshes::box(1).transform([&](const Point_3& p) {
-    return Point_3(corner.x() + p.x() * size.x(), corner.y() + p.y() * size.y(), corner.z() + p.z() * size.z());
-  });
-  std::vector<Vertex_index> vertices;
-  for (std::size_t v = first; v < list.points.size(); ++v)
-    vertices.emplace_back(static_cast<Mesh::size_type>(v));
-  return vertices;
-}
-
 } // namespace
 
 BOOST_AUTO_TEST_CASE(free_objects_arrive_to_the_bit) {

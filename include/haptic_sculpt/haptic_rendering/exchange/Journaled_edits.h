@@ -13,7 +13,9 @@ namespace haptic_sculpt {
 ///
 /// It takes the place of a Sculptor in functions that change many elements: move_vertices() without drags,
 /// apply_brush(), move_rigidly(), isotropic_remeshing().
-template <class Sculptor>
+///
+/// \tparam Journal has `add(const Edit&)`, which is called once the edit stands, and throws nothing
+template <class Sculptor, class Journal = Edit_journal>
 class Journaled_edits {
 public:
   using Mesh_type = typename Sculptor::Mesh_type;           ///< of the surface
@@ -33,7 +35,7 @@ public:
 
   /// From here on in another scene, without a journal. \pre no stroke is under way
   void enter(Sculptor& sculptor) { sculptor_ = &sculptor, journal_ = nullptr; }
-  void keep_journal(Edit_journal* journal) { journal_ = journal; } ///< nullptr: none
+  void keep_journal(Journal* journal) { journal_ = journal; } ///< nullptr: none
 
   /// What follows is one step of undo; the stroke under way ends.
   void begin_stroke() {
@@ -142,9 +144,6 @@ private:
                internal::Pair_budget* pairs = nullptr) {
       return told(axis, ways, [&] { return guarded().shift(axis, ways, most_held, run, pairs); });
     }
-    void shift_back(int axis, const internal::Axis_ways<Mesh_type>& before, const Part_runner& run) {
-      told(axis, before, [&] { return guarded().shift_back(axis, before, run), true; });
-    }
     void begin_trial() {
       guarded().begin_trial();
       is_trial_ = true;
@@ -216,7 +215,7 @@ private:
 
   Sculptor* sculptor_;
   Guarded guarded_;
-  Edit_journal* journal_ = nullptr;
+  Journal* journal_ = nullptr;
   static constexpr std::size_t most_legs = 64; ///< of a drag, and more: room that is made for them
   std::optional<typename Sculptor::Stroke_type> stroke_;
   std::vector<Point> legs_; ///< of the last drag

@@ -278,24 +278,15 @@ public:
     move.begin(axis, ways, parameters.delta_length, run, most_held, work);
     if (!move.hold_back())
       return false;
-    write_shift(axis, ways, [&move](Vertex_index v, double) { return move.end(v); }, run);
+    write_shift(axis, ways, move, run);
     return true;
-  }
-  /// The same motion back, which is free: no state of it is another.
-  /// \param before where the vertices were \pre nothing else has moved since
-  void shift_back(int axis, const Axis_ways<Mesh>& before, const Part_runner& run) {
-    const Rounding_to_nearest rounding;
-    release();
-    look_for_changes();
-    check_looked_at();
-    write_shift(axis, before, [](Vertex_index, double end) { return end; }, run);
   }
   /// \name What is tried: what is taken back before the end is not noted, and clears nothing that could be redone
   ///@{
   void begin_trial() { editor_.history().begin_trial(); }
   void end_trial() noexcept { editor_.history().end_trial(); }
   std::size_t tried_shifts() const { return editor_.history().tried_shifts(); }
-  /// The last shift back. \pre nothing else has moved since
+  /// The last shift back, which is free: no state of it is another. \pre nothing else has moved since
   void take_back_tried_shift(const Part_runner& run) {
     const Rounding_to_nearest rounding;
     release();
@@ -381,13 +372,13 @@ private:
           watch_.check(Vertex_index(v));
   }
 
-  /// Notes and writes a motion that is free. \param end_of `end_of(v, end)`, where the vertex really ends
-  template <class End_of>
-  void write_shift(int axis, const Axis_ways<Mesh>& ways, const End_of& end_of, const Part_runner& run) {
+  /// Notes and writes a motion as far as it is free.
+  void write_shift(int axis, const Axis_ways<Mesh>& ways, const Axis_move<Mesh>& move, const Part_runner& run) {
     Axis_ways<Mesh> made;
-    for (const auto& [v, end] : ways)
-      if (Coordinates p = vertex_coordinates(*mesh_, v); end_of(v, end) != p[axis]) {
-        p[axis] = end_of(v, end);
+    for (const auto& way : ways)
+      if (const Vertex_index v = way.first; move.end(v) != vertex_coordinates(*mesh_, v)[axis]) {
+        Coordinates p = vertex_coordinates(*mesh_, v);
+        p[axis] = move.end(v);
         made.emplace_back(v, p[axis]);
         scene_.include(p);
       }

@@ -40,6 +40,7 @@ public:
     std::size_t before = vertices_.size(); // this many were held back in the step twice as long
     while (way < 1 && goes_on_) {
       const double next = std::fmin(1, way + step);
+      const Edit_trial<Guarded> trial(guarded_); // steps taken back are no edits
       const std::size_t held = step_to(next, vertices_.size() / 4);
       if (!goes_on_)
         break;
@@ -87,14 +88,14 @@ private:
   static constexpr double least_gain = 0.01;
 
   using Ways = Axis_ways<Mesh>;
+  using Guarded = std::decay_t<decltype(Sculptor_access::guarded(std::declval<Sculptor&>()))>;
 
-  std::decay_t<decltype(Sculptor_access::guarded(std::declval<Sculptor&>()))>& guarded_;
+  Guarded& guarded_;
   const std::vector<Moving>& vertices_;
   const Move_parameters& parameters_;
   Move_report& report_;
   Part_runner run_;
   Pair_budget pairs_; ///< where they are bounded
-  std::vector<std::pair<int, Ways>> made_; ///< by the step under way: the axis, and where all were before
   bool is_out_of_pairs_ = false;
   bool goes_on_ = true;                    ///< neither cancelled nor without room for another move
 
@@ -122,16 +123,12 @@ private:
   /// Along all axes, with at most this many held back by each move. \return how many are held back, in all at the end,
   /// or all where a move was given up
   std::size_t step_to(double share, std::size_t most) {
-    made_.clear();
     for (int axis = 0; axis < 3; ++axis) {
-      Ways ways, before;
+      Ways ways;
       ways.reserve(vertices_.size());
-      before.reserve(vertices_.size());
       for (const Moving& v : vertices_)
-        if (const Coordinates from = place(v); aim(v, from, share, axis) != from[axis]) {
+        if (const Coordinates from = place(v); aim(v, from, share, axis) != from[axis])
           ways.emplace_back(v.vertex, aim(v, from, share, axis));
-          before.emplace_back(v.vertex, from[axis]);
-        }
       if (ways.empty())
         continue;
       if (!may_move(ways.size(), share))
@@ -142,7 +139,6 @@ private:
           end_out_of_work();
         return vertices_.size();
       }
-      made_.emplace_back(axis, std::move(before));
     }
     std::size_t held = 0;
     for (const Moving& v : vertices_) {
@@ -154,8 +150,8 @@ private:
 
   /// The step that was made.
   void take_back() {
-    for (; !made_.empty(); made_.pop_back())
-      guarded_.shift_back(made_.back().first, made_.back().second, run_);
+    while (guarded_.tried_shifts() != 0)
+      guarded_.take_back_tried_shift(run_);
   }
 
   /// \return false
