@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/repair/Repair_parameters.h>
 #include <haptic_sculpt/surface/repair/Trail.h>
 #include <haptic_sculpt/surface/repair/soup_steps.h>
@@ -64,11 +63,12 @@ private:
   double default_gap() const {
     if (soup_.points.empty())
       return 0;
-    Box_3 box;
-    for (const Point& p : soup_.points)
-      box.include(Box_3::Coordinates{p.x(), p.y(), p.z()});
-    const auto corner = [](const Box_3::Coordinates& p) { return Point(p[0], p[1], p[2]); };
-    return Repair_parameters::default_gap_share * distance_between(corner(box.lower), corner(box.upper));
+    Point lower = soup_.points[0], upper = lower;
+    for (const Point& p : soup_.points) {
+      lower = Point(std::min(lower.x(), p.x()), std::min(lower.y(), p.y()), std::min(lower.z(), p.z()));
+      upper = Point(std::max(upper.x(), p.x()), std::max(upper.y(), p.y()), std::max(upper.z(), p.z()));
+    }
+    return Repair_parameters::default_gap_share * distance_between(lower, upper);
   }
 
   // Which points have open edges, and all neighbours of these.
