@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """check_layers.py SOURCE: the folders of include/haptic_sculpt include each other in one direction only, and so do those
-of examples; no example names what is internal, and no line of C++ is wider than 120 columns.
+of examples; what the 1997 paper has is included by nobody else; no example names what is internal, and no line of C++
+is wider than 120 columns.
 
 A folder and the one around it may include each other: public names stand at a module's root, what serves them stands below.
 Between all other folders the includes form no cycle. Exit code 1 names each folder of a cycle, with the includes that close it.
@@ -10,6 +11,7 @@ import re
 import sys
 
 MOST_COLUMNS = 120
+OF_1997 = re.compile(r"sculpting/paper_1997(\.h|/.*)")  # who compares with it asks for it
 INCLUDE = re.compile(r"#include <haptic_sculpt/([^>]+)>")
 INCLUDE_OF_EXAMPLES = re.compile(r'#include "([^"]+)"')
 
@@ -26,6 +28,16 @@ def includes_between_folders(root):
             other = pathlib.Path(target.parent)
             if other != folder and other not in folder.parents and folder not in other.parents:
                 found.setdefault((folder, other), []).append(f"{header.relative_to(root)} -> {name}")
+    return found
+
+
+def includes_of_1997(root):
+    """["header -> header", ...] from outside of it"""
+    found = []
+    for header in sorted(root.rglob("*.h")):
+        name = header.relative_to(root).as_posix()
+        if not OF_1997.fullmatch(name):
+            found += [f"{name} -> {other}" for other in INCLUDE.findall(header.read_text()) if OF_1997.fullmatch(other)]
     return found
 
 
@@ -91,7 +103,10 @@ def main(source):
     wide = wide_lines(pathlib.Path(source))
     if wide:
         print(f"wider than {MOST_COLUMNS} columns; clang-format breaks them:", *wide, sep="\n  ")
-    return 1 if cycle or named or wide else 0
+    of_1997 = includes_of_1997(pathlib.Path(source) / "include" / "haptic_sculpt")
+    if of_1997:
+        print("what the 1997 paper has is in no umbrella; who wants it includes it:", *of_1997, sep="\n  ")
+    return 1 if cycle or named or wide or of_1997 else 0
 
 
 if __name__ == "__main__":

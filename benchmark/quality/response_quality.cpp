@@ -10,6 +10,8 @@
 #include "sculpting/response/convex_scenes.h"
 #include "sculpting/response/outside_scenes.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
@@ -45,7 +47,7 @@ struct Subject {
   double size;
 };
 
-constexpr std::array<Response, 3> responses = {Response::slide, Response::stop, Response::paper};
+constexpr std::array<Response, 3> responses = {Response::slide, Response::stop, Response::paper()};
 
 class Chart {
 public:
@@ -66,7 +68,7 @@ public:
       const test::Surroundings around(mesh, subject.moved);
       if (rows_.count(subject.name) == 0)
         order_.push_back(subject.name);
-      Row& row = rows_[subject.name][response];
+      Row& row = rows_[subject.name][name_of(response)];
       for (const Point_3& target : targets) {
         const auto begin = std::chrono::steady_clock::now();
         const auto r = grab.drag_to(target);
@@ -94,7 +96,7 @@ public:
     Json all = Json::array();
     for (const std::string& name : order_)
       for (const Response response : responses) {
-        const Row& row = rows_.at(name).at(response);
+        const Row& row = rows_.at(name).at(name_of(response));
         std::vector<double> sorted = row.nanoseconds;
         std::sort(sorted.begin(), sorted.end());
         const double n = static_cast<double>(row.drags);
@@ -129,7 +131,7 @@ private:
   Shard& shard_;
   std::map<std::string, Unit> units_;
   std::vector<std::string> order_;
-  std::map<std::string, std::map<Response, Row>> rows_;
+  std::map<std::string, std::map<std::string, Row>> rows_; ///< of a scene and a response
   std::size_t invalid_ = 0, validations_ = 0;
 };
 

@@ -5,8 +5,8 @@
 #include "numbers.h"
 #include "printable.h"
 
-#include <haptic_sculpt/sculpting/Response.h>
 #include <haptic_sculpt/sculpting/brushes/Dab_3.h>
+#include <haptic_sculpt/sculpting/paper_1997.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 
 #include <algorithm>
@@ -172,7 +172,7 @@ void read_last(Line& line, const Syntax& syntax, Command& command, std::size_t& 
                 (command.kind == Kind::delta ? "at least 0" : "more than 0"));
   } else if (syntax.last == Syntax::word && command.kind == Kind::response) {
     command.word = line.word("slide, stop or paper");
-    if (!response_named(command.word))
+    if (!response_by_name(command.word))
       line.fail("'" + printable(command.word) + "' is not a response: slide, stop or paper");
   } else if (syntax.last == Syntax::word) {
     command.word = line.word("the SHA-256 of the mesh file");
@@ -269,6 +269,10 @@ std::vector<Command> read_script(std::string_view text, const std::string& name)
   }
   lines.check_end(name);
   return commands;
+}
+
+std::optional<Response> response_by_name(const std::string& name) {
+  return response_named(name, {Response::paper()});
 }
 
 std::size_t open_strokes(const std::vector<Command>& commands) {

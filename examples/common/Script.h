@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/sculpting/Edit.h>
+#include <haptic_sculpt/sculpting/Response.h>
 
 #include <array>
 #include <optional>
@@ -85,6 +86,9 @@ constexpr std::size_t most_commands = 10'000'000;
 
 /// Reads a whole script. \param name how messages call it. \throw Script_error
 std::vector<Command> read_script(std::string_view text, const std::string& name);
+
+/// The response that a script or an option may name: slide, stop or paper; else nothing.
+std::optional<Response> response_by_name(const std::string& name);
 
 /// How many strokes these lines begin and do not end.
 std::size_t open_strokes(const std::vector<Command>& commands);

@@ -180,7 +180,7 @@ Line_outcome carry_out_line(Sculptor& sculptor, const Command& command, Journal*
     case Kind::brush: return carry_out_brush(sculptor, command);
     case Kind::remesh: return carry_out_remesh(sculptor, command);
     case Kind::delta: return carry_out_delta(sculptor, command);
-    case Kind::response: sculptor.set_drag_parameters(drag.response(*response_named(command.word))); break;
+    case Kind::response: sculptor.set_drag_parameters(drag.response(*response_by_name(command.word))); break;
     case Kind::clearance:
       sculptor.set_drag_parameters(command.word == "default" ? drag.clearance(std::nullopt)
                                                              : drag.clearance(command.length));

@@ -18,7 +18,7 @@
 #include "read_mesh.h"
 #include "resume.h"
 
-#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
+#include <haptic_sculpt/sculpting/paper_1997.h>
 #include <haptic_sculpt/surface/broad_phase/Box_tree_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 #include <haptic_sculpt/surface/orient_components.h>
@@ -90,7 +90,7 @@ Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& 
   Sculptor_parameters parameters;
   parameters.delta(arguments.delta.value_or(0));
   if (!arguments.response.empty())
-    parameters.response(*response_named(arguments.response));
+    parameters.response(*response_by_name(arguments.response));
   if (arguments.clearance)
     parameters.clearance(*arguments.clearance);
   if (arguments.broad_phase == "brute")

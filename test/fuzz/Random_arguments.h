@@ -3,6 +3,7 @@
 
 #include <fuzz/Choices.h>
 #include <fuzz/Throwing_visitor.h>
+#include <fuzz/any_response.h>
 #include <meshes/generated_meshes.h>
 
 #include <haptic_sculpt/sculpting.h>
@@ -74,7 +75,7 @@ public:
     if (choices_.below(3) != 0)
       return std::nullopt;
     Drag_parameters drag;
-    drag.response(static_cast<Response>(choices_.below(3))).once(choices_.flag());
+    drag.response(any_response(choices_)).once(choices_.flag());
     if (choices_.below(4) == 0)
       drag.clearance(length());
     if (choices_.below(4) == 0)

@@ -3,6 +3,7 @@
 
 #include <fuzz/Choices.h>
 #include <fuzz/Throwing_visitor.h>
+#include <fuzz/any_response.h>
 #include <fuzz/call_at_random.h>
 #include <fuzz/require.h>
 #include <oracle/exact_triangles.h>
@@ -48,7 +49,7 @@ public:
       , mesh_(mesh)
       , heat_(mesh_.add_property_map<Vertex_index, double>("v:heat", 0).first)
       , label_(mesh_.add_property_map<Mesh::Face_index, std::int64_t>("f:label", 0).first)
-      , parameters_(Sculptor_parameters().response(static_cast<Response>(choices.below(3))))
+      , parameters_(Sculptor_parameters().response(any_response(choices)))
       , sculptor_(mesh_, parameters_, Throwing_visitor{&visits_left_}) {
     for (const auto v : mesh_.vertices())
       heat_[v] = static_cast<double>(v.idx());

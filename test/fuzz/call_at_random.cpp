@@ -178,7 +178,7 @@ inline void Caller::call() {
   case 22: {
     Drag_parameters drag = sculptor_.parameters().drag;
     drag.clearance(choices_.flag() ? std::optional<double>() : std::optional<double>(random_.length()));
-    drag.response(static_cast<Response>(choices_.below(3)));
+    drag.response(any_response(choices_));
     return make([&] { sculptor_.set_drag_parameters(drag); });
   }
   case 23:

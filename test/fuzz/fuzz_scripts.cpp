@@ -133,7 +133,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (settings_choice & 8)
     settings.delta = 0x1p-10;
   Sculptor_parameters parameters;
-  parameters.response(*response_named(settings.response)).delta(settings.delta);
+  parameters.response(*response_by_name(settings.response)).delta(settings.delta);
   if (settings.clearance)
     parameters.clearance(*settings.clearance);
 

@@ -10,6 +10,7 @@
 #include "scenes.h"
 
 #include <haptic_sculpt/device.h>
+#include <haptic_sculpt/sculpting/paper_1997.h>
 
 #include <cfenv>
 #include <cstdio>
@@ -215,7 +216,7 @@ int main(int argc, char** argv) {
       edits(size);
       drags(size, Response::slide, "slides");
       drags(size, Response::stop, "stops");
-      drags(size, Response::paper, "paper");
+      drags(size, Response::paper(), "paper");
       many_vertices(size);
       device();
       const bool stands = std::fegetround() == value;

@@ -2,6 +2,8 @@
 // What the facade promises beside geometry.
 #include "sculpting/Random_scene.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -103,7 +105,7 @@ BOOST_AUTO_TEST_CASE(the_way_of_a_drag_is_made_of_free_legs) {
     return Point_3(x, y, z);
   };
   int with_bends = 0, still = 0;
-  for (const Response response : {Response::slide, Response::stop, Response::paper}) {
+  for (const Response response : {Response::slide, Response::stop, Response::paper()}) {
     Mesh mesh = ball();
     Sculptor<Mesh> sculptor(mesh, parameters::response(response));
     for (int i = 0; i < 200; ++i) {

@@ -7,6 +7,7 @@
 #include "broad_phases.h"
 #include "end_run.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
 #include <haptic_sculpt/surface.h>
 #include <haptic_sculpt/surface/repair.h>
 
@@ -66,7 +67,7 @@ public:
   explicit Run(const Options& options)
       : options_(options)
       , shard_(options.shard)
-      , response_(*response_named(options.response))
+      , response_(*response_named(options.response, {Response::paper()}))
       , batches_(broad_phases_named(options.broad_phases), options.dump,
                  options.dumps_all ? Keep::all : Keep::what_fails) {}
 

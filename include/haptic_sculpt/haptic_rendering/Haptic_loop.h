@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/haptic_rendering/loop/Interaction_loop.h>
 #include <haptic_sculpt/haptic_rendering/check_coupling.h>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
 
 namespace haptic_sculpt {
 
@@ -35,11 +36,8 @@ private:
                                     const Device_parameters<double>& device, const Workspace_map& map,
                                     const Haptic_parameters& parameters) {
     parameters.check();
-    Eigen::Vector3d lower = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (const auto v : sculptor.mesh().vertices()) {
-      const Eigen::Vector3d p = internal::vector_of(sculptor.mesh().point(v));
-      lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
-    }
+    const Box_3 box = internal::mesh_box(sculptor.mesh());
+    const Eigen::Vector3d lower(box.lower.data()), upper(box.upper.data());
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (upper - lower).norm());
     return passivity_limits(device, parameters.limits, map, lower - margin, upper + margin, parameters.coupling.damping,
                             parameters.tick, parameters.delay, parameters.virtual_mass.cutoff);

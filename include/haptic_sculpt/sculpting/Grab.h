@@ -91,7 +91,7 @@ private:
       internal::check_point("the target", target);
       return Drag_result<Mesh>::stale_at(place_);
     }
-    Drag_result<Mesh> result = sculptor_->drag(v, target, path, parameters);
+    Drag_result<Mesh> result = sculptor_->guarded_.drag(v, target, path, parameters);
     place_ = result.position;
     return result;
   }

@@ -364,10 +364,6 @@ private:
     guarded_.let_go();
     set_hand(nullptr);
   }
-  Result drag(Vertex_index v, const Point& target, std::vector<Point>* path,
-              const std::optional<Drag_parameters>& drag) {
-    return guarded_.drag(v, target, path, drag);
-  }
 };
 
 } // namespace haptic_sculpt

@@ -4,6 +4,8 @@
 #include "../examples/count_allocations.h"
 #include "sculpting/Random_scene.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <gmp.h>
@@ -125,7 +127,7 @@ BOOST_AUTO_TEST_CASE(warm_drags_allocate_nothing) {
   mp_set_memory_functions(counted_by_gmp, resized_by_gmp, freed_by_gmp);
   const std::uint64_t seed = seed_from_environment(6);
   BOOST_TEST(allocations_so_far > 0u); // it counts
-  for (const Response response : {Response::slide, Response::stop, Response::paper}) {
+  for (const Response response : {Response::slide, Response::stop, Response::paper()}) {
     const Sculptor_parameters options = parameters::response(response);
     check("torus", meshes::torus(40, 20), 0.15, options, seed);
     check("cube with flat sides", meshes::box(6).scale_and_move(1, 2, 3, 4), 1.0 / 6, options, seed + 1);

@@ -6,6 +6,8 @@
 #include "sculpting/Random_scene.h"
 #include "sculpting/clearances.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 #include <CGAL/Gmpq.h>
 
 using namespace haptic_sculpt;
@@ -43,7 +45,7 @@ std::vector<Mesh> extreme_scenes() {
   return all;
 }
 
-constexpr Response responses[] = {Response::slide, Response::stop, Response::paper};
+constexpr Response responses[] = {Response::slide, Response::stop, Response::paper()};
 
 } // namespace
 

@@ -4,6 +4,8 @@
 #include "sculpting/Mesh_snapshot.h"
 #include "sculpting/Random_scene.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <gmpxx.h>
@@ -158,7 +160,7 @@ BOOST_AUTO_TEST_CASE(no_drag_lowers_an_altitude_below_delta) {
   const std::size_t drags = count_from_environment("HAPTIC_SCULPT_LOW_DRAGS", 400);
   const double delta = 0.3;
   const mpq_class square = mpq_class(delta) * mpq_class(delta);
-  for (const Response response : {Response::stop, Response::slide, Response::paper}) {
+  for (const Response response : {Response::stop, Response::slide, Response::paper()}) {
     // A sphere with some vertices close to a neighbour, which undo puts back there.
     const Mesh round = ball();
     Mesh mesh = round;

@@ -3,6 +3,8 @@
 // end.
 #include "sculpting/Random_scene.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 #include <boost/test/unit_test.hpp>
 
 using namespace haptic_sculpt;
@@ -45,7 +47,7 @@ BOOST_AUTO_TEST_CASE(with_any_bound_a_mesh_stays_embedded) {
   for (const std::size_t bound : {0, 1, 3, 10, 30, 100, 300})
     for (int scene = 0; scene < 12; ++scene) {
       Mesh mesh = scene % 4 == 0 ? terrain() : meshes::to_mesh(random_small_list(random, 3));
-      Sculptor<Mesh> sculptor(mesh, parameters::work_limit(bound).response(scene % 3 == 0   ? Response::paper
+      Sculptor<Mesh> sculptor(mesh, parameters::work_limit(bound).response(scene % 3 == 0   ? Response::paper()
                                                                            : scene % 3 == 1 ? Response::stop
                                                                                             : Response::slide));
       for (int k = 0; k < 30; ++k) {

@@ -8,6 +8,8 @@
 
 #include <shared_data.h>
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <map>
@@ -48,7 +50,7 @@ struct Tally {
 void drag_about(Outside_scene scene, std::size_t drags, Random& random, Tally& tally) {
   for (std::size_t done = 0; done < drags;) {
     Sculptor_parameters options = parameters::response(random() % 4 == 0   ? Response::stop
-                                                       : random() % 4 == 0 ? Response::paper
+                                                       : random() % 4 == 0 ? Response::paper()
                                                                            : Response::slide);
     std::size_t limit = std::numeric_limits<std::size_t>::max();
     if (random() % 3 == 0)

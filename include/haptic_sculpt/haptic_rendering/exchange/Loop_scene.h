@@ -5,8 +5,7 @@
 #include <haptic_sculpt/haptic_rendering/exchange/Scene_visitor.h>
 #include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
 #include <haptic_sculpt/sculpting.h>
-
-#include <limits>
+#include <haptic_sculpt/surface/broad_phase/face_box.h>
 
 namespace haptic_sculpt {
 
@@ -36,8 +35,8 @@ struct Loop_scene {
   Loop_scene(Mesh given, const Map_of_box& map_of_box, std::size_t edits = 1000, std::size_t moves = 100000,
              const Sculptor_parameters& parameters = Sculptor_parameters())
       : mesh(std::move(given))
-      , lower(corner_of_box(-1))
-      , upper(corner_of_box(1))
+      , lower(internal::mesh_box(mesh).lower.data())
+      , upper(internal::mesh_box(mesh).upper.data())
       , sculptor(mesh, parameters, Scene_visitor<Mesh>(mesh))
       , map(map_of_box(lower, upper)) {
     sculptor.reserve(edits, moves);
@@ -58,17 +57,6 @@ struct Loop_scene {
       face.vertices[i] = sculptor.id(v), face.corners[i++] = vertex_coordinates(mesh, v);
     }
     return face;
-  }
-
-private:
-  Eigen::Vector3d corner_of_box(int sign) const {
-    Eigen::Vector3d corner = Eigen::Vector3d::Constant(-sign * std::numeric_limits<double>::infinity());
-    for (const auto v : mesh.vertices()) {
-      const auto& p = mesh.point(v);
-      const Eigen::Vector3d at(p.x(), p.y(), p.z());
-      corner = sign < 0 ? Eigen::Vector3d(corner.cwiseMin(at)) : Eigen::Vector3d(corner.cwiseMax(at));
-    }
-    return corner;
   }
 };
 

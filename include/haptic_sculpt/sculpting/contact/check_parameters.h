@@ -7,7 +7,7 @@
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
-#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+#include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
-#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+#include <haptic_sculpt/surface/Box_3.h>
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/sculpting/culling/Outcodes.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
-#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+#include <haptic_sculpt/surface/Box_3.h>
 
 
 namespace haptic_sculpt::internal {

@@ -6,7 +6,7 @@
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/Face_corners.h>
-#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+#include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <CGAL/Interval_nt.h>

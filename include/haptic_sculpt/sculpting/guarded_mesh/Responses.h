@@ -3,7 +3,7 @@
 
 #include <haptic_sculpt/sculpting/Drag_result.h>
 #include <haptic_sculpt/sculpting/geometry/clearance.h>
-#include <haptic_sculpt/sculpting/paper_1997/Paper_response.h>
+#include <haptic_sculpt/sculpting/guarded_mesh/Ground_of_hand.h>
 #include <haptic_sculpt/sculpting/response/Slide_response.h>
 #include <haptic_sculpt/sculpting/response/nearest_permitted.h>
 
@@ -38,7 +38,7 @@ void settle_result(const Coordinates& source, const Coordinates& target, const C
     result.end = Drag_end::stuck;
 }
 
-/// The three responses to a blocked way behind one call, with the contacts they carry along.
+/// The responses to a blocked way behind one call, with the contacts they carry along.
 template <class Mesh>
 class Responses {
 public:
@@ -47,7 +47,8 @@ public:
   /// The vertex was let go: the next drag begins without contacts.
   void forget() {
     slide_.forget();
-    paper_.forget();
+    if (other_)
+      other_->forget();
   }
 
   /// Moves from source towards target and fills in the result. Returns where the vertex is then: no farther from the
@@ -58,11 +59,15 @@ public:
     Coordinates end;
     if (response == Response::slide)
       end = slide_.move(guard, source, target, rules, result);
-    else if (response == Response::paper)
-      end = paper_.move(guard, mesh, source, target, rules, result);
-    else {
+    else if (response == Response::stop) {
       end = guard.leg(source, target, rules, result);
       result.end = guard.is_spent() ? Drag_end::work_limit : end == source ? Drag_end::no_progress : Drag_end::held;
+    } else {
+      make_other(response);
+      Ground_of_hand<Mesh, Guard> ground(guard, mesh, rules, leg_, result);
+      result.end = other_->move(ground, source, target, rules.clearance);
+      end = other_->place();
+      result.legs = other_->path().legs();
     }
     settle_result(source, target, end, result);
     const Vector pull = minus(target, end);
@@ -83,15 +88,24 @@ public:
         append(end);
       return;
     }
-    const internal::Slide_path& path = response == Response::slide ? slide_.path() : paper_.path();
+    const Slide_path& path = response == Response::slide ? slide_.path() : other_->path();
     for (int i = 0; i <= path.legs(); ++i)
       append(path.point(i));
   }
 
 private:
   Slide_response<Mesh> slide_;
-  Paper_response<Mesh> paper_;
+  std::unique_ptr<Other_walk> other_; ///< none until a response that is neither slide nor stop is asked for
+  Response other_response_ = Response::stop; ///< whose that is
+  Drag_result<Mesh> leg_;                    ///< one of its legs; kept to allocate no more
   std::vector<Half_space> permitted_; ///< by the contacts; kept to allocate no more
+
+  void make_other(Response response) {
+    if (other_response_ == response)
+      return;
+    other_ = response.kind_->make_walk();
+    other_response_ = response;
+  }
 
   static double shortest_pull(const Drag_rules& rules, const Coordinates& end, const Drag_result<Mesh>& result) {
     double reach = largest_magnitude(end);

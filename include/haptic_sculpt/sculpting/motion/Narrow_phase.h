@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/collision/In_set_mode.h>
 #include <haptic_sculpt/sculpting/Star_impact.h>
 #include <haptic_sculpt/sculpting/culling/Near_pairs.h>
 #include <haptic_sculpt/sculpting/geometry/Work.h>

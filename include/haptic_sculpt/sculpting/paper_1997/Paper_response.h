@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/sculpting/Drag_result.h>
-#include <haptic_sculpt/sculpting/geometry/clearance.h>
-#include <haptic_sculpt/sculpting/response/Slide_path.h>
+#include <haptic_sculpt/sculpting/response/Other_walk.h>
 #include <haptic_sculpt/sculpting/response/is_farther.h>
-#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
-#include <optional>
 
 namespace haptic_sculpt::internal {
 
@@ -19,82 +15,39 @@ namespace haptic_sculpt::internal {
 /// The paper's sub-cases of (b) and (c) are in a figure only. Here: among the triangles at the feature, the nearest
 /// point decides which face, edge or vertex is next; J lifts off where the target is on its free side of that triangle.
 /// Every leg stops and is proven like any motion. Does not reach a nearest point everywhere; that is the paper's.
-template <class Mesh>
-class Paper_response {
+class Paper_response final : public Other_walk {
 public:
-  using Vertex_index = typename Mesh::Vertex_index;
+  static constexpr int most_legs = Slide_path::most_legs;
 
-  static constexpr int most_legs = 32;
+  void forget() override { touched_.number = 0; }
 
-  void forget() { touched_.number = 0; }
-
-  /// The way of the last move.
-  const internal::Slide_path& path() const { return path_; }
-
-  template <class Guard>
-  Coordinates move(Guard& guard, const Mesh& mesh, const Coordinates& source, const Coordinates& target,
-                   const Drag_rules& rules, Drag_result<Mesh>& result) {
+  Drag_end move(Walk_ground& ground, const Coordinates& source, const Coordinates& target,
+                const Clearance_rule& clearances) override {
     if (place_ != source)
       forget();
     place_ = source;
-    path_ = internal::Slide_path(source);
-    result.end = Drag_end::leg_limit;
-    held_.clear();
-    bool stands = false; // did not move in the turn before
-    for (int legs = 0; legs < most_legs; ++legs) {
-      const std::optional<Aim> aim = next_aim(guard, mesh, target, rules.clearance);
-      if (aim && !aim->lifts_off && is_at(*aim)) {
-        result.end = Drag_end::held;
-        break;
-      }
-      const Vector goal = aim && !aim->lifts_off ? aim->place : target;
-      Drag_result<Mesh>& leg = leg_;
-      const Coordinates end = guard.leg(place_, goal, rules, leg);
-      result.legs += end != place_;
-      const bool moved = end != place_;
-      place_ = end;
-      if (moved)
-        path_.add(end);
-      if (end == target) {
-        forget();
-        held_.clear();
-        result.end = Drag_end::reached;
-        break;
-      }
-      if (end == goal) { // on the way over the surface
-        touched_ = aim->touched;
-        continue;
-      }
-      held_ = leg.contacts;
-      result.stop_error = leg.stop_error;
-      result.stop_error_along_path = leg.stop_error_along_path;
-      touched_ = touched_by(leg);
-      if (touched_.number == 0 || (!moved && stands)) { // (d), (e): it sticks; or two features send it to each other
-        result.end = place_ == source ? Drag_end::no_progress : Drag_end::held;
-        break;
-      }
-      stands = !moved;
-    }
-    if (guard.is_spent() && result.end != Drag_end::reached)
-      result.end = Drag_end::work_limit;
-    result.contacts = held_;
+    path_ = Slide_path(source);
+    const Drag_end why = walk(ground, source, target, clearances);
     if (is_farther(target, place_, source)) {
       place_ = source;
-      path_ = internal::Slide_path(source);
-      result.legs = 0;
+      path_ = Slide_path(source);
     }
-    return place_;
+    return ground.is_spent() && why != Drag_end::reached ? Drag_end::work_limit : why;
   }
 
 private:
+  using Vertex = Walk_ground::Vertex;
+  using Face = Walk_ground::Face;
+  static constexpr Vertex none = Walk_ground::none;
+
   /// A face, edge or vertex of the mesh, and the side of its faces J is on: +1 where their normals point.
   struct Touched {
-    std::array<Vertex_index, 3> vertices{};
+    Face vertices = {none, none, none};
     int number = 0; ///< of vertices; 0: nothing is touched
     int side = 0;
 
     Touched() = default;
-    Touched(const std::array<Vertex_index, 3>& corners, int count, int on_side)
+    Touched(const Face& corners, int count, int on_side)
         : vertices(corners), number(count), side(on_side) {
       std::sort(vertices.begin(), vertices.begin() + number); // a set: faces are met from any corner
     }
@@ -111,45 +64,65 @@ private:
   };
 
   Touched touched_;
-  Coordinates place_{};
-  internal::Slide_path path_;
-  Drag_result<Mesh> leg_;                      ///< of the last leg; kept to allocate no more
-  typename Drag_result<Mesh>::Contacts held_; ///< of the last leg that was stopped
+  mutable std::vector<Face> faces_; ///< at a vertex; kept to allocate no more
+
+  Drag_end walk(Walk_ground& ground, const Coordinates& source, const Coordinates& target,
+                const Clearance_rule& clearances) {
+    bool stands = false; // did not move in the turn before
+    for (int legs = 0; legs < most_legs; ++legs) {
+      const std::optional<Aim> aim = next_aim(ground, target, clearances);
+      if (aim && !aim->lifts_off && is_at(*aim))
+        return Drag_end::held;
+      const Vector goal = aim && !aim->lifts_off ? aim->place : target;
+      const Coordinates end = ground.leg(place_, goal);
+      const bool moved = end != place_;
+      place_ = end;
+      if (moved)
+        path_.add(end);
+      if (end == target) {
+        forget();
+        return Drag_end::reached;
+      }
+      if (end == goal) { // on the way over the surface
+        touched_ = aim->touched;
+        continue;
+      }
+      touched_ = touched_at(ground.stop());
+      if (touched_.number == 0 || (!moved && stands)) // (d), (e): it sticks; or two features send it to each other
+        return place_ == source ? Drag_end::no_progress : Drag_end::held;
+      stands = !moved;
+    }
+    return Drag_end::leg_limit;
+  }
 
   bool is_at(const Aim& aim) const {
     // A clearance is what separates stops of one place from each other.
     return aim.touched == touched_ && length(minus(aim.place, place_)) <= aim.clearance;
   }
 
-  static Touched touched_by(const Drag_result<Mesh>& leg) {
-    for (const Contact_3<Mesh>& contact : leg.contacts) {
-      if (contact.kind != Contact_kind::vertex_face || contact.is_flat)
-        continue;
-      const auto& [a, b, c] = contact.vertices;
-      const Vertex_index none;
-      const int side = contact.side;
-      switch (contact.location) {
-      case Triangle_location::edge_ab: return Touched({a, b, none}, 2, side);
-      case Triangle_location::edge_bc: return Touched({b, c, none}, 2, side);
-      case Triangle_location::edge_ca: return Touched({c, a, none}, 2, side);
-      case Triangle_location::vertex_a: return Touched({a, none, none}, 1, side);
-      case Triangle_location::vertex_b: return Touched({b, none, none}, 1, side);
-      case Triangle_location::vertex_c: return Touched({c, none, none}, 1, side);
-      default: return Touched({a, b, c}, 3, side);
-      }
+  static Touched touched_at(const std::optional<Walk_ground::Stop>& stop) {
+    if (!stop)
+      return {};
+    const auto& [a, b, c] = stop->face;
+    const int side = stop->side;
+    switch (stop->location) {
+    case Triangle_location::edge_ab: return Touched({a, b, none}, 2, side);
+    case Triangle_location::edge_bc: return Touched({b, c, none}, 2, side);
+    case Triangle_location::edge_ca: return Touched({c, a, none}, 2, side);
+    case Triangle_location::vertex_a: return Touched({a, none, none}, 1, side);
+    case Triangle_location::vertex_b: return Touched({b, none, none}, 1, side);
+    case Triangle_location::vertex_c: return Touched({c, none, none}, 1, side);
+    default: return Touched({a, b, c}, 3, side);
     }
-    return {};
   }
 
   /// The nearest point to the target on the faces at the feature; nothing where none is touched.
-  template <class Guard>
-  std::optional<Aim> next_aim(const Guard& guard, const Mesh& mesh, const Vector& target,
+  std::optional<Aim> next_aim(const Walk_ground& ground, const Vector& target,
                               const Clearance_rule& clearances) const {
     std::optional<Aim> best;
     double least = std::numeric_limits<double>::infinity();
-    for_each_face(guard, mesh, [&](const std::array<Vertex_index, 3>& corners) {
-      const std::array<Vector, 3> p = {vertex_coordinates(mesh, corners[0]), vertex_coordinates(mesh, corners[1]),
-                                       vertex_coordinates(mesh, corners[2])};
+    for_each_face(ground, [&](const Face& corners) {
+      const std::array<Vector, 3> p = {ground.point(corners[0]), ground.point(corners[1]), ground.point(corners[2])};
       const double unit = unit_of_triangle(p);
       const Vector normal =
           scaled(normalized(cross(scaled(minus(p[1], p[0]), unit), scaled(minus(p[2], p[0]), unit))), touched_.side);
@@ -175,10 +148,8 @@ private:
   }
 
   /// Also tells on what feature of the triangle it lies.
-  static Vector nearest_on_triangle(const Vector& target, const std::array<Vertex_index, 3>& corners,
-                                    const std::array<Vector, 3>& p, const Vector& normal, int side, Touched& touched) {
-    using namespace internal;
-    const Vertex_index none;
+  static Vector nearest_on_triangle(const Vector& target, const Face& corners, const std::array<Vector, 3>& p,
+                                    const Vector& normal, int side, Touched& touched) {
     const Vector foot = advanced(target, -dot(minus(target, p[0]), normal), normal);
     const Vector up = scaled(normal, side);
     const double unit = unit_of_triangle(p);
@@ -210,24 +181,29 @@ private:
   }
 
   /// The faces at the feature that are not J's own.
-  template <class Guard, class Function>
-  void for_each_face(const Guard& guard, const Mesh& mesh, const Function& function) const {
+  template <class Function>
+  void for_each_face(const Walk_ground& ground, const Function& function) const {
     if (touched_.number == 0)
       return;
-    const Vertex_index a = touched_.vertices[0];
-    const auto first = mesh.halfedge(a);
-    auto h = first; // runs over the halfedges to a
-    do {
-      const std::array<Vertex_index, 3> corners = {a, mesh.target(mesh.next(h)), mesh.source(h)};
-      const auto has = [&](Vertex_index v) { return v == corners[0] || v == corners[1] || v == corners[2]; };
+    const Vertex moving = ground.moving();
+    ground.find_faces(touched_.vertices[0], faces_);
+    for (const Face& corners : faces_) {
+      const auto has = [&](Vertex v) { return v == corners[0] || v == corners[1] || v == corners[2]; };
       bool meets = true;
       for (int i = 1; i < touched_.number; ++i)
         meets = meets && has(touched_.vertices[i]);
-      if (meets && !(guard.star().valence() != 0 && has(guard.star().centre)))
+      if (meets && !has(moving)) // a probe's is none
         function(corners);
-      h = mesh.opposite(mesh.next(h));
-    } while (h != first);
+    }
   }
+};
+
+/// What makes Response::paper() complete.
+template <>
+struct Paper_1997<void> {
+  static constexpr bool is_included = true;
+  static std::unique_ptr<Other_walk> make_walk() { return std::make_unique<Paper_response>(); }
+  static constexpr Response_kind kind{"paper", make_walk};
 };
 
 } // namespace haptic_sculpt::internal

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+#include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 namespace haptic_sculpt {
@@ -25,4 +25,16 @@ Box_3 face_box(const Mesh& mesh, const std::array<typename Mesh::Vertex_index, 3
   return box;
 }
 
+namespace internal {
+
+/// The smallest box around all vertices of a mesh. Cost: linear.
+template <class Mesh>
+Box_3 mesh_box(const Mesh& mesh) {
+  Box_3 box;
+  for (const auto v : mesh.vertices())
+    box.include(vertex_coordinates(mesh, v));
+  return box;
+}
+
+} // namespace internal
 } // namespace haptic_sculpt

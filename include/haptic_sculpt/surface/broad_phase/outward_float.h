@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/surface/broad_phase/Box_3.h>
+#include <haptic_sculpt/surface/Box_3.h>
 
 #include <cstdint>
 #include <cstring>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
 #include <algorithm>
@@ -24,14 +25,10 @@ class First_face_along_x {
   using Point_2 = Decision_kernel::Point_2;
   static constexpr std::ptrdiff_t leaf_size = 4;
 
-  struct Box {
-    std::array<double, 3> lower, upper;
-    double origin; // the least x of all components that have faces here
+  struct Box : Box_3 {
+    double origin = std::numeric_limits<double>::infinity(); // the least x of all components that have faces here
     void operator+=(const Box& other) {
-      for (int k = 0; k < 3; ++k) {
-        lower[k] = std::min(lower[k], other.lower[k]);
-        upper[k] = std::max(upper[k], other.upper[k]);
-      }
+      include(other);
       origin = std::min(origin, other.origin);
     }
   };
@@ -53,11 +50,11 @@ public:
       : soup_(soup), origin_(std::move(origin)), faces_(origin_.size()) {
     std::vector<Box> boxes(faces_.size());
     for (Index f = 0; f < faces_.size(); ++f) {
-      CGAL::Bbox_3 bounds;
-      for (const Index* corner = soup.begin(f); corner != soup.end(f); ++corner)
-        bounds += soup.points[*corner].bbox();
-      boxes[f] = {
-          {bounds.xmin(), bounds.ymin(), bounds.zmin()}, {bounds.xmax(), bounds.ymax(), bounds.zmax()}, origin_[f]};
+      for (const Index* corner = soup.begin(f); corner != soup.end(f); ++corner) {
+        const Point_3& p = soup.points[*corner];
+        boxes[f].include(Box_3::Coordinates{p.x(), p.y(), p.z()});
+      }
+      boxes[f].origin = origin_[f];
     }
     std::iota(faces_.begin(), faces_.end(), Index(0));
     if (!faces_.empty())

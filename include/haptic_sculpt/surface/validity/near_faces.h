@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/Part_runner.h>
+#include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
 #include <CGAL/Bbox_3.h>
@@ -141,14 +142,13 @@ private:
   }
 
   static int widest_axis(const Boxes& boxes) {
-    std::array<double, 3> lowest, highest;
-    lowest.fill(std::numeric_limits<double>::infinity()), highest.fill(-std::numeric_limits<double>::infinity());
+    Box_3 ends; // of their lower corners
     for (const Box& box : boxes)
-      for (int k = 0; k < 3; ++k)
-        lowest[k] = std::min(lowest[k], box.min_coord(k)), highest[k] = std::max(highest[k], box.min_coord(k));
-    int widest = 0; // halved, so that none overflows
+      ends.include(Box_3::Coordinates{box.min_coord(0), box.min_coord(1), box.min_coord(2)});
+    const auto width = [&ends](int k) { return ends.upper[k] / 2 - ends.lower[k] / 2; }; // halved: none overflows
+    int widest = 0;
     for (int k = 1; k < 3; ++k)
-      if (highest[k] / 2 - lowest[k] / 2 > highest[widest] / 2 - lowest[widest] / 2)
+      if (width(k) > width(widest))
         widest = k;
     return widest;
   }
