@@ -32,8 +32,8 @@ public:
   template <class Tally>
   Tally make(const Mesh& given, const Batch& batch, Batch_maker<Tally> Broad_phase_choice::*make,
              const std::string& name, Counts& counts) const {
-    // As `sculpt` reads it from the file: where half-edges begin to go round a vertex, which a file does not hold, has a
-    // say in the last bits of a slide and in which of two equal neighbours a removal takes.
+    // As `sculpt` reads it from the file: where half-edges begin to go round a vertex, which a file does not hold, has
+    // a say in the last bits of a slide and in which of two equal neighbours a removal takes.
     const Mesh mesh = mesh_of<Mesh>(face_soup(given));
     Batch only_bits = batch;
     only_bits.has_only_bits = true;
