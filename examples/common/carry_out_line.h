@@ -55,7 +55,11 @@ inline Dab_3<Kernel> dab_of(const Command& command) {
 /// A dab with a brush.
 template <class Sculptor>
 Line_outcome carry_out_brush(Sculptor& sculptor, const Command& command) {
-  const Move_report report = apply_brush(sculptor, std::array<Dab_3<Kernel>, 1>{dab_of(command)},
+  const Dab_3<Kernel> dab = dab_of(command);
+  if (const Vertex_index nearest = sculptor.nearest_vertex(dab.centre, dab.radius);
+      nearest.is_valid() && std::abs(dab.strength) > largest_strength(sculptor.mesh(), dab, nearest))
+    return Line_outcome::refused("out-of-range", "the strength is more than 2^53 times what it is measured in");
+  const Move_report report = apply_brush(sculptor, std::array<Dab_3<Kernel>, 1>{dab},
                                          boost::static_property_map<double, Vertex_index>(1.0), Move_parameters());
   if (report.asked == 0)
     return Line_outcome::refused("nothing-in-reach", "no vertex is nearer to the centre than the radius");

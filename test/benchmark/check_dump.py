@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """check_dump.py ROBUSTNESS SCULPT: what `robustness` dumps of a batch, replayed by `sculpt`, gives the same mesh.
 
-Drags and strokes of a hand, with two clearances: the corners of all faces are compared, to the last bit. Mixed edits
-with undo, redo and strokes have to be replayed; most give the same mesh, but not all, because a script lets go of a
-vertex that the batch keeps in hand during other edits."""
+Drags, strokes of a hand, and mixed edits with undo, redo and strokes, with two clearances: the corners of all faces are
+compared, to the last bit."""
 import pathlib
 import subprocess
 import sys
@@ -48,12 +47,10 @@ with tempfile.TemporaryDirectory() as place:
                 faults.append(f"{script.name}: sculpt ended with {replayed.returncode}: {replayed.stderr[-500:]}")
             elif faces(out) == faces(script.with_name(script.stem + ".end.off")):
                 same[kind] = same.get(kind, 0) + 1
-            elif kind != "edits":
+            else:
                 faults.append(f"{name}, {script.name}, {kind}: sculpt makes another mesh of it")
 for kind in ("drags, odd", "drags, hand", "edits"):
     if counts.get(kind, 0) < 5:
         faults.append(f"only {counts.get(kind, 0)} batches of {kind}")
-if 2 * same.get("edits", 0) < counts.get("edits", 0):
-    faults.append(f"only {same.get('edits', 0)} of {counts.get('edits', 0)} batches of mixed edits give the same mesh")
 print(counts, same, f"{len(faults)} faults", *faults[:5], sep="\n")
 sys.exit(1 if faults else 0)

@@ -125,6 +125,40 @@ BOOST_AUTO_TEST_CASE(what_is_no_force_is_none_and_said) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(after_a_fault_the_weight_is_carried_again_as_slowly_as_forces_come) {
+  const Vector3d none = Vector3d::Zero();
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
+    const Device_parameters<double> parameters = device(form, 0.005);
+    const Handle_motion handle = handle_at(parameters, Vector3d(1, 1.1, 0.9));
+    const Vector3d weight = gravity_torque(parameters, handle.pose(), handle.jacobian());
+    Force_renderer renderer(Force_limits(), Virtual_coupling(), Gravity_compensation::spatial, 0.001);
+    BOOST_TEST(renderer.render(handle, none).torque == weight);
+    renderer.restart(); // without a fault, as in another scene: the hand is not to drop what the motors carry
+    BOOST_TEST(renderer.render(handle, none).torque == weight);
+    const auto comes_back_from = [&](double left) {
+      renderer.restart();
+      for (int k = 1; k <= 400; ++k) // the ramp takes 300 ms
+        BOOST_TEST((renderer.render(handle, none).torque - std::fmin(1, left + k / 300.0) * weight).norm() <=
+                   1e-9 * weight.norm());
+    };
+    for (const int ticks : {37, 100, 150}) { // the fade takes 100 ms
+      for (int k = 0; k < ticks; ++k)
+        renderer.fade_out();
+      comes_back_from(std::fmax(0, 1 - ticks / 100.0));
+    }
+    renderer.render(handle, Vector3d(0, NAN, 0)); // no torque is left at once
+    comes_back_from(0);
+    for (int k = 0; k < 200; ++k)
+      renderer.fade_out();
+    renderer.restart();
+    for (int k = 0; k < 150; ++k)
+      renderer.render(handle, none); // half of it is back
+    for (int k = 0; k < 50; ++k)
+      renderer.fade_out();
+    comes_back_from(0.25);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(forces_fade_where_the_jacobian_is_bad) {
   const Force_limits limits;
   BOOST_TEST(fading_by_condition(limits, 1) == 1);

@@ -179,6 +179,7 @@ BOOST_AUTO_TEST_CASE(limits_that_were_made_for_something_else_or_by_nobody_are_r
   };
   is_refused_with([](Haptic_parameters& p) { p.tick = 0.0011; });
   is_refused_with([](Haptic_parameters& p) { p.delay = 1; });
+  is_refused_with([](Haptic_parameters& p) { p.tick = 0.0005, p.delay = 0.5; }); // of the same passive stiffness
   is_refused_with([](Haptic_parameters& p) { p.coupling.damping = 0.01; });
   is_refused_with([](Haptic_parameters& p) { p.virtual_mass.cutoff = 90; });
   is_refused_with([](Haptic_parameters& p) { p.limits.full_condition = 11; });

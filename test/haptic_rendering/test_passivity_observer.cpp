@@ -80,6 +80,9 @@ BOOST_AUTO_TEST_CASE(friction_takes_the_same_of_a_motion_whatever_its_ticks_trul
     }
     BOOST_TEST(std::abs(loop.observer().dissipated() / (friction * speed * speed * time) - 1) <= 1e-9); // rounding
   }
+  Passivity_observer hasty(0, 0.001, friction, 0); // two readings at all but one time: no friction beyond all measure
+  hasty.add_step(Vector3d(0.001, 0, 0), 0, Vector3d::Zero(), 1e-12);
+  BOOST_TEST(std::abs(hasty.dissipated() / (friction * 1e-6 / 0.0005) - 1) <= 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(a_controller_damps_the_true_velocity_and_takes_no_more_than_is_missing_in_a_tick_as_long) {
@@ -96,7 +99,33 @@ BOOST_AUTO_TEST_CASE(a_controller_damps_the_true_velocity_and_takes_no_more_than
     BOOST_TEST(-force.dot(velocity) * std::max(tick, elapsed) >= missing * (1 - 1e-12));
   }
   Passivity_controller hasty(3, tick); // two readings at all but one time: no speed beyond all measure
-  BOOST_TEST(hasty.force(observer, 0.1 * tick * velocity, 1e-12).norm() <= 3 * 0.2 * velocity.norm() * (1 + 1e-12));
+  BOOST_TEST((hasty.force(observer, 0.1 * tick * velocity, 1e-12) + 3 * 0.2 * velocity).norm() <= 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_damps_the_true_velocity_whatever_its_ticks_truly_take) {
+  for (const double elapsed : {0.0006, 0.001, 0.0014, 0.002}) { // s; declared is 1 ms
+    Haptic_parameters parameters;
+    parameters.coupling.stiffness = 100, parameters.limits.ramp_time = 0, parameters.limits.slew = 1e9;
+    Interaction<Pose_side> loop(Pose_side(Pose_device(0), parameters), parameters, 3);
+    Pose_reading reading;
+    const auto tick = [&](double step, double time, double way) {
+      reading.position[2] += step, reading.elapsed = time;
+      BOOST_REQUIRE(loop.follow(reading));
+      Touch touch;
+      touch.way[2] = way, touch.is_free = way == 0;
+      loop.render(touch), loop.end_tick();
+    };
+    tick(0, 0.001, 0), tick(0, 0.001, 0.01); // the spring pushes with 1 N, ...
+    BOOST_TEST(loop.spring() == Vector3d(0, 0, 1));
+    tick(0.001, 0.001, 0); // ... and gives 1 mJ
+    tick(0.1 * elapsed, elapsed, 0); // at 0.1 m/s
+    BOOST_TEST((loop.wanted() - Vector3d(0, 0, -0.3)).norm() <= 1e-12);
+    BOOST_TEST((loop.spring() == Vector3d::Zero() && loop.controller().damping() == 3));
+    const Vector3d last = loop.rendered().force;
+    loop.report(Loop_fault::log), loop.end_tick(); // found elsewhere
+    BOOST_TEST((loop.fault() == Loop_fault::log));
+    BOOST_TEST((loop.rendered().force - (1 - elapsed / 0.1) * last).norm() <= 0.01 * last.norm()); // a fade of 100 ms
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_observer_counts_the_true_energy_of_the_port) {

@@ -117,6 +117,42 @@ BOOST_AUTO_TEST_CASE(a_virtual_mass_is_the_same_on_a_device_of_pose_and_force) {
   BOOST_TEST(worst <= 0.01 * parameters.virtual_mass.mass * amplitude * omega * omega);
 }
 
+BOOST_AUTO_TEST_CASE(after_a_fault_a_virtual_mass_comes_back_as_slowly_as_at_a_start) {
+  const double omega = 2 * M_PI * 2, amplitude = 0.004;
+  Pose_loop_parameters parameters(5);
+  parameters.virtual_mass.mass = 0.9 * parameters.largest_mass();
+  const Haptic_parameters all = parameters.checked();
+  const auto started = [&] { return Interaction<Pose_side>(Pose_side(parameters.device, all), all, 0); };
+  const auto tick = [&](Interaction<Pose_side>& loop, double x) {
+    Pose_reading reading;
+    reading.position[0] = x, reading.elapsed = all.tick;
+    if (Touch touch; loop.follow(reading)) {
+      touch.holds = true;
+      loop.render(touch);
+    }
+    loop.end_tick();
+    return loop.rendered().force;
+  };
+  const auto place = [&](int k) { return amplitude * std::cos(omega * k * all.tick); }; // accelerated most at k = 0
+  const double whole = parameters.virtual_mass.mass * amplitude * omega * omega;
+  Interaction<Pose_side> loop = started(), fresh = started();
+  double felt = 0;
+  for (int k = 0; k < 1000; ++k)
+    felt = std::max(felt, tick(loop, place(k)).norm());
+  BOOST_TEST(felt > 0.95 * whole);
+  for (int k = 0; k < 150; ++k)
+    tick(loop, NAN);
+  BOOST_REQUIRE((loop.fault() == Loop_fault::not_finite && loop.has_faded()));
+  loop.restart();
+  for (int k = 0; k < 1000; ++k) {
+    const Vector3d force = tick(loop, place(k));
+    BOOST_TEST(force == tick(fresh, place(k)));
+    const double ramp = std::fmin(1, k * all.tick / all.limits.ramp_time + 0.005),
+                 fade = std::fmin(1, k * all.tick / Virtual_mass::fade_time); // 1.2: the estimate overshoots
+    BOOST_TEST(force.norm() <= 1.2 * whole * ramp * fade + 1e-12);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(uneven_and_late_ticks_at_constant_speed_make_no_force_of_a_virtual_mass) {
   Pose_loop_parameters parameters(5);
   parameters.virtual_mass.mass = 0.5 * parameters.largest_mass();

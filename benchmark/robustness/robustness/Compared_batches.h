@@ -30,8 +30,11 @@ public:
   /// One batch. \param make how a broad phase makes it \param name of its files \return what the first counts; nothing
   /// of a batch whose clearance does not serve
   template <class Tally>
-  Tally make(const Mesh& mesh, const Batch& batch, Batch_maker<Tally> Broad_phase_choice::*make,
+  Tally make(const Mesh& given, const Batch& batch, Batch_maker<Tally> Broad_phase_choice::*make,
              const std::string& name, Counts& counts) const {
+    // As `sculpt` reads it from the file: where half-edges begin to go round a vertex, which a file does not hold, has
+    // a say in the last bits of a slide and in which of two equal neighbours a removal takes.
+    const Mesh mesh = mesh_of<Mesh>(face_soup(given));
     Batch only_bits = batch;
     only_bits.has_only_bits = true;
     try {
@@ -45,7 +48,7 @@ public:
       if (!is_same && first.script.empty())
         first.script = (broad_phases_[0].*make)(mesh, only_bits, Keep::all).script;
       if (!first.script.empty())
-        write_case(folder_, name, mesh, (is_same ? "" : other_bits_line) + first.script);
+        write_case(folder_, name, given, (is_same ? "" : other_bits_line) + first.script);
       if (keep_ == Keep::all)
         write_surface(folder_ / (name + ".end.off"), first.end);
       return first.tally;

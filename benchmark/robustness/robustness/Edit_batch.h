@@ -90,14 +90,20 @@ private:
       return;
     if (stroke_)
       return end_stroke();
-    script_.add("stroke");
+    let_go_as_a_script_does("stroke");
     stroke_.emplace(sculptor_.stroke()), ++tally_.strokes;
   }
 
   void end_stroke() {
     if (stroke_)
-      script_.add("end");
+      let_go_as_a_script_does("end");
     stroke_.reset();
+  }
+
+  /// Every line but a drag of the same vertex lets go. The Grab stays and takes its vertex anew, without contacts.
+  void let_go_as_a_script_does(const char* word) {
+    script_.add(word);
+    sculptor_.release();
   }
 
   void one() {
@@ -165,8 +171,10 @@ private:
   void drag() {
     const std::size_t kind = places_.below(8);
     // A grab may outlive its vertex; another vertex grabbed since lets go of it.
-    if (!grab_ || !grab_->vertex().is_valid() || places_.below(3) == 0)
+    if (!grab_ || !grab_->vertex().is_valid() || places_.below(3) == 0) {
+      script_.add("release"); // it may be the same vertex, which is taken anew
       grab_.emplace(sculptor_.grab(places_.vertex()));
+    }
     const Vertex_index v = grab_->vertex();
     const Point_3 target = kind < 3 ? places_.short_step(v) : kind < 5 ? places_.through(v) : places_.odd_target(v);
     const char* name = kind < 3 ? "drag, short" : kind < 5 ? "drag, through" : "drag, odd";

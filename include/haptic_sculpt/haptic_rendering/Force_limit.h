@@ -70,6 +70,7 @@ public:
       share_ = 0;
     return share_;
   }
+  double share() const { return share_; }      ///< the one that next() gave last; 1 before
   bool is_over() const { return share_ == 0; } ///< the share is exactly 0, until reset()
   void reset() { share_ = 1; }                 ///< the share is 1 again
 

@@ -37,6 +37,7 @@ public:
   /// \param way of the handle that made it what it is, m
   const Rendered_force& render(const Handle_motion& handle, const Eigen::Vector3d& wanted, double way) {
     const Eigen::Vector3d force = chain_.follow(wanted, way);
+    carried_ = std::fmin(1.0, carried_ + chain_.tick() / chain_.limits().ramp_time);
     in_room(handle, force * share_at(handle));
     if (!last_.force.allFinite() || !last_.torque.allFinite())
       last_ = Rendered_force(), last_.is_finite = false;
@@ -57,8 +58,11 @@ public:
   void refuse(const Handle_motion& handle, const Eigen::Vector3d& direction) {
     chain_.refuse(direction, mobility(handle, direction.normalized()));
   }
-  /// Forces begin at 0 and come back slowly.
-  void restart() { chain_.restart(), last_ = Rendered_force(); }
+  /// Forces begin at 0 and come back slowly; as slowly what carries the weight, from what the fade has left of it.
+  void restart() {
+    carried_ *= last_.is_finite ? chain_.left() : 0;
+    chain_.restart(), last_ = Rendered_force();
+  }
 
   double next_ramp() const { return chain_.next_ramp(); } ///< share of the force in the next tick
   const Force_limits& limits() const { return chain_.limits(); } ///< those that were given
@@ -67,6 +71,7 @@ private:
   Force_chain chain_;
   Gravity_compensation compensation_;
   double friction_;
+  double carried_ = 1; ///< the share of the weight that the motors carry: all of it from the start on
   Rendered_force last_;
 
   /// By cond(J), and by the friction that is left at the handle, as the coupling is passive with.
@@ -88,12 +93,13 @@ private:
   }
 
   void in_room(const Handle_motion& handle, const Eigen::Vector3d& force) {
-    const Eigen::Vector3d weight = weight_torque(handle), torque = handle.jacobian().linear.transpose() * force;
+    const Eigen::Vector3d whole = weight_torque(handle), weight = carried_ * whole,
+                          torque = handle.jacobian().linear.transpose() * force;
     const double limit = handle.parameters().torque_limit(), share = share_in_room(torque, weight, limit);
     last_.force = share * force;
     last_.interaction_torque = share * torque;
     last_.torque = (weight + last_.interaction_torque).cwiseMax(-limit).cwiseMin(limit);
-    last_.is_overloaded = weight.cwiseAbs().maxCoeff() > limit, last_.is_finite = true;
+    last_.is_overloaded = whole.cwiseAbs().maxCoeff() > limit, last_.is_finite = true;
   }
 
   Eigen::Vector3d weight_torque(const Handle_motion& handle) const {

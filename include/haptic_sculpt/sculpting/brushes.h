@@ -7,6 +7,18 @@
 #include <algorithm>
 
 namespace haptic_sculpt {
+namespace internal {
+
+/// \throw Invalid_parameter
+template <class Mesh, class Kernel>
+void check_strength(const Mesh& mesh, const Dab_3<Kernel>& dab, typename Mesh::Vertex_index nearest) {
+  const double largest = largest_strength(mesh, dab, nearest);
+  if (!(std::abs(dab.strength) <= largest))
+    throw Invalid_parameter("the strength " + number(dab.strength) + " of a dab is of no use: give at most " +
+                            number(largest) + ", 2^53 times what it is measured in");
+}
+
+} // namespace internal
 
 /// Makes dabs with a brush, all at once: each vertex that is touched goes where the dabs want it, the sum of what they
 /// want if it is touched by several, as far as nothing is in its way. No surface passes through a surface.
@@ -19,7 +31,8 @@ namespace haptic_sculpt {
 /// \return what became of the vertices touched; none are asked where no vertex is within the radius
 ///
 /// One step of the history. \throw Out_of_range where a dab wants a vertex out of range, Invalid_parameter where a
-/// radius is not >= 0: nothing has moved; Mesh_changed. Cost: some microseconds for each vertex touched.
+/// radius is not >= 0, or a strength more than largest_strength(): nothing has moved; Mesh_changed. Cost: some
+/// microseconds for each vertex touched.
 template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Dab_range,
           class Mask_map = boost::static_property_map<double, typename Sculptor::Vertex_index>>
 Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_map& mask = Mask_map(1.0),
@@ -30,10 +43,12 @@ Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_ma
   const auto& mesh = sculptor.mesh();
   std::vector<std::pair<Vertex_index, Point>> wanted;
   for (const auto& dab : dabs)
-    if (const Vertex_index nearest = sculptor.nearest_vertex(dab.centre, dab.radius); nearest.is_valid())
+    if (const Vertex_index nearest = sculptor.nearest_vertex(dab.centre, dab.radius); nearest.is_valid()) {
+      internal::check_strength(mesh, dab, nearest);
       internal::for_each_brush_target(touched_vertices(mesh, dab, nearest), mesh, dab, mask,
                                       dab.kind == Brush_kind::inflate && sculptor.is_inside_out(nearest),
                                       [&](Vertex_index v, const Point& p) { wanted.emplace_back(v, p); });
+    }
   std::stable_sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Vertex_index> vertices;
   std::vector<Point> targets;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
+#include <haptic_sculpt/collision/arithmetic/unit_of.h>
 #include <haptic_sculpt/no_fast_math.h>
 #include <haptic_sculpt/sculpting/Sculptor.h>
 #include <haptic_sculpt/sculpting/many_vertices/Collapse_queue.h>
@@ -81,7 +82,11 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     return Profile(mesh.halfedge(e), mesh, traits, get(boost::vertex_index, mesh), points,
                    get(boost::halfedge_index, mesh), false);
   };
-  internal::Collapse_queue<Mesh> queue(mesh);
+  double largest = 0;
+  for (const Vertex_index v : mesh.vertices())
+    largest = std::fmax(largest, internal::largest_magnitude(vertex_coordinates(mesh, v)));
+  const double unit = internal::unit_of(largest); // in which areas, and their products, are the same at every scale
+  internal::Collapse_queue<Mesh> queue(mesh, unit);
   // An end of a constrained edge stays where it is; others may go into it.
   const auto is_fixed = [&](Vertex_index v) {
     for (const Halfedge_index h : mesh.halfedges_around_target(mesh.halfedge(v)))
@@ -123,14 +128,15 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   // Whether a face that stays turns its normal by a right angle or more where both ends of h go to p. Rounded. The
   // guard lets a plane fold onto itself where the corners are rounded, and so not quite in the plane.
   const auto turns_a_face = [&](Halfedge_index h, const Point& p) {
-    const internal::Coordinates to = internal::coordinates(p);
+    const auto place = [&](Vertex_index v) { return internal::scaled(vertex_coordinates(mesh, v), unit); };
+    const internal::Coordinates to = internal::scaled(internal::coordinates(p), unit);
     for (const Halfedge_index end : {h, mesh.opposite(h)})
       for (const Halfedge_index g : mesh.halfedges_around_target(end)) {
         const Vertex_index a = mesh.source(g), b = mesh.target(mesh.next(g));
         if (a == mesh.source(end) || b == mesh.source(end))
           continue;
-        const auto c = vertex_coordinates(mesh, a), d = vertex_coordinates(mesh, b);
-        if (!internal::point_alike(internal::area_normal(c, vertex_coordinates(mesh, mesh.target(g)), d),
+        const auto c = place(a), d = place(b);
+        if (!internal::point_alike(internal::area_normal(c, place(mesh.target(g)), d),
                                    internal::area_normal(c, to, d)))
           return true;
       }

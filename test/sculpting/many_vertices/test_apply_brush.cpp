@@ -191,10 +191,37 @@ BOOST_AUTO_TEST_CASE(dabs_that_cannot_be_made_change_nothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, nan, 1, {}}}), Invalid_parameter);
   BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, -1, 1, {}}}), Invalid_parameter);
-  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, 1e307, {}}}), Out_of_range);
-  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, nan, {}}}), Out_of_range);
+  const double inf = std::numeric_limits<double>::infinity();
+  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, 1, Vector_3(0, nan, 1)}}), Out_of_range);
+  for (const Brush_kind kind : kinds) { // all coordinates are at most 1, and so is the radius: 2^53, 9.007e15
+    for (const double strength : {9.0072e15, -9.0072e15, 1e301, 1e307, inf, -inf, nan})
+      BOOST_CHECK_EXCEPTION(apply_brush(sculptor, Dabs{{kind, top, 1, strength, {}}}), Invalid_parameter,
+                            [](const Error& error) { return std::string(error.what()).find("strength") == 4; });
+    BOOST_TEST(largest_strength(mesh, Dab{kind, top, 1, 0, {}}, Vertex_index(0)) == 0x1p53);
+  }
   BOOST_TEST((snapshot(sculptor) == before));
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
+}
+
+// The largest strength is what its kind measures: lengths with the scene and the radius, shares alone.
+BOOST_AUTO_TEST_CASE(dabs_of_the_largest_strength_are_made_at_every_scale) {
+  for (const double unit : {0x1p-300, 1.0, 0x1p300})
+    for (const Brush_kind kind : kinds) {
+      Mesh mesh = meshes::to_mesh(meshes::icosphere(2).scale_and_move(unit, 0, 0, 0));
+      const bool is_length = kind == Brush_kind::grab || kind == Brush_kind::inflate;
+      Dab dab{kind, mesh.point(Vertex_index(0)), 0.5 * unit, 0x1p53 * (is_length ? unit : 1), {}};
+      double largest = 0;
+      for (const Vertex_index v : mesh.vertices_around_target(mesh.halfedge(Vertex_index(0))))
+        for (const Point_3& p : {mesh.point(v), mesh.point(Vertex_index(0))})
+          largest = std::max({largest, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+      dab.strength *= is_length ? largest / unit : 1;
+      Sculptor<Mesh> sculptor(mesh);
+      BOOST_TEST(largest_strength(mesh, dab, Vertex_index(0)) == dab.strength);
+      const Dab wide{kind, dab.centre, 8 * unit, 0, {}}; // measured by the radius
+      BOOST_TEST(largest_strength(mesh, wide, Vertex_index(0)) == 0x1p53 * (is_length ? 8 * unit : 1));
+      BOOST_TEST(apply_brush(sculptor, Dabs{dab}).asked > 1u);
+      BOOST_TEST(validate(mesh).is_valid());
+    }
 }
 
 // A ring and a ball turned over, a ball as it should be, a cavity and one turned over: the solid grows where it is

@@ -172,7 +172,8 @@ inline std::vector<Public_function> free_functions() {
   for (const Brush_kind kind :
        {Brush_kind::grab, Brush_kind::inflate, Brush_kind::smooth, Brush_kind::flatten, Brush_kind::pinch})
     for (const bool has_direction : {false, true})
-      all.push_back({"apply_brush mirrored touched_vertices fill_brush_targets", [=](double unit, Outcome& outcome) {
+      all.push_back({"apply_brush mirrored touched_vertices fill_brush_targets "
+                     "largest_strength", [=](double unit, Outcome& outcome) {
                        Scaled_scene scene(unit);
                        const bool is_length = kind == Brush_kind::grab || kind == Brush_kind::inflate;
                        Dab_3<meshes::Kernel> dab{kind,
@@ -194,6 +195,7 @@ inline std::vector<Public_function> free_functions() {
                        const auto touched = touched_vertices(scene.mesh, dab, Scaled_scene::vertex(1));
                        fill_brush_targets(touched, scene.mesh, dab, targets,
                                           boost::static_property_map<double, Vertex_index>(0.5));
+                       outcome.number(largest_strength(scene.mesh, dab, Scaled_scene::vertex(1)) > dab.strength);
                        for (const Vertex_index v : touched) {
                          outcome.index(v);
                          outcome.point(targets[static_cast<std::size_t>(v)]);

@@ -5,6 +5,7 @@
 
 #include "sculpting/public_functions/Callers_mode.h"
 #include "sculpting/public_functions/free_functions.h"
+#include "sculpting/public_functions/functions_on_their_own.h"
 #include "sculpting/public_functions/sculptor_functions.h"
 
 #include <set>
@@ -17,8 +18,8 @@ namespace {
 
 std::vector<Public_function> public_functions() {
   std::vector<Public_function> all = sculptor_functions();
-  for (auto& function : free_functions())
-    all.push_back(std::move(function));
+  for (auto& functions : {free_functions(), functions_on_their_own()})
+    all.insert(all.end(), functions.begin(), functions.end());
   return all;
 }
 

@@ -30,6 +30,7 @@ public:
   }
   /// The share of the last force that is left, one tick after a fault later. \param elapsed s; at least a tick counts
   double fade(double elapsed) { return fade_.next(std::fmax(tick_, elapsed) / limits_.fade_time); }
+  double left() const { return fade_.share(); }      ///< that share in the last tick; 1 without a fault
   bool has_faded() const { return fade_.is_over(); } ///< the share has come to 0
 
   /// A refused edit is felt. \param direction in axes of the device \param mobility of the free handle there, 1/kg

@@ -5,9 +5,11 @@
 
 #include <boost/property_map/property_map.hpp>
 
+#include <cmath>
 #include <vector>
 
 namespace haptic_sculpt {
+
 /// The vertices within the radius of a dab that are connected to `nearest`: not those on the other side of a thin wall.
 /// Cost: that of what is touched, and clearing a bit for each vertex of the mesh. \pre nearest is in the mesh
 template <class Mesh, class Kernel>
@@ -28,6 +30,22 @@ std::vector<typename Mesh::Vertex_index> touched_vertices(const Mesh& mesh, cons
     for (const auto h : mesh.halfedges_around_target(mesh.halfedge(result[i])))
       meet(mesh.source(h));
   return result;
+}
+
+/// The most that the strength of a dab may be, either way: 2^53 as a share; as a length 2^53 times what is the largest
+/// of the radius and the coordinates of `nearest` and its neighbours. With more a vertex is to go where it would go
+/// from anywhere, for the place where it is gets lost in rounding, and exact decisions take numbers of thousands of
+/// bits. Cost: the valence. \pre nearest is in the mesh
+template <class Mesh, class Kernel>
+double largest_strength(const Mesh& mesh, const Dab_3<Kernel>& dab, typename Mesh::Vertex_index nearest) {
+  const internal::Rounding_to_nearest rounding;
+  constexpr double doubles_of_a_size = 0x1p53; // as many steps of a last place are in a double of this size, no unit
+  if (dab.kind != Brush_kind::grab && dab.kind != Brush_kind::inflate)
+    return doubles_of_a_size;
+  double size = std::fmax(dab.radius, internal::largest_coordinate(mesh.point(nearest)));
+  for (const auto h : mesh.halfedges_around_target(mesh.halfedge(nearest)))
+    size = std::fmax(size, internal::largest_coordinate(mesh.point(mesh.source(h))));
+  return doubles_of_a_size * size;
 }
 
 namespace internal {

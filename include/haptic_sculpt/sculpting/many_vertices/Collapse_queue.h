@@ -25,7 +25,8 @@ public:
     std::uint32_t time : 31;    // which entry of the edge, counted from 1
   };
 
-  explicit Collapse_queue(const Mesh& mesh) : mesh_(mesh) {}
+  /// \param unit a power of two by which lengths are multiplied, so that their squares stay in the range of doubles
+  Collapse_queue(const Mesh& mesh, double unit) : mesh_(mesh), unit_(unit) {}
 
   void push(Edge_index e, double cost, bool into_end) {
     queue_.push({std::fmax(cost, 0), squared_length(e), e, into_end, ++time(e)});
@@ -55,7 +56,7 @@ private:
   double squared_length(Edge_index e) const {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-      const double way = mesh_.point(mesh_.vertex(e, 0))[k] - mesh_.point(mesh_.vertex(e, 1))[k];
+      const double way = unit_ * (mesh_.point(mesh_.vertex(e, 0))[k] - mesh_.point(mesh_.vertex(e, 1))[k]);
       sum += way * way;
     }
     return sum;
@@ -68,6 +69,7 @@ private:
   }
 
   const Mesh& mesh_;
+  double unit_;
   std::vector<std::uint32_t> times_;
   std::priority_queue<Entry, std::vector<Entry>, Comes_later> queue_;
 };

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A loop that is ended from without, or enters another scene; what its observer says; a tool under another map.
+#include "haptic_rendering/pose_readings.h"
+#include "meshes/generated_meshes.h"
+
+#include <haptic_sculpt/haptic_rendering.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <memory>
+
+using namespace haptic_sculpt;
+using namespace exchange_tests;
+
+namespace {
+
+/// The box [0, 1]^3, moved, and its Sculptor.
+struct Box_scene {
+  meshes::Mesh mesh;
+  Sculptor<meshes::Mesh> sculptor;
+  explicit Box_scene(double up)
+      : mesh(meshes::to_mesh(meshes::box(1, 1).scale_and_move(1, 0, 0, up))), sculptor(mesh) {}
+};
+
+struct Pressing {
+  std::unique_ptr<Box_scene> scene = std::make_unique<Box_scene>(0);
+  Pose_loop_parameters parameters = parameters_of_tests();
+  Pose_loop<Sculptor<meshes::Mesh>> loop{scene->sculptor, map_of_tests, parameters};
+  double port = 0; ///< J, taken from the hand
+  Vector3d handle = map_of_tests.to_device(Vector3d(0.5, 0.4, 1.2)), force = Vector3d::Zero();
+
+  /// \param z in the scene
+  const Haptic_tick& go(double z) {
+    const Vector3d before = handle;
+    Pose_reading reading;
+    reading.position = handle = map_of_tests.to_device(Vector3d(0.5, 0.4, z)), reading.elapsed = 0.001;
+    port -= force.dot(handle - before);
+    const Haptic_tick& tick = loop.tick(reading);
+    force = tick.rendered.force;
+    return tick;
+  }
+  void press() {
+    for (int k = 0; k < 400; ++k)
+      go(1.2);
+    for (int k = 0; k <= 300; ++k)
+      go(1.2 - 0.001 * k); // to a depth of 0.1
+  }
+};
+
+BOOST_AUTO_TEST_CASE(a_loop_that_is_ended_from_without_fades_as_after_a_fault_and_its_observer_has_seen_all_work) {
+  Pressing p;
+  p.press();
+  const double pressed = p.force.norm();
+  BOOST_TEST(std::abs(pressed - p.parameters.coupling.stiffness * 0.1 / map_of_tests.scale()) <= 1e-9);
+  BOOST_TEST(std::abs(p.loop.observer().port() - p.port) <= 1e-12);
+  BOOST_TEST(p.port > 1e-4);
+  p.loop.end_by(Loop_fault::log);
+  const Haptic_tick ended = p.go(0.9);
+  BOOST_TEST((ended.fault == Loop_fault::log && ended.is_new_fault));
+  BOOST_TEST(std::abs(p.force.norm() - 0.99 * pressed) <= 1e-9 * pressed); // of 100 ms
+  for (int k = 0; k < 98; ++k)
+    BOOST_TEST(!p.go(0.9).is_new_fault);
+  BOOST_TEST(!p.loop.has_stopped());
+  p.go(0.9);
+  BOOST_TEST((p.loop.has_stopped() && p.force == Vector3d::Zero()));
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_in_another_scene_begins_without_force_and_the_old_scene_may_be_gone) {
+  Pressing p;
+  p.press();
+  BOOST_REQUIRE(p.force.norm() > 0.5);
+  Box_scene other(-0.05); // its upper face is at 0.95
+  p.loop.enter(other.sculptor, map_of_tests);
+  p.scene.reset();
+  BOOST_TEST(p.go(1.2).rendered.force == Vector3d::Zero());
+  for (int k = 0; k <= 300; ++k)
+    BOOST_TEST((p.go(1.2 - 0.001 * k).fault == Loop_fault::none));
+  for (int k = 0; k < 50; ++k)
+    p.go(0.9);
+  const double depth = 0.05 / map_of_tests.scale();
+  BOOST_TEST((p.force - Vector3d(0, 0, p.parameters.coupling.stiffness * depth)).norm() <= 1e-6);
+  BOOST_TEST((p.loop.map() == map_of_tests));
+}
+
+BOOST_AUTO_TEST_CASE(the_last_push_is_the_normal_of_what_was_touched_last) {
+  Box_scene scene(0);
+  Tool<Sculptor<meshes::Mesh>> tool(scene.sculptor, map_of_tests, 0.001, 0.001);
+  BOOST_TEST(tool.last_push() == Vector3d(0, 0, 1)); // up where nothing was touched
+  const auto press = [&](const Vector3d& from, const Vector3d& to) {
+    for (int k = 0; k <= 200; ++k)
+      tool.move(map_of_tests.to_device(from + (to - from) * k / 200.0), 0);
+  };
+  press(Vector3d(1.3, 0.4, 0.55), Vector3d(0.9, 0.4, 0.55));
+  BOOST_TEST((tool.last_push() - Vector3d(1, 0, 0)).norm() <= 1e-12);
+  press(Vector3d(0.9, 0.4, 0.55), Vector3d(1.3, 0.4, 0.55));
+  BOOST_TEST((tool.last_push() - Vector3d(1, 0, 0)).norm() <= 1e-12); // nothing is touched on the way back
+  press(Vector3d(1.3, 0.4, 0.55), Vector3d(1.3, 1.3, 0.55));
+  press(Vector3d(1.3, 1.3, 0.55), Vector3d(0.6, 1.3, 0.55));
+  press(Vector3d(0.6, 1.3, 0.55), Vector3d(0.6, 0.8, 0.55));
+  BOOST_TEST((tool.last_push() - Vector3d(0, 1, 0)).norm() <= 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(under_another_map_what_is_held_stays_and_goes_on_at_the_other_scale) {
+  Box_scene scene(0);
+  const auto corner = *scene.mesh.vertices().begin();
+  const auto place = [&] { return internal::vector_of(scene.mesh.point(corner)); };
+  Tool<Sculptor<meshes::Mesh>> tool(scene.sculptor, map_of_tests, 0.001, 0.001);
+  const Vector3d at_first = place(), out = 2 * at_first - Vector3d::Ones(); // away from the middle of the box
+  tool.take(corner);
+  Vector3d handle = map_of_tests.to_device(at_first);
+  tool.move(handle, 0), tool.move(handle, 0);
+  BOOST_TEST(place() == at_first);
+  tool.move(handle += 0.001 * out, 0); // m
+  BOOST_TEST((place() - at_first - 0.05 * out).norm() <= 1e-12); // 50 units a metre
+  const Vector3d before = place();
+  tool.change_map(Workspace_map(200, Vector3d::Zero(), Vector3d(7, 8, 9), Vector3d::Zero()));
+  tool.move(handle, 0);
+  BOOST_TEST((place() - before).norm() <= 1e-12); // the hand and its way to it, in rounded numbers
+  tool.move(handle += 0.0005 * out, 0);
+  BOOST_TEST((place() - before - 0.1 * out).norm() <= 1e-12);
+  BOOST_TEST((tool.vertex() == corner));
+}
+
+} // namespace
