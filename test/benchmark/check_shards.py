@@ -19,6 +19,8 @@ OPTIONS = {"robustness": "--drags 40 --edits 40 --batch 20 --edit-batch 20 --ext
            "device_speed_error": "--count 64", "axis_speed_error": "--queries 30", "haptic_passivity": "--parts rate",
            "brush_dabs": "--level 3 --dabs 4 --vertices 40", "threads": "--level 3 --moves 2 --threads 1,2", "validation": "--largest 1000",
            "response_quality": "--drags 3", "sweep_speed_error": "--queries 10", "many_vertices_speed_error": "--rounds 1 --level 2",
+           "guard_for_cgal": "--quick --drags-a-vertex 2 --iterations 1 --no-large", "simplification": "--level 2",
+           "hand_drags": "--level 3 --drags 600",
            "drag_performance": "--sizes 1000 --valences 3,8 --drags 30 --peer-drags 10 --core -1"}
 
 
