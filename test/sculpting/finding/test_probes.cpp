@@ -4,6 +4,8 @@
 #include "sculpting/edits/random_edits.h"
 #include "sculpting/finding/probe_scenes.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <functional>
@@ -78,7 +80,7 @@ BOOST_AUTO_TEST_CASE(paths_of_drags_are_free) {
   for (std::size_t done = 0; done < drags; ++done) {
     const int size = 2;
     const meshes::Triangle_list list = random_small_list(random, size);
-    const Response rule = done % 4 == 0 ? Response::paper : done % 4 == 1 ? Response::stop : Response::slide;
+    const Response rule = done % 4 == 0 ? Response::paper() : done % 4 == 1 ? Response::stop : Response::slide;
     Mesh mesh = meshes::to_mesh(list), other = mesh;
     Sculptor<Mesh> sculptor(mesh, parameters::response(rule)), silent(other, parameters::response(rule));
     const auto drag_thrice = [&](auto&& held, auto&& again, std::size_t moved, oracle::Mesh_list scene) {

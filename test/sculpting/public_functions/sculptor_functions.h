@@ -3,12 +3,14 @@
 
 #include "sculpting/public_functions/Scaled_scene.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 namespace haptic_sculpt::test {
 
 /// Those of a Sculptor, and of what it gives: Grab and Stroke.
 inline std::vector<Public_function> sculptor_functions() {
   std::vector<Public_function> all;
-  for (const Response response : {Response::slide, Response::stop, Response::paper})
+  for (const Response response : {Response::slide, Response::stop, Response::paper()})
     for (const double share : {1.25, 0.25, -1.75})
       all.push_back({"Sculptor::Sculptor Sculptor::grab Sculptor::mesh Sculptor::set_drag_parameters Grab::drag_to "
                      "Grab::vertex Grab::release",
