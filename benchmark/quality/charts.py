@@ -207,16 +207,20 @@ def models_of_device(report):
     if not rows:
         return []
     by = {(r["form"], r["model"]): r for r in rows}
-    points = [(f"{r['model']}, {short[r['form']]}" if r["what"] == "joint torques" else r["model"], r["ns"] * 1e-9, r["relative_error"]["median"]) for r in rows]
+    points = [(f"{r['model']}, {short[r['form']]}" if r["what"] == "joint torques" else r["model"],
+               r["ns"] * 1e-9, r["relative_error"]["median"]) for r in rows]
     planar, spatial = (by["general", m] for m in ("links in their planes", "links in space"))
     point = by["general", "a point for the platform"]
     table = Table("Each model", ["population", "form", "what", "model", "time", "off by, median", "largest"],
                   [[r["population"], short[r["form"]], r["what"], r["model"], seconds_text(r["ns"] * 1e-9),
                     *(f"{r['relative_error'][k]:.2g}" for k in ("median", "max"))] for r in report["models"]])
-    return [Finding("device", f"Links counted as if they stayed in their planes put the torques off by {percent(planar['relative_error']['median'])}, a point in the place of "
-                    f"the platform the handle by {percent(point['relative_error']['median'])} of a link; the true torques take {seconds_text(spatial['ns'] * 1e-9)}.",
-                    percent(planar["relative_error"]["median"]), "of the torques, planar links, median",
-                    speed_error(points, "median relative error", "time of a call"), "Time of the device's models against their error", [table], picture="device_models")]
+    off = percent(planar["relative_error"]["median"])
+    sentence = (f"Links counted as if they stayed in their planes put the torques off by {off}, a point in the place of "
+                f"the platform the handle by {percent(point['relative_error']['median'])} of a link; the true torques "
+                f"take {seconds_text(spatial['ns'] * 1e-9)}.")
+    figure = speed_error(points, "median relative error", "time of a call")
+    return [Finding("device", sentence, off, "of the torques, planar links, median", figure,
+                    "Time of the device's models against their error", [table], picture="device_models")]
 
 
 def force(report):

@@ -10,8 +10,8 @@
 #include <haptic_sculpt/surface.h>
 
 #include <CGAL/Polygon_mesh_processing/distance.h>
-#include <CGAL/Random.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Random.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>

@@ -94,7 +94,8 @@ def pictures(out, folder):
     (folder / "pictures").mkdir()
     done = subprocess.run([PYTHON, str(ROOT / "benchmark/common/make_page.py"), str(out), "--pictures", str(folder / "pictures")], capture_output=True, text=True)
     made = sorted(p.name for p in (folder / "pictures").iterdir())
-    expect(made == ["device_models.png", "device_speed_error.png"], f"pictures of axis, device, drags and edits: {made}, {done.stderr}")
+    expect(made == ["device_models.png", "device_speed_error.png"],
+           f"pictures of axis, device, drags and edits: {made}, {done.stderr}")
     for name in made:
         expect((folder / "pictures" / name).read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", f"{name} is no picture")
 

@@ -138,7 +138,8 @@ def moves(folder, _):
             os.remove(log)
         done = run(mesh, "--script", write(f"{folder}/moves.script", script), "--log", log, "-o", out)
         check(done.returncode == 0, f"{script!r}: {done.stderr}")
-        check(run(mesh, "--log", log, "-o", again).returncode == 0 and bytes_of(again) == bytes_of(out), f"{script!r} replayed")
+        check(run(mesh, "--log", log, "-o", again).returncode == 0 and bytes_of(again) == bytes_of(out),
+              f"{script!r} replayed")
         lines = [line for line in map(words, bytes_of(log).splitlines()[HEAD:]) if line]
         for i, line in enumerate(lines):
             if line[0] == b"shift":
@@ -157,12 +158,14 @@ def moves(folder, _):
     # What does nothing is not there, and leaves what can be redone; but the drag after it begins anew.
     check(logged("move 0 0 0 0\nmove 99 1 0 0\nmove 0 1e301 1e301 1e301\n") == [], "moves that do nothing")
     lines = logged("drag 4 0 0 2\nundo\nmove 0 0 0 0\nredo\n")
-    check([line[0] for line in lines] == [b"drag", b"undo", b"redo"] and points(out)[4] == (0, 0, 2), f"redone: {lines}")
+    check([line[0] for line in lines] == [b"drag", b"undo", b"redo"] and points(out)[4] == (0, 0, 2),
+          f"redone: {lines}")
     lines = logged("drag 4 0 0 2\nmove 0 0 0 0\nmove 0 0 0 0\ndrag 4 0 0 3\n")
     check([line[0] for line in lines] == [b"drag", b"release", b"drag"], f"a grab that a move has ended: {lines}")
     # Within a stroke it is a part of that.
     lines = logged("stroke\ndrag 4 0 0 2\nmove 6 0 0.5 0\ndrag 5 0 0 -2\nend\nmove 6 0 0.25 0\nundo\n")
-    check(lines[2:12] == [[b"stroke"], *along(1, 0.5, 6), [b"end"]] and lines[12][0] == b"drag", f"in a stroke: {lines}")
+    check(lines[2:12] == [[b"stroke"], *along(1, 0.5, 6), [b"end"]] and lines[12][0] == b"drag",
+          f"in a stroke: {lines}")
     expected = at[:4] + [(0, 0, 2), (0, 0, -2)] + [(x, y + 0.5, z) for x, y, z in at[6:]]
     check(points(out) == expected, f"the last one undone: {points(out)}")
     done = run(mesh, "--log", log, "--script", undo, "-o", out)
@@ -208,7 +211,8 @@ def moves(folder, _):
         checksum = hashlib.sha256((checksum + line).encode()).hexdigest()[:16]
         old += f"{line} # {checksum}\n".encode()
     done = run(mesh, "--log", write(log, old), "-o", out)
-    check(done.returncode == 0 and bytes_of(log) == old and points(out) == pushed + lifted, f"an older log: {done.stderr}")
+    check(done.returncode == 0 and bytes_of(log) == old and points(out) == pushed + lifted,
+          f"an older log: {done.stderr}")
     done = run(mesh, "--log", log, "-o", out, "--script", undo)
     check(done.returncode == 0 and points(out) == pushed + at[6:], "an older log goes on")
     check(bytes_of(log).startswith(old), "what was in an older log is another")

@@ -167,7 +167,8 @@ for goal, is_free in ((aside, True), ((0, 0, middle[2]), False)):
     is_valid(at("out.off"), "moved objects")
     # Its log has shifts of the whole moon, in one stroke; before them stand four lines of the head.
     log = [line.split("#")[0].split() for line in open(at("work.log")) if line.split("#")[0].strip()][4:]
-    check({line[0] for line in log if line[0].isalpha()} == {"stroke", "shift", "end"}, f"what is logged of it: {log[:9]}")
+    check({line[0] for line in log if line[0].isalpha()} == {"stroke", "shift", "end"},
+          f"what is logged of it: {log[:9]}")
     check(max(int(line[2]) for line in log if line[0] == "shift") == len(moon), "shifts of the whole moon")
 
 # Colours of the mesh's file are in what is saved, also of vertices that are new.

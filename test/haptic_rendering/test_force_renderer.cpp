@@ -225,4 +225,36 @@ BOOST_AUTO_TEST_CASE(a_fault_fades_to_exactly_nothing_in_its_time) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_fade_ends_in_equal_steps_at_exactly_nothing) {
+  Fade_out fade;
+  for (int k = 1; k <= 10; ++k) {
+    BOOST_TEST(!fade.is_over());
+    const double share = fade.next(0.1);
+    BOOST_TEST(std::abs(share - (1 - 0.1 * k)) <= 1e-12);
+    BOOST_TEST(fade.share() == share);
+  }
+  BOOST_TEST((fade.is_over() && fade.share() == 0));
+  fade.reset();
+  BOOST_TEST((!fade.is_over() && fade.share() == 1));
+  Slew_limit slew;
+  slew.follow(Vector3d(1, 0, 0), 0.5);
+  slew.reset();
+  BOOST_TEST(slew.value() == Vector3d::Zero());
+  Force_limits limits;
+  limits.largest = 3, limits.ramp_time = 0.4;
+  Force_chain chain(limits, Virtual_coupling(), 0.002);
+  BOOST_TEST((chain.limits().largest == 3 && chain.tick() == 0.002));
+  BOOST_TEST(std::abs(chain.next_ramp() - 0.005) <= 1e-15);
+  chain.follow(Vector3d::Zero(), 0);
+  BOOST_TEST(std::abs(chain.next_ramp() - 0.01) <= 1e-15);
+  BOOST_TEST(std::abs(chain.fade(0.004) - 0.96) <= 1e-12); // of 100 ms
+  BOOST_TEST(std::abs(chain.fade(0) - 0.94) <= 1e-12);     // a tick at least
+  BOOST_TEST(std::abs(chain.left() - 0.94) <= 1e-12);
+  chain.restart();
+  BOOST_TEST(chain.left() == 1);
+  BOOST_TEST(std::abs(chain.next_ramp() - 0.005) <= 1e-15);
+  const Force_renderer renderer(limits, Virtual_coupling(), Gravity_compensation::none, 0.002);
+  BOOST_TEST((renderer.limits().largest == 3 && std::abs(renderer.next_ramp() - 0.005) <= 1e-15));
+}
+
 } // namespace

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/haptic_rendering/Force_renderer.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_limits.h>
 #include <haptic_sculpt/haptic_rendering/Passivity_observer.h>
+#include <haptic_sculpt/haptic_rendering/Pose_loop.h>
 #include <haptic_sculpt/haptic_rendering/check_coupling.h>
 #include <haptic_sculpt/haptic_rendering/simulation/Simulated_device.h>
 
@@ -249,6 +250,27 @@ BOOST_AUTO_TEST_CASE(a_device_within_the_passive_limit_gives_no_energy) {
                      << " J, port at most " << largest_port << " J");
   BOOST_TEST(ticks_in_contact > 10000u);
   BOOST_TEST(least >= -1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(limits_permit_what_is_both_passive_and_calm) {
+  Passivity_limits limits;
+  const auto are = [&](double passive, double calm, double largest) {
+    limits.passive_stiffness = passive, limits.calm_stiffness = calm;
+    BOOST_TEST(limits.largest_stiffness() == largest);
+    BOOST_TEST(limits.recommended_stiffness() == largest / 2);
+    BOOST_TEST(limits.permits({largest, 0}));
+    BOOST_TEST(!limits.permits({std::nextafter(largest, 1e9), 0}));
+    BOOST_TEST(!limits.permits({NAN, 0}));
+  };
+  are(800, 600, 600), are(500, 600, 500), are(500, std::numeric_limits<double>::infinity(), 500);
+  are(-10, 600, 0), are(500, -1, 0);
+  limits.largest_controller = 3;
+  BOOST_TEST(limits.default_controller() == 1.5);
+  Pose_loop_parameters pose(2); // of a device twice as heavy a controller may take twice as much
+  BOOST_TEST(pose.largest_controller() > 0);
+  pose.device.mass *= 2;
+  BOOST_TEST(std::abs(pose.largest_controller() / Pose_loop_parameters(2).largest_controller() - 2) <= 1e-12);
+  BOOST_TEST(Pose_loop_parameters::without_force().largest_controller() == 0);
 }
 
 } // namespace

@@ -119,4 +119,21 @@ BOOST_AUTO_TEST_CASE(a_burst_under_way_is_not_felt_after_a_restart) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_burst_gives_its_samples_and_none_once_it_is_cut) {
+  for (const double tick : {0.0001, 0.001, 0.004}) {
+    Refusal_burst burst(tick);
+    BOOST_TEST(std::abs(burst.samples() * tick - Refusal_burst::duration) <= tick / 2 + 1e-12);
+    const Vector3d up(0, 0, 1);
+    burst.begin(up, 1e-9); // as good as immovable: the whole amplitude
+    for (int k = 0; k < burst.samples() / 2; ++k) {
+      BOOST_TEST((burst.next() - burst.sample(k) * up).norm() <= 1e-15);
+      BOOST_TEST(burst.sample(k) == burst.sample(burst.samples() - 1 - k));
+    }
+    BOOST_TEST(!burst.is_over());
+    burst.cut();
+    BOOST_TEST(burst.is_over());
+    BOOST_TEST(burst.next() == Vector3d::Zero());
+  }
+}
+
 } // namespace

@@ -35,4 +35,11 @@ BOOST_AUTO_TEST_CASE(percentiles_against_a_sorted_list) {
   BOOST_TEST(Tick_statistics().percentile(0.5) == 0u);
 }
 
+BOOST_AUTO_TEST_CASE(of_no_ticks_all_numbers_are_0_and_of_a_few_they_are_theirs) {
+  Tick_statistics statistics;
+  BOOST_TEST((statistics.number() == 0u && statistics.largest() == 0u && statistics.percentile(0.5) == 0u));
+  statistics.add(7), statistics.add(9), statistics.add(8);
+  BOOST_TEST((statistics.number() == 3u && statistics.largest() == 9u && statistics.percentile(0.5) == 8u));
+}
+
 } // namespace

@@ -8,6 +8,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <Eigen/SVD>
+
 #include <algorithm>
 #include <cmath>
 
@@ -75,6 +77,32 @@ BOOST_AUTO_TEST_CASE(the_force_that_is_held_lags_by_no_more_than_the_rate_explai
       BOOST_TEST(sum / samples <= unit * (0.5 + delay) * 1.1);
       BOOST_TEST(largest <= unit * (1 + delay) * 1.2);
     }
+}
+
+BOOST_AUTO_TEST_CASE(the_part_of_a_vector_in_a_span_is_the_nearest_combination_of_the_normals) {
+  Random random(61);
+  for (int i = 0; i < 300; ++i) {
+    const int normals = 1 + i % 4;
+    Contact_span span;
+    const Vector3d any = random_vector(random, 1);
+    BOOST_TEST(span.part(any) == Vector3d::Zero());
+    Eigen::MatrixXd columns(3, normals);
+    for (int k = 0; k < normals; ++k) { // the third in the plane of the two before
+      const Vector3d normal = k == 2 ? Vector3d(columns.col(0) - 2 * columns.col(1)) : random_vector(random, 1);
+      span.add(normal);
+      columns.col(k) = normal.normalized();
+    }
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU);
+    Vector3d nearest = Vector3d::Zero();
+    bool is_clear = true; // no two of them nearly the same
+    for (int k = 0; k < svd.singularValues().size(); ++k)
+      if (const double value = svd.singularValues()[k]; value > 1e-9) {
+        is_clear = is_clear && value > 0.2;
+        nearest += svd.matrixU().col(k).dot(any) * svd.matrixU().col(k);
+      }
+    if (is_clear)
+      BOOST_TEST((span.part(any) - nearest).norm() <= 1e-9);
+  }
 }
 
 } // namespace

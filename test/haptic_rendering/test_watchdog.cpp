@@ -44,4 +44,16 @@ BOOST_AUTO_TEST_CASE(a_watchdog_sees_each_fault_and_nothing_else) {
   BOOST_TEST(dog.check(reading));
 }
 
+BOOST_AUTO_TEST_CASE(the_first_fault_that_is_reported_stays) {
+  Watchdog watchdog(Watchdog_limits(), 0.001, 0.2);
+  watchdog.report(Loop_fault::none);
+  BOOST_TEST((watchdog.fault() == Loop_fault::none));
+  watchdog.report(Loop_fault::energy), watchdog.report(Loop_fault::log);
+  BOOST_TEST((watchdog.fault() == Loop_fault::energy));
+  BOOST_TEST(!watchdog.check(Vector3d::Zero(), Vector3d::Zero(), 0.001));
+  watchdog.reset();
+  BOOST_TEST((watchdog.fault() == Loop_fault::none));
+  BOOST_TEST(watchdog.check(Vector3d::Zero(), Vector3d::Zero(), 0.001));
+}
+
 } // namespace

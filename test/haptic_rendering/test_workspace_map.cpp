@@ -41,4 +41,24 @@ BOOST_AUTO_TEST_CASE(the_fitted_map_puts_the_corners_of_the_box_on_the_ball) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_map_that_is_pinned_leads_one_place_to_another_and_keeps_its_rotation) {
+  Random random(62);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3d rotation = random_vector(random, 2), home = random_vector(random, 0.1);
+    const Workspace_map map(40, rotation, random_vector(random, 3), home);
+    const Vector3d device = random_vector(random, 0.1), scene = random_vector(random, 5), x = random_vector(random, 1);
+    const Workspace_map pinned = map.pinned(device, scene, 55);
+    BOOST_TEST((pinned.to_scene(device) - scene).norm() <= 1e-12);
+    BOOST_TEST((pinned.scale() == 55 && pinned.home() == home && pinned.rotation_vector() == rotation));
+    // Rodrigues' formula.
+    const double angle = rotation.norm();
+    const Vector3d axis = rotation / angle,
+                   turned = std::cos(angle) * x + std::sin(angle) * axis.cross(x) +
+                            (1 - std::cos(angle)) * axis.dot(x) * axis;
+    BOOST_TEST((map.rotation() * x - turned).norm() <= 1e-12);
+    BOOST_TEST((pinned.rotation() * x - turned).norm() <= 1e-12);
+    BOOST_CHECK_THROW(map.pinned(device, scene, 0), Error);
+  }
+}
+
 } // namespace

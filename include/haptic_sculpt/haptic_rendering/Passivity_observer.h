@@ -48,9 +48,10 @@ public:
       }
     }
     // A spring that sees counts seems to give energy (doc/proofs/haptic_stability.md, "What rounding can do").
-    if (encoder_step_ > 0 && hidden > 0 && delay_.mean().squaredNorm() > 0)
-      credit_ += 0.5 * stiffness * handle_step.squaredNorm() / joint_step.squaredNorm() * encoder_step_ *
-                 encoder_step_ * hidden;
+    // The joints are taken to move the handle alike: by as much a radian as the whole step does.
+    const double moved = joint_step.squaredNorm();
+    if (encoder_step_ > 0 && moved > 0 && delay_.mean().squaredNorm() > 0)
+      credit_ += 0.5 * stiffness * handle_step.squaredNorm() / moved * encoder_step_ * encoder_step_ * hidden;
     least_ = std::fmin(least_, energy() + dissipated_);
   }
   /// What the hand has put in counts up to what can come back of it, J: the rest is friction's, and must not hide what

@@ -108,4 +108,8 @@ BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_journal_tells_the_age_that_it_was_given) {
+  BOOST_TEST(Edit_journal(70).most_age() == 70u);
+}
+
 } // namespace

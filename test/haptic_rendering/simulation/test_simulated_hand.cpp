@@ -8,6 +8,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
 #include <string>
 
 using namespace haptic_sculpt;
@@ -55,6 +56,59 @@ BOOST_AUTO_TEST_CASE(a_hand_comes_to_rest_where_it_wants_to_be) {
     }
     BOOST_TEST((simulated.state().pose.position - path.at(0).position).norm() <= 1e-4);
   }
+}
+
+/// Energy of all springs and masses of a hand but the first mass, J.
+double energy_of(const Simulated_hand& hand, const Simulated_hand::States& states, const Vector3d& handle,
+                 const Vector3d& wish) {
+  double sum = 0;
+  for (int i = 0; i < hand.stages; ++i) {
+    const Vector3d here = i == 0 ? handle : Vector3d(states.segment<3>(6 * i - 6)),
+                   next = i + 1 == hand.stages ? wish : Vector3d(states.segment<3>(6 * i));
+    sum += hand.stage[i].stiffness * (next - here).squaredNorm() / 2;
+    if (i > 0)
+      sum += hand.stage[i].mass * states.segment<3>(6 * i - 3).squaredNorm() / 2;
+  }
+  return sum;
+}
+
+BOOST_AUTO_TEST_CASE(a_hand_gives_what_its_springs_and_masses_lose_and_its_dampers_take) {
+  Random random(63);
+  Simulated_hand three = Simulated_hand::arm();
+  three.stages = 3, three.stage[2] = {0.4, 90, 4};
+  for (const Simulated_hand& hand : {*Simulated_hand::named("finger"), *Simulated_hand::named("arm"),
+                                     *Simulated_hand::named("measured_arm"), three}) {
+    const Vector3d place = random_vector(random, 1);
+    BOOST_TEST(hand.effect(hand.at_rest(place), place, Vector3d::Zero(), place, Vector3d::Zero()).force ==
+               Vector3d::Zero());
+    BOOST_TEST(hand.effect(hand.at_rest(place), place, Vector3d::Zero(), place, Vector3d::Zero()).rates.norm() == 0);
+    for (int i = 0; i < 50; ++i) {
+      Simulated_hand::States states = Simulated_hand::States::Zero();
+      for (int k = 0; k < 6 * (hand.stages - 1); k += 3)
+        states.segment<3>(k) = random_vector(random, 0.1);
+      const Vector3d handle = random_vector(random, 0.1), handle_velocity = random_vector(random, 1),
+                     wish = random_vector(random, 0.1);
+      const auto effect = hand.effect(states, handle, handle_velocity, wish, Vector3d::Zero());
+      // A wish that stands still puts nothing in: what goes to the handle is what is lost, less what dampers take.
+      const double h = 1e-6;
+      const auto energy_after = [&](double time) {
+        return energy_of(hand, states + time * effect.rates, handle + time * handle_velocity, wish);
+      };
+      const double lost = -(energy_after(h) - energy_after(-h)) / (2 * h);
+      const double given = effect.force.dot(handle_velocity);
+      BOOST_TEST(std::abs(given - (lost - effect.dissipated)) <= 1e-6 * (1 + std::abs(lost)));
+      BOOST_TEST(effect.dissipated >= 0);
+    }
+  }
+  BOOST_TEST(Simulated_hand::named("finger")->stage[0].stiffness == 300);
+  BOOST_TEST(Simulated_hand::named("measured_arm")->stage[0].mass == 0.554);
+  BOOST_TEST(Simulated_hand::named("arm")->stages == 2);
+  BOOST_TEST(!Simulated_hand::named("Finger"));
+}
+
+BOOST_AUTO_TEST_CASE(a_path_ends_with_its_last_row_and_a_delay_is_the_one_that_was_given) {
+  BOOST_TEST(Hand_path({{0, {0, 0, 0}, 0}, {2.5, {1, 0, 0}, 0}}).end() == 2.5);
+  BOOST_TEST(Torque_delay<double>(1.7).ticks() == 1.7);
 }
 
 } // namespace

@@ -59,6 +59,27 @@ inline std::vector<Vertex_index> add_box(meshes::Triangle_list& list, const Vect
   return vertices;
 }
 
+/// A box that stands 2^-12 above a plate: free along x and y, and not far down.
+struct Box_over_plate {
+  std::vector<Vertex_index> box;
+  Mesh mesh;
+  Sculptor<Mesh> sculptor;
+
+  Box_over_plate() : mesh(made(box)), sculptor(mesh) {}
+  /// That can be undone, and redone.
+  std::pair<std::size_t, std::size_t> steps() const {
+    return {sculptor.history().number_of_undo_steps(), sculptor.history().number_of_redo_steps()};
+  }
+
+private:
+  static Mesh made(std::vector<Vertex_index>& box) {
+    meshes::Triangle_list list;
+    box = add_box(list, {0, 0, 0}, {1, 1, 1});
+    add_box(list, {-9, -9, -9 - 0x1p-12}, {18, 18, 9});
+    return meshes::to_mesh(list);
+  }
+};
+
 inline double mean_edge(const Mesh& mesh) {
   double sum = 0;
   for (const auto e : mesh.edges())

@@ -310,14 +310,8 @@ BOOST_AUTO_TEST_CASE(an_exception_of_the_visitor_leaves_no_object_sheared) {
 }
 
 BOOST_AUTO_TEST_CASE(an_object_that_has_not_moved_is_no_step_and_what_was_undone_can_be_redone) {
-  meshes::Triangle_list list;
-  const auto box = add_box(list, {0, 0, 0}, {1, 1, 1});
-  add_box(list, {-9, -9, -9 - 0x1p-12}, {18, 18, 9});
-  Mesh mesh = meshes::to_mesh(list);
-  Sculptor<Mesh> sculptor(mesh);
-  const auto steps = [&sculptor] {
-    return std::pair(sculptor.history().number_of_undo_steps(), sculptor.history().number_of_redo_steps());
-  };
+  Box_over_plate scene;
+  auto& [box, mesh, sculptor] = scene;
   sculptor.drag(box[0], mesh.point(box[0]) + Vector_3(0, 0, 0.1));
   sculptor.drag(box[1], mesh.point(box[1]) + Vector_3(0, 0, 0.2));
   const Mesh_snapshot both = snapshot(sculptor);
@@ -330,16 +324,16 @@ BOOST_AUTO_TEST_CASE(an_object_that_has_not_moved_is_no_step_and_what_was_undone
     const auto report = move_rigidly(sculptor, box, translation({3, 5, -4})); // free along x and y
     BOOST_TEST((report.share == 0 && !report.contacts.empty()));
     BOOST_TEST((snapshot(sculptor) == before));
-    BOOST_TEST((steps() == std::pair(std::size_t{1}, std::size_t{1})));
+    BOOST_TEST((scene.steps() == std::pair(std::size_t{1}, std::size_t{1})));
   }
   BOOST_TEST(static_cast<bool>(sculptor.redo()));
   BOOST_TEST((snapshot(sculptor) == both));
   // What it did gain is one step, and clears what could be redone.
   sculptor.undo();
   BOOST_TEST(move_rigidly(sculptor, box, translation({3, 5, -1})).share == 0);
-  BOOST_TEST((steps() == std::pair(std::size_t{1}, std::size_t{1})));
+  BOOST_TEST((scene.steps() == std::pair(std::size_t{1}, std::size_t{1})));
   BOOST_TEST(move_rigidly(sculptor, box, translation({3, 5, -0x1p-11})).share == 511. / 1024);
-  BOOST_TEST((steps() == std::pair(std::size_t{2}, std::size_t{0})));
+  BOOST_TEST((scene.steps() == std::pair(std::size_t{2}, std::size_t{0})));
   sculptor.undo();
   BOOST_TEST((snapshot(sculptor) == before));
   sculptor.check_unchanged();

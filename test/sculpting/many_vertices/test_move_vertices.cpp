@@ -234,21 +234,15 @@ BOOST_AUTO_TEST_CASE(cancelled_bounded_and_thrown_out_of) {
 // Free along x and y, and then not along z, for the plate below is in the way of all: that step is taken back, and the
 // next is not begun.
 BOOST_AUTO_TEST_CASE(what_changes_nothing_is_no_step_and_what_was_undone_can_be_redone) {
-  meshes::Triangle_list list;
-  const auto box = add_box(list, {0, 0, 0}, {1, 1, 1});
-  add_box(list, {-9, -9, -9 - 0x1p-12}, {18, 18, 9});
-  Mesh mesh = meshes::to_mesh(list);
-  Sculptor<Mesh> sculptor(mesh);
-  const auto steps = [&sculptor] {
-    return std::pair(sculptor.history().number_of_undo_steps(), sculptor.history().number_of_redo_steps());
-  };
+  Box_over_plate scene;
+  auto& [box, mesh, sculptor] = scene;
   const Mesh_snapshot first = snapshot(sculptor);
   sculptor.drag(box[0], mesh.point(box[0]) + Vector_3(0, 0, 0.1));
   const Mesh_snapshot before = snapshot(sculptor);
   sculptor.drag(box[1], mesh.point(box[1]) + Vector_3(0, 0, 0.2));
   const Mesh_snapshot both = snapshot(sculptor);
   sculptor.undo();
-  const Point_map map = targets(mesh, [&](Vertex_index v) { return mesh.point(v) + Vector_3(3, 5, -4); });
+  const Point_map map = targets(mesh, [&m = scene.mesh](Vertex_index v) { return m.point(v) + Vector_3(3, 5, -4); });
   for (const bool in_stroke : {false, true}) {
     auto stroke = std::optional(sculptor.stroke());
     if (!in_stroke)
@@ -258,7 +252,7 @@ BOOST_AUTO_TEST_CASE(what_changes_nothing_is_no_step_and_what_was_undone_can_be_
                                       Move_parameters().progress([&](const Move_progress&) { return calls++ < 3; }));
     BOOST_TEST((report.cancelled && report.drags == 3 * box.size()));
     BOOST_TEST((snapshot(sculptor) == before));
-    BOOST_TEST((steps() == std::pair(std::size_t{1}, std::size_t{1})));
+    BOOST_TEST((scene.steps() == std::pair(std::size_t{1}, std::size_t{1})));
   }
   BOOST_TEST(static_cast<bool>(sculptor.redo()));
   BOOST_TEST((snapshot(sculptor) == both));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A loop that is ended from without, or enters another scene; what its observer says; a tool under another map.
+// A loop that is ended from without, or enters another scene.
 #include "haptic_rendering/pose_readings.h"
 #include "meshes/generated_meshes.h"
 
@@ -81,45 +81,6 @@ BOOST_AUTO_TEST_CASE(a_loop_in_another_scene_begins_without_force_and_the_old_sc
   const double depth = 0.05 / map_of_tests.scale();
   BOOST_TEST((p.force - Vector3d(0, 0, p.parameters.coupling.stiffness * depth)).norm() <= 1e-6);
   BOOST_TEST((p.loop.map() == map_of_tests));
-}
-
-BOOST_AUTO_TEST_CASE(the_last_push_is_the_normal_of_what_was_touched_last) {
-  Box_scene scene(0);
-  Tool<Sculptor<meshes::Mesh>> tool(scene.sculptor, map_of_tests, 0.001, 0.001);
-  BOOST_TEST(tool.last_push() == Vector3d(0, 0, 1)); // up where nothing was touched
-  const auto press = [&](const Vector3d& from, const Vector3d& to) {
-    for (int k = 0; k <= 200; ++k)
-      tool.move(map_of_tests.to_device(from + (to - from) * k / 200.0), 0);
-  };
-  press(Vector3d(1.3, 0.4, 0.55), Vector3d(0.9, 0.4, 0.55));
-  BOOST_TEST((tool.last_push() - Vector3d(1, 0, 0)).norm() <= 1e-12);
-  press(Vector3d(0.9, 0.4, 0.55), Vector3d(1.3, 0.4, 0.55));
-  BOOST_TEST((tool.last_push() - Vector3d(1, 0, 0)).norm() <= 1e-12); // nothing is touched on the way back
-  press(Vector3d(1.3, 0.4, 0.55), Vector3d(1.3, 1.3, 0.55));
-  press(Vector3d(1.3, 1.3, 0.55), Vector3d(0.6, 1.3, 0.55));
-  press(Vector3d(0.6, 1.3, 0.55), Vector3d(0.6, 0.8, 0.55));
-  BOOST_TEST((tool.last_push() - Vector3d(0, 1, 0)).norm() <= 1e-12);
-}
-
-BOOST_AUTO_TEST_CASE(under_another_map_what_is_held_stays_and_goes_on_at_the_other_scale) {
-  Box_scene scene(0);
-  const auto corner = *scene.mesh.vertices().begin();
-  const auto place = [&] { return internal::vector_of(scene.mesh.point(corner)); };
-  Tool<Sculptor<meshes::Mesh>> tool(scene.sculptor, map_of_tests, 0.001, 0.001);
-  const Vector3d at_first = place(), out = 2 * at_first - Vector3d::Ones(); // away from the middle of the box
-  tool.take(corner);
-  Vector3d handle = map_of_tests.to_device(at_first);
-  tool.move(handle, 0), tool.move(handle, 0);
-  BOOST_TEST(place() == at_first);
-  tool.move(handle += 0.001 * out, 0); // m
-  BOOST_TEST((place() - at_first - 0.05 * out).norm() <= 1e-12); // 50 units a metre
-  const Vector3d before = place();
-  tool.change_map(Workspace_map(200, Vector3d::Zero(), Vector3d(7, 8, 9), Vector3d::Zero()));
-  tool.move(handle, 0);
-  BOOST_TEST((place() - before).norm() <= 1e-12); // the hand and its way to it, in rounded numbers
-  tool.move(handle += 0.0005 * out, 0);
-  BOOST_TEST((place() - before - 0.1 * out).norm() <= 1e-12);
-  BOOST_TEST((tool.vertex() == corner));
 }
 
 } // namespace
