@@ -23,7 +23,7 @@ using Kernel = meshes::Kernel;
 using Vertex_index = Mesh::Vertex_index;
 using Json = nlohmann::ordered_json;
 
-constexpr int not_embedded = 10;
+constexpr int usage = 2, not_embedded = 10;
 
 double milliseconds() {
   return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -54,14 +54,14 @@ struct Tally {
 
 } // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::string file, json;
   int level = 6;
   std::size_t dabs = 1000, vertices = 5000;
   std::uint64_t seed = 1;
   bool drags = false;
-  CLI::App app("Times dabs with each brush. Exit codes: 0; 5 the report cannot be written; 10 the mesh is not valid at "
-               "the end.");
+  CLI::App app("Times dabs with each brush. Exit codes: 0; 2 usage; 5 the report cannot be written; 10 the mesh is not "
+               "valid at the end.");
   app.add_option("--mesh", file, "OFF, OBJ or PLY; hills on a sphere where none is given");
   app.add_option("--level", level, "of the hills: 20 * 4^level triangles")
       ->check(CLI::Range(2, 9))
@@ -134,4 +134,7 @@ int main(int argc, char** argv) {
   return haptic_sculpt::benchmark::end_run(
       "brush_dabs", json,
       {{"triangles", start.number_of_faces()}, {"seed", seed}, {"shard", shard.text()}, {"rows", rows}}, promises);
+} catch (const haptic_sculpt::Error& error) { // the mesh cannot be read
+  std::fprintf(stderr, "brush_dabs: %s\n", error.what());
+  return usage;
 }

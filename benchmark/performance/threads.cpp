@@ -28,7 +28,7 @@ using Vertex_index = Mesh::Vertex_index;
 using Json = nlohmann::ordered_json;
 using Ways = std::vector<std::pair<Vertex_index, double>>;
 
-constexpr int other_bits = 10;
+constexpr int usage = 2, other_bits = 10;
 
 template <class Function>
 double seconds_of(const Function& function) {
@@ -82,14 +82,14 @@ Times times_of(Mesh mesh, std::uint64_t seed, int moves) {
 
 } // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::string file, json;
   int level = 7, moves = 6;
   std::vector<int> threads{1, 2};
   std::uint64_t seed = 1;
   CLI::App app(
-      "Times axis moves of all vertices and validation with several threads. Exit codes: 0; 5 the report cannot be "
-      "written; 10 another number of threads makes other bits, or the mesh is not valid at the end.");
+      "Times axis moves of all vertices and validation with several threads. Exit codes: 0; 2 usage; 5 the report "
+      "cannot be written; 10 another number of threads makes other bits, or the mesh is not valid at the end.");
   app.add_option("--mesh", file, "OFF, OBJ or PLY; hills on a sphere where none is given");
   app.add_option("--level", level, "of the hills: 20 * 4^level triangles")
       ->check(CLI::Range(2, 9))
@@ -150,4 +150,7 @@ int main(int argc, char** argv) {
   return haptic_sculpt::benchmark::end_run(
       "threads", json,
       {{"triangles", mesh.number_of_faces()}, {"seed", seed}, {"shard", shard.text()}, {"rows", rows}}, promises);
+} catch (const haptic_sculpt::Error& error) { // the mesh cannot be read
+  std::fprintf(stderr, "threads: %s\n", error.what());
+  return usage;
 }

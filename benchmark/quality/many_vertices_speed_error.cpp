@@ -186,6 +186,15 @@ double share_of_the_way(const Motion& m, const Mesh& mesh) {
   return asked > 0 ? 1 - std::sqrt(left / asked) : 1;
 }
 
+/// Of the vertices that have a way to go.
+double share_that_arrive(const Motion& m, const Mesh& mesh) {
+  std::size_t asked = 0, arrived = 0;
+  for (const Vertex_index v : mesh.vertices())
+    if (m.start.point(v) != m.targets[v])
+      ++asked, arrived += mesh.point(v) == m.targets[v];
+  return asked == 0 ? 1 : static_cast<double>(arrived) / static_cast<double>(asked);
+}
+
 void move_straight(const Motion& m, Mesh& mesh, double share) {
   for (const Vertex_index v : mesh.vertices())
     mesh.point(v) = share == 1 ? m.targets[v] : m.start.point(v) + share * (m.targets[v] - m.start.point(v));
@@ -228,11 +237,12 @@ Json row(const Motion& m, const char* method, std::clock_t begin, const Mesh& me
                  {"vertices", mesh.number_of_vertices()},
                  {"seconds", seconds},
                  {"share", share_of_the_way(m, mesh)},
+                 {"arrived", share_that_arrive(m, mesh)},
                  {"targets_embedded", m.are_targets_embedded},
                  {"passed_through", has_passed},
                  {"valid", validate(mesh).is_valid()}};
-  std::printf("%s: %s: %.3f s, %.1f %% of the way%s\n", m.name.c_str(), method, seconds,
-              100 * result["share"].get<double>(), has_passed ? ", through itself" : "");
+  std::printf("%s: %s: %.3f s, %.1f %% of the way, %.2f %% arrive%s\n", m.name.c_str(), method, seconds,
+              100 * result["share"].get<double>(), 100 * result["arrived"].get<double>(), has_passed ? ", through itself" : "");
   std::fflush(stdout);
   return result;
 }
