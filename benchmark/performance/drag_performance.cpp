@@ -110,9 +110,9 @@ int main(int argument_count, char** arguments) {
   shard.add_option(app, "part and size");
   CLI11_PARSE(app, argument_count, arguments);
   if (quick) {
-    sizes = {1000, 10000};
-    valences = {3, 16, 100};
-    effort.drags = 400, effort.peer_drags = 100, effort.slow = 1;
+    sizes = {1000, 4000};
+    valences = {3, 16, 64};
+    effort.drags = 200, effort.peer_drags = 50, effort.slow = 1;
   }
   const bool is_pinned = core >= 0 && pin_to(core);
   timer(); // calibrates itself now, not within the first measurement

@@ -242,7 +242,8 @@ Json row(const Motion& m, const char* method, std::clock_t begin, const Mesh& me
                  {"passed_through", has_passed},
                  {"valid", validate(mesh).is_valid()}};
   std::printf("%s: %s: %.3f s, %.1f %% of the way, %.2f %% arrive%s\n", m.name.c_str(), method, seconds,
-              100 * result["share"].get<double>(), 100 * result["arrived"].get<double>(), has_passed ? ", through itself" : "");
+              100 * result["share"].get<double>(), 100 * result["arrived"].get<double>(),
+              has_passed ? ", through itself" : "");
   std::fflush(stdout);
   return result;
 }

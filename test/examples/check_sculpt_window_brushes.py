@@ -194,11 +194,11 @@ check(lines[0]["faces"] > 8 * 71 ** 2 + 5000 and lines[0]["undo"] > 15, f"a head
 check(max(p[2] for p in head) > 1.3 and min(p[1] for p in head) < -1.3 and min(p[2] for p in head) < -1.05, "a head has ears, a snout and a chin")
 
 # Whatever a hand does, in any order: the log makes the same again, and it is a valid surface.
-for seed in range(3):
+for seed in range(2):
     chance = random.Random(seed)
     x, y = lambda: chance.randrange(60, 340), lambda: chance.randrange(60, 340)
     script = ""
-    for _ in range(60):
+    for _ in range(40):
         script += chance.choice((
             lambda: f"drag {x()} {y()} {x()} {y()} {chance.randrange(1, 6)} {chance.choice(('', 'normal', 'ctrl', 'right'))}\n",
             lambda: f"brush {chance.choice(('grab', 'inflate', 'smooth', 'flatten', 'pinch', 'mask', 'unmask'))} {chance.choice((0.05, 0.2, 0.6))} {chance.uniform(-1, 1)}\n",

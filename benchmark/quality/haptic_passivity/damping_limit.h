@@ -12,8 +12,8 @@ namespace haptic_sculpt::passivity_benchmark {
 
 /// The largest damping that may be asked for, alone and half of it with all the stiffness that is passive beside it, in
 /// hands from soft ones to a clamp: whether one of them buzzes on a plane, at the lightest pose of the ball about home.
-inline Json damping_in_hands(const Options&) {
-  constexpr double hand_stiffnesses[] = {50, 300, 1000, 2000, 3000}, hand_dampings[] = {0.3, 3, 15}; // N/m, N s/m
+inline Json damping_in_hands(const Options& options) {
+  constexpr double hand_stiffnesses[] = {3000, 2000, 1000, 300, 50}, hand_dampings[] = {0.3, 3, 15}; // N/m, N s/m
   Json rows = Json::array();
   for (const Device_form form : {Device_form::ditetrahedral, Device_form::general}) {
     const Device_parameters<double> device = design(form, 0.005, 0, 0, 10);
@@ -29,19 +29,19 @@ inline Json damping_in_hands(const Options&) {
         const Virtual_coupling couplings[] = {{0, b}, {passive_stiffness(limits.friction, b / 2, tick, delay), b / 2}};
         int hands = 0, calm = 0;
         Json buzzing = Json::array();
-        for (const double stiffness : hand_stiffnesses)
-          for (const double damping : hand_dampings)
-            for (const Virtual_coupling& coupling : couplings) {
-              const Simulated_hand hand{1, {{{0, stiffness, damping}}}};
-              ++hands;
-              if (is_calm(pressed(device, limits.lightest.pose, hand, coupling, tick, delay)))
-                ++calm;
-              else
-                buzzing.push_back({{"hand_stiffness", stiffness},
-                                   {"hand_damping", damping},
-                                   {"stiffness", coupling.stiffness},
-                                   {"damping", coupling.damping}});
-            }
+        for (int k = 0; k < options.damping_hands; ++k)
+          for (const Virtual_coupling& coupling : couplings) {
+            const double stiffness = hand_stiffnesses[k / 3], damping = hand_dampings[k % 3];
+            const Simulated_hand hand{1, {{{0, stiffness, damping}}}};
+            ++hands;
+            if (is_calm(pressed(device, limits.lightest.pose, hand, coupling, tick, delay)))
+              ++calm;
+            else
+              buzzing.push_back({{"hand_stiffness", stiffness},
+                                 {"hand_damping", damping},
+                                 {"stiffness", coupling.stiffness},
+                                 {"damping", coupling.damping}});
+          }
         const char* name = form == Device_form::ditetrahedral ? "ditetrahedral" : "general";
         rows.push_back({{"form", name},
                         {"tick_s", tick},
