@@ -16,7 +16,8 @@ using Json = nlohmann::ordered_json;
 
 /// What is asked for on the command line.
 struct Options {
-  int first = 0, runs = 10, knock_runs = 20, effect_runs = 6, alarm_runs = 2, poses = 2000, prescribed = 40, damping_hands = 15;
+  int first = 0, runs = 10, knock_runs = 20, effect_runs = 6, alarm_runs = 2, poses = 2000, prescribed = 40,
+      damping_hands = 15;
   double seconds = 3, effect_seconds = 3, alarm_seconds = 60;
   std::uint64_t seed = 1;
   bool chart = false;

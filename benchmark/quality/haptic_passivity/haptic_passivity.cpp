@@ -79,7 +79,8 @@ int main(int argc, char** argv) {
   app.add_option("--alarm-seconds", options.alarm_seconds, "Of contact in each")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--damping-hands", options.damping_hands, "With the largest damping, the stiffest first, for each tick")
+  app.add_option("--damping-hands", options.damping_hands,
+                 "With the largest damping, the stiffest first, for each tick")
       ->check(CLI::Range(1, 15))
       ->capture_default_str();
   app.add_option("--prescribed", options.prescribed, "Poses of the prescribed motion, for each delay")
