@@ -30,11 +30,17 @@ def charts_of(part):
 
 
 def findings(part, reports, answers):
+    """What the charts of a part make of the reports. Charts are made for whole reports: of one whose shards did not all
+    fit there is none where it lacks what the chart shows; the table of steps lists it."""
     module = charts_of(part)
     found = []
     for name, chart in module.CHARTS.items():
         if name in reports and any(key not in ("shard", "did_not_fit") for key in reports[name]):
-            found += chart(reports[name])
+            try:
+                found += chart(reports[name])
+            except (LookupError, StopIteration, ValueError): # a part, the row sought, or all rows are missing
+                if not reports[name].get("did_not_fit"):
+                    raise
     if part == "quality" and answers:
         import read_answers
         found += module.answers_of_others("answers", read_answers.read(answers))
