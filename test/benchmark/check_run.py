@@ -122,6 +122,18 @@ def little_time(out):
     expect(enough.returncode == 0 and "did not fit" not in (out / "index.html").read_text(), f"enough time: exit {enough.returncode}, {enough.stderr}")
 
 
+def missing_part():
+    """No chart is made of a report that lacks what the chart shows because its shard did not fit; else that is a fault."""
+    asked = f"""import sys
+sys.path.insert(0, {str(ROOT / "benchmark/common")!r})
+import make_page
+print(make_page.findings("quality", {{"force": {{"did_not_fit": 5, "knocks": {{}}}}}}, []))
+make_page.findings("quality", {{"force": {{"knocks": {{}}}}}}, [])"""
+    done = subprocess.run([PYTHON, "-c", asked], capture_output=True, text=True)
+    expect(done.stdout == "[]\n", f"a chart of forces without the rate: {done.stdout}{done.stderr}")
+    expect("KeyError: 'rate'" in done.stderr, f"a whole report that lacks its rate is taken: {done.stderr}")
+
+
 def death(out, folder):
     """A program that dies in one shard is named, made again, and the page is there."""
     build = folder / "build"
@@ -273,6 +285,7 @@ def main():
         kill_and_resume(folder / "resumed")
         check_page(folder / "resumed")
         options_are_known()
+        missing_part()
         little_time(folder / "little_time")
         death(folder / "death", folder)
         own_meshes(folder / "own", folder)
