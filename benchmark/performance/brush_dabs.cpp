@@ -54,7 +54,7 @@ struct Tally {
 
 } // namespace
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
   std::string file, json;
   int level = 6;
   std::size_t dabs = 1000, vertices = 5000;
@@ -77,9 +77,14 @@ int main(int argc, char** argv) try {
   shard.add_option(app, "brush");
   CLI11_PARSE(app, argc, argv);
 
-  const Mesh start = file.empty()
-                         ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
+  Mesh start;
+  try {
+    start = file.empty() ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
                          : read_surface<Mesh>(file);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "brush_dabs: %s\n", error.what());
+    return usage;
+  }
   const auto parameters = Move_parameters().drags(drags);
   benchmark::Promises promises;
   std::size_t asked = 0, broken = 0;
@@ -134,7 +139,4 @@ int main(int argc, char** argv) try {
   return haptic_sculpt::benchmark::end_run(
       "brush_dabs", json,
       {{"triangles", start.number_of_faces()}, {"seed", seed}, {"shard", shard.text()}, {"rows", rows}}, promises);
-} catch (const haptic_sculpt::Error& error) { // the mesh cannot be read
-  std::fprintf(stderr, "brush_dabs: %s\n", error.what());
-  return usage;
 }

@@ -82,7 +82,7 @@ Times times_of(Mesh mesh, std::uint64_t seed, int moves) {
 
 } // namespace
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
   std::string file, json;
   int level = 7, moves = 6;
   std::vector<int> threads{1, 2};
@@ -107,9 +107,14 @@ int main(int argc, char** argv) try {
   shard.add_option(app, "number of threads");
   CLI11_PARSE(app, argc, argv);
 
-  const Mesh mesh = file.empty()
-                        ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
+  Mesh mesh;
+  try {
+    mesh = file.empty() ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
                         : read_surface<Mesh>(file);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "threads: %s\n", error.what());
+    return usage;
+  }
   std::printf("%zu triangles, seed %llu; seconds by the clock\n%-8s %10s %10s %10s %10s\n",
               std::size_t{mesh.number_of_faces()}, static_cast<unsigned long long>(seed), "threads", "shift",
               "held back", "validate", "same bits");
@@ -150,7 +155,4 @@ int main(int argc, char** argv) try {
   return haptic_sculpt::benchmark::end_run(
       "threads", json,
       {{"triangles", mesh.number_of_faces()}, {"seed", seed}, {"shard", shard.text()}, {"rows", rows}}, promises);
-} catch (const haptic_sculpt::Error& error) { // the mesh cannot be read
-  std::fprintf(stderr, "threads: %s\n", error.what());
-  return usage;
 }

@@ -123,7 +123,7 @@ def little_time(out):
 
 
 def missing_part():
-    """No chart is made of a report that lacks what the chart shows because its shard did not fit; else that is a fault."""
+    """A report may lack what its chart shows where a shard did not fit: there is no chart. Else it is a fault."""
     asked = f"""import sys
 sys.path.insert(0, {str(ROOT / "benchmark/common")!r})
 import make_page

@@ -87,6 +87,7 @@ else:
 MESHES = [("ball and moon", BALL), ("box", cube)]
 if os.environ.get("HAPTIC_SCULPT_SHARED"):
     shared = os.path.join(os.environ["HAPTIC_SCULPT_SHARED"], "meshes")
+    # A sponge, slivers, one that is hardly there, a part, an animal: each takes up to half a minute.
     MESHES += [(name, os.path.join(shared, name)) for name in sorted(os.listdir(shared))
                if name.startswith(("gen_menger", "gen_sliver", "gen_extreme", "cgal_joint", "oded_spot"))]
 else:

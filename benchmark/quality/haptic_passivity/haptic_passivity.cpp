@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--damping-hands", options.damping_hands,
-                 "With the largest damping, the stiffest first, for each tick")
+                 "In which the largest damping is tried, the stiffest first, for each tick and delay")
       ->check(CLI::Range(1, 15))
       ->capture_default_str();
   app.add_option("--prescribed", options.prescribed, "Poses of the prescribed motion, for each delay")
