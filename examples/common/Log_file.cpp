@@ -48,9 +48,10 @@ Log_file::Log_file(const std::string& path, const std::string& mesh)
         check_begin_of_log(block, path_);
       text += block;
     });
-    if (text.empty())
+    if (!text.empty())
+      contents_ = read_log(text, path_, mesh_);
+    if (!contents_)
       return;
-    contents_ = read_log(text, path_, mesh_);
     writer_ = contents_->writer;
     size_ = static_cast<off_t>(contents_->whole_size);
   } catch (...) { // no destructor closes it: there is no object yet
@@ -102,6 +103,8 @@ void Log_file::begin(const Settings& settings) {
     // Another process may have found the file empty before it was locked here, begun it, and ended already.
     if (struct stat status {}; ::fstat(file_, &status) != 0 || status.st_size != 0)
       throw begun_by_another();
+  } else if (::ftruncate(file_, 0) != 0) {
+    throw Write_error("cannot cut the unfinished head off " + in_words(path_) + ": " + system_says());
   }
   append(writer_.head(mesh_, settings)); // in one write: whoever finds a log finds a whole head
   if (is_made && !failure_.empty())

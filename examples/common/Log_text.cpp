@@ -83,7 +83,7 @@ public:
   Log_reader(std::string_view text, const std::string& name, const std::string& mesh)
       : text_(text), name_(name), mesh_(mesh) {}
 
-  Log_contents read() {
+  std::optional<Log_contents> read() {
     while (read_line_here())
       ;
     contents_.unfinished = text_.substr(at_);
@@ -95,8 +95,7 @@ public:
     contents_.whole_size = at_;
     const std::size_t head = 1 + Settings().directives().size();
     if (contents_.commands.size() < head)
-      throw Foreign_log("'" + name_ + "' ends within its head, at line " + std::to_string(number_) +
-                        ": no edit is in it, so remove it, or give another name");
+      return std::nullopt;
     contents_.writer = Log_writer(checksum_);
     return std::move(contents_);
   }
@@ -329,7 +328,7 @@ void check_begin_of_log(std::string_view text, const std::string& name) {
                          : "Give the name of a log, or one that is not there yet"));
 }
 
-Log_contents read_log(std::string_view text, const std::string& name, const std::string& mesh) {
+std::optional<Log_contents> read_log(std::string_view text, const std::string& name, const std::string& mesh) {
   return Log_reader(text, name, mesh).read();
 }
 

@@ -95,9 +95,10 @@ struct Log_contents {
 /// \throw Foreign_log if it does not begin as a log does
 void check_begin_of_log(std::string_view text, const std::string& name);
 
+/// Returns none where the text ends within the head: no edit is in it.
 /// \param name how messages call the log \param mesh the hash that it has to begin with
 /// \throw Foreign_log if the first line is not that of a log, or the log is of another mesh; Script_error for a line
 /// that has been changed or cannot be read
-Log_contents read_log(std::string_view text, const std::string& name, const std::string& mesh);
+std::optional<Log_contents> read_log(std::string_view text, const std::string& name, const std::string& mesh);
 
 } // namespace haptic_sculpt::examples

@@ -61,10 +61,20 @@ def edits_and_log(folder, mesh):
         done = run(mesh, "-o", again, "--log", cut, "--script", script)
         check(done.returncode == 0 and bytes_of(again) == expected, f"log cut at {length} goes on to another mesh: {done.stderr}")
         check(bytes_of(cut) == complete, f"log cut at {length}: it ends otherwise than without the break")
-    for length in (1, 10, len(lines[0]), head - 1):
+    # Within its head nothing was done yet: it is begun again, if it is of this mesh.
+    other = write(f"{folder}/other.off", OCTAHEDRON)
+    for length in (0, 20, len(lines[0]), len(lines[0]) + 9, len(lines[0] + lines[1]), head - 20, head - 1):
         cut = write(f"{folder}/cut.log", complete[:length])
-        fails(6, ["line 1" if length < 20 else "head"], run(mesh, "--log", cut), f"log cut within its head, at {length}")
-        check(bytes_of(cut) == complete[:length], "a log cut within its head is left as it is")
+        done = run(mesh, "-o", again, "--log", cut, "--script", script)
+        check(done.returncode == 0 and bytes_of(again) == expected, f"log cut within its head, at {length}: {done.stderr}")
+        check(bytes_of(cut) == complete, f"log cut within its head, at {length}: it ends otherwise than without the break")
+        if length >= len(lines[0] + lines[1]):
+            cut = write(f"{folder}/cut.log", complete[:length])
+            fails(6, ["hash of this mesh"], run(other, "--log", cut), f"log of another mesh, cut at {length}")
+            check(bytes_of(cut) == complete[:length], "a log of another mesh is left as it is")
+    for changed in (b"#\n", complete[:len(lines[0]) + 40].replace(b"mesh", b"mess") + b"\n"):
+        cut = write(f"{folder}/cut.log", changed)
+        check(run(mesh, "--log", cut).returncode in (4, 6) and bytes_of(cut) == changed, f"{changed} is taken for a head")
 
 
 SHIFTS = ("drag 3 0.1 0.1 2\nshift 2 3\n0 -1\n1 -0.5 # a comment\n2 -0x1p-1\nend\nstroke\nshift 0 2\n3 0.5\n1 1.25\nend\nend\n"
@@ -374,7 +384,7 @@ def no_logs(folder, mesh):
     run(other, "--script", "/dev/stdin", "--log", f"{folder}/foreign.log", script="drag 3 0 0 3\n")
     foreign = bytes_of(f"{folder}/foreign.log")
     for contents in (b"precious", b"precious\n", b"\n", b"#", b"m", b"mesh", b"mesh 12\n", b"mesh " + digest.encode(), b"drag 3 0 0 2\n", b"\0" * 5000,
-                     b"two\nlines", bytes_of(mesh), b"\x89PNG\r\n\x1a\n" + bytes(range(256)), b"# haptic_sculpt log", b"# haptic_sculpt log 1 # ",
+                     b"two\nlines", bytes_of(mesh), b"\x89PNG\r\n\x1a\n" + bytes(range(256)), b"# haptic_sculpt log",
                      f"mesh {'0' * 64}\ndrag 3 0 0 2\nunfinished".encode(), foreign, foreign[:-5]):
         log = write(f"{folder}/no.log", contents)
         for arguments in ((), ("--script", "/dev/stdin")):

@@ -74,7 +74,7 @@ bool carry_out(Mesh& mesh, const std::vector<Command>& commands, const Sculptor_
 
 void check_log(const std::string& log, const Mesh& sculpted, unsigned choice, std::size_t number_of_commands,
                const std::string& script) {
-  const Log_contents contents = read_log(log, "the log", any_hash);
+  const Log_contents contents = read_log(log, "the log", any_hash).value();
   if (contents.commands.size() != number_of_commands + 4 ||
       read_script(log, "the log as a script").size() != number_of_commands + 4)
     fault("the log has other commands than the script", script);
