@@ -58,7 +58,7 @@ public:
 
   /// \throw Mesh_changed if v is not where it was left.
   void check(Vertex_index v) const {
-    if (vertex_coordinates(*mesh_, v) != points_[static_cast<std::size_t>(v)])
+    if (is_elsewhere(v))
       throw Mesh_changed("vertex " + std::to_string(static_cast<std::size_t>(v)) + " was moved");
   }
 
@@ -76,7 +76,7 @@ public:
   /// \throw Mesh_changed as check(). What was removed may be anywhere: even where no number equals itself.
   void check_place(std::size_t i) const {
     const Vertex_index v(static_cast<typename Vertex_index::size_type>(i));
-    if (!mesh_->is_removed(v))
+    if (is_elsewhere(v) && !mesh_->is_removed(v)) // in this order: the one costs memory to look at
       check(v);
   }
 
@@ -121,6 +121,10 @@ private:
   std::vector<Coordinates> points_;
   Counts counts_{};
   std::size_t next_ = 0;
+
+  bool is_elsewhere(Vertex_index v) const {
+    return vertex_coordinates(*mesh_, v) != points_[static_cast<std::size_t>(v)];
+  }
 
   Counts counts() const {
     return {mesh_->num_vertices(),       mesh_->num_edges(),       mesh_->num_faces(),

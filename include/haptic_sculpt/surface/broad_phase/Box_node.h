@@ -2,8 +2,9 @@
 #pragma once
 
 #include <haptic_sculpt/Part_runner.h>
-#include <haptic_sculpt/surface/broad_phase/processor.h>
+#include <haptic_sculpt/surface/broad_phase/Eight_flags.h>
 #include <haptic_sculpt/surface/broad_phase/outward_float.h>
+#include <haptic_sculpt/surface/broad_phase/processor.h>
 
 #include <vector>
 
@@ -62,15 +63,10 @@ struct alignas(64) Box_node {
 
   /// Bit j: whether box j meets the query.
   unsigned meeting(const Float_box& query) const {
-    static constexpr int bits[width] = {1, 2, 4, 8, 16, 32, 64, 128};
-    int mask = 0;
-    for (unsigned j = 0; j < width; ++j) {
-      const int meets = int(bounds[0][j] <= query.upper[0]) & int(bounds[1][j] <= query.upper[1]) &
-                        int(bounds[2][j] <= query.upper[2]) & int(bounds[3][j] >= query.lower[0]) &
-                        int(bounds[4][j] >= query.lower[1]) & int(bounds[5][j] >= query.lower[2]);
-      mask |= meets != 0 ? bits[j] : 0;
-    }
-    return static_cast<unsigned>(mask);
+    const auto is_apart_on = [&](int i) {
+      return Eight_flags::greater(bounds[i], query.upper[i]) | Eight_flags::greater(query.lower[i], bounds[i + 3]);
+    };
+    return (is_apart_on(0) | is_apart_on(1) | is_apart_on(2)).where_not();
   }
 };
 

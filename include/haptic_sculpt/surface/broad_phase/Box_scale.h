@@ -64,7 +64,7 @@ public:
   /// a float times the inverse is exact, or so large that the next float down is right, too.
   float below(double x) const {
     const float f = static_cast<float>(x * factor_);
-    return static_cast<double>(f) * inverse_ > x ? next_down(f) : f;
+    return next_down(f, static_cast<double>(f) * inverse_ > x);
   }
   /// A float that is not below it.
   float above(double x) const { return -below(-x); }

@@ -37,7 +37,6 @@ public:
   /// For each axis (1 - t) A.lower + t B.lower <= upper and (1 - t) A.upper + t B.upper >= lower bound t from one side
   /// each; the times that all six leave, and [0, until], must not be empty.
   unsigned meeting(const Box_node& node) const {
-    static constexpr int bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
     float first[8], last[8];
     for (int j = 0; j < 8; ++j)
       first[j] = 0, last[j] = until_;
@@ -55,10 +54,9 @@ public:
         first[j] = t > first[j] ? t : first[j];
       }
     }
-    int mask = 0;
     for (int j = 0; j < 8; ++j)
-      mask |= first[j] > last[j] + slack ? 0 : bits[j];
-    return static_cast<unsigned>(mask);
+      last[j] += slack;
+    return Eight_flags::greater(first, last).where_not();
   }
 
 private:

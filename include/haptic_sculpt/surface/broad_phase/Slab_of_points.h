@@ -17,8 +17,8 @@ public:
   Slab_of_points() = default; ///< everything
 
   /// \param scale of the boxes \param normal of the planes; any will do, and of one that is too short or not finite the
-  /// slab is everything
-  Slab_of_points(const Swept_star_3& star, const Box_scale& scale, const Vector& normal) {
+  /// slab is everything \param thickness in the scale; of a thicker one it is everything, too
+  Slab_of_points(const Swept_star_3& star, const Box_scale& scale, const Vector& normal, double thickness) {
     const double largest = std::fmax(std::fmax(std::abs(normal[0]), std::abs(normal[1])), std::abs(normal[2]));
     if (star.valence == 0 || !(largest > least_normal && largest < 1 / least_normal))
       return;
@@ -44,7 +44,7 @@ public:
     include(scale(star.target), false);
     for (std::size_t i = 0; i < star.valence; ++i)
       include(scale(star.link[i]), false);
-    is_thin_ = high - low < across / 8 && across > 0x1p-100 && across < 0x1p+100;
+    is_thin_ = high - low < thickness && high - low < across / 8 && across > 0x1p-100 && across < 0x1p+100;
     low_ = -float_above(-low), high_ = float_above(high);
   }
 
@@ -53,7 +53,6 @@ public:
 
   /// Bit j is 0 only if box j of the node lies on one side of the slab.
   unsigned meeting(const Box_node& node) const {
-    static constexpr int bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
     float least[8] = {}, most[8] = {}, size[8] = {};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 8; ++j) {
@@ -63,12 +62,11 @@ public:
         least[j] += small, most[j] += large;
         size[j] += std::abs(a) > std::abs(b) ? std::abs(a) : std::abs(b); // grows with the box
       }
-    int mask = 0;
     for (int j = 0; j < 8; ++j) {
       const float error = 0x1p-18f * size[j] + least_error;
-      mask |= ((least[j] - error > high_) | (most[j] + error < low_)) ? 0 : bits[j];
+      least[j] -= error, most[j] += error;
     }
-    return static_cast<unsigned>(mask);
+    return (Eight_flags::greater(least, high_) | Eight_flags::greater(low_, most)).where_not();
   }
 
 private:

@@ -24,10 +24,11 @@ public:
     if (star.valence != 0)
       from_link_ = Cone_of_boxes(scale(link), scale(around), 1);
     if (!star.is_box) {
-      from_start_ = Cone_of_boxes(scale(Box_3(link).include(star.source)), Box_3(scale(star.target)), star.until);
+      const Box_3 start = scale(Box_3(link).include(star.source));
+      from_start_ = Cone_of_boxes(start, Box_3(scale(star.target)), star.until);
       from_end_ = Cone_of_boxes(scale(Box_3(link).include(star.target)), Box_3(scale(star.source)), 1);
+      make_slabs(start);
     }
-    make_slabs();
     has_cones_ = from_start_.is_long() || from_end_.is_long() || from_link_.is_long();
     around_ = scale.query(around.include(link));
   }
@@ -76,11 +77,14 @@ private:
   }
 
   /// One about the plane of the source, the target and a point of the link, the other across it and along the line of
-  /// the source and that point.
-  void make_slabs() {
+  /// the source and that point. One that is not much thinner than the star at its start cuts little off the cones.
+  void make_slabs(const Box_3& start) {
     using Vector = Slab_of_points::Vector;
-    if (star_->valence == 0 || star_->is_box)
+    if (star_->valence == 0)
       return;
+    double extent = 0;
+    for (int i = 0; i < 3; ++i)
+      extent = std::fmax(extent, start.upper[i] - start.lower[i]);
     const bool goes_there = star_->target == star_->link[0]; // as where an edge collapses: no plane would be known
     const Vector source = scale_(star_->source), target = scale_(star_->target),
                  point = scale_(star_->link[goes_there && star_->valence > 1 ? 1 : 0]);
@@ -91,7 +95,8 @@ private:
       return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     };
     const Vector normal = cross(along, beside);
-    slabs_ = {Slab_of_points(*star_, scale_, normal), Slab_of_points(*star_, scale_, cross(normal, along))};
+    slabs_ = {Slab_of_points(*star_, scale_, normal, extent / 8),
+              Slab_of_points(*star_, scale_, cross(normal, along), extent / 8)};
   }
 };
 

@@ -8,13 +8,13 @@
 
 namespace haptic_sculpt::internal {
 
-/// The float next to x towards -infinity. \pre x is neither NaN nor -infinity
-inline float next_down(float x) {
-  if (x == 0)
-    return -std::numeric_limits<float>::denorm_min();
+/// The float next to x towards -infinity, if `is_wanted`, else x. No branch: that is as good as random.
+/// \pre x is neither NaN nor -infinity
+inline float next_down(float x, bool is_wanted = true) {
   std::int32_t bits;
   std::memcpy(&bits, &x, sizeof bits);
-  bits += bits < 0 ? 1 : -1;
+  bits = bits == 0 ? std::numeric_limits<std::int32_t>::min() : bits; // the zero whose neighbour has the next bits
+  bits += (bits < 0 ? 1 : -1) & -std::int32_t{is_wanted};
   std::memcpy(&x, &bits, sizeof bits);
   return x;
 }
@@ -22,7 +22,7 @@ inline float next_down(float x) {
 /// A float that is not above x. The conversion may round either way; a comparison, which does not round, tells.
 inline float float_below(double x) {
   const float f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? next_down(f) : f;
+  return next_down(f, static_cast<double>(f) > x);
 }
 
 /// A float that is not below x.
