@@ -61,6 +61,11 @@ def dump_folder(name, shard, shards):
     return f"failures/{name}/{shard}_of_{shards}"
 
 
+def share_of(step, mode, shards):
+    """How many cases each shard of a step that is given a number is to try: no fewer than that number in all."""
+    return -(-step.count.get(mode, 0) // shards)
+
+
 def command_of(step, mode, shard, shards, build, meshes, seed, json, repair=False):
     """(words, environment) of one shard."""
     effort = step.effort(mode)
@@ -68,7 +73,7 @@ def command_of(step, mode, shard, shards, build, meshes, seed, json, repair=Fals
     options = effort.options + (" " + step.with_meshes if meshes and step.with_meshes else "")
     options += " " + step.with_repair if meshes and repair else ""
     words += options.format(seed=seed, meshes=meshes, dump=dump_folder(step.name, shard, shards)).split()
-    environment = {name: value.format(seed_of_shard=seed * 1000 + shard, share=-(-step.count.get(mode, 0) // shards))
+    environment = {name: value.format(seed_of_shard=seed * 1000 + shard, share=share_of(step, mode, shards))
                    for name, value in step.environment.items()}
     if not step.promise:
         words += ["--json", json, "--shard", f"{shard}/{shards}"]

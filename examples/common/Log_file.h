@@ -14,8 +14,8 @@ namespace haptic_sculpt::examples {
 /// is done, so that a killed process loses at most the edit under way.
 class Log_file {
 public:
-  /// Opens, locks and reads what is there, and changes nothing. An empty file, and a log that ends within its head, as a
-  /// killed process may leave it, count as none.
+  /// Opens, locks and reads what is there, and changes nothing. An empty file, and a log that a killed process has left
+  /// within its head, count as none.
   /// \throw Foreign_log, Script_error, Write_error (no regular file; another process has it; may not be written)
   Log_file(const std::string& path, const std::string& mesh);
   Log_file(const Log_file&) = delete;

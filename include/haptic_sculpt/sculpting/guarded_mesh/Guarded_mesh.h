@@ -3,14 +3,13 @@
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/sculpting/Probe.h>
-#include <haptic_sculpt/sculpting/axis_moves/Axis_move.h>
-#include <haptic_sculpt/sculpting/axis_moves/Faces_on_the_way.h>
 #include <haptic_sculpt/sculpting/contact/Scene_bound.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
 #include <haptic_sculpt/sculpting/finding/Surface_finder.h>
 #include <haptic_sculpt/sculpting/finding/find_face_within.h>
 #include <haptic_sculpt/sculpting/finding/is_inside.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
+#include <haptic_sculpt/sculpting/guarded_mesh/Axis_move_at_hand.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Hand.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Inside_out_vertices.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
@@ -46,8 +45,7 @@ public:
       , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
       , finder_(mesh, broad_phase_, corners_, counters_)
       , scene_(mesh, parameters.drag.clearance_length)
-      , whole_move_(mesh, counters_)
-      , near_move_(mesh, counters_)
+      , shifting_(mesh, counters_)
       , inside_out_(mesh) {}
   Guarded_mesh(const Guarded_mesh&) = delete; // its parts refer to each other
   Guarded_mesh& operator=(const Guarded_mesh&) = delete;
@@ -224,7 +222,7 @@ public:
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
-    whole_move_.forget();
+    shifting_.forget();
     inside_out_.forget();
     const Forget_at_end forget{*this};
     const std::uint64_t before = changes();
@@ -246,21 +244,12 @@ public:
     return edited(edit);
   }
 
-  /// Has axis moves look at what they may meet from here on: motions of these vertices, each in the box of its place
-  /// and its target, along any axis. Where many move that is all of the mesh, and is kept until connectivity changes.
+  /// Has axis moves look at what they may meet from here on: as Axis_move_at_hand::look_around().
   void look_around(const Vertex_targets<Mesh>& targets) {
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
-    constexpr std::size_t many = 8; // an eighth of all vertices: then the search costs more than it spares
-    are_many_ = many * targets.size() >= mesh_->number_of_vertices();
-    if (!are_many_)
-      return near_move_.take(on_the_way_.find(*mesh_, broad_phase_, targets), false);
-    if (whole_move_.has_taken_all())
-      return;
-    std::vector<Face_index> faces(mesh_->faces().begin(), mesh_->faces().end());
-    broad_phase_.put_in_order(faces);
-    whole_move_.take(faces, true);
+    shifting_.look_around(broad_phase_, targets);
   }
 
   /// Moves vertices at once along one axis as far as that is free, as one change; each vertex is given once.
@@ -273,12 +262,19 @@ public:
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
-    check_looked_at();
+    shifting_.check_unmoved(watch_);
     Axis_move<Mesh>& move = axis_move();
     move.begin(axis, ways, parameters.delta_length, run, most_held, work);
     if (!move.hold_back())
       return false;
-    write_shift(axis, ways, move, run);
+    const Axis_ways<Mesh> made = shifting_.made_ways(axis, ways);
+    for (const auto& [v, end] : made) {
+      Coordinates p = vertex_coordinates(*mesh_, v);
+      p[axis] = end;
+      scene_.include(p);
+    }
+    if (!made.empty())
+      editor_.shift(axis, made, run);
     return true;
   }
   /// \name What is tried: what is taken back before the end is not noted, and clears nothing that could be redone
@@ -291,14 +287,14 @@ public:
     const Rounding_to_nearest rounding;
     release();
     look_for_changes();
-    check_looked_at();
+    shifting_.check_unmoved(watch_);
     editor_.take_back_tried_shift(run);
   }
   /// Whether the visitor hears of edits.
   void tell_visitor(bool does) { editor_.tell_visitor(does); }
   ///@}
   /// The last one.
-  Axis_move<Mesh>& axis_move() { return are_many_ ? whole_move_ : near_move_; }
+  Axis_move<Mesh>& axis_move() { return shifting_.move(); }
   /// All that is in the way of a motion, not only what was found until it was given up. \pre as of shift()
   const std::vector<Axis_obstacle>& obstacles_to(int axis, const Axis_ways<Mesh>& ways, const Part_runner& run,
                                                  Pair_budget* work = nullptr) {
@@ -327,8 +323,8 @@ public:
     watch_.check_all(corners_);
   }
   std::size_t memory() const {
-    return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.ids().memory() + whole_move_.memory() +
-           near_move_.memory() + on_the_way_.memory() + inside_out_.memory();
+    return broad_phase_.memory() + corners_.memory() + watch_.memory() + editor_.ids().memory() + shifting_.memory() +
+           inside_out_.memory();
   }
 
 private:
@@ -347,9 +343,7 @@ private:
   Hand<Mesh, Broad_phase, Traits> hand_, probe_;
   Surface_finder<Mesh, Broad_phase> finder_;
   Scene_bound<Mesh> scene_;
-  Axis_move<Mesh> whole_move_, near_move_; ///< that look at all faces; at some
-  bool are_many_ = false;                  ///< which of them looked around last
-  Faces_on_the_way<Mesh> on_the_way_;
+  Axis_move_at_hand<Mesh> shifting_;
   Inside_out_vertices<Mesh> inside_out_;
   std::vector<Face_index> faces_near_probe_; ///< kept to allocate no more
   Coordinates probe_place_{};                ///< where the last probe was left
@@ -360,31 +354,6 @@ private:
     Guarded_mesh& mesh;
     ~Forget_at_end() { mesh.hand_.let_go(), mesh.probe_.let_go(), mesh.inside_out_.forget(); }
   };
-
-  /// \throw Mesh_changed
-  void check_looked_at() {
-    if (axis_move().has_taken_all())
-      for (const Vertex_index v : mesh_->vertices())
-        watch_.check(v);
-    else
-      for (const Axis_item& item : axis_move().items())
-        for (const std::uint32_t v : item.corners)
-          watch_.check(Vertex_index(v));
-  }
-
-  /// Notes and writes a motion as far as it is free.
-  void write_shift(int axis, const Axis_ways<Mesh>& ways, const Axis_move<Mesh>& move, const Part_runner& run) {
-    Axis_ways<Mesh> made;
-    for (const auto& way : ways)
-      if (const Vertex_index v = way.first; move.end(v) != vertex_coordinates(*mesh_, v)[axis]) {
-        Coordinates p = vertex_coordinates(*mesh_, v);
-        p[axis] = move.end(v);
-        made.emplace_back(v, p[axis]);
-        scene_.include(p);
-      }
-    if (!made.empty())
-      editor_.shift(axis, made, run);
-  }
 
   /// For questions about the surface: lets nobody go.
   void look_at_surface() {
