@@ -309,29 +309,32 @@ int main(int argc, char** argv) {
   app.add_option("--seed", seed)->capture_default_str();
   shard.add_option(app, "motion");
   CLI11_PARSE(app, argc, argv);
+  Mesh mesh;
   try {
-    Json rows = Json::array();
-    std::size_t asked = 0, broken = 0;
-    for (int round = 0; round < rounds; ++round)
-      for (const Motion& m : given.empty()
-                                 ? motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))
-                                 : motions_of(read_surface<Mesh>(given), seed + static_cast<std::uint64_t>(round))) {
-        const std::size_t unit = shard.next_unit(), before = rows.size();
-        if (!shard.takes_next())
-          continue;
-        given.empty() ? measure(m, rows) : measure_motion(m, rows);
-        for (std::size_t k = before; k < rows.size(); ++k) {
-          rows[k]["unit"] = unit;
-          if (rows[k]["method"] != "halving on does_self_intersect")
-            ++asked, broken += !rows[k]["valid"].get<bool>();
-        }
-      }
-    Promises promises;
-    promises.add(not_embedded, "a mesh moved under the guard is embedded", asked, broken);
-    return end_run("many_vertices_speed_error", file,
-                   {{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"rows", rows}}, promises);
+    if (!given.empty())
+      mesh = read_surface<Mesh>(given);
   } catch (const Error& error) {
     std::cerr << "many_vertices_speed_error: " << error.what() << '\n';
     return usage;
   }
+  Json rows = Json::array();
+  std::size_t asked = 0, broken = 0;
+  for (int round = 0; round < rounds; ++round)
+    for (const Motion& m : given.empty()
+                               ? motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))
+                               : motions_of(mesh, seed + static_cast<std::uint64_t>(round))) {
+      const std::size_t unit = shard.next_unit(), before = rows.size();
+      if (!shard.takes_next())
+        continue;
+      given.empty() ? measure(m, rows) : measure_motion(m, rows);
+      for (std::size_t k = before; k < rows.size(); ++k) {
+        rows[k]["unit"] = unit;
+        if (rows[k]["method"] != "halving on does_self_intersect")
+          ++asked, broken += !rows[k]["valid"].get<bool>();
+      }
+    }
+  Promises promises;
+  promises.add(not_embedded, "a mesh moved under the guard is embedded", asked, broken);
+  return end_run("many_vertices_speed_error", file,
+                 {{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"rows", rows}}, promises);
 }

@@ -108,38 +108,38 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   shard.add_option(app, "mesh");
   CLI11_PARSE(app, argc, argv);
+  std::vector<std::pair<std::string, Mesh>> inputs;
   try {
-    std::vector<std::pair<std::string, Mesh>> inputs;
-    if (files.empty())
-      inputs = generated_meshes(level, seed);
     for (const std::string& path : files)
       inputs.emplace_back(path, read_surface<Mesh>(path));
-    const auto guarded = [](Mesh& mesh, const auto& stop, const auto& np) {
-      Sculptor<Mesh> sculptor(mesh);
-      decimate(sculptor, stop, np);
-    };
-    const auto alone = [](Mesh& mesh, const auto& stop, const auto& np) { SMS::edge_collapse(mesh, stop, np); };
-    Json rows = Json::array();
-    std::size_t asked = 0, broken = 0;
-    for (const auto& [name, mesh] : inputs) {
-      const std::size_t unit = shard.next_unit(), before = rows.size();
-      if (!shard.takes_next())
-        continue;
-      for (const int policies : {0, 1}) {
-        rows.push_back(row(name, "under the guard", policies, share, mesh, guarded));
-        ++asked, broken += !rows.back()["valid"].get<bool>();
-        rows.push_back(row(name, "edge_collapse", policies, share, mesh, alone));
-      }
-      for (std::size_t k = before; k < rows.size(); ++k)
-        rows[k]["unit"] = unit;
-    }
-    Promises promises;
-    promises.add(not_embedded, "a mesh simplified under the guard is embedded", asked, broken);
-    return end_run("simplification", file,
-                   {{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"share", share}, {"rows", rows}},
-                   promises);
   } catch (const Error& error) {
     std::cerr << "simplification: " << error.what() << '\n';
     return usage;
   }
+  if (files.empty())
+    inputs = generated_meshes(level, seed);
+  const auto guarded = [](Mesh& mesh, const auto& stop, const auto& np) {
+    Sculptor<Mesh> sculptor(mesh);
+    decimate(sculptor, stop, np);
+  };
+  const auto alone = [](Mesh& mesh, const auto& stop, const auto& np) { SMS::edge_collapse(mesh, stop, np); };
+  Json rows = Json::array();
+  std::size_t asked = 0, broken = 0;
+  for (const auto& [name, mesh] : inputs) {
+    const std::size_t unit = shard.next_unit(), before = rows.size();
+    if (!shard.takes_next())
+      continue;
+    for (const int policies : {0, 1}) {
+      rows.push_back(row(name, "under the guard", policies, share, mesh, guarded));
+      ++asked, broken += !rows.back()["valid"].get<bool>();
+      rows.push_back(row(name, "edge_collapse", policies, share, mesh, alone));
+    }
+    for (std::size_t k = before; k < rows.size(); ++k)
+      rows[k]["unit"] = unit;
+  }
+  Promises promises;
+  promises.add(not_embedded, "a mesh simplified under the guard is embedded", asked, broken);
+  return end_run("simplification", file,
+                 {{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"share", share}, {"rows", rows}},
+                 promises);
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <locale>
-#include <sstream>
+#include <charconv>
 #include <stdexcept>
 #include <string>
 
@@ -21,13 +20,10 @@ public:
 
 namespace internal {
 
-/// A number as messages show it, with all its digits, whatever the locale.
+/// A number as messages show it: the shortest decimal that is this number, whatever the locale.
 inline std::string number(double x) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(17);
-  out << x;
-  return out.str();
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
 
 } // namespace internal
