@@ -50,8 +50,11 @@ Log_file::Log_file(const std::string& path, const std::string& mesh)
     });
     if (!text.empty())
       contents_ = read_log(text, path_, mesh_);
-    if (!contents_)
+    if (!contents_) {
+      size_ = static_cast<off_t>(text.size());
+      part_of_head_ = std::move(text);
       return;
+    }
     writer_ = contents_->writer;
     size_ = static_cast<off_t>(contents_->whole_size);
   } catch (...) { // no destructor closes it: there is no object yet
@@ -84,6 +87,10 @@ void Log_file::begin(const Settings& settings) {
       throw Write_error("cannot cut the unfinished last line off " + in_words(path_) + ": " + system_says());
     return;
   }
+  const std::string head = writer_.head(mesh_, settings);
+  if (head.compare(0, part_of_head_.size(), part_of_head_) != 0)
+    throw Foreign_log(in_words(path_) + " holds no edit, and is not the beginning of what this command would write: "
+                      "remove it, or give another name");
   const bool is_made = file_ < 0;
   if (is_made) {
     file_ = ::open(target_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -103,10 +110,8 @@ void Log_file::begin(const Settings& settings) {
     // Another process may have found the file empty before it was locked here, begun it, and ended already.
     if (struct stat status {}; ::fstat(file_, &status) != 0 || status.st_size != 0)
       throw begun_by_another();
-  } else if (::ftruncate(file_, 0) != 0) {
-    throw Write_error("cannot cut the unfinished head off " + in_words(path_) + ": " + system_says());
   }
-  append(writer_.head(mesh_, settings)); // in one write: whoever finds a log finds a whole head
+  append(head.substr(part_of_head_.size())); // in one write: but for a process that is killed there is no part of a head
   if (is_made && !failure_.empty())
     ::unlink(target_.c_str());
 }

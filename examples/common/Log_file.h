@@ -14,8 +14,8 @@ namespace haptic_sculpt::examples {
 /// is done, so that a killed process loses at most the edit under way.
 class Log_file {
 public:
-  /// Opens, locks and reads what is there, and changes nothing. An empty file, and a log that a killed process has left
-  /// within its head, count as none.
+  /// Opens, locks and reads what is there, and changes nothing. An empty file, and what a killed process has left of a
+  /// head, count as none.
   /// \throw Foreign_log, Script_error, Write_error (no regular file; another process has it; may not be written)
   Log_file(const std::string& path, const std::string& mesh);
   Log_file(const Log_file&) = delete;
@@ -26,7 +26,8 @@ public:
   const std::optional<Log_contents>& contents() const { return contents_; }
 
   /// From here on it is written: a new log gets its head, an old one loses its unfinished last line.
-  /// \throw Write_error if a new one cannot be made, but not if the disk is full
+  /// \throw Write_error if a new one cannot be made, but not if the disk is full; Foreign_log if what is there is no
+  /// part of its head
   void begin(const Settings& settings);
 
   /// Of a log that a killed loop has left, drops what was done in a tick that is not whole. To be called before
@@ -57,6 +58,7 @@ private:
   int file_ = -1;
   off_t size_ = 0; ///< up to the end of the last whole line
   std::optional<Log_contents> contents_;
+  std::string part_of_head_; ///< all that is there where there are no contents
   Log_writer writer_;
   std::string failure_;
 

@@ -61,20 +61,23 @@ def edits_and_log(folder, mesh):
         done = run(mesh, "-o", again, "--log", cut, "--script", script)
         check(done.returncode == 0 and bytes_of(again) == expected, f"log cut at {length} goes on to another mesh: {done.stderr}")
         check(bytes_of(cut) == complete, f"log cut at {length}: it ends otherwise than without the break")
-    # Within its head nothing was done yet: it is begun again, if it is of this mesh.
+    # Within its head nothing was done yet: the same command goes on with it, and no other.
     other = write(f"{folder}/other.off", OCTAHEDRON)
     for length in (0, 20, len(lines[0]), len(lines[0]) + 9, len(lines[0] + lines[1]), head - 20, head - 1):
         cut = write(f"{folder}/cut.log", complete[:length])
+        # Where the settings stand, where some of the mesh's hash does.
+        for arguments in ((mesh, "--response", "stop"),) * (length >= head - 20) + ((other,),) * (length > len(lines[0])):
+            fails(6, ["cut.log"], run(*arguments, "--log", cut, "--script", script), f"log cut within its head, at {length}, {arguments}")
+            check(bytes_of(cut) == complete[:length], f"log cut within its head, at {length}, and yet changed: {arguments}")
         done = run(mesh, "-o", again, "--log", cut, "--script", script)
         check(done.returncode == 0 and bytes_of(again) == expected, f"log cut within its head, at {length}: {done.stderr}")
         check(bytes_of(cut) == complete, f"log cut within its head, at {length}: it ends otherwise than without the break")
-        if length >= len(lines[0] + lines[1]):
-            cut = write(f"{folder}/cut.log", complete[:length])
-            fails(6, ["hash of this mesh"], run(other, "--log", cut), f"log of another mesh, cut at {length}")
-            check(bytes_of(cut) == complete[:length], "a log of another mesh is left as it is")
-    for changed in (b"#\n", complete[:len(lines[0]) + 40].replace(b"mesh", b"mess") + b"\n"):
-        cut = write(f"{folder}/cut.log", changed)
-        check(run(mesh, "--log", cut).returncode in (4, 6) and bytes_of(cut) == changed, f"{changed} is taken for a head")
+    first_two = b"".join(lines[:2])
+    for damaged in (complete.replace(b"\n", b"\r"), complete.replace(b"\n", b""), first_two + complete[len(first_two):].replace(b"\n", b"\r"),
+                    b"# haptic_sculpt log of my day: precious", lines[0].replace(b"log 1", b"log 2")[:-1], complete[:head - 9] + b"?"):
+        cut = write(f"{folder}/cut.log", damaged)
+        for arguments in ((), ("--script", script)):
+            check(run(mesh, "--log", cut, *arguments).returncode in (4, 6) and bytes_of(cut) == damaged, f"taken for a part of a head: {damaged[:90]}")
 
 
 SHIFTS = ("drag 3 0.1 0.1 2\nshift 2 3\n0 -1\n1 -0.5 # a comment\n2 -0x1p-1\nend\nstroke\nshift 0 2\n3 0.5\n1 1.25\nend\nend\n"

@@ -112,3 +112,65 @@ BOOST_AUTO_TEST_CASE(a_mesh_may_come_from_nothing_and_go) {
       corner.push_back(mesh.add_vertex(p));
   }
 }
+
+// In the scale of a small scene a point far out overflows: then slabs, cones and boxes know less, and lose nothing.
+BOOST_AUTO_TEST_CASE(points_far_beyond_the_scene_lose_nothing) {
+  Random random(seed());
+  constexpr double unit = 0x1p-45, far = 1e300;
+  std::size_t swept_at_all = 0;
+  for (std::size_t round = 0; round < test::count_from_environment("HAPTIC_SCULPT_QUERY_ROUNDS", 300); ++round) {
+    Mesh mesh;
+    const auto add_tetrahedron = [&mesh](const Coordinates& p, const Coordinates& size) {
+      std::array<Vertex_index, 4> v;
+      for (int k = 0; k < 4; ++k)
+        v[k] = mesh.add_vertex(Point_3(p[0] + (k == 1 ? size[0] : 0), p[1] + (k == 2 ? size[1] : 0), p[2] + (k == 3 ? size[2] : 0)));
+      for (const auto& f : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+        mesh.add_face(v[f[0]], v[f[1]], v[f[2]]);
+    };
+    // Every other star lies in a plane along an axis but for one point, which is far out along that axis: its slab has a
+    // normal with a 0 there.
+    const bool is_flat = round % 2 == 0;
+    const std::size_t axis = random() % 3;
+    const auto number = [&] { return unit * (static_cast<double>(random() % 7) - 3); };
+    const double a = number() / unit, b = number() / unit;
+    const auto point = [&] {
+      const double s = number();
+      Coordinates p;
+      p[axis] = number(), p[(axis + 1) % 3] = is_flat ? a * s : number(), p[(axis + 2) % 3] = is_flat ? b * s : number();
+      return p;
+    };
+    std::vector<Coordinates> link(3 + random() % 3);
+    for (Coordinates& p : link)
+      p = point();
+    Coordinates& out = link[random() % link.size()];
+    out = {5 * number(), 5 * number(), 5 * number()};
+    out[axis] = far * uniform(random);
+    const Swept_star_3 star{point(), point(), link.data(), link.size()};
+    for (int k = 0; k < 6; ++k) {
+      const std::size_t i = random() % link.size();
+      const std::array<Coordinates, 4> corner = {star.source, star.target, link[i], link[(i + 1) % link.size()]};
+      Coordinates p{}, size{};
+      double left = 1;
+      for (int c = 0; c < 4; ++c) {
+        const double weight = c == 3 ? left : left * std::abs(uniform(random));
+        left -= weight;
+        for (int j = 0; j < 3; ++j)
+          p[j] += weight * corner[c][j];
+      }
+      for (int j = 0; j < 3; ++j)
+        size[j] = 0.2 * unit + 0.02 * std::abs(p[j]);
+      add_tetrahedron(p, size);
+    }
+    for (int k = 0; k < 20; ++k) // so that the scale is theirs
+      add_tetrahedron(random_point(random, 4 * unit), {unit, unit, unit});
+    const std::vector<Face_index> expected = swept_faces(mesh, star);
+    swept_at_all += !expected.empty();
+    std::vector<Face_index> by_tree, by_all;
+    Box_tree_broad_phase<Mesh>(mesh).query_star(star, by_tree);
+    Brute_force_broad_phase<Mesh>(mesh).query_star(star, by_all);
+    by_tree = sorted(by_tree);
+    BOOST_TEST(std::includes(by_tree.begin(), by_tree.end(), expected.begin(), expected.end()), "round " << round);
+    BOOST_TEST(by_tree == sorted(by_all), "round " << round);
+  }
+  BOOST_TEST(test::is_enough(swept_at_all, 100));
+}

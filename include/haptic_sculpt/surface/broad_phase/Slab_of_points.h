@@ -5,6 +5,8 @@
 #include <haptic_sculpt/surface/broad_phase/Box_scale.h>
 #include <haptic_sculpt/surface/broad_phase/Swept_star_3.h>
 
+#include <limits>
+
 namespace haptic_sculpt::internal {
 
 /// What lies between two parallel planes that have a swept star between them. A long edge that goes far sideways sweeps
@@ -24,6 +26,7 @@ public:
       return;
     const Vector g = scale(star.link[0]);
     double low = 0, high = 0, across = 0;
+    bool are_finite = true;
     for (int i = 0; i < 3; ++i) {
       origin_[i] = static_cast<float>(g[i]); // any origin will do
       normal_[i] = static_cast<float>(normal[i] / largest);
@@ -35,6 +38,8 @@ public:
         const double term = double{normal_[i]} * (p[i] - double{origin_[i]});
         sum += term, size += std::abs(term);
       }
+      // A point so far out that it overflows in the scale may have no place along the normal: 0 * infinity.
+      are_finite = are_finite && size <= std::numeric_limits<double>::max();
       const double error = 0x1p-40 * size; // seven roundings of 2^-53
       low = is_first || sum - error < low ? sum - error : low;
       high = is_first || sum + error > high ? sum + error : high;
@@ -44,7 +49,7 @@ public:
     include(scale(star.target), false);
     for (std::size_t i = 0; i < star.valence; ++i)
       include(scale(star.link[i]), false);
-    is_thin_ = high - low < thickness && high - low < across / 8 && across > 0x1p-100 && across < 0x1p+100;
+    is_thin_ = are_finite && high - low < thickness && high - low < across / 8 && across > 0x1p-100 && across < 0x1p+100;
     low_ = -float_above(-low), high_ = float_above(high);
   }
 

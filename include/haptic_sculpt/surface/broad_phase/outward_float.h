@@ -13,7 +13,8 @@ namespace haptic_sculpt::internal {
 inline float next_down(float x, bool is_wanted = true) {
   std::int32_t bits;
   std::memcpy(&bits, &x, sizeof bits);
-  bits = bits == 0 ? std::numeric_limits<std::int32_t>::min() : bits; // the zero whose neighbour has the next bits
+  if ((bits == 0) & is_wanted)
+    bits = std::numeric_limits<std::int32_t>::min(); // the zero whose neighbour has the next bits
   bits += (bits < 0 ? 1 : -1) & -std::int32_t{is_wanted};
   std::memcpy(&x, &bits, sizeof bits);
   return x;
