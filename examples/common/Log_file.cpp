@@ -111,7 +111,7 @@ void Log_file::begin(const Settings& settings) {
     if (struct stat status {}; ::fstat(file_, &status) != 0 || status.st_size != 0)
       throw begun_by_another();
   }
-  append(head.substr(part_of_head_.size())); // in one write: but for a process that is killed there is no part of a head
+  append(head.substr(part_of_head_.size())); // in one write: only a process that is killed leaves a part
   if (is_made && !failure_.empty())
     ::unlink(target_.c_str());
 }

@@ -123,12 +123,13 @@ BOOST_AUTO_TEST_CASE(points_far_beyond_the_scene_lose_nothing) {
     const auto add_tetrahedron = [&mesh](const Coordinates& p, const Coordinates& size) {
       std::array<Vertex_index, 4> v;
       for (int k = 0; k < 4; ++k)
-        v[k] = mesh.add_vertex(Point_3(p[0] + (k == 1 ? size[0] : 0), p[1] + (k == 2 ? size[1] : 0), p[2] + (k == 3 ? size[2] : 0)));
+        v[k] = mesh.add_vertex(Point_3(p[0] + (k == 1 ? size[0] : 0), p[1] + (k == 2 ? size[1] : 0),
+                                       p[2] + (k == 3 ? size[2] : 0)));
       for (const auto& f : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
         mesh.add_face(v[f[0]], v[f[1]], v[f[2]]);
     };
-    // Every other star lies in a plane along an axis but for one point, which is far out along that axis: its slab has a
-    // normal with a 0 there.
+    // Every other star lies in a plane along an axis but for one point, which is far out along that axis: its slab has
+    // a normal with a 0 there.
     const bool is_flat = round % 2 == 0;
     const std::size_t axis = random() % 3;
     const auto number = [&] { return unit * (static_cast<double>(random() % 7) - 3); };
@@ -136,7 +137,8 @@ BOOST_AUTO_TEST_CASE(points_far_beyond_the_scene_lose_nothing) {
     const auto point = [&] {
       const double s = number();
       Coordinates p;
-      p[axis] = number(), p[(axis + 1) % 3] = is_flat ? a * s : number(), p[(axis + 2) % 3] = is_flat ? b * s : number();
+      p[axis] = number();
+      p[(axis + 1) % 3] = is_flat ? a * s : number(), p[(axis + 2) % 3] = is_flat ? b * s : number();
       return p;
     };
     std::vector<Coordinates> link(3 + random() % 3);
