@@ -49,7 +49,7 @@ public:
     include(scale(star.target), false);
     for (std::size_t i = 0; i < star.valence; ++i)
       include(scale(star.link[i]), false);
-    is_thin_ = are_finite && high - low < thickness && high - low < across / 8 && across > 0x1p-100 && across < 0x1p+100;
+    is_thin_ = are_finite && high - low < std::fmin(thickness, across / 8) && across > 0x1p-100 && across < 0x1p+100;
     low_ = -float_above(-low), high_ = float_above(high);
   }
 
