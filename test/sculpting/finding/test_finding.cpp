@@ -221,6 +221,36 @@ BOOST_AUTO_TEST_CASE(finding_does_not_depend_on_the_broad_phase) {
   BOOST_TEST(hits > 300u);
 }
 
+// The way overflows in the scale of the scene, along any axis and either way along it.
+BOOST_AUTO_TEST_CASE(a_way_far_beyond_the_scene_meets_what_reaches_as_far) {
+  constexpr double unit = 0x1p-45;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double far : {1e300, -1e300}) {
+      Mesh mesh;
+      const auto point = [axis, far](double along, double x, double y) {
+        std::array<double, 3> p;
+        p[axis] = far < 0 ? -along : along, p[(axis + 1) % 3] = x * unit, p[(axis + 2) % 3] = y * unit;
+        return Point_3(p[0], p[1], p[2]);
+      };
+      const auto add_tetrahedron = [&mesh](std::array<Point_3, 4> p, bool is_mirrored) {
+        if (is_mirrored)
+          std::swap(p[1], p[2]);
+        std::array<Vertex_index, 4> v;
+        std::transform(p.begin(), p.end(), v.begin(), [&mesh](const Point_3& q) { return mesh.add_vertex(q); });
+        for (const auto& f : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+          mesh.add_face(v[f[0]], v[f[1]], v[f[2]]);
+      };
+      const double end = std::abs(far);
+      add_tetrahedron({point(unit, 0, -1), point(end, 0, -1), point(end, 0, 4), point(unit, 50, 0)}, far < 0);
+      for (int k = 20; k < 26; ++k)
+        add_tetrahedron({point(5 * k * unit, 5 * k, 5 * k), point((5 * k + 1) * unit, 5 * k, 5 * k),
+                         point(5 * k * unit, 5 * k + 1, 5 * k), point(5 * k * unit, 5 * k, 5 * k + 1)}, far < 0);
+      Sculptor<Mesh> sculptor(mesh);
+      const auto hit = sculptor.first_hit(point(unit, -1, 0), point(end, 1, 0));
+      BOOST_TEST((hit && hit->face == Face_index(0) && hit->time == 0.5), "axis " << axis << ", " << far);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(finding_refuses_what_is_no_place) {
   Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
   Sculptor<Mesh> sculptor(mesh);

@@ -56,8 +56,9 @@ public:
       : source_(scale(source)), around_(scale.query(Box_3(source).include(target))) {
     for (int i = 0; i < 3; ++i) {
       const double way = (target[i] - source[i]) * scale.factor();
-      // Along an axis on which there is next to no way the box around it tells as much.
-      is_used_[i] = std::abs(way) > least_way;
+      // Along an axis on which there is next to no way the box around it tells as much; of one that overflows no time
+      // is known.
+      is_used_[i] = std::abs(way) > least_way && std::abs(way) < 1 / least_way;
       inverse_[i] = is_used_[i] ? 1 / way : 0;
     }
   }
@@ -88,7 +89,7 @@ public:
   }
 
 private:
-  static constexpr double least_way = 0x1p-1000; ///< its inverse does not overflow
+  static constexpr double least_way = 0x1p-1000; ///< its inverse does not overflow, nor does that of a way up to its inverse lose digits
 
   std::array<double, 3> source_;
   Float_box around_;
