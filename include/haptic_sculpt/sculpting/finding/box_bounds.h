@@ -89,7 +89,7 @@ public:
   }
 
 private:
-  static constexpr double least_way = 0x1p-1000; ///< its inverse does not overflow, nor does that of a way up to its inverse lose digits
+  static constexpr double least_way = 0x1p-1000; ///< from here to its inverse no inverse overflows, or loses digits
 
   std::array<double, 3> source_;
   Float_box around_;
