@@ -17,11 +17,15 @@ void* counted(std::size_t size) noexcept {
 }
 } // namespace
 
-// Not inlined, or g++ sees free() meet operator new and warns. The array and nothrow forms call these.
+// Not inlined, or g++ sees free() meet operator new and warns. The array forms call these.
 __attribute__((noinline)) void* operator new(std::size_t size) {
   if (void* p = counted(size))
     return p;
   throw std::bad_alloc();
+}
+// AddressSanitizer has one of its own, whose memory the operator delete here must not be given.
+__attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return counted(size);
 }
 __attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {
   ++allocations_so_far;
