@@ -84,7 +84,8 @@ def main():
     if code is None:
         report = {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"more than {minutes:.3g} minutes"}
     elif step.promise and code in (0, 201):  # 201: a test failed
-        report = report_of_exit(step, options.shard, options.shards, code, steps.share_of(step, options.mode, options.shards))
+        asked = steps.share_of(step, options.mode, options.shards)
+        report = report_of_exit(step, options.shard, options.shards, code, asked)
     else:
         try:
             report = json.loads(unfinished.read_text())

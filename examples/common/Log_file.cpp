@@ -89,8 +89,8 @@ void Log_file::begin(const Settings& settings) {
   }
   const std::string head = writer_.head(mesh_, settings);
   if (head.compare(0, part_of_head_.size(), part_of_head_) != 0)
-    throw Foreign_log(in_words(path_) + " holds no edit, and is not the beginning of what this command would write: "
-                      "remove it, or give another name");
+    throw Foreign_log(in_words(path_) + " lacks a whole head, and is not the beginning of the head that this command "
+                      "would write; it is left as it is: give another name, or the options it was begun with");
   const bool is_made = file_ < 0;
   if (is_made) {
     file_ = ::open(target_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

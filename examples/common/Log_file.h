@@ -56,7 +56,7 @@ private:
   std::string path_, mesh_;
   std::filesystem::path target_; ///< with links followed
   int file_ = -1;
-  off_t size_ = 0; ///< up to the end of the last whole line
+  off_t size_ = 0; ///< up to the end of what stands: the last whole line, or a part of the head
   std::optional<Log_contents> contents_;
   std::string part_of_head_; ///< all that is there where there are no contents
   Log_writer writer_;

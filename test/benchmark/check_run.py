@@ -113,6 +113,21 @@ def options_are_known():
             expect(option in text, f"{step.program} of step {step.name} has no {option}")
 
 
+def no_case_is_left_out():
+    """Of a step that is given a number of cases the shards try no fewer, and say how many."""
+    sys.path.insert(0, str(ROOT / "benchmark/common"))
+    import run_step
+    import steps
+    for step in [s for s in steps.all_steps().values() if s.count]:
+        for mode, count in step.count.items():
+            for shards in (1, 3, 48, step.effort(mode).shards):
+                share = steps.share_of(step, mode, shards)
+                given = steps.command_of(step, mode, 0, shards, "", "", 1, "")[1]
+                told = run_step.report_of_exit(step, 0, shards, 0, share)["promises"][0]["asked"]
+                expect(count <= shards * share < count + shards and str(share) in given.values() and told == share,
+                       f"{step.name}, {mode}: {shards} shards of {share} for {count}")
+
+
 def little_time(out):
     """What does not fit is listed, and made by the same command with more time."""
     little = run(out, "axis", "device", "--minutes", "0.0001")
@@ -285,6 +300,7 @@ def main():
         kill_and_resume(folder / "resumed")
         check_page(folder / "resumed")
         options_are_known()
+        no_case_is_left_out()
         missing_part()
         little_time(folder / "little_time")
         death(folder / "death", folder)

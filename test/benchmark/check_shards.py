@@ -23,7 +23,8 @@ OPTIONS = {"robustness": "--drags 40 --edits 40 --batch 20 --edit-batch 20 --ext
            "guard_for_cgal": "--quick --drags-a-vertex 2 --iterations 1 --no-large", "simplification": "--level 2",
            "hand_drags": "--level 3 --drags 600",
            "drag_performance": "--sizes 1000 --valences 3,8 --drags 30 --peer-drags 10 --core -1"}
-OF_A_MESH = {"brush_dabs": "--mesh", "threads": "--mesh", "many_vertices_speed_error": "--mesh", "simplification": "--meshes"} # where one is given
+MESH_OPTION = {"brush_dabs": "--mesh", "threads": "--mesh", "many_vertices_speed_error": "--mesh",
+               "simplification": "--meshes"}
 
 
 def untimed(value):
@@ -91,8 +92,9 @@ for program in sys.argv[2:]:
         shards[1].write_text(json.dumps(other))
         if "seed" in reports[0] and merge_of(shards, folder)[1] != 2:
             faults.append(f"{name}: a shard of another seed is merged")
-        if name in OF_A_MESH:
-            lost = subprocess.run([program, OF_A_MESH[name], str(folder / "lost.off")], capture_output=True, text=True)
+        if name in MESH_OPTION:
+            command = [program, MESH_OPTION[name], str(folder / "lost.off")]
+            lost = subprocess.run(command, capture_output=True, text=True)
             if lost.returncode != 2 or "lost.off" not in lost.stderr or lost.stderr.count("\n") != 1:
                 faults.append(f"{name}: a mesh that is not there: exit {lost.returncode}, {lost.stderr}")
         print(f"{name}: exit {code}, {len(whole.read_text())} bytes whole, {parts} in shards")

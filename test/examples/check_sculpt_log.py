@@ -24,6 +24,15 @@ def words(line):
     return line.split(b"#")[0].split()
 
 
+def checked(*lines):
+    """Lines of a log, with their checksums."""
+    text, before = "", hashlib.sha256().hexdigest()
+    for line in lines:
+        before = hashlib.sha256((before + line).encode()).hexdigest()[:16]
+        text += f"{line} # {before}\n"
+    return text.encode()
+
+
 def edits_and_log(folder, mesh):
     log, report, script = f"{folder}/edits.log", f"{folder}/edits.json", write(f"{folder}/edits.script", EDITS)
     whole, again = f"{folder}/whole.off", f"{folder}/again.off"
@@ -61,23 +70,37 @@ def edits_and_log(folder, mesh):
         done = run(mesh, "-o", again, "--log", cut, "--script", script)
         check(done.returncode == 0 and bytes_of(again) == expected, f"log cut at {length} goes on to another mesh: {done.stderr}")
         check(bytes_of(cut) == complete, f"log cut at {length}: it ends otherwise than without the break")
-    # Within its head nothing was done yet: the same command goes on with it, and no other.
+    cut_within_head(folder, mesh, script, expected, complete)
+
+
+def cut_within_head(folder, mesh, script, expected, complete):
+    """Within its head nothing was done yet: the same command goes on with it, and no other. What only resembles a part
+    of a head stays as it is."""
+    again, cut = f"{folder}/again.off", f"{folder}/cut.log"
+    lines = complete.splitlines(keepends=True)
+    head, first_two = sum(map(len, lines[:HEAD])), lines[0] + lines[1]
     other = write(f"{folder}/other.off", OCTAHEDRON)
-    for length in (0, 20, len(lines[0]), len(lines[0]) + 9, len(lines[0] + lines[1]), head - 20, head - 1):
-        cut = write(f"{folder}/cut.log", complete[:length])
-        # Where the settings stand, where some of the mesh's hash does.
-        for arguments in ((mesh, "--response", "stop"),) * (length >= head - 20) + ((other,),) * (length > len(lines[0])):
-            fails(6, ["cut.log"], run(*arguments, "--log", cut, "--script", script), f"log cut within its head, at {length}, {arguments}")
-            check(bytes_of(cut) == complete[:length], f"log cut within its head, at {length}, and yet changed: {arguments}")
+    for length in (0, 20, len(lines[0]), len(lines[0]) + 9, len(first_two), head - 20, head - 1):
+        what = f"log cut within its head, at {length}"
+        write(cut, complete[:length])
+        others = [(mesh, "--response", "stop")] if length >= head - 20 else []  # where the settings stand
+        others += [(other,)] if length > len(lines[0]) else []  # where some of the mesh's hash does
+        for arguments in others:
+            fails(6, ["cut.log"], run(*arguments, "--log", cut, "--script", script), f"{what}, {arguments}")
+            check(bytes_of(cut) == complete[:length], f"{what}, and yet changed: {arguments}")
         done = run(mesh, "-o", again, "--log", cut, "--script", script)
-        check(done.returncode == 0 and bytes_of(again) == expected, f"log cut within its head, at {length}: {done.stderr}")
-        check(bytes_of(cut) == complete, f"log cut within its head, at {length}: it ends otherwise than without the break")
-    first_two = b"".join(lines[:2])
-    for damaged in (complete.replace(b"\n", b"\r"), complete.replace(b"\n", b""), first_two + complete[len(first_two):].replace(b"\n", b"\r"),
-                    b"# haptic_sculpt log of my day: precious", lines[0].replace(b"log 1", b"log 2")[:-1], complete[:head - 9] + b"?"):
-        cut = write(f"{folder}/cut.log", damaged)
+        check(done.returncode == 0 and bytes_of(again) == expected, f"{what}: {done.stderr}")
+        check(bytes_of(cut) == complete, f"{what}: it ends otherwise than without the break")
+    unchecked = [line.decode().rsplit(" # ", 1)[0] for line in lines]
+    check(checked(*unchecked) == complete, "checksums are as the format says")
+    for damaged in (complete.replace(b"\n", b"\r"), complete.replace(b"\n", b""),
+                    first_two + complete[len(first_two):].replace(b"\n", b"\r"),
+                    checked(*unchecked[:2], *unchecked[HEAD:HEAD + 3]),  # edits behind no settings
+                    b"# haptic_sculpt log of my day: precious", lines[0].replace(b"log 1", b"log 2")[:-1],
+                    complete[:head - 9] + b"?"):
         for arguments in ((), ("--script", script)):
-            check(run(mesh, "--log", cut, *arguments).returncode in (4, 6) and bytes_of(cut) == damaged, f"taken for a part of a head: {damaged[:90]}")
+            done = run(mesh, "--log", write(cut, damaged), *arguments)
+            check(done.returncode in (4, 6) and bytes_of(cut) == damaged, f"taken for a part of a head: {damaged[:90]}")
 
 
 SHIFTS = ("drag 3 0.1 0.1 2\nshift 2 3\n0 -1\n1 -0.5 # a comment\n2 -0x1p-1\nend\nstroke\nshift 0 2\n3 0.5\n1 1.25\nend\nend\n"
@@ -217,12 +240,9 @@ def moves(folder, _):
         state[4] = (-1, 0, 1.5)
         check(points(part) == state, f"a move is made twice, cut after {count} lines: {points(part)}")
     # A log of a time when a move was logged as itself.
-    checksum, old = hashlib.sha256().hexdigest(), b""
-    for line in ("# haptic_sculpt log 1", f"mesh {sha256(mesh)}", "response slide", "clearance default", "delta 0x0p+0",
-                 f"# script {'0' * 64} after line 0", "move 0 0x1p+4 0x0p+0 0x0p+0 # line 1",
-                 "move 6 0x0p+0 0x0p+0 0x1p+0 # line 2"):
-        checksum = hashlib.sha256((checksum + line).encode()).hexdigest()[:16]
-        old += f"{line} # {checksum}\n".encode()
+    old = checked("# haptic_sculpt log 1", f"mesh {sha256(mesh)}", "response slide", "clearance default", "delta 0x0p+0",
+                  f"# script {'0' * 64} after line 0", "move 0 0x1p+4 0x0p+0 0x0p+0 # line 1",
+                  "move 6 0x0p+0 0x0p+0 0x1p+0 # line 2")
     done = run(mesh, "--log", write(log, old), "-o", out)
     check(done.returncode == 0 and bytes_of(log) == old and points(out) == pushed + lifted,
           f"an older log: {done.stderr}")

@@ -76,7 +76,7 @@ public:
   /// \throw Mesh_changed as check(). What was removed may be anywhere: even where no number equals itself.
   void check_place(std::size_t i) const {
     const Vertex_index v(static_cast<typename Vertex_index::size_type>(i));
-    if (is_elsewhere(v) && !mesh_->is_removed(v)) // in this order: the one costs memory to look at
+    if (is_elsewhere(v) && !mesh_->is_removed(v)) // last: that is one more line of memory
       check(v);
   }
 

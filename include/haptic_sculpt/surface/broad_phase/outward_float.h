@@ -8,7 +8,8 @@
 
 namespace haptic_sculpt::internal {
 
-/// The float next to x towards -infinity, if `is_wanted`, else x. No branch: that is as good as random.
+/// The float next to x towards -infinity, if `is_wanted`, else x: compiled without a branch, for which
+/// of both is wanted is as good as random.
 /// \pre x is neither NaN nor -infinity
 inline float next_down(float x, bool is_wanted = true) {
   std::int32_t bits;
