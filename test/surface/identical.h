@@ -31,9 +31,11 @@ inline std::vector<std::array<std::uint64_t, 3>> bits(const std::vector<meshes::
 }
 
 /// Same points to the bit and same faces, in the same order, each from the same corner on.
+inline bool identical(const Face_soup& a, const Face_soup& b) {
+  return bits(a.points) == bits(b.points) && a.corners == b.corners && a.first_corner == b.first_corner;
+}
 inline bool identical(const Mesh& a, const Mesh& b) {
-  const Face_soup s = face_soup(a), t = face_soup(b);
-  return bits(s.points) == bits(t.points) && s.corners == t.corners && s.first_corner == t.first_corner;
+  return identical(face_soup(a), face_soup(b));
 }
 
 } // namespace reading_and_writing
