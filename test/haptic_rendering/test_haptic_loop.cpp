@@ -11,9 +11,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
-#include <limits>
 #include <random>
-#include <string>
 
 using namespace haptic_sculpt;
 using haptic_rendering_tests::map_of_tests;
@@ -286,87 +284,6 @@ BOOST_AUTO_TEST_CASE(a_loop_of_joints_that_is_late_lets_go) {
   BOOST_TEST(run.torques.back() == Vector3d::Zero());
   BOOST_TEST(run.forces.size() >= 609u);
   BOOST_TEST(run.forces.size() <= 609u + 21); // the fade of 100 ms, by the clock
-}
-
-BOOST_AUTO_TEST_CASE(a_loop_that_is_given_no_limits_makes_them_for_the_box_of_the_mesh_and_a_tenth_beyond) {
-  Mesh mesh = meshes::to_mesh(meshes::box(1, 1)); // [0, 1]^3
-  Sculptor<Mesh> sculptor(mesh);
-  Device_description<double> description = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
-  description.viscous_friction = 0.005, description.encoder_step = 1.53e-4;
-  const Device_parameters<double> device(description);
-  const auto home = home_pose(device);
-  const Workspace_map map(40, Vector3d::Zero(), Vector3d(0.5, 0.5, 0.5), home->position);
-  const double half = (0.5 + 0.1 * std::sqrt(3.0)) / 40; // m
-  const Worst_pose worst = worst_pose(device, Force_limits(), [&](const Vector3d& p) {
-    return (p - home->position).lpNorm<Eigen::Infinity>() <= half;
-  });
-  const double passive = 2 * 0.005 / (worst.greatest * worst.greatest * worst.fading) / 0.001;
-  BOOST_TEST(passive > 1000);
-  Haptic_parameters parameters;
-  parameters.limits.ramp_time = 0;
-  const auto loop = [&](double share) {
-    parameters.coupling.stiffness = share * passive;
-    return Haptic_loop<Sculptor<Mesh>>(sculptor, device, *home, map, parameters);
-  };
-  BOOST_CHECK_THROW(loop(1.001), Unstable_coupling);
-  auto made = loop(0.999);
-  Joint_reading reading;
-  reading.theta = home->theta;
-  BOOST_TEST((made.tick(reading).fault == Loop_fault::none));
-  BOOST_TEST(*made.parameters().controller_damping > 0); // half of the largest, of the limits
-}
-
-BOOST_AUTO_TEST_CASE(arguments_are_refused_by_name_where_they_are_given) {
-  const auto refuses = [](const std::string& name, const auto& make) {
-    BOOST_CHECK_EXCEPTION(make(), Error, [&](const Error& error) {
-      BOOST_TEST_MESSAGE(error.what());
-      return std::string(error.what()).find(name) != std::string::npos;
-    });
-  };
-  Mesh mesh = meshes::to_mesh(meshes::box(1, 1));
-  Sculptor<Mesh> sculptor(mesh);
-  const Device_parameters<double> device(named_design<double>(Named_design::D1, Device_form::ditetrahedral));
-  const auto home = home_pose(device);
-  const Haptic_parameters parameters;
-  const Vector3d one(1, 1, 1);
-  const auto limits = [&](const Vector3d& lower, const Vector3d& upper, double b, double tick, double delay,
-                          double cutoff, const Force_limits& forces = Force_limits()) {
-    passivity_limits(device, forces, map_of_tests, lower, upper, b, tick, delay, cutoff);
-  };
-  const double inf = std::numeric_limits<double>::infinity();
-  for (const double bad : {std::nan(""), inf, -1.0}) {
-    refuses("delay of the torques", [&] { Passivity_observer(bad, 0.001, 0.005, 0); });
-    refuses("tick of a Passivity_observer", [&] { Passivity_observer(0, bad, 0.005, 0); });
-    refuses("friction of a Passivity_observer", [&] { Passivity_observer(0, 0.001, bad, 0); });
-    refuses("encoder step of a Passivity_observer", [&] { Passivity_observer(0, 0.001, 0.005, bad); });
-    refuses("damping of a Passivity_controller", [&] { Passivity_controller(bad, 0.001); });
-    refuses("tick of a Passivity_controller", [&] { Passivity_controller(1, bad); });
-    refuses("damping of a Passivity_controller",
-            [&] { Interaction<Joint_side>(Joint_side(device, *home, parameters), parameters, bad); });
-    refuses("reach of a Tool", [&] { Tool<Sculptor<Mesh>>(sculptor, map_of_tests, bad, 0.001); });
-    refuses("tick of a Tool", [&] { Tool<Sculptor<Mesh>>(sculptor, map_of_tests, 0.001, bad); });
-    refuses("damping of passivity_limits()", [&] { limits(-one, one, bad, 0.001, 0, 100); });
-    refuses("tick of passivity_limits()", [&] { limits(-one, one, 0, bad, 0, 100); });
-    refuses("delay of passivity_limits()", [&] { limits(-one, one, 0, 0.001, bad, 100); });
-    refuses("cutoff of passivity_limits()", [&] { limits(-one, one, 0, 0.001, 0, bad); });
-    Force_limits forces;
-    forces.full_condition = bad;
-    refuses("Force_limits::full_condition", [&] { limits(-one, one, 0, 0.001, 0, 100, forces); });
-  }
-  refuses("tick of a Passivity_observer", [] { Passivity_observer(0, 0, 0.005, 0); });
-  refuses("tick of a Passivity_controller", [] { Passivity_controller(1, 0); });
-  refuses("tick of passivity_limits()", [&] { limits(-one, one, 0, 0, 0, 100); });
-  refuses("box of passivity_limits()", [&] { limits(Vector3d(0, 0, NAN), one, 0, 0.001, 0, 100); });
-  refuses("box of passivity_limits()", [&] { limits(-one, Vector3d(0, inf, 0), 0, 0.001, 0, 100); });
-  refuses("box of passivity_limits()", [&] { limits(Vector3d(0, 0, 1.1), one, 0, 0.001, 0, 100); });
-}
-
-BOOST_AUTO_TEST_CASE(a_coupling_that_is_not_passive_is_refused) {
-  Passivity_limits limits;
-  limits.passive_stiffness = 400;
-  BOOST_CHECK_THROW(check_coupling({401, 0}, limits), Unstable_coupling);
-  BOOST_CHECK_THROW(check_coupling({NAN, 0}, limits), Unstable_coupling);
-  check_coupling({400, 0}, limits);
 }
 
 } // namespace

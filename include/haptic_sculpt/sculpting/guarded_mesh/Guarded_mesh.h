@@ -2,16 +2,14 @@
 #pragma once
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
-#include <haptic_sculpt/sculpting/Probe.h>
 #include <haptic_sculpt/sculpting/contact/Scene_bound.h>
 #include <haptic_sculpt/sculpting/edits/Editor.h>
 #include <haptic_sculpt/sculpting/finding/Surface_finder.h>
-#include <haptic_sculpt/sculpting/finding/find_face_within.h>
-#include <haptic_sculpt/sculpting/finding/is_inside.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Axis_move_at_hand.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Hand.h>
 #include <haptic_sculpt/sculpting/guarded_mesh/Inside_out_vertices.h>
+#include <haptic_sculpt/sculpting/guarded_mesh/Probe_at_hand.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <limits>
@@ -26,7 +24,6 @@ class Guarded_mesh {
 public:
   using Point = typename Mesh::Point;
   using Vertex_index = typename Mesh::Vertex_index;
-  using Face_index = typename Mesh::Face_index;
   using Result = Drag_result<Mesh>;
   using Edited = Edit_result<Mesh>;
 
@@ -42,7 +39,7 @@ public:
       , corners_(mesh)
       , editor_(mesh, broad_phase_, corners_, counters_, watch_, writing_, std::move(visitor))
       , hand_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
-      , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
+      , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_, counters_)
       , finder_(mesh, broad_phase_, corners_, counters_)
       , scene_(mesh, parameters.drag.clearance_length)
       , shifting_(mesh, counters_)
@@ -149,20 +146,10 @@ public:
     look_at_surface();
     const std::optional<double>& clearance = parameters.drag.clearance_length;
     scene_.check_clearance_serves(clearance);
-    const Coordinates at = coordinates(p);
-    if (const Face_index f = find_face_within(*mesh_, broad_phase_, at, Clearance_rule(clearance),
-                                              scene_.largest_coordinate(), faces_near_probe_);
-        f.is_valid()) {
-      const auto corners = corners_of_face(*mesh_, f);
-      return Refusal<Mesh>{Refusal_reason::too_near, {corners[0], corners[1], corners[2]}};
-    }
-    if (start == Probe_start::outside && is_inside(*mesh_, broad_phase_, at, counters_, faces_near_probe_))
-      return Refusal<Mesh>{Refusal_reason::inside, {}};
-    return std::nullopt;
+    return probe_.refuse(coordinates(p), start, Clearance_rule(clearance), scene_.largest_coordinate());
   }
 
-  /// Sweeps a point. What was looked up, and the contacts, are carried on where the last one ended here and the mesh is
-  /// the same.
+  /// Sweeps a point.
   Result drag_probe(const Point& source, const Point& target, std::vector<Point>* path,
                     const std::optional<Drag_parameters>& given) {
     const Rounding_to_nearest rounding;
@@ -172,17 +159,7 @@ public:
     hand_.tell_where_it_is();
     const Drag_parameters& drag = given ? *given : parameters.drag;
     scene_.check_clearance_serves(drag.clearance_length);
-    const Coordinates s = coordinates(source), t = coordinates(target);
-    if (!probe_.is_ready() || probe_place_ != s || probe_changes_ != changes())
-      probe_.take_point();
-    Result result;
-    settle_result(s, t, t, result); // where there is no way to go
-    probe_place_ = s == t ? t : probe_.move(s, t, drag, parameters.delta_length, result);
-    probe_changes_ = changes();
-    if (path != nullptr)
-      probe_.write_path(s, probe_place_, *path);
-    probe_.check_candidates();
-    return result;
+    return probe_.drag(coordinates(source), coordinates(target), path, drag, parameters.delta_length, changes());
   }
 
   Vertex_index nearest_vertex(const Point& p, double within) {
@@ -314,7 +291,6 @@ public:
     editor_.reserve(edits, moves, valence, candidates);
     hand_.reserve(valence, candidates);
     probe_.reserve(valence, candidates);
-    faces_near_probe_.reserve(candidates);
   }
 
   void check_unchanged() const {
@@ -340,14 +316,12 @@ private:
   Broad_phase broad_phase_;
   Face_corners<Mesh> corners_;
   Editor<Mesh, Broad_phase, Visitor> editor_;
-  Hand<Mesh, Broad_phase, Traits> hand_, probe_;
+  Hand<Mesh, Broad_phase, Traits> hand_;
+  Probe_at_hand<Mesh, Broad_phase, Traits> probe_;
   Surface_finder<Mesh, Broad_phase> finder_;
   Scene_bound<Mesh> scene_;
   Axis_move_at_hand<Mesh> shifting_;
   Inside_out_vertices<Mesh> inside_out_;
-  std::vector<Face_index> faces_near_probe_; ///< kept to allocate no more
-  Coordinates probe_place_{};                ///< where the last probe was left
-  std::uint64_t probe_changes_ = 0;          ///< the changes of the mesh by then
 
   /// What a visitor has asked for within a change was looked up in a mesh on its way: it is not used on.
   struct Forget_at_end {
