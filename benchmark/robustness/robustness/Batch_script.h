@@ -10,6 +10,9 @@
 
 namespace haptic_sculpt::robustness {
 
+/// In a script, behind a drag: it stays where it began, more than a distance from its contact. `minimise` reads that.
+constexpr const char* stays_farther_mark = " # stays farther from its contact than ";
+
 /// What a batch has done to a mesh, as a script that `sculpt` replays. Vertices are named by numbers that last.
 class Batch_script {
 public:
@@ -25,6 +28,9 @@ public:
     lines_.back().has_point = true;
   }
 
+  /// The last line is a drag that stays, farther than this from its contact.
+  void stays_farther_than(double distance) { lines_.back().farther_than = distance; }
+
   /// \param opening lines that come first
   std::string text(const std::string& opening) const {
     std::ostringstream out;
@@ -35,6 +41,8 @@ public:
         out << ' ' << line.vertices[i];
       if (line.has_point)
         out << ' ' << line.point[0] << ' ' << line.point[1] << ' ' << line.point[2];
+      if (line.farther_than > 0)
+        out << stays_farther_mark << line.farther_than;
       out << '\n';
     }
     return out.str();
@@ -47,6 +55,7 @@ private:
     std::size_t number_of_vertices = 0;
     std::array<double, 3> point{};
     bool has_point = false;
+    double farther_than = 0;
   };
   std::vector<Line> lines_;
 };

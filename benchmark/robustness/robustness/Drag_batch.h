@@ -106,7 +106,7 @@ private:
     bits_.add(result);
     tally_.contradictions += result.position != mesh_.point(v) || test::contradiction(result, start, target) != nullptr;
     ++(result.reached ? tally_.reached : tally_.blocked);
-    const double error = result.stop_error / test::clearance_kept(sculptor_, result);
+    const double clearance = test::clearance_kept(sculptor_, result), error = result.stop_error / clearance;
     const bool determined = result.contacts.size() == 1 && !result.contacts[0].is_flat;
     if (kind == Kind::short_random) {
       ++tally_.short_asked;
@@ -116,7 +116,10 @@ private:
       ++tally_.through_asked;
       if (!result.reached && mesh_.point(v) == start) {
         ++tally_.through_stayed;
-        tally_.through_lazy += determined && error > 2;
+        if (determined && error > 2) {
+          ++tally_.through_lazy;
+          script_.stays_farther_than(2 * clearance);
+        }
       }
     }
     if (determined) {
