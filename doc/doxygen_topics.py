@@ -7,7 +7,7 @@ import sys
 
 MANY = ("many_vertices/", "axis_moves/", "brushes", "move_", "Move_", "Rigid_", "apply_guarded", "guarded_point_map", "Allow_embedded",
         "isotropic_remeshing", "Remeshing_", "decimate")
-EDITS = ("edits/", "Edit", "Applied", "Stroke", "History_", "Property_origin", "Unfinished_change")
+EDITS = ("edits/", "Edit", "Applied", "Stroke", "History_", "Property_origin", "Unfinished_change", "Reentrant_call")
 FILES = ("io/", "read_surface", "write_surface", "Write_error", "Mesh_file_format")
 
 

@@ -168,7 +168,7 @@ void read_last(Line& line, const Syntax& syntax, Command& command, std::size_t& 
     }
     command.length = line.number(expected, found);
     if (command.length < 0 || (command.length == 0 && command.kind != Kind::delta))
-      line.fail(std::string("the ") + syntax.name + " must be " +
+      line.fail(std::string("the ") + (command.kind == Kind::remesh ? "length of edges" : syntax.name) + " must be " +
                 (command.kind == Kind::delta ? "at least 0" : "more than 0"));
   } else if (syntax.last == Syntax::word && command.kind == Kind::response) {
     command.word = line.word("slide, stop or paper");

@@ -115,7 +115,12 @@ private:
     std::vector<std::size_t> elements;
     for (const Vertex_index v : vertices)
       elements.push_back(sculptor_.id(v));
-    refuse(command, name_of(reason), elements.empty() ? vertices_of(command) : elements);
+    if (elements.empty())
+      elements = vertices_of(command);
+    for (const auto& [id, end] : command.edit.ways)
+      if (!sculptor_.vertex(id).is_valid())
+        elements.push_back(id);
+    refuse(command, name_of(reason), std::move(elements));
   }
 
   void tell_drag(const Command& command, Clock::time_point begin, const Applied<Mesh>& done,

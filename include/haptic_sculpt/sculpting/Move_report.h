@@ -68,7 +68,8 @@ struct Move_parameters {
   }
   /// Called before each axis move and every `drags_between_calls` drags, counted in the same way; false ends the call,
   /// with all vertices as near to their targets as they have come. What it throws goes on to the caller; what was done
-  /// by then is one step of the history.
+  /// by then is one step of the history. It may look at the mesh and ask its Sculptor; what would change something
+  /// throws Reentrant_call.
   Move_parameters& progress(std::function<bool(const Move_progress&)> function) {
     progress_function = std::move(function);
     return *this;

@@ -61,8 +61,9 @@ struct Remeshing_parameters {
     most_number_of_faces = number;
     return *this;
   }
-  /// Called every `operations_between_calls` operations; false ends the call, with the mesh as it is then. What it
-  /// throws goes on to the caller; what was done by then is one step of the history.
+  /// Called every `operations_between_calls` operations and between iterations; false ends the call, with the mesh as
+  /// it is then. What it throws goes on to the caller; what was done by then is one step of the history. It may look at
+  /// the mesh and ask its Sculptor; what would change something throws Reentrant_call.
   Remeshing_parameters& progress(std::function<bool(const Remeshing_progress&)> function) {
     progress_function = std::move(function);
     return *this;

@@ -285,7 +285,7 @@ public:
   /// one than before and does not serve the scene. Cost: reads every point where it is another one.
   void set_drag_parameters(const Drag_parameters& drag) {
     const internal::Rounding_to_nearest rounding;
-    guarded_.check_is_whole();
+    guarded_.check_may_change();
     if (drag.clearance_length != parameters().drag.clearance_length) { // else drags find what it has been outgrown by
       internal::check_length(drag.clearance_length);
       internal::check_clearance(mesh(), drag.clearance_length);

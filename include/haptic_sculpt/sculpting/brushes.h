@@ -30,8 +30,9 @@ void check_strength(const Mesh& mesh, const Dab_3<Kernel>& dab, typename Mesh::V
 /// dragged by itself nor sliding: the next dab brings it on
 /// \return what became of the vertices touched; none are asked where no vertex is within the radius
 ///
-/// One step of the history. \throw Out_of_range where a dab wants a vertex out of range, Invalid_parameter where a
-/// radius is not >= 0, or a strength more than largest_strength(): nothing has moved; Mesh_changed. Cost: some
+/// One step of the history. \throw Out_of_range where a dab wants a vertex out of range, or its radius or direction
+/// is; Invalid_parameter where a radius is not >= 0, a strength more than largest_strength(), or the mask not from 0 to
+/// 1: nothing has moved; Mesh_changed. Cost: some
 /// microseconds for each vertex touched.
 template <class Concurrency_tag = CGAL::Sequential_tag, class Sculptor, class Dab_range,
           class Mask_map = boost::static_property_map<double, typename Sculptor::Vertex_index>>
@@ -42,13 +43,16 @@ Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_ma
   const internal::Rounding_to_nearest rounding;
   const auto& mesh = sculptor.mesh();
   std::vector<std::pair<Vertex_index, Point>> wanted;
-  for (const auto& dab : dabs)
+  for (const auto& dab : dabs) {
+    internal::check_dab(dab);
+    const auto asking = internal::Sculptor_access::guarded(sculptor).asking(); // the mask
     if (const Vertex_index nearest = sculptor.nearest_vertex(dab.centre, dab.radius); nearest.is_valid()) {
       internal::check_strength(mesh, dab, nearest);
       internal::for_each_brush_target(touched_vertices(mesh, dab, nearest), mesh, dab, mask,
                                       dab.kind == Brush_kind::inflate && sculptor.is_inside_out(nearest),
                                       [&](Vertex_index v, const Point& p) { wanted.emplace_back(v, p); });
     }
+  }
   std::stable_sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Vertex_index> vertices;
   std::vector<Point> targets;

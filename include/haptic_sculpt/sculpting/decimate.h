@@ -74,6 +74,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
       choose_parameter(get_parameter(np, names::get_placement_policy), SMS::LindstromTurk_placement<Mesh>());
   const auto is_constrained = choose_parameter(get_parameter(np, names::edge_is_constrained),
                                                CGAL::Static_boolean_property_map<Edge_index, false>());
+  auto& guarded = internal::Sculptor_access::guarded(sculptor);
   constexpr bool updates = SMS::internal::Oracles_require_updates<std::decay_t<decltype(get_cost)>>::value;
   if constexpr (updates)
     get_cost.initialize(mesh, points, traits);
@@ -96,7 +97,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   };
   using Placement = std::decay_t<decltype(get_placement(std::declval<Profile>()))>;
   const auto cost_at_end = [&](const Profile& profile, Vertex_index v) {
-    const auto cost = get_cost(profile, Placement(mesh.point(v)));
+    const auto cost = guarded.ask(get_cost, profile, Placement(mesh.point(v)));
     return cost ? CGAL::to_double(*cost) : std::numeric_limits<double>::infinity();
   };
   const auto offer = [&](Edge_index e) {
@@ -107,12 +108,11 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     const Profile profile = profile_of(e);
     if (keeps_v || keeps_w)
       return queue.push(e, cost_at_end(profile, keeps_v ? v : w), true);
-    const auto placement = get_placement(profile);
-    const auto cost = placement ? get_cost(profile, placement) : decltype(get_cost(profile, placement))();
+    const auto placement = guarded.ask(get_placement, profile);
+    const auto cost = placement ? guarded.ask(get_cost, profile, placement) : decltype(get_cost(profile, placement))();
     cost ? queue.push(e, CGAL::to_double(*cost), false) : queue.leave_out(e);
   };
   const auto stroke = sculptor.stroke();
-  auto& guarded = internal::Sculptor_access::guarded(sculptor);
   const internal::Edit_trial<std::decay_t<decltype(guarded)>> trial(guarded); // draws for nothing are no edits
   // The source of h into its target, once that is at p. What was drawn there for nothing goes back the way it came.
   const auto collapses = [&](Halfedge_index h, const Point& p) {
@@ -148,9 +148,9 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   const std::size_t edges_at_first = mesh.number_of_edges();
   while (const auto entry = queue.pop()) {
     const Profile profile = profile_of(entry->edge);
-    if (should_stop(typename Traits::FT(entry->cost), profile, edges_at_first, mesh.number_of_edges()))
+    if (guarded.ask(should_stop, typename Traits::FT(entry->cost), profile, edges_at_first, mesh.number_of_edges()))
       break;
-    const auto placement = get_placement(profile);
+    const auto placement = guarded.ask(get_placement, profile);
     if (!placement)
       continue;
     const Point place = *placement;

@@ -91,8 +91,10 @@ Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, cons
                           const Move_parameters& parameters = Move_parameters(),
                           Output_iterator left_behind = Output_iterator()) {
   const internal::Rounding_to_nearest rounding;
+  auto& guarded = internal::Sculptor_access::guarded(sculptor);
+  const auto target = [&](auto v) -> decltype(auto) { return get(target_map, v); };
   return internal::move_to_targets(
-      sculptor, vertices, [&](auto v) -> decltype(auto) { return get(target_map, v); }, parameters, left_behind,
+      sculptor, vertices, [&](auto v) -> decltype(auto) { return guarded.ask(target, v); }, parameters, left_behind,
       Part_runner::by<Concurrency_tag>());
 }
 

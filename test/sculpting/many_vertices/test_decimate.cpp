@@ -203,4 +203,40 @@ BOOST_AUTO_TEST_CASE(nothing_done_is_no_step_and_what_was_undone_can_be_redone) 
   sculptor.check_unchanged();
 }
 
+BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
+  for (const std::string asked : {"stop", "cost", "placement"})
+    BOOST_TEST_CONTEXT(asked) {
+      Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
+      const Mesh before = mesh;
+      Sculptor<Mesh> sculptor(mesh);
+      std::size_t calls = 0;
+      const auto edit = [&](const char* here) {
+        if (asked == here && ++calls == 40)
+          sculptor.undo();
+      };
+      using Profile = SMS::Edge_profile<const Mesh, boost::property_map<Mesh, CGAL::vertex_point_t>::const_type,
+                                        meshes::Kernel>;
+      const auto stop = [&](double, const Profile&, std::size_t, std::size_t edges) {
+        edit("stop");
+        return edges < 100;
+      };
+      const auto cost = [&](const Profile& profile, const boost::optional<meshes::Point_3>&) {
+        edit("cost");
+        return boost::optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+      };
+      const auto placement = [&](const Profile& profile) {
+        edit("placement");
+        return boost::optional<meshes::Point_3>(CGAL::midpoint(profile.p0(), profile.p1()));
+      };
+      BOOST_CHECK_THROW(
+          haptic_sculpt::decimate(sculptor, stop, CGAL::parameters::get_cost(cost).get_placement(placement)),
+          haptic_sculpt::Reentrant_call);
+      BOOST_TEST(haptic_sculpt::validate(mesh).is_valid());
+      sculptor.check_unchanged();
+      sculptor.undo(); // what was done by then is one step, or none
+      BOOST_TEST(mesh.number_of_faces() == before.number_of_faces());
+      BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

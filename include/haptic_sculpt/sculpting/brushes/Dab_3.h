@@ -33,7 +33,7 @@ template <class Kernel>
 struct Dab_3 {
   Brush_kind kind; ///< what it does
   typename Kernel::Point_3 centre; ///< on the surface, or near it
-  double radius;   ///< > 0, in the unit of the coordinates
+  double radius;   ///< >= 0, in the unit of the coordinates; 0 touches nothing
   double strength; ///< a length or a share, as the kind says; negative: the other way
   std::optional<typename Kernel::Vector_3> direction = {}; ///< of any length; else the mean normal there
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/brushes/Dab_3.h>
+#include <haptic_sculpt/surface/coordinate_range.h>
 
 #include <boost/property_map/property_map.hpp>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace haptic_sculpt {
@@ -50,14 +53,28 @@ double largest_strength(const Mesh& mesh, const Dab_3<Kernel>& dab, typename Mes
 
 namespace internal {
 
+/// \throw Out_of_range, Invalid_parameter
+template <class Kernel>
+void check_dab(const Dab_3<Kernel>& dab) {
+  if (!(dab.radius >= 0))
+    throw Invalid_parameter("the radius of a dab must be a length >= 0, not " + number(dab.radius));
+  check_range("the radius of a dab", dab.radius);
+  if (dab.direction)
+    for (const double x : {dab.direction->x(), dab.direction->y(), dab.direction->z()})
+      check_range("the direction of a dab", x);
+}
+
 /// Calls `put(v, place)` with each vertex and where a dab wants it.
 template <class Mesh, class Kernel, class Mask_map, class Put>
 void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
                            const Dab_3<Kernel>& dab, const Mask_map& mask, bool inside_out, const Put& put) {
   using Vector_3 = typename Kernel::Vector_3;
   const auto weight = [&](typename Mesh::Vertex_index v) {
-    const double square = dab.squared_share(mesh.point(v));
-    return (1 - square) * (1 - square) * get(mask, v);
+    const double square = dab.squared_share(mesh.point(v)), part = get(mask, v);
+    if (!(part >= 0 && part <= 1))
+      throw Invalid_parameter("the mask of vertex " + std::to_string(static_cast<std::size_t>(v)) +
+                              " must be from 0 to 1, not " + number(part));
+    return (1 - square) * (1 - square) * part;
   };
   const bool has_direction = dab.kind != Brush_kind::inflate && dab.kind != Brush_kind::smooth;
   Vector_3 direction = CGAL::NULL_VECTOR, mean = CGAL::NULL_VECTOR;

@@ -56,6 +56,9 @@ void check_clearance(const Mesh& mesh, const std::optional<double>& clearance) {
   for (int i = 0; i < 3; ++i)
     widest = std::fmax(widest, extent.box.upper[i] - extent.box.lower[i]);
   const double least = unit_in_the_last_place(extent.largest), most = widest / Slide_lengths::clearances_of_retreat;
+  if (least > most)
+    throw Invalid_parameter("no clearance serves this scene: an ulp of its largest coordinate, " + number(least) +
+                            ", is more than 1/128 of its extent, " + number(most) + "; give none");
   if (!(*clearance >= least && *clearance <= most))
     throw Invalid_parameter("the clearance " + number(*clearance) + " does not serve this scene: give " +
                             number(least) + " (an ulp of its largest coordinate) to " + number(most) +

@@ -53,11 +53,12 @@ public:
   const Filter_counters& counters() const { return counters_; }
   auto& editor() { return editor_; }
   const auto& editor() const { return editor_; }
-  /// \throw Unfinished_change
+  /// To change it. \throw Reentrant_call, Unfinished_change
   auto& whole_editor() {
-    check_is_whole();
+    check_may_change();
     return editor_;
   }
+  /// \throw Unfinished_change
   const auto& whole_editor() const {
     check_is_whole();
     return editor_;
@@ -65,25 +66,35 @@ public:
 
   /// \throw Unfinished_change if a change was broken off: every way in begins with this.
   void check_is_whole() const { writing_.check(); }
+  /// The same of ways in that change anything. \throw Reentrant_call within a function of the caller's
+  void check_may_change() const { writing_.check_may_change(); }
+  /// In the middle of a call, as long as what is returned lives: functions of the caller's may look, and not edit.
+  Write_state::Asking asking() { return Write_state::Asking(writing_); }
+  /// Calls one.
+  template <class Function, class... Arguments>
+  decltype(auto) ask(const Function& function, Arguments&&... arguments) {
+    const auto now = asking();
+    return function(std::forward<Arguments>(arguments)...);
+  }
 
   void release() {
     const Rounding_to_nearest rounding; // the broad phase learns where a vertex is
-    check_is_whole();
+    check_may_change();
     hand_.release();
     probe_.let_go();
   }
   void let_go() noexcept { hand_.let_go(); }
 
-  /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed
+  /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed, Reentrant_call
   void hold(Vertex_index v, bool once) {
-    check_is_whole();
+    check_may_change();
     check_vertex(*mesh_, v);
     if (!hand_.holds(v, once))
       hand_.take(v, once, [this] { editor_.prepare_for_moves(); });
   }
   /// The same anew: without contacts, whoever is held.
   void grab(Vertex_index v) {
-    check_is_whole();
+    check_may_change();
     check_vertex(*mesh_, v);
     watch_.check_counts();
     probe_.let_go();
@@ -93,7 +104,7 @@ public:
   Result drag(Vertex_index v, const Point& target, std::vector<Point>* path,
               const std::optional<Drag_parameters>& given) {
     const Rounding_to_nearest rounding;
-    check_is_whole();
+    check_may_change();
     check_point("the target", target);
     const Drag_parameters& drag = given ? *given : parameters.drag;
     scene_.check_clearance_serves(drag.clearance_length);
@@ -281,7 +292,7 @@ public:
   }
 
   void reserve(std::size_t edits, std::size_t moves) {
-    check_is_whole();
+    check_may_change();
     if (edits > std::numeric_limits<typename Mesh::size_type>::max() || moves > most_moves)
       throw std::bad_alloc();
     std::size_t valence = Star_runs<Mesh>::most_undivided;

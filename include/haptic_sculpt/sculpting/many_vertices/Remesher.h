@@ -35,6 +35,8 @@ public:
   Remeshing_report run() {
     using Phase = Remeshing_progress::Phase;
     while (state_.report.iterations < named_.iterations) {
+      if (state_.report.iterations != 0 && !state_.is_wanted()) // also where nothing is left to do
+        break;
       if (named_.do_split && !in(Phase::split, [this] { Edge_splitter<State>(state_).run(); }))
         break;
       if (state_.report.iterations == 0) // so far no point is off the input
@@ -158,9 +160,11 @@ private:
     }
     if constexpr (Comes_after_relaxation<typename State::Project>::value) {
       targets.clear();
+      auto& guarded = Sculptor_access::guarded(state_.sculptor);
+      const auto projected = [this](Vertex_index v) { return state_.project.of_vertex(v); };
       for (const Vertex_index v : mesh_.vertices())
         if (movable_degree(v) == 0)
-          targets.emplace_back(v, state_.points.in_unit(state_.project.of_vertex(v)));
+          targets.emplace_back(v, state_.points.in_unit(guarded.ask(projected, v)));
       move_all(targets);
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/Remeshing_report.h>
+#include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
 #include <haptic_sculpt/sculpting/many_vertices/Edge_queue.h>
 #include <haptic_sculpt/sculpting/many_vertices/Input_samples.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_marks.h>
@@ -65,11 +66,17 @@ struct Remeshing_state {
   }
   void collect(Vertex_index v) { points.collect(star, v); }
 
+  /// Asks the progress function whether to go on.
+  bool is_wanted() {
+    if (!report.cancelled && parameters.progress_function)
+      report.cancelled = !Sculptor_access::guarded(sculptor).ask(
+          parameters.progress_function, Remeshing_progress{report.iterations, phase, operations});
+    return !report.cancelled;
+  }
   /// Before an operation: whether it may be made.
   bool goes_on() {
-    if (!report.cancelled && parameters.progress_function &&
-        operations % Remeshing_parameters::operations_between_calls == 0)
-      report.cancelled = !parameters.progress_function(Remeshing_progress{report.iterations, phase, operations});
+    if (operations % Remeshing_parameters::operations_between_calls == 0)
+      is_wanted();
     ++operations;
     return !report.cancelled;
   }

@@ -89,8 +89,9 @@ public:
       if (legs() >= most_legs)
         return Walk_end::limit;
       auto decision = guard.decide(x, y, rules_.delta);
-      if (is_far && decision.is_free()) { // what is near has been decided, by numbers of about one size
-        y = target;
+      if (is_far) { // what is near has been decided, by numbers of about one size; where it ends has been rounded
+        if (decision.is_free() || guard.is_free(x, target, rules_.delta))
+          y = target;
         decision = guard.decide(x, y, rules_.delta);
       }
       if (!decision.is_free()) {
