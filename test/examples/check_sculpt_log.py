@@ -11,12 +11,11 @@ import subprocess
 import tempfile
 import time
 
-from program_runs import (OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, before_open_stroke, bytes_of, check, end, fails, points,
+from program_runs import (LINES_OF_HEAD, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, before_open_stroke, bytes_of, check, end, fails, points,
                           run, sha256, surface, two_octahedra, write)
 
 EDITS = ("insert_face 0 1 2 0.2 0.2 0\ndrag 4 0.2 0.2 -0.5\ninsert_edge 1 2 0.55 0.55 0\nundo\nundo\nredo\nremove 4\n"
          "remove 4\nundo\ndrag 4 0.3 0.2 -0.25\nremove 0\nredo\n")
-HEAD = 5  # lines: version, mesh, response, clearance, delta
 
 
 def words(line):
@@ -49,15 +48,15 @@ def edits_and_log(folder, mesh):
     check(run(mesh, "-o", again, "--log", log, "--report", report).returncode == 0, "replay")
     check(bytes_of(again) == expected, "replay is exact to the bit")
     edits = json.load(open(report))["edits"]
-    check([(e["source"], e["line"], e["script_line"]) for e in edits] == [("log", i + HEAD + 1, i) for i in range(1, 13)], "sources of a replay")
+    check([(e["source"], e["line"], e["script_line"]) for e in edits] == [("log", i + LINES_OF_HEAD + 1, i) for i in range(1, 13)], "sources of a replay")
     check(run(mesh, "--script", log, "-o", again).returncode == 0, "a log is a script")
     check(bytes_of(again) == expected, "a log as a script gives the same")
     # Cut anywhere behind its head, the log gives the state after the whole lines that are left, and the script goes on from there.
     complete = bytes_of(log)
     lines = complete.splitlines(keepends=True)
-    head = sum(map(len, lines[:HEAD]))
-    check(b"".join(lines[:HEAD]).startswith(b"# haptic_sculpt log 1 # ") and words(lines[1]) == [b"mesh", sha256(mesh).encode()], "head")
-    check([words(line) for line in lines[2:HEAD]] == [[b"response", b"slide"], [b"clearance", b"default"], [b"delta", b"0x0p+0"]], "settings")
+    head = sum(map(len, lines[:LINES_OF_HEAD]))
+    check(b"".join(lines[:LINES_OF_HEAD]).startswith(b"# haptic_sculpt log 1 # ") and words(lines[1]) == [b"mesh", sha256(mesh).encode()], "head")
+    check([words(line) for line in lines[2:LINES_OF_HEAD]] == [[b"response", b"slide"], [b"clearance", b"default"], [b"delta", b"0x0p+0"]], "settings")
     for length in sorted({*range(head, head + 120, 3), *range(len(complete) - 90, len(complete)), *range(head, len(complete), 29)}):
         cut = write(f"{folder}/cut.log", complete[:length])
         kept = b"".join(lines[:complete[:length].count(b"\n")])
@@ -78,7 +77,7 @@ def cut_within_head(folder, mesh, script, expected, complete):
     of a head stays as it is."""
     again, cut = f"{folder}/again.off", f"{folder}/cut.log"
     lines = complete.splitlines(keepends=True)
-    head, first_two = sum(map(len, lines[:HEAD])), lines[0] + lines[1]
+    head, first_two = sum(map(len, lines[:LINES_OF_HEAD])), lines[0] + lines[1]
     other = write(f"{folder}/other.off", OCTAHEDRON)
     for length in (0, 20, len(lines[0]), len(lines[0]) + 9, len(first_two), head - 20, head - 1):
         what = f"log cut within its head, at {length}"
@@ -95,7 +94,7 @@ def cut_within_head(folder, mesh, script, expected, complete):
     check(checked(*unchecked) == complete, "checksums are as the format says")
     for damaged in (complete.replace(b"\n", b"\r"), complete.replace(b"\n", b""),
                     first_two + complete[len(first_two):].replace(b"\n", b"\r"),
-                    checked(*unchecked[:2], *unchecked[HEAD:HEAD + 3]),  # edits behind no settings
+                    checked(*unchecked[:2], *unchecked[LINES_OF_HEAD:LINES_OF_HEAD + 3]),  # edits behind no settings
                     b"# haptic_sculpt log of my day: precious", lines[0].replace(b"log 1", b"log 2")[:-1],
                     complete[:head - 9] + b"?"):
         for arguments in ((), ("--script", script)):
@@ -120,7 +119,7 @@ def shifts(folder, mesh):
     complete, expected = bytes_of(log), bytes_of(whole)
     check(run(mesh, "--script", log, "-o", again).returncode == 0 and bytes_of(again) == expected, "a log with shifts is a script")
     lines = complete.splitlines(keepends=True)
-    head = sum(map(len, lines[:HEAD]))
+    head = sum(map(len, lines[:LINES_OF_HEAD]))
     for length in range(head, len(complete), 11):
         cut = write(f"{folder}/cut.log", complete[:length])
         kept, begin, left = lines[:complete[:length].count(b"\n")], None, 0
@@ -176,7 +175,7 @@ def moves(folder, _):
         check(done.returncode == 0, f"{script!r}: {done.stderr}")
         check(run(mesh, "--log", log, "-o", again).returncode == 0 and bytes_of(again) == bytes_of(out),
               f"{script!r} replayed")
-        lines = [line for line in map(words, bytes_of(log).splitlines()[HEAD:]) if line]
+        lines = [line for line in map(words, bytes_of(log).splitlines()[LINES_OF_HEAD:]) if line]
         for i, line in enumerate(lines):
             if line[0] == b"shift":
                 ways = slice(i + 1, i + 1 + int(line[2]))
@@ -216,7 +215,7 @@ def moves(folder, _):
     check(b"move" not in [word for line in lines for word in words(line)[:1]], "a move in the log")
     check(points(out) == pushed + lifted, f"where they went: {points(out)}")
     other = write(f"{folder}/other.script", "drag 4 -1 0 1.5\n")
-    for length in range(sum(map(len, lines[:HEAD])), len(complete), 61):
+    for length in range(sum(map(len, lines[:LINES_OF_HEAD])), len(complete), 61):
         kept = lines[:complete[:length].count(b"\n")]
         state, left = shifted(at, kept)
         kept = b"".join(kept[:len(kept) - left])
@@ -229,7 +228,7 @@ def moves(folder, _):
         check(done.returncode == 0 and bytes_of(again) == expected, f"cut at {length}: goes on: {done.stderr}")
         check(bytes_of(cut) == complete, f"cut at {length}: the log ends otherwise than without the break")
     # Behind another script it leaves that move as it is.
-    broken = [i for i in range(HEAD, len(lines)) if lines[i].startswith(b"shift ") and b" line 3 #" in lines[i - 1]]
+    broken = [i for i in range(LINES_OF_HEAD, len(lines)) if lines[i].startswith(b"shift ") and b" line 3 #" in lines[i - 1]]
     check(len(broken) == 7, f"steps of an eighth less a 1024th: {len(broken)}")
     for count in broken:
         cut = write(f"{folder}/cut.log", b"".join(lines[:count]))
@@ -257,7 +256,7 @@ def settings(folder, mesh):
     options = ("--response", "stop", "--clearance", "0x1p-10", "--delta", "0.01")
     check(run(mesh, "--script", script, "--log", log, "-o", out, *options).returncode == 0, "with options")
     begun = bytes_of(log)
-    check([words(line) for line in begun.splitlines()[2:HEAD]]
+    check([words(line) for line in begun.splitlines()[2:LINES_OF_HEAD]]
           == [[b"response", b"stop"], [b"clearance", b"0x1p-10"], [b"delta", float(0.01).hex().encode()]], f"settings {begun}")
     for what, arguments in (("no option", ()), ("the same options", options)):
         check(run(mesh, "--log", log, "-o", again, *arguments).returncode == 0 and bytes_of(again) == bytes_of(out), f"replay with {what}")
@@ -334,7 +333,7 @@ def strokes(folder, _):
     complete, expected = bytes_of(log), bytes_of(whole)
     lines = complete.splitlines(keepends=True)
     open_strokes, within = 0, 0
-    for count in range(HEAD, len(lines) + 1):
+    for count in range(LINES_OF_HEAD, len(lines) + 1):
         for tail in (b"", lines[count][:-1]) if count < len(lines) else (b"",):
             left = b"".join(lines[:count]) + tail
             write(log, left)
@@ -362,7 +361,7 @@ def strokes(folder, _):
         check(run(mesh, "--script", log, "-o", replayed).returncode == 0 and bytes_of(replayed) == result, "two passes as a script")
     check(open_strokes >= 10 and within >= 7, f"{open_strokes} logs broke off within a stroke, {within} of these after an edit in it")
     # The first script, broken off in a stroke, goes on behind another.
-    write(log, b"".join(lines[:HEAD + 5]))
+    write(log, b"".join(lines[:LINES_OF_HEAD + 5]))
     for name in (undo, script):
         check(run(mesh, "--script", name, "--log", log, "-o", out).returncode == 0, "three passes")
     result = bytes_of(out)

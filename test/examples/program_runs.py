@@ -81,6 +81,9 @@ def before_open_stroke(lines):
     return lines[:first] if depth else None
 
 
+LINES_OF_HEAD = 5  # of a log: version, mesh, response, clearance, delta
+
+
 def whole_edits(log):
     """The lines of a log that are whole, without a batch that is not."""
     lines = log[:log.rfind(b"\n") + 1].decode().splitlines(keepends=True)

@@ -10,8 +10,9 @@ namespace haptic_sculpt {
 class Reentrant_call : public Error {
 public:
   Reentrant_call()
-      : Error("a function given to a call of this Sculptor (progress, a property map, a policy) may not change anything "
-              "while that call is under way: let it return, false where the call is to end, and edit afterwards") {}
+      : Error("a function given to a call of this Sculptor (progress, a property map, a policy) may not change "
+              "anything while that call is under way: let it return, false where the call is to end, and edit "
+              "afterwards") {}
 };
 
 } // namespace haptic_sculpt

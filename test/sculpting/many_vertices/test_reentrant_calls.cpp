@@ -88,7 +88,8 @@ std::vector<Named_call> calls() {
       {"move_rigidly",
        [=](auto& s, const Asked& a) {
          const std::vector<Vertex_index> all(s.mesh().vertices().begin(), s.mesh().vertices().end());
-         move_rigidly(s, all, CGAL::Aff_transformation_3<meshes::Kernel>(CGAL::TRANSLATION, Vector_3(1, 2, 3)), moves(a));
+         const CGAL::Aff_transformation_3<meshes::Kernel> translation(CGAL::TRANSLATION, Vector_3(1, 2, 3));
+         move_rigidly(s, all, translation, moves(a));
        }},
       {"apply_brush",
        [=](auto& s, const Asked& a) {
