@@ -6,7 +6,8 @@
 /// the others no call is made, and nothing is looked up for one. Has models haptic_sculpt::Default_edit_visitor and
 /// haptic_sculpt::Scene_visitor.
 ///
-/// Descriptors are those of the mesh. The functions do not change the mesh and do not call the Sculptor's edits.
+/// Descriptors are those of the mesh. The functions do not change the mesh, nor anything of the Sculptor:
+/// haptic_sculpt::Reentrant_call is thrown where they try. They may ask it.
 ///
 /// - *Moves.* `vertex_moved` is called once for each drag that moved its vertex, however many legs there were, and for
 /// each vertex

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a visitor asks the Sculptor in the midst of a change is not used when that is over.
+#include "sculpting/Mesh_snapshot.h"
 #include "sculpting/edits/random_edits.h"
 
 #include <CGAL/boost/graph/copy_face_graph.h>
@@ -86,4 +87,37 @@ BOOST_AUTO_TEST_CASE(a_vertex_created_is_asked_about_anew) {
   BOOST_REQUIRE((made && *made.vertex == Vertex_index(5) && has_asked));
   BOOST_TEST(sculptor.is_inside_out(*made.vertex));
   BOOST_TEST(!sculptor.is_inside_out(Vertex_index(0)));
+}
+
+// By name, in each call that the visitor hears; and what it was called within comes to the same end.
+BOOST_AUTO_TEST_CASE(edits_within_a_change_are_refused) {
+  const auto edit_all = [](bool asks) {
+    Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+    Asked_sculptor sculptor(mesh);
+    std::size_t times = 0;
+    if (asks)
+      sculptor.visitor().ask = [&] {
+        const Vertex_index v(7);
+        BOOST_CHECK_THROW(sculptor.undo(), Reentrant_call);
+        BOOST_CHECK_THROW(sculptor.drag(v, {0, 0, 0}), Reentrant_call);
+        BOOST_CHECK_THROW(sculptor.move_if_free(v, {0, 0, 0}), Reentrant_call);
+        BOOST_CHECK_THROW(sculptor.flip(mesh.edge(mesh.halfedge(v))), Reentrant_call);
+        BOOST_CHECK_THROW(sculptor.remove(v), Reentrant_call);
+        BOOST_CHECK_THROW(sculptor.shift(0, {{v, 0.5}}), Reentrant_call);
+        BOOST_CHECK_THROW(sculptor.stroke(), Reentrant_call);
+        ++times;
+      };
+    const Vertex_index v(3);
+    sculptor.drag(v, CGAL::midpoint(mesh.point(v), Point_3(0, 0, 0)));
+    sculptor.insert_on_face(Mesh::Face_index(0), in_face(mesh, Mesh::Face_index(0), 0.3, 0.3));
+    sculptor.remove(Vertex_index(9));
+    sculptor.shift(1, {{v, mesh.point(v).y() + 0.01}});
+    sculptor.undo();
+    sculptor.undo();
+    sculptor.redo();
+    BOOST_TEST((times > 20) == asks);
+    BOOST_TEST(validate(mesh).is_valid());
+    return snapshot(sculptor);
+  };
+  BOOST_TEST((edit_all(true) == edit_all(false)));
 }

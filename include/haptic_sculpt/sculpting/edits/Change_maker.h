@@ -105,7 +105,12 @@ public:
   void tell_visitor(bool does) { tells_visitor_ = does; }
 
   /// The visitor hears of a move that was made elsewhere.
-  void tell_moved(Vertex_index v) { visitor_.vertex_moved(v); }
+  void tell_moved(Vertex_index v) {
+    if constexpr (has_visitor) {
+      const Write_state::Asking asking(*writing_);
+      visitor_.vertex_moved(v);
+    }
+  }
 
   /// Room for this many edits.
   void reserve(std::size_t edits, std::size_t usual_valence) {
@@ -159,7 +164,7 @@ private:
     noted(v);
     writing_->end();
     if (tells_visitor_)
-      visitor_.vertex_moved(v);
+      tell_moved(v);
     return v;
   }
 
@@ -181,7 +186,7 @@ private:
     if constexpr (has_visitor)
       for (const auto& way : edit.ways)
         if (tells_visitor_)
-          visitor_.vertex_moved(vertex(way.first));
+          tell_moved(vertex(way.first));
     return edit.ways.empty() ? Vertex_index() : vertex(edit.ways.back().first);
   }
 
@@ -308,6 +313,7 @@ private:
   /// Values are kept, and the visitor hears, of what will die. \param v the null index where no vertex dies
   template <class Halfedges>
   void begin_to_write(Vertex_index v, const std::vector<Face_index>& faces, const Halfedges& halfedges) {
+    const Write_state::Asking asking(*writing_);
     kept_.die(ids_, v, faces, halfedges);
     if (has_visitor && tells_visitor_) {
       for (const Face_index f : faces)
@@ -326,6 +332,7 @@ private:
                     const Noted& noted) {
     noted(v);
     writing_->end();
+    const Write_state::Asking asking(*writing_);
     kept_.create(ids_, v, faces, halfedges);
     if (has_visitor && tells_visitor_) {
       if (v.is_valid())

@@ -85,9 +85,9 @@ public:
   }
   void let_go() noexcept { hand_.let_go(); }
 
-  /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed, Reentrant_call
+  /// \pre arithmetic rounds to nearest \throw Unknown_vertex, Mesh_changed
   void hold(Vertex_index v, bool once) {
-    check_may_change();
+    check_is_whole();
     check_vertex(*mesh_, v);
     if (!hand_.holds(v, once))
       hand_.take(v, once, [this] { editor_.prepare_for_moves(); });
@@ -124,6 +124,7 @@ public:
 
   bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& given) {
     const Rounding_to_nearest rounding;
+    check_may_change();
     check_point("the target", target);
     const Drag_parameters& drag = given ? *given : parameters.drag;
     hold(v, drag.is_once);
