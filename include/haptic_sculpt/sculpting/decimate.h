@@ -97,7 +97,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   };
   using Placement = std::decay_t<decltype(get_placement(std::declval<Profile>()))>;
   const auto cost_at_end = [&](const Profile& profile, Vertex_index v) {
-    const auto cost = guarded.ask(get_cost, profile, Placement(mesh.point(v)));
+    const auto cost = internal::ask(guarded, get_cost, profile, Placement(mesh.point(v)));
     return cost ? CGAL::to_double(*cost) : std::numeric_limits<double>::infinity();
   };
   const auto offer = [&](Edge_index e) {
@@ -108,8 +108,8 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     const Profile profile = profile_of(e);
     if (keeps_v || keeps_w)
       return queue.push(e, cost_at_end(profile, keeps_v ? v : w), true);
-    const auto placement = guarded.ask(get_placement, profile);
-    const auto cost = placement ? guarded.ask(get_cost, profile, placement) : decltype(get_cost(profile, placement))();
+    const auto placement = internal::ask(guarded, get_placement, profile);
+    const auto cost = placement ? internal::ask(guarded, get_cost, profile, placement) : decltype(get_cost(profile, placement))();
     cost ? queue.push(e, CGAL::to_double(*cost), false) : queue.leave_out(e);
   };
   const auto stroke = sculptor.stroke();
@@ -148,9 +148,10 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   const std::size_t edges_at_first = mesh.number_of_edges();
   while (const auto entry = queue.pop()) {
     const Profile profile = profile_of(entry->edge);
-    if (guarded.ask(should_stop, typename Traits::FT(entry->cost), profile, edges_at_first, mesh.number_of_edges()))
+    if (internal::ask(guarded, should_stop, typename Traits::FT(entry->cost), profile, edges_at_first,
+                      mesh.number_of_edges()))
       break;
-    const auto placement = guarded.ask(get_placement, profile);
+    const auto placement = internal::ask(guarded, get_placement, profile);
     if (!placement)
       continue;
     const Point place = *placement;

@@ -94,8 +94,8 @@ Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, cons
   auto& guarded = internal::Sculptor_access::guarded(sculptor);
   const auto target = [&](auto v) -> decltype(auto) { return get(target_map, v); };
   return internal::move_to_targets(
-      sculptor, vertices, [&](auto v) -> decltype(auto) { return guarded.ask(target, v); }, parameters, left_behind,
-      Part_runner::by<Concurrency_tag>());
+      sculptor, vertices, [&](auto v) -> decltype(auto) { return internal::ask(guarded, target, v); }, parameters,
+      left_behind, Part_runner::by<Concurrency_tag>());
 }
 
 } // namespace haptic_sculpt

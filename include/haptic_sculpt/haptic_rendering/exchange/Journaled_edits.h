@@ -167,6 +167,7 @@ private:
       forget();
     }
     void tell_visitor(bool does) { guarded().tell_visitor(does); }
+    auto asking() { return guarded().asking(); }
     auto& axis_move() { return guarded().axis_move(); }
     const auto& obstacles_to(int axis, const internal::Axis_ways<Mesh_type>& ways, const Part_runner& run,
                              internal::Pair_budget* pairs = nullptr) {

@@ -9,6 +9,7 @@
 #include <haptic_sculpt/surface/coordinate_range.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace haptic_sculpt::internal {
 
@@ -19,6 +20,13 @@ struct Sculptor_access {
     return sculptor.guarded_;
   }
 };
+
+/// Calls a function of the caller's in the middle of a call: what it wants to change is refused (Reentrant_call).
+template <class Guarded, class Function, class... Arguments>
+decltype(auto) ask(Guarded& guarded, const Function& function, Arguments&&... arguments) {
+  const auto asking = guarded.asking();
+  return function(std::forward<Arguments>(arguments)...);
+}
 
 /// Shifts, or moves, made while one lives are noted at its end; those taken back by then are not.
 template <class Guarded>

@@ -70,12 +70,6 @@ public:
   void check_may_change() const { writing_.check_may_change(); }
   /// In the middle of a call, as long as what is returned lives: functions of the caller's may look, and not edit.
   Write_state::Asking asking() { return Write_state::Asking(writing_); }
-  /// Calls one.
-  template <class Function, class... Arguments>
-  decltype(auto) ask(const Function& function, Arguments&&... arguments) {
-    const auto now = asking();
-    return function(std::forward<Arguments>(arguments)...);
-  }
 
   void release() {
     const Rounding_to_nearest rounding; // the broad phase learns where a vertex is

@@ -164,7 +164,8 @@ private:
     if (vertices > parameters_.drag_limit - std::min(report_.counted, parameters_.drag_limit))
       return end_out_of_work();
     if (parameters_.progress_function &&
-        !guarded_.ask(parameters_.progress_function, Move_progress{vertices_.size(), vertices, report_.drags, share})) {
+        !ask(guarded_, parameters_.progress_function,
+             Move_progress{vertices_.size(), vertices, report_.drags, share})) {
       report_.cancelled = true;
       return goes_on_ = false;
     }

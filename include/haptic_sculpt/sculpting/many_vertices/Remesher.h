@@ -164,7 +164,7 @@ private:
       const auto projected = [this](Vertex_index v) { return state_.project.of_vertex(v); };
       for (const Vertex_index v : mesh_.vertices())
         if (movable_degree(v) == 0)
-          targets.emplace_back(v, state_.points.in_unit(guarded.ask(projected, v)));
+          targets.emplace_back(v, state_.points.in_unit(ask(guarded, projected, v)));
       move_all(targets);
     }
   }

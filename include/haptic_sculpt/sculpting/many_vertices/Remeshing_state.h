@@ -69,8 +69,8 @@ struct Remeshing_state {
   /// Asks the progress function whether to go on.
   bool is_wanted() {
     if (!report.cancelled && parameters.progress_function)
-      report.cancelled = !Sculptor_access::guarded(sculptor).ask(
-          parameters.progress_function, Remeshing_progress{report.iterations, phase, operations});
+      report.cancelled = !ask(Sculptor_access::guarded(sculptor), parameters.progress_function,
+                              Remeshing_progress{report.iterations, phase, operations});
     return !report.cancelled;
   }
   /// Before an operation: whether it may be made.

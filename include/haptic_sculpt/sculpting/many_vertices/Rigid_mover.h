@@ -141,7 +141,7 @@ private:
     report_.out_of_work = vertices > parameters_.drag_limit - report_.drags;
     report_.cancelled =
         !report_.out_of_work && parameters_.progress_function &&
-        !guarded_.ask(parameters_.progress_function, Move_progress{vertices_.size(), vertices, report_.drags, share});
+        !ask(guarded_, parameters_.progress_function, Move_progress{vertices_.size(), vertices, report_.drags, share});
     if (is_ended())
       return false;
     report_.drags += vertices;

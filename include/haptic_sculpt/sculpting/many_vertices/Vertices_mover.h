@@ -100,8 +100,8 @@ private:
     const bool has_room = budget_.has_room();
     report_->cancelled =
         has_room && parameters_.progress_function && budget_.is_call_due() &&
-        !Sculptor_access::guarded(sculptor_).ask(parameters_.progress_function,
-                                                 Move_progress{vertices_.size(), behind_, report_->drags, 1});
+        !ask(Sculptor_access::guarded(sculptor_), parameters_.progress_function,
+             Move_progress{vertices_.size(), behind_, report_->drags, 1});
     return goes_on_ = has_room && !report_->cancelled;
   }
 
