@@ -109,7 +109,8 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     if (keeps_v || keeps_w)
       return queue.push(e, cost_at_end(profile, keeps_v ? v : w), true);
     const auto placement = internal::ask(guarded, get_placement, profile);
-    const auto cost = placement ? internal::ask(guarded, get_cost, profile, placement) : decltype(get_cost(profile, placement))();
+    const auto cost = placement ? internal::ask(guarded, get_cost, profile, placement)
+                                : decltype(get_cost(profile, placement))();
     cost ? queue.push(e, CGAL::to_double(*cost), false) : queue.leave_out(e);
   };
   const auto stroke = sculptor.stroke();
