@@ -12,7 +12,7 @@ import sys
 LONGEST_LINE = 100
 MOST_WORDS = {"doc/use": 1200, "doc/concepts": 1200, "doc/proofs": 1600, "doc/results": 1800, "doc": 1300}
 MOST_IN_ALL = 52200
-MOST_IN_SENTENCES = 27200 # outside of tables and code
+MOST_IN_SENTENCES = 27300 # outside of tables and code
 NOT_PLAIN = r"\b(?:is|are|was|were|be) told\b|\bthe latter\b|\bnone the less\b|\bnonetheless\b"
 # What makes a figure: a program that is built, a script, a test by its name.
 COMMAND = r"build[\w-]*/(?:benchmark|test|examples)/|\b(?:benchmark|test)/[\w/]+|\btest_\w+|\bpython3 |\bctest |\bcmake |`sculpt_window "
