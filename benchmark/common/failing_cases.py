@@ -34,7 +34,8 @@ def minimise(out, names, sculpt):
         words = [sys.executable, steps.BENCHMARK / "robustness" / "minimise", sculpt, script.with_suffix(".off"),
                  script, "--out", script.with_name(script.stem + SMALL), "--seconds", SECONDS_A_CASE]
         done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
-        said = {0: done.stdout.split(" tries")[0] + " tries", 1: "replayed by sculpt every mesh is valid: what failed is judged by robustness alone"}
+        said = {0: done.stdout.split(" tries")[0] + " tries",
+                1: "replayed by sculpt it does not fail: robustness alone judges what did"}
         otherwise = f"minimise ended with {done.returncode}: {done.stderr.strip()[-300:]}"
         note.write_text(said.get(done.returncode, otherwise) + "\n")
 

@@ -52,6 +52,11 @@ def directives_and_refusals(folder, mesh):
                      (6, "delta", "refused", "triangle-lower-than-delta"), (8, "drag", "reached", None),
                      (12, "drag", "refused", "unknown-element")], f"refusals {status}")
     edits = told["edits"]
+    shift = run(mesh, "--script", "/dev/stdin", "--report", report, script="shift 0 3\n0 0.5\n77 0.5\n99 0\nend\n")
+    shifted = json.load(open(report))["edits"]
+    check(shift.returncode == 0 and [(e["reason"], e["elements"]) for e in shifted] == [("unknown-element", [77, 99])],
+          f"a shift names the vertices that are not there: {shifted}")
+    fails(4, ["the length of edges must be more than 0"], run(mesh, "--script", "/dev/stdin", script="remesh 0\n"), "no length")
     check(edits[1]["elements"] == [2**64 - 1] and edits[1]["position"] is None and edits[1]["contacts"] == [], "unknown vertex")
     check(edits[2]["contacts"][0]["kind"] == "delta", "the delta rule blocks")
     check(edits[3]["elements"] == [0, 1, 2, 3], f"vertices of low triangles: {edits[3]}")

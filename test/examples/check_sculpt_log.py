@@ -11,8 +11,8 @@ import subprocess
 import tempfile
 import time
 
-from program_runs import (LINES_OF_HEAD, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, before_open_stroke, bytes_of, check, end, fails, points,
-                          run, sha256, surface, two_octahedra, write)
+from program_runs import (LINES_OF_HEAD, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, before_open_stroke, bytes_of, check,
+                          end, fails, points, run, sha256, surface, two_octahedra, write)
 
 EDITS = ("insert_face 0 1 2 0.2 0.2 0\ndrag 4 0.2 0.2 -0.5\ninsert_edge 1 2 0.55 0.55 0\nundo\nundo\nredo\nremove 4\n"
          "remove 4\nundo\ndrag 4 0.3 0.2 -0.25\nremove 0\nredo\n")

@@ -15,8 +15,8 @@ import subprocess
 import tempfile
 import time
 
-from program_runs import (LINES_OF_HEAD, SCULPT, SOURCE, before_open_stroke, bytes_of, check, end, failing_calls, fails, run, surface,
-                          whole_edits, write)
+from program_runs import (LINES_OF_HEAD, SCULPT, SOURCE, before_open_stroke, bytes_of, check, end, failing_calls,
+                          fails, run, surface, whole_edits, write)
 
 MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
 KILLS = int(os.environ.get("HAPTIC_SCULPT_KILLS", "12"))

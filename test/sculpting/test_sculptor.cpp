@@ -58,6 +58,11 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_refused_and_change_nothing) {
   BOOST_CHECK_THROW(Sculptor<Mesh>(mesh, parameters::clearance(0)), Invalid_parameter);
   BOOST_CHECK_THROW(Sculptor<Mesh>(mesh, parameters::clearance(1e-9).delta(-1)), Invalid_parameter);
   BOOST_CHECK_THROW(Sculptor<Mesh>(mesh, parameters::delta(10)), Invalid_surface);
+  meshes::Triangle_list list = meshes::box(1, 1);
+  Mesh far = meshes::to_mesh(list.scale_and_move(1, 0x1p50, 0, 0)); // an ulp there is a quarter of its extent
+  BOOST_CHECK_EXCEPTION(Sculptor<Mesh>(far, parameters::clearance(0.25)), Invalid_parameter, [](const Error& error) {
+    return std::string(error.what()).find("no clearance serves this scene") == 0;
+  });
   Sculptor<Mesh> sculptor(mesh);
   BOOST_CHECK_THROW(sculptor.grab(Vertex_index(4711)), Unknown_vertex);
   BOOST_CHECK_THROW(sculptor.grab(Vertex_index()), Unknown_vertex);

@@ -6,7 +6,7 @@
 #include <haptic_sculpt/sculpting/Edit.h>
 #include <haptic_sculpt/sculpting/Edit_result.h>
 #include <haptic_sculpt/sculpting/Stroke.h>
-#include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
+#include <haptic_sculpt/sculpting/edits/Sculptor_access.h>
 #include <haptic_sculpt/sculpting/first_impact.h>
 #include <haptic_sculpt/sculpting/response/Slide_path.h>
 

@@ -182,7 +182,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     }
     ++report.collapsed;
     if constexpr (updates)
-      get_cost.update_after_collapse(profile, kept);
+      internal::ask(guarded, [&] { get_cost.update_after_collapse(profile, kept); });
     for (const Vertex_index v : mesh.vertices_around_target(mesh.halfedge(kept)))
       for (const Halfedge_index g : mesh.halfedges_around_target(mesh.halfedge(v)))
         offer(mesh.edge(g));

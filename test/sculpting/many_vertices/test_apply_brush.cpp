@@ -188,11 +188,22 @@ BOOST_AUTO_TEST_CASE(dabs_that_cannot_be_made_change_nothing) {
   BOOST_TEST(apply_brush(sculptor, Dabs{}).asked == 0u);
   BOOST_TEST(apply_brush(sculptor, Dabs{{Brush_kind::grab, Point_3(9, 9, 9), 1, 1, {}}}).asked == 0u);
   BOOST_TEST(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 0, 1, {}}}).asked == 0u);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, nan, 1, {}}}), Invalid_parameter);
-  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, -1, 1, {}}}), Invalid_parameter);
-  const double inf = std::numeric_limits<double>::infinity();
-  BOOST_CHECK_THROW(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, 1, Vector_3(0, nan, 1)}}), Out_of_range);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const auto names = [](const std::string& what) {
+    return [what](const Error& error) { return std::string(error.what()).find(what) == 0; };
+  };
+  for (const double radius : {nan, -1.0})
+    BOOST_CHECK_EXCEPTION(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, radius, 1, {}}}), Invalid_parameter,
+                          names("the radius of a dab"));
+  BOOST_CHECK_EXCEPTION(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, inf, 1, {}}}), Out_of_range,
+                        names("the radius of a dab"));
+  for (const double y : {nan, inf})
+    BOOST_CHECK_EXCEPTION(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, 1, Vector_3(0, y, 1)}}), Out_of_range,
+                          names("the direction of a dab"));
+  for (const double part : {nan, -0.5, 1.5})
+    BOOST_CHECK_EXCEPTION(apply_brush(sculptor, Dabs{{Brush_kind::grab, top, 1, 1, {}}},
+                                      boost::static_property_map<double, Vertex_index>(part)),
+                          Invalid_parameter, names("the mask of vertex "));
   for (const Brush_kind kind : kinds) { // all coordinates are at most 1, and so is the radius: 2^53, 9.007e15
     for (const double strength : {9.0072e15, -9.0072e15, 1e301, 1e307, inf, -inf, nan})
       BOOST_CHECK_EXCEPTION(apply_brush(sculptor, Dabs{{kind, top, 1, strength, {}}}), Invalid_parameter,

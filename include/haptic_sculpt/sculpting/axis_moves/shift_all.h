@@ -9,37 +9,8 @@
 #include <haptic_sculpt/surface/coordinate_range.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace haptic_sculpt::internal {
-
-/// The way of functions that are no members to what a Sculptor guards.
-struct Sculptor_access {
-  template <class Sculptor>
-  static auto& guarded(Sculptor& sculptor) {
-    return sculptor.guarded_;
-  }
-};
-
-/// Calls a function of the caller's in the middle of a call: what it wants to change is refused (Reentrant_call).
-template <class Guarded, class Function, class... Arguments>
-decltype(auto) ask(Guarded& guarded, const Function& function, Arguments&&... arguments) {
-  const auto asking = guarded.asking();
-  return function(std::forward<Arguments>(arguments)...);
-}
-
-/// Shifts, or moves, made while one lives are noted at its end; those taken back by then are not.
-template <class Guarded>
-class [[nodiscard]] Edit_trial {
-public:
-  explicit Edit_trial(Guarded& guarded) : guarded_(guarded) { guarded_.begin_trial(); }
-  ~Edit_trial() { guarded_.end_trial(); }
-  Edit_trial(const Edit_trial&) = delete;
-  Edit_trial& operator=(const Edit_trial&) = delete;
-
-private:
-  Guarded& guarded_;
-};
 
 /// Whole ways or none. \throw Invalid_parameter, Unknown_vertex, Out_of_range, Mesh_changed
 template <class Guarded, class Mesh = std::decay_t<decltype(std::declval<Guarded&>().mesh())>>

@@ -117,7 +117,7 @@ void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& verti
 /// \param mask a readable property map from vertices to how much they take part, from 0 to 1
 /// \param inside_out whether the normals of the component point into the solid, as Sculptor::is_inside_out() says: a
 /// dab that inflates goes the other way then
-/// Cost: linear in the edges of `vertices`.
+/// \throw Invalid_parameter where the mask is not from 0 to 1. Cost: linear in the edges of `vertices`.
 template <class Mesh, class Kernel, class Target_map, class Mask_map>
 void fill_brush_targets(const std::vector<typename Mesh::Vertex_index>& vertices, const Mesh& mesh,
                         const Dab_3<Kernel>& dab, Target_map targets, const Mask_map& mask, bool inside_out = false) {

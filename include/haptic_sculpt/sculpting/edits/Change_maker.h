@@ -7,7 +7,7 @@
 #include <haptic_sculpt/sculpting/edits/Element_room.h>
 #include <haptic_sculpt/sculpting/edits/Kept_properties.h>
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
-#include <haptic_sculpt/sculpting/Unfinished_change.h>
+#include <haptic_sculpt/sculpting/edits/Write_state.h>
 #include <haptic_sculpt/sculpting/edits/star_edits.h>
 #include <haptic_sculpt/surface/Round_marks.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/sculpting/Remeshing_report.h>
-#include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
+#include <haptic_sculpt/sculpting/edits/Sculptor_access.h>
 #include <haptic_sculpt/sculpting/many_vertices/Edge_queue.h>
 #include <haptic_sculpt/sculpting/many_vertices/Input_samples.h>
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_marks.h>

@@ -3,7 +3,8 @@
 
 #include <haptic_sculpt/sculpting/Move_report.h>
 #include <haptic_sculpt/sculpting/Rigid_move_report.h>
-#include <haptic_sculpt/sculpting/axis_moves/shift_all.h>
+#include <haptic_sculpt/sculpting/axis_moves/Axis_move.h>
+#include <haptic_sculpt/sculpting/edits/Sculptor_access.h>
 #include <haptic_sculpt/sculpting/many_vertices/Moving_vertex.h>
 #include <haptic_sculpt/sculpting/many_vertices/Rigid_way.h>
 

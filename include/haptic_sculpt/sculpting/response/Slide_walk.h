@@ -89,7 +89,9 @@ public:
       if (legs() >= most_legs)
         return Walk_end::limit;
       auto decision = guard.decide(x, y, rules_.delta);
-      if (is_far) { // what is near has been decided, by numbers of about one size; where it ends has been rounded
+      // What is near has been decided first, by numbers of about one size. Where it ends has been rounded, so it may be
+      // blocked where the whole way is free.
+      if (is_far) {
         if (decision.is_free() || guard.is_free(x, target, rules_.delta))
           y = target;
         decision = guard.decide(x, y, rules_.delta);
