@@ -3,20 +3,20 @@
 /// \file
 /// Whatever line `device_calculator` reads, it answers by one object of finite numbers, or says why not.
 
-#define main device_calculator_main
-#include "device_calculator.cpp"
-#undef main
-
+#include <device_calculator/answer_line.h>
 #include <fuzz/Damage.h>
 #include <fuzz/Fuzz_target.h>
 #include <fuzz/require.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <sstream>
 
 namespace {
 
 using haptic_sculpt::fuzz::require;
+using nlohmann::json;
 
 std::map<std::string, std::size_t> outcomes;
 
@@ -40,22 +40,28 @@ const std::vector<std::string>& good_requests() {
   return requests;
 }
 
+bool is_finite(const json& value) {
+  if (value.is_structured())
+    return std::all_of(value.begin(), value.end(), is_finite);
+  return !value.is_number_float() || std::isfinite(value.get<double>());
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0)
     return 0;
   std::istringstream in(std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
-  Line_reader reader(in);
+  haptic_sculpt::Line_reader reader(in);
   while (reader.next()) {
-    const json found = answer_line(reader);
+    const json found = haptic_sculpt::examples::answer_line(reader);
     require(found.is_object() && found.contains("ok") && found["ok"].is_boolean(), "an answer says whether it is one");
     const std::string text = found.dump(-1, ' ', false, json::error_handler_t::replace);
     require(text.find('\n') == std::string::npos && json::accept(text), "an answer is one line of JSON");
-    require(is_finite_answer(found), "all its numbers are finite");
+    require(is_finite(found), "all its numbers are finite");
     if (!found["ok"].get<bool>())
       require(found["error"].is_string() && found["message"].is_string() &&
-                  found["message"].get<std::string>().size() <= longest_message + 3,
+                  found["message"].get<std::string>().size() <= haptic_sculpt::examples::longest_message + 3,
               "no answer has a code and a short message");
     ++outcomes[found["ok"].get<bool>() ? "answered" : found["error"].get<std::string>()];
   }

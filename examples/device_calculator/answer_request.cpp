@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mechanism as a calculator: one JSON request a line in, one JSON answer a line out. doc/use/device.md has the
-// keys.
-#include "common/json_words.h"
-#include "common/run_program.h"
+#include "device_calculator/answer_request.h"
+
 #include "device_json.h"
 #include "json_line.h"
 #include <haptic_sculpt/device.h>
 #include <haptic_sculpt/device/forward_by_all_modes.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
-#include <cstring>
-#include <iostream>
-#include <new>
 #include <optional>
 
-namespace {
+namespace haptic_sculpt {
 
-using namespace haptic_sculpt;
 using nlohmann::json;
+
+namespace {
 
 /// Past this condition number the position's rounding, magnified by the condition and then again by the Jacobian's own
 /// sensitivity, costs more digits than a caller of a calculator expects; the answer is then found again in quadruple
@@ -123,16 +119,6 @@ template <class S> json forward_answer(const Request& request, Device_pose<doubl
   return answer;
 }
 
-/// A number that is not finite has no place in an answer (and none in JSON).
-bool is_finite_answer(const json& value) {
-  if (value.is_number_float())
-    return std::isfinite(value.get<double>());
-  for (const json& part : value)
-    if ((part.is_structured() || part.is_number_float()) && !is_finite_answer(part))
-      return false;
-  return true;
-}
-
 json answer_forward(Request request) {
   Device_pose<double> pose;
   json answer = forward_answer<double>(request, &pose);
@@ -196,7 +182,9 @@ json answer_modes(const Device_parameters<double>& parameters, const Eigen::Vect
   return {{"ok", true}, {"n_modes", modes->count}, {"all_phi", all}};
 }
 
-json answer(const json& request) {
+} // namespace
+
+json examples::answer_request(const json& request) {
   if (!request.is_object())
     throw Bad_request("a request is an object");
   if (!request.contains("op") || !request["op"].is_string())
@@ -240,127 +228,4 @@ json answer(const json& request) {
   return answer_forward(r);
 }
 
-/// The request's keys that mean nothing to any operation, those of `params` as `params.KEY`: a misspelt key must not go
-/// unseen.
-json unknown_keys(const json& request) {
-  json unknown = json::array();
-  if (!request.is_object())
-    return unknown;
-  for (const auto& [key, value] : request.items()) {
-    if (!is_one_of(key, {"op", "form", "params", "theta", "thetad", "thetadd", "mode", "phi_seed", "wrench", "p"}))
-      unknown.push_back(key);
-    if (key == "params" && value.is_object())
-      for (const auto& [name, ignored] : value.items())
-        if (!is_device_key(name))
-          unknown.push_back("params." + name);
-  }
-  return unknown;
-}
-
-/// A message quotes what it complains of, which may be a whole line.
-constexpr std::size_t longest_message = 1000;
-
-json failure(const char* code, const std::string& message) {
-  return {{"ok", false},
-          {"error", code},
-          {"message", message.size() > longest_message ? message.substr(0, longest_message) + "..." : message}};
-}
-
-json answer_or_failure(const json& request) {
-  try {
-    json found = answer(request);
-    return is_finite_answer(found)
-               ? found
-               : failure("not_finite", "the numbers are so large or small that the answer overflows");
-  } catch (const No_answer& reason) {
-    return failure(reason.code(), reason.what());
-  } catch (const Bad_request& error) {
-    return failure("bad_request", error.what());
-  } catch (const Invalid_device_parameters& error) {
-    return failure("invalid_parameters", error.what());
-  }
-}
-
-json answer_line(const Line_reader& reader) {
-  if (reader.is_too_long())
-    return failure("line_too_long", "a line may have " + std::to_string(longest_line) + " bytes; this one was skipped");
-  json request;
-  try {
-    request = parse_bounded(reader.line());
-  } catch (const No_answer& error) {
-    return failure(error.code(), error.what());
-  } catch (const json::exception& error) {
-    return failure("malformed_json", examples::in_words(error));
-  }
-  json found = answer_or_failure(request);
-  json unknown = unknown_keys(request);
-  if (!unknown.empty())
-    found["unknown_keys"] = std::move(unknown);
-  return found;
-}
-
-constexpr const char* help = R"(device_calculator: the three-leg mechanism as a calculator.
-
-It reads JSON requests from its input, one a line, and prints one JSON answer a line. SI units and radians.
-
-Example: the apex above three legs at 1, 1.1 and 0.9 rad.
-  $ device_calculator <<'END'
-  {"op":"forward","form":"ditetra","params":{"R":0.03,"l1":0.07,"l2":0.1},"theta":[1,1.1,0.9]}
-  END
-  {"J":[...],"Q":[...],"condA":...,"joints":[...],"ok":true,"p":[...]}
-
-Requests: form, params and one op, with the keys it takes (those in brackets may be left out)
-  form      "ditetra" or "general"
-  params    R l1 l2 [r] [m1 m2 M] [I] [Jm] [g]; r for "general", masses for "dynamics"
-  forward   theta [mode] [phi_seed] [wrench]    pose, Jacobian, condition
-  dynamics  the same, thetad thetadd            also velocity, acceleration and both dynamic models
-  inverse   p [theta]                           joint angles; theta is the seed in the general form
-  modes     theta                               all assembly modes
-doc/use/device.md says what each key means.
-
-A request that cannot be answered gets {"ok":false,"error":CODE,"message":TEXT}, and the next line is read. Keys that
-are not known are listed in the answer as "unknown_keys". A line may have 1048576 bytes, 1000 values and 32 levels of
-nesting.
-
-usage: device_calculator [--help] < REQUESTS > ANSWERS
-Exit:  0 all lines answered (failures are answers), 1 a fault of the program, 2 wrong arguments or unreadable requests,
-       5 the answers cannot be written
-)";
-static_assert(longest_line == 1048576 && most_values == 1000 && deepest_nesting == 32, "the help text says these");
-
-int calculate(int argument_count, char** arguments) {
-  for (int k = 1; k < argument_count; ++k)
-    if (std::strcmp(arguments[k], "--help") == 0 || std::strcmp(arguments[k], "-h") == 0) {
-      std::cout << help;
-      return std::cout.flush() ? examples::done : examples::cannot_write;
-    }
-  if (argument_count > 1)
-    throw examples::Usage_error("unknown argument `" + std::string(arguments[1]) +
-                                "`. It reads JSON requests, one a line, from its input; see --help.");
-  Line_reader reader(std::cin);
-  while (reader.next()) {
-    try {
-      std::cout << answer_line(reader).dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
-    } catch (const std::bad_alloc&) { // what this line took has been given back by now
-      std::cout << R"({"error":"out_of_memory","message":"there is not enough memory to answer this line","ok":false})"
-                << std::endl;
-    }
-    if (!std::cout)
-      return examples::cannot_write;
-  }
-  if (std::cin.bad())
-    throw examples::Usage_error("the requests cannot be read");
-  return examples::done;
-}
-
-} // namespace
-
-int main(int argument_count, char** arguments) {
-  std::ios::sync_with_stdio(false); // first of all: it makes the streams anew
-  return examples::run_program(
-      "device_calculator", [&] { return calculate(argument_count, arguments); },
-      [](const std::exception& error) {
-        return dynamic_cast<const examples::Usage_error*>(&error) != nullptr ? examples::usage : examples::failed;
-      },
-      [](const std::exception& error) { return std::string(error.what()); });
-}
+} // namespace haptic_sculpt
