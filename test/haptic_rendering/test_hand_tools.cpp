@@ -131,6 +131,11 @@ BOOST_AUTO_TEST_CASE(a_zoom_that_makes_no_scale_is_refused_where_it_is_asked_for
     BOOST_CHECK_THROW(b.loop.zoom(bad), Error);
   BOOST_TEST((b.go(Vector3d::Zero()).fault == Loop_fault::none));
   BOOST_TEST(b.loop.map().scale() == map_of_tests.scale());
+  b.go(Vector3d(5, 0, 0)); // a loop of pose and force that has just begun anew takes any place
+  b.loop.restart();
+  b.go(Vector3d::Zero());
+  BOOST_CHECK_THROW(b.loop.zoom(1e306), Error); // a scale, and yet no place of the tool could be kept
+  BOOST_TEST((b.go(Vector3d::Zero()).fault == Loop_fault::none));
 }
 
 BOOST_AUTO_TEST_CASE(a_button_that_bounces_is_pressed_once_and_at_once) {

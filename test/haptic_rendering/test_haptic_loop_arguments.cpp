@@ -17,31 +17,35 @@ using Eigen::Vector3d;
 using Mesh = meshes::Mesh;
 
 BOOST_AUTO_TEST_CASE(a_loop_that_is_given_no_limits_makes_them_for_the_box_of_the_mesh_and_a_tenth_beyond) {
-  Mesh mesh = meshes::to_mesh(meshes::box(1, 1)); // [0, 1]^3
-  Sculptor<Mesh> sculptor(mesh);
-  Device_description<double> description = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
-  description.viscous_friction = 0.005, description.encoder_step = 1.53e-4;
-  const Device_parameters<double> device(description);
-  const auto home = home_pose(device);
-  const Workspace_map map(40, Vector3d::Zero(), Vector3d(0.5, 0.5, 0.5), home->position);
-  const double half = (0.5 + 0.1 * std::sqrt(3.0)) / 40; // m
-  const Worst_pose worst = worst_pose(device, Force_limits(), [&](const Vector3d& p) {
-    return (p - home->position).lpNorm<Eigen::Infinity>() <= half;
-  });
-  const double passive = 2 * 0.005 / (worst.greatest * worst.greatest * worst.fading) / 0.001;
-  BOOST_TEST(passive > 1000);
-  Haptic_parameters parameters;
-  parameters.limits.ramp_time = 0;
-  const auto loop = [&](double share) {
-    parameters.coupling.stiffness = share * passive;
-    return Haptic_loop<Sculptor<Mesh>>(sculptor, device, *home, map, parameters);
-  };
-  BOOST_CHECK_THROW(loop(1.001), Unstable_coupling);
-  auto made = loop(0.999);
-  Joint_reading reading;
-  reading.theta = home->theta;
-  BOOST_TEST((made.tick(reading).fault == Loop_fault::none));
-  BOOST_TEST(*made.parameters().controller_damping > 0); // half of the largest, of the limits
+  for (const double unit : {1.0, 0x1p900, 0x1p-900}) {
+    Mesh mesh = meshes::to_mesh(meshes::box(1, 1)); // [0, unit]^3
+    for (const auto v : mesh.vertices())
+      mesh.point(v) = {unit * mesh.point(v).x(), unit * mesh.point(v).y(), unit * mesh.point(v).z()};
+    Sculptor<Mesh> sculptor(mesh);
+    Device_description<double> description = named_design<double>(Named_design::D1, Device_form::ditetrahedral);
+    description.viscous_friction = 0.005, description.encoder_step = 1.53e-4;
+    const Device_parameters<double> device(description);
+    const auto home = home_pose(device);
+    const Workspace_map map(40 * unit, Vector3d::Zero(), unit * Vector3d(0.5, 0.5, 0.5), home->position);
+    const double half = (0.5 + 0.1 * std::sqrt(3.0)) / 40; // m
+    const Worst_pose worst = worst_pose(device, Force_limits(), [&](const Vector3d& p) {
+      return (p - home->position).lpNorm<Eigen::Infinity>() <= half;
+    });
+    const double passive = 2 * 0.005 / (worst.greatest * worst.greatest * worst.fading) / 0.001;
+    BOOST_TEST(passive > 1000);
+    Haptic_parameters parameters;
+    parameters.limits.ramp_time = 0;
+    const auto loop = [&](double share) {
+      parameters.coupling.stiffness = share * passive;
+      return Haptic_loop<Sculptor<Mesh>>(sculptor, device, *home, map, parameters);
+    };
+    BOOST_CHECK_THROW(loop(1.001), Unstable_coupling);
+    auto made = loop(0.999);
+    Joint_reading reading;
+    reading.theta = home->theta;
+    BOOST_TEST((made.tick(reading).fault == Loop_fault::none));
+    BOOST_TEST(*made.parameters().controller_damping > 0); // half of the largest, of the limits
+  }
 }
 
 BOOST_AUTO_TEST_CASE(arguments_are_refused_by_name_where_they_are_given) {

@@ -125,6 +125,31 @@ BOOST_AUTO_TEST_CASE(on_any_way_it_gives_no_more_than_a_spring_of_its_stiffness)
   BOOST_TEST(most <= 1e-6); // J; where the nearest vertex changes, the slew limit turns the force within two ticks
 }
 
+// What it gives a hand on its way in is lent: nobody has put it in before.
+BOOST_AUTO_TEST_CASE(a_hand_that_is_drawn_in_slowly_by_a_deep_snap_is_no_fault) {
+  for (const Vertex_snap& snap : {Vertex_snap{0.01, 2}, Vertex_snap{0.02, 1}, Vertex_snap{0.03, 2}}) {
+    Snap_bench b(snap);
+    BOOST_TEST(std::abs(snap.energy() - (potential(b.mesh, snap, Vector3d(1, 0, 0)))) <= 1e-15);
+    const auto& top = b.mesh.point(Mesh::Vertex_index(5));
+    const Vector3d vertex = map_of_tests.to_device(Vector3d(top.x(), top.y(), top.z()));
+    b.handle = vertex + (snap.length + 0.003) * vertex.normalized();
+    for (int k = 0; k < 100; ++k)
+      b.go(Vector3d::Zero());
+    double work = 0;
+    Vector3d force = Vector3d::Zero();
+    const Vector3d step = -5e-6 * vertex.normalized(); // 5 mm/s
+    while ((b.handle - vertex).norm() > 0.0005) {
+      work += force.dot(step);
+      const Haptic_tick& tick = b.go(step);
+      BOOST_REQUIRE((tick.fault == Loop_fault::none));
+      force = tick.rendered.force;
+    }
+    BOOST_TEST_MESSAGE(snap.length << " m, " << snap.force << " N: given to the hand " << 1e3 * work << " of "
+                                   << 1e3 * snap.energy() << " mJ");
+    BOOST_TEST(work > 0.8 * snap.energy()); // or the case was none
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_vertex_in_hand_is_not_drawn_and_what_is_not_passive_is_refused) {
   Snap_bench b(snap_of_tests);
   b.go(Vector3d::Zero());

@@ -35,6 +35,8 @@ BOOST_AUTO_TEST_CASE(a_watchdog_sees_each_fault_and_nothing_else) {
   BOOST_TEST((fault(bad) == Loop_fault::jump));
   bad = reading, bad.elapsed = 0.03;
   BOOST_TEST((fault(bad) == Loop_fault::stall));
+  bad = reading, bad.elapsed = 1e-320; // a step over it would be an infinite velocity
+  BOOST_TEST((fault(bad) == Loop_fault::clock));
   bad = reading, bad.torque[0] = -0.22;
   BOOST_TEST((fault(bad) == Loop_fault::torque));
   BOOST_TEST(!dog.check_condition(std::numeric_limits<double>::infinity()));

@@ -38,7 +38,7 @@ private:
     parameters.check();
     const Box_3 box = internal::mesh_box(sculptor.mesh());
     const Eigen::Vector3d lower(box.lower.data()), upper(box.upper.data());
-    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (upper - lower).norm());
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (upper - lower).stableNorm());
     return passivity_limits(device, parameters.limits, map, lower - margin, upper + margin, parameters.coupling.damping,
                             parameters.tick, parameters.delay, parameters.virtual_mass.cutoff);
   }

@@ -17,10 +17,11 @@ namespace haptic_sculpt {
 /// (1 - f) tau(k - n) + f tau(k - n - 1). Exact for whole delays and exact angles.
 class Passivity_observer {
 public:
-  /// \param tick s \param viscous_friction N m s/rad \param encoder_step rad; 0: exact angles
+  /// \param tick s \param viscous_friction N m s/rad \param encoder_step rad; 0: exact angles \param lent J, what a
+  /// potential may give before anybody has put it in: how deep it is
   /// \throw Error naming what no device has
-  Passivity_observer(double delay_in_ticks, double tick, double viscous_friction, double encoder_step)
-      : delay_(delay_in_ticks), tick_(tick), friction_(viscous_friction), encoder_step_(encoder_step) {
+  Passivity_observer(double delay_in_ticks, double tick, double viscous_friction, double encoder_step, double lent = 0)
+      : delay_(delay_in_ticks), tick_(tick), friction_(viscous_friction), encoder_step_(encoder_step), lent_(lent) {
     internal::require_tick("the tick of a Passivity_observer", tick);
     internal::require_number("the viscous friction of a Passivity_observer", "N m s/rad", viscous_friction, 0, 1e5);
     internal::require_number("the encoder step of a Passivity_observer", "rad", encoder_step, 0, 1);
@@ -60,7 +61,7 @@ public:
     forgotten_ = std::fmax(forgotten_, energy() + dissipated_ - returnable);
   }
   /// Begins anew with nothing taken or given.
-  void restart() { *this = Passivity_observer(delay_.ticks(), tick_, friction_, encoder_step_); }
+  void restart() { *this = Passivity_observer(delay_.ticks(), tick_, friction_, encoder_step_, lent_); }
   /// The torque of this tick without what carries the mechanism's own weight, N m.
   void command(const Eigen::Vector3d& torque) { delay_.command(torque); }
 
@@ -68,7 +69,7 @@ public:
   double energy() const { return port_ + credit_; } ///< J, with the credit for encoder steps
   double dissipated() const { return dissipated_; } ///< J, by viscous friction, as the joint steps say
   /// Whether the device has given more than anything that is allowed for can explain.
-  bool is_active() const { return balance() < permitted; }
+  bool is_active() const { return balance() < permitted - lent_; }
   /// energy() + dissipated(), J, less what has been forgotten.
   double balance() const { return energy() + dissipated_ - forgotten_; }
   /// J: what the loop may seem to have given, beyond the credit for encoders. A stiffness that grows while a hand
@@ -79,7 +80,7 @@ public:
 
 private:
   Torque_delay<double> delay_;
-  double tick_, friction_, encoder_step_;
+  double tick_, friction_, encoder_step_, lent_;
   double port_ = 0, credit_ = 0, dissipated_ = 0, least_ = 0, forgotten_ = 0;
   std::array<double, 3> since_{}; ///< s, since each joint's last step
 };

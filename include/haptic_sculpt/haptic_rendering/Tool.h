@@ -30,6 +30,8 @@ public:
 
   /// In free motion the offset of the target fades with this time, s.
   static constexpr double offset_time = 0.2;
+  /// m: beside a vertex that is let go of the probe is put in parts of the reach.
+  static constexpr double least_reach = 1e-9;
 
   /// \param reach of a grab, in the device, m \param tick s \throw Error naming what cannot be used
   Tool(Sculptor& sculptor, const Workspace_map& map, double reach, double tick)
@@ -38,7 +40,7 @@ public:
       , reach_(reach)
       , offset_share_(std::exp(-tick / offset_time))
       , mesh_edits_(sculptor) {
-    internal::require_number("the reach of a Tool, that of a grab,", "m", reach, 0, 1);
+    internal::require_number("the reach of a Tool, that of a grab,", "m", reach, least_reach, 1);
     internal::require_number("the tick of a Tool", "s", tick, 0, 1);
   }
 
@@ -50,6 +52,8 @@ public:
     const internal::Rounding_to_nearest rounding;
     const Eigen::Vector3d hand = map_.to_scene(handle);
     Tool_step step;
+    if (grab_ && !holds_vertex()) // somebody beside the tool took or removed it
+      let_go();
     const bool held_vertex = holds_vertex();
     step.event = press(hand, button);
     const bool has_changed_hands = holds_vertex() != held_vertex;
@@ -147,10 +151,14 @@ public:
   /// From here on in another map of the same scene. What is held stays where it is, anchored at the next move().
   void change_map(const Workspace_map& map) { map_ = map, is_anchored_ = false, offset_.setZero(); }
 
-  /// What is done from here on goes to it. nullptr: to none
-  void keep_journal(Edit_journal* journal) { mesh_edits_.keep_journal(journal); }
+  /// What is done from here on goes to it, nullptr: to none. Lets go where that is another one than before.
+  void keep_journal(Edit_journal* journal) {
+    if (journal != mesh_edits_.journal())
+      let_go();
+    mesh_edits_.keep_journal(journal);
+  }
 
-  bool holds_vertex() const { return grab_.has_value(); }           ///< the probe does not count
+  bool holds_vertex() const { return vertex().is_valid(); }         ///< the probe does not count
   bool holds_probe() const { return !grab_ && probe_.has_value(); } ///< the probe is what is dragged
   /// That is held; null where none is.
   Vertex_index vertex() const { return grab_ ? grab_->vertex() : Vertex_index(); }
@@ -287,7 +295,8 @@ private:
     const Eigen::Vector3d place = place_of(v), away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
     grab_.reset();
     mesh_edits_.end_stroke();
-    placement_ = Probe_placement{place, away, place};
+    if (carries_probe_)
+      placement_ = Probe_placement{place, away, place};
     return Tool_event::released;
   }
 
@@ -328,7 +337,7 @@ private:
     grab_.reset();
     const auto made = mesh_edits_.make(Edit::of(Edit_kind::remove, {sculptor_->id(v), 0, 0}));
     mesh_edits_.end_stroke();
-    if (was_held)
+    if (was_held && carries_probe_)
       placement_ = Probe_placement{place, away, place};
     return made ? Tool_event::removed : Tool_event::refused;
   }

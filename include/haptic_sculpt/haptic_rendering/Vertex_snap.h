@@ -13,7 +13,7 @@ namespace haptic_sculpt {
 /// It has the potential min over all vertices of u(distance), whose second derivatives are at most stiffness(): a force
 /// that is held for a tick gives at most half of that times the square of the handle's step, as a spring of that
 /// stiffness does. So it counts as one where limits of passivity are checked. To take a vertex in hand, and to let go
-/// of it, switches it off and on, and may give force x length / 2.
+/// of it, switches it off and on, and may give energy().
 struct Vertex_snap {
   static constexpr double least_length = 1e-5; ///< m, unless it is 0: below it are the counts of encoders
   double length = 0;                           ///< m; 0: no snap
@@ -21,6 +21,8 @@ struct Vertex_snap {
 
   /// Of the steepest part, N/m.
   double stiffness() const { return length > 0 ? 2 * force / length : 0; }
+  /// How deep the potential is: what a hand is given that comes to a vertex, J.
+  double energy() const { return length > 0 ? force * length / 2 : 0; }
 
   /// The force on the hand, N. \param way from the hand to the nearest vertex, m
   Eigen::Vector3d force_for(const Eigen::Vector3d& way) const {

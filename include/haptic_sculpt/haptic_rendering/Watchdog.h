@@ -104,9 +104,11 @@ private:
   /// Ticks over which the mean runs: ticks of ten times the time are seen in the fourth, and one stall of twenty times
   /// it alone is none.
   static constexpr double memory = 64, longest = 20; ///< ticks; so much of one reading counts
+  /// s: no device is read twice within it, and a step over much less would be no velocity any more.
+  static constexpr double shortest = 1e-9;
 
   void compare(const Eigen::Vector3d& coordinates, double elapsed) {
-    if (!(elapsed > 0) || !std::isfinite(elapsed)) {
+    if (!(elapsed >= shortest) || !std::isfinite(elapsed)) {
       report(Loop_fault::clock);
       return;
     }

@@ -16,22 +16,38 @@ inline Outcome<Device_pose<double>> home_pose(const Device_parameters<double>& p
                             Device_vector<double>((parameters.least_angle() + parameters.greatest_angle()) / 2));
 }
 
+namespace internal {
+
+/// m. A millimetre, or for arms of metres a thousandth of one: else their workspaces would take minutes.
+inline double step_through_workspace(const Device_parameters<double>& parameters) {
+  const Device_description<double>& lengths = parameters.description();
+  return std::fmax(1e-3, 1e-3 * (lengths.primary_length + lengths.secondary_length));
+}
+
+} // namespace internal
+
 /// The pose, of either form, with the handle at `position`, reached from `start` on a straight line through regular
 /// poses.
 ///
-/// Newton's method on the position in steps of at most a millimetre, to 1e-12 m. Failures: those of the kinematics on
-/// the way; `unreachable` where the way leaves the joint limits or cond(J) exceeds `most_condition`, or no step comes
-/// nearer; shortfall the distance left, m.
+/// Newton's method on the position in steps of at most a millimetre (of arms longer than 1 m, a thousandth of them), to
+/// 1e-12 m. Failures: those of the kinematics on the way; `not_finite` for such a position; `unreachable` where the way
+/// leaves the joint limits or cond(J) exceeds `most_condition`, or no step comes nearer; shortfall the distance left,
+/// m.
 inline Outcome<Device_pose<double>> reach_position(const Device_parameters<double>& parameters,
                                                    const Device_pose<double>& start,
                                                    const Device_vector<double>& position, double most_condition = 50) {
   using Result = Outcome<Device_pose<double>>;
-  constexpr double longest_step = 1e-3, precision = 1e-12;
+  constexpr double precision = 1e-12;
+  const double longest_step = internal::step_through_workspace(parameters);
   Device_pose<double> pose = start;
   const Device_vector<double> way = position - start.position;
-  const int steps = 1 + static_cast<int>(way.norm() / longest_step);
-  for (int k = 1; k <= steps; ++k) {
-    const Device_vector<double> aim = start.position + way * (double(k) / steps);
+  const double length = way.stableNorm();
+  if (!std::isfinite(length))
+    return Result(Device_status::not_finite, length);
+  // No integer: of a place far off there are more than these hold, and few are taken.
+  const double steps = 1 + std::floor(length / longest_step);
+  for (double k = 1; k <= steps; ++k) {
+    const Device_vector<double> aim = start.position + way * (k / steps);
     for (int iteration = 0; iteration < 20 && (aim - pose.position).norm() > precision; ++iteration) {
       const auto map = jacobian(parameters, pose);
       if (!map || !(translation_conditioning(*map).condition <= most_condition))
@@ -49,11 +65,11 @@ inline Outcome<Device_pose<double>> reach_position(const Device_parameters<doubl
 }
 
 /// The radius of the largest ball about the handle's place at `home` in which a straight way leads to poses with
-/// cond(J) of at most `most_condition` within the joint limits; tried in 200 directions, to a millimetre.
+/// cond(J) of at most `most_condition` within the joint limits; tried in 200 directions, in steps as above.
 inline double workspace_radius(const Device_parameters<double>& parameters, const Device_pose<double>& home,
                                double most_condition = 10) {
   constexpr int directions = 200;
-  constexpr double step = 1e-3;                        // metres: how finely the radius is found
+  const double step = internal::step_through_workspace(parameters);
   constexpr double golden_angle = 2.39996322972865332; // radians: spreads directions evenly over the sphere
   double radius = std::numeric_limits<double>::infinity();
   for (int k = 0; k < directions; ++k) {

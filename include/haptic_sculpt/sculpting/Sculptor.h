@@ -220,6 +220,8 @@ public:
   /// Bounds the history, in steps or bytes (`history().bytes()`), or turns it off; without limit at first. The oldest
   /// steps are forgotten; a stroke that alone is larger is not kept, nor is anything before it.
   void set_history_limit(const History_limit& limit) { guarded_.whole_editor().history().set_limit(limit); }
+  /// Forgets all of it, as where a log begins; the limit stays, and the room. A stroke under way is not kept.
+  void forget_history() { guarded_.whole_editor().history().forget(); }
 
   /// Makes room, in the mesh too: after it this many edits (flips, collapses, creations, removals) and this many moves
   /// allocate nothing, nor do undo and redo, as long as no vertex has more neighbours than any has now, or 28, no star

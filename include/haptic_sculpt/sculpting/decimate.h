@@ -47,7 +47,8 @@ struct Decimation_report {
 ///
 /// The whole is one stroke, and no step of undo where nothing has changed; after undo all is as it was. The mesh has
 /// removed elements afterwards. Values of property maps go on as Sculptor::keep() says.
-/// \throw Mesh_changed, Out_of_range if a placement is; what the policies throw
+/// \throw Mesh_changed, Out_of_range if a placement is, or the mesh for Lindstrom and Turk's costs, which are sixth
+/// powers of lengths: coordinates up to 2^160; what the policies throw. What has collapsed by then stays so
 /// Cost: that of CGAL's function and two drags an edge.
 template <class Sculptor, class Should_stop, class Named_parameters = CGAL::parameters::Default_named_parameters>
 Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
@@ -86,7 +87,13 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   double largest = 0;
   for (const Vertex_index v : mesh.vertices())
     largest = std::fmax(largest, internal::largest_magnitude(vertex_coordinates(mesh, v)));
-  const double unit = internal::unit_of(largest); // in which areas, and their products, are the same at every scale
+  constexpr double largest_of_cost = 0x1p160;
+  constexpr bool is_default = std::is_same<std::decay_t<decltype(get_cost)>, SMS::LindstromTurk_cost<Mesh>>::value;
+  if (is_default && largest > largest_of_cost)
+    throw Out_of_range("a coordinate of " + internal::number(largest) + " is too large for Lindstrom and Turk's costs: " +
+                       "scale the mesh below 2^160, or give get_cost and get_placement");
+  // In which areas, and their products, are the same at every scale.
+  const double unit = internal::unit_of(largest);
   internal::Collapse_queue<Mesh> queue(mesh, unit);
   // An end of a constrained edge stays where it is; others may go into it.
   const auto is_fixed = [&](Vertex_index v) {
@@ -96,6 +103,12 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     return false;
   };
   using Placement = std::decay_t<decltype(get_placement(std::declval<Profile>()))>;
+  const auto placement_of = [&](const Profile& profile) {
+    const auto placement = internal::ask(guarded, get_placement, profile);
+    if (placement)
+      internal::check_point("the placement of an edge", *placement);
+    return placement;
+  };
   const auto cost_at_end = [&](const Profile& profile, Vertex_index v) {
     const auto cost = internal::ask(guarded, get_cost, profile, Placement(mesh.point(v)));
     return cost ? CGAL::to_double(*cost) : std::numeric_limits<double>::infinity();
@@ -108,7 +121,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     const Profile profile = profile_of(e);
     if (keeps_v || keeps_w)
       return queue.push(e, cost_at_end(profile, keeps_v ? v : w), true);
-    const auto placement = internal::ask(guarded, get_placement, profile);
+    const auto placement = placement_of(profile);
     const auto cost = placement ? internal::ask(guarded, get_cost, profile, placement)
                                 : decltype(get_cost(profile, placement))();
     cost ? queue.push(e, CGAL::to_double(*cost), false) : queue.leave_out(e);
@@ -152,7 +165,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     if (internal::ask(guarded, should_stop, typename Traits::FT(entry->cost), profile, edges_at_first,
                       mesh.number_of_edges()))
       break;
-    const auto placement = internal::ask(guarded, get_placement, profile);
+    const auto placement = placement_of(profile);
     if (!placement)
       continue;
     const Point place = *placement;

@@ -42,6 +42,23 @@ BOOST_AUTO_TEST_CASE(paths_are_read_or_refused_by_line_and_column) {
   refused("t,x,y,z,button\n0,0,0,0,0\n0,0,0,0,0\n", "line 3");
 }
 
+BOOST_AUTO_TEST_CASE(what_is_read_gives_finite_places_and_velocities) {
+  const auto reads = [](const std::string& rows) {
+    try {
+      const Hand_path path = Hand_path::parse("t,x,y,z,button\n" + rows, "p");
+      for (const double time : {path.rows().front().time, path.rows()[1].time, path.end()})
+        BOOST_TEST((path.at(time).position.allFinite() && path.at(time).velocity.allFinite()));
+      return true;
+    } catch (const Hand_path_error&) {
+      return false;
+    }
+  };
+  BOOST_TEST(reads("0,-1e9,1e9,0,0\n1e-9,1e9,-1e9,0,0\n1e9,0,0,0,0\n"));
+  BOOST_TEST(!reads("0,-1e308,0,0,0\n1,1e308,0,0,0\n"));
+  BOOST_TEST(!reads("-1e308,0,0,0,0\n1e308,0,0,0,0\n"));
+  BOOST_TEST(!reads("0,0,0,0,0\n1e-320,1,0,0,0\n"));
+}
+
 BOOST_AUTO_TEST_CASE(a_hand_comes_to_rest_where_it_wants_to_be) {
   const Hand_path path({{0, {0.004, 0.002, 0.136}, 0}});
   for (const Simulated_hand& hand : {Simulated_hand::finger(), Simulated_hand::arm()}) {

@@ -203,6 +203,42 @@ BOOST_AUTO_TEST_CASE(nothing_done_is_no_step_and_what_was_undone_can_be_redone) 
   sculptor.check_unchanged();
 }
 
+BOOST_AUTO_TEST_CASE(placements_and_meshes_out_of_range_are_refused_by_name) {
+  const auto stop = [](const auto&, const auto&, std::size_t, std::size_t edges) { return edges < 100; };
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 0x1p1001})
+    for (const int from : {1, 1000}) {
+      Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
+      const Mesh before = mesh;
+      Sculptor<Mesh> sculptor(mesh);
+      int calls = 0;
+      const auto cost = [](const auto& profile, const auto&) {
+        return boost::optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+      };
+      const auto placement = [&](const auto& profile) {
+        return boost::optional<meshes::Point_3>(++calls < from ? CGAL::midpoint(profile.p0(), profile.p1())
+                                                               : meshes::Point_3(0, bad, 0));
+      };
+      BOOST_CHECK_THROW(
+          haptic_sculpt::decimate(sculptor, stop, CGAL::parameters::get_cost(cost).get_placement(placement)),
+          haptic_sculpt::Out_of_range);
+      BOOST_TEST(haptic_sculpt::validate(mesh).is_valid());
+      BOOST_TEST((mesh.number_of_edges() < before.number_of_edges()) == (from > 1)); // what had collapsed, stands
+      sculptor.undo();
+      BOOST_TEST(mesh.number_of_faces() == before.number_of_faces());
+      BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
+    }
+  for (const double unit : {0x1p150, 0x1p200}) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
+    for (const auto v : mesh.vertices())
+      mesh.point(v) = meshes::Point_3(unit * mesh.point(v).x(), unit * mesh.point(v).y(), unit * mesh.point(v).z());
+    Sculptor<Mesh> sculptor(mesh);
+    if (unit < 0x1p160)
+      BOOST_TEST(haptic_sculpt::decimate(sculptor, stop).collapsed > 100u);
+    else
+      BOOST_CHECK_THROW(haptic_sculpt::decimate(sculptor, stop), haptic_sculpt::Out_of_range);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
   for (const std::string asked : {"stop", "cost", "placement"})
     BOOST_TEST_CONTEXT(asked) {

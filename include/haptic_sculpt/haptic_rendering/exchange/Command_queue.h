@@ -29,7 +29,7 @@ struct Loop_command {
     let_go, ///< what the hand holds, until the button is pressed again
     edit,   ///< `edit`, no stroke and no end; to undo, a grab from the button's press to its release is one step
     task,   ///< `task`; what is asked for later is done beside it
-    enter,  ///< `scene` in place of the one sculpted so far, which comes back, once no task is under way
+    enter,  ///< another `scene` than the one sculpted so far, which comes back, once no task is under way
     clutch, ///< opened or closed, as `opens` says
     zoom,   ///< by `factor`, once the clutch is closed
     restart ///< after a fault

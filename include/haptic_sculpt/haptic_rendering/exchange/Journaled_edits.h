@@ -36,6 +36,7 @@ public:
   /// From here on in another scene, without a journal. \pre no stroke is under way
   void enter(Sculptor& sculptor) { sculptor_ = &sculptor, journal_ = nullptr; }
   void keep_journal(Journal* journal) { journal_ = journal; } ///< nullptr: none
+  Journal* journal() const { return journal_; }               ///< that is kept now
 
   /// What follows is one step of undo; the stroke under way ends.
   void begin_stroke() {

@@ -25,13 +25,17 @@ public:
   /// Changed faces that are passed on by a tick, about 50 microseconds.
   static constexpr std::size_t faces_a_tick = 1000;
 
-  /// All must outlive this; queue, feed and journal may be null.
+  /// All must outlive this; queue, feed and journal may be null. A journal begins where the hand holds nothing, and
+  /// says what is done from here on. What can be undone by then is not in it: where its log does not hold that either,
+  /// call Sculptor::forget_history() first.
   Loop_session(Loop& loop, Scene& scene, Command_queue<Scene>* queue, Feed* feed, Edit_journal* journal)
       : loop_(&loop), scene_(&scene), queue_(queue), feed_(feed), journal_(journal) {
     loop.tool().keep_journal(journal);
     tasks_.reserve(most_tasks);
   }
+  /// What is under way is answered as by end().
   ~Loop_session() {
+    answer_what_waits();
     loop_->tool().keep_journal(nullptr);
     scene_->sculptor.visitor().tell_to(nullptr);
   }
@@ -61,8 +65,10 @@ public:
       changed.pop();
   }
 
-  /// Lets go, and what is done is in the journal. To be called after the last tick.
+  /// Lets go, and what is done is in the journal. Tasks under way, and what waits for them, are answered: not done.
+  /// What is still in the queue waits there for another session. To be called after the last tick.
   void end() {
+    answer_what_waits();
     loop_->tool().let_go();
     if (journal_ != nullptr)
       journal_->end_tick(ticks_++);
@@ -83,6 +89,22 @@ private:
   std::uint32_t scenes_ = 0;               ///< entered before the one that is sculpted now
   std::vector<Loop_command<Scene>> tasks_; ///< under way, in the order of the commands
   std::optional<Loop_command<Scene>> next_;
+
+  void answer_what_waits() noexcept {
+    const auto give_back = [this](const Loop_command<Scene>& command) {
+      Loop_answer<Scene> answer = answer_to(command, false);
+      if (command.kind == Kind::enter)
+        answer.left = command.scene;
+      std::strncpy(answer.failure.data(), "the session has ended", answer.failure.size() - 1);
+      queue_->answer(answer);
+    };
+    for (const Loop_command<Scene>& task : tasks_)
+      give_back(task);
+    tasks_.clear();
+    if (next_)
+      give_back(*next_);
+    next_.reset();
+  }
 
   /// A command is taken first, so that tasks see what the asking thread did before it asked for that.
   void serve() {
@@ -161,6 +183,8 @@ private:
       }
       break;
     case Kind::enter:
+      if (command.scene == scene_) // not `left`: it stays the loop's
+        throw Error("this scene is the one that is sculpted; enter another one");
       answer.left = command.scene; // where it is refused or throws
       answer.done = journal_ == nullptr || command.journal != nullptr;
       if (answer.done)
@@ -178,6 +202,7 @@ private:
       journal_->end_tick(ticks_);
     loop_->enter(scene.sculptor, scene.map);
     loop_->tool().keep_journal(journal_ = journal);
+    scene_->sculptor.visitor().mark_all(); // where it is entered again no viewer has it
     ++scenes_;
     return std::exchange(scene_, &scene);
   }

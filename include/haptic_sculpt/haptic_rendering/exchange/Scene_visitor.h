@@ -24,9 +24,10 @@ public:
   /// All faces are to be passed on, and there is room for this many more.
   void mark_all(std::size_t more) {
     changed.reserve(mesh_->num_faces() + more);
-    for (const Face_index f : mesh_->faces())
-      changed.add(static_cast<std::uint32_t>(f));
+    mark_all();
   }
+  /// The same within the room that there is.
+  void mark_all() { changed.add_all(static_cast<std::uint32_t>(mesh_->num_faces())); }
 
   void tell_to(Scene_copy* copy) { copy_ = copy; } ///< that is under way; none: nullptr
   const Scene_copy* copy() const { return copy_; } ///< that hears of changes; none: nullptr

@@ -36,7 +36,7 @@ public:
       , stiffness_(parameters.stiffest().stiffness)
       , reserve_(reserve_of(parameters.limits))
       , watchdog_(limits_for(side, parameters.watchdog), parameters.tick, side.effort_limit())
-      , observer_(parameters.delay, parameters.tick, side.friction(), side.resolution())
+      , observer_(parameters.delay, parameters.tick, side.friction(), side.resolution(), parameters.snap.energy())
       , controller_(controller_damping, parameters.tick)
       , virtual_mass_(parameters.virtual_mass, parameters.tick, parameters.delay)
       , tick_(parameters.tick) {

@@ -57,10 +57,10 @@ public:
   /// Ends the run at the next tick, in order, for a reason that the loop itself does not see.
   void end_by(Loop_fault fault) { interaction_.report(fault); }
 
-  /// After a fault: forces come back slowly, from 0, from where everything is.
+  /// After a fault: forces come back slowly, from 0, from where everything is; a zoom that waits is forgotten.
   void restart() {
     interaction_.restart(), tool_.let_go();
-    tick_ = Haptic_tick(), failure_[0] = '\0', has_place_ = false;
+    tick_ = Haptic_tick(), failure_[0] = '\0', has_place_ = false, zoom_ = 1;
   }
 
   /// \name Clutch and zoom
@@ -74,9 +74,11 @@ public:
     is_clutch_open_ = is_open;
   }
   /// Units of the scene a metre of the device, times a factor, from the next tick with a closed clutch on, about where
-  /// the tool is. \throw Error for a factor that makes no scale > 0
+  /// the tool is. \throw Error for a factor that makes no scale > 0, or none that can be kept where the tool is now
   void zoom(double factor) {
-    map_.pinned(map_.home(), map_.origin(), map_.scale() * zoom_ * factor); // throws here, not in a tick
+    const Eigen::Vector3d handle = has_place_ ? interaction_.side().position() : map_.home();
+    const Eigen::Vector3d place = has_place_ ? place_ : map_.origin();
+    map_.pinned(handle, place, map_.scale() * zoom_ * factor); // throws here, not in a tick
     zoom_ *= factor, is_map_due_ = true;
   }
   bool is_clutch_open() const { return is_clutch_open_; } ///< the tool does not follow the handle

@@ -24,6 +24,9 @@ public:
 /// Where a hand wants to be, and what it does with the button. SI units, axes of the device; linear between rows.
 class Hand_path {
 public:
+  /// m and s: whoever writes more means another unit, and velocities stay finite.
+  static constexpr double largest_number = 1e9, least_time = 1e-9;
+
   /// A place, and when.
   struct Row {
     double time;              ///< s
@@ -37,7 +40,7 @@ public:
     int button;               ///< of the row before, or the first
   };
 
-  /// \pre the times grow \throw Hand_path_error without rows
+  /// \pre the times grow by least_time, no number is beyond largest_number \throw Hand_path_error without rows
   explicit Hand_path(std::vector<Row> rows) : rows_(std::move(rows)) {
     if (rows_.empty())
       throw Hand_path_error("a path needs at least one row");
@@ -93,8 +96,8 @@ inline Hand_path Hand_path::parse(std::string_view text, const std::string& name
       const char* const stop = line.data() + line.size();
       const auto column = [&] { return static_cast<std::size_t>(at - line.data()) + 1; };
       const auto [next, error] = std::from_chars(at, stop, values[k]);
-      if (error != std::errc() || !std::isfinite(values[k]))
-        fail(number, column(), "a finite number is expected");
+      if (error != std::errc() || !(std::abs(values[k]) <= largest_number))
+        fail(number, column(), "a number is expected, from -1e9 to 1e9");
       at = next;
       if (k < 4 ? (at == stop || *at != ',') : at != stop)
         fail(number, column(),
@@ -103,8 +106,8 @@ inline Hand_path Hand_path::parse(std::string_view text, const std::string& name
     }
     if (values[4] != 0 && values[4] != 1 && values[4] != 2)
       fail(number, 1, "the button must be 0, 1 or 2");
-    if (!rows.empty() && !(values[0] > rows.back().time))
-      fail(number, 1, "the times must grow from row to row");
+    if (!rows.empty() && !(values[0] - rows.back().time >= least_time))
+      fail(number, 1, "the times must grow from row to row, by a nanosecond at least");
     rows.push_back({values[0], {values[1], values[2], values[3]}, static_cast<int>(values[4])});
   }
   if (rows.empty())

@@ -47,6 +47,11 @@ public:
       cut_last_step();
   }
   const History_limit& limit() const { return limit_; }
+  void forget() {
+    const History_limit limit = limit_;
+    set_limit(History_limit::off());
+    set_limit(limit);
+  }
 
   /// \name Strokes
   ///@{
