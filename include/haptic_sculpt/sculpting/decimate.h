@@ -90,8 +90,8 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   constexpr double largest_of_cost = 0x1p160;
   constexpr bool is_default = std::is_same<std::decay_t<decltype(get_cost)>, SMS::LindstromTurk_cost<Mesh>>::value;
   if (is_default && largest > largest_of_cost)
-    throw Out_of_range("a coordinate of " + internal::number(largest) + " is too large for Lindstrom and Turk's costs: " +
-                       "scale the mesh below 2^160, or give get_cost and get_placement");
+    throw Out_of_range("a coordinate of " + internal::number(largest) + " is too large for Lindstrom and Turk's costs" +
+                       ": scale the mesh below 2^160, or give get_cost and get_placement");
   // In which areas, and their products, are the same at every scale.
   const double unit = internal::unit_of(largest);
   internal::Collapse_queue<Mesh> queue(mesh, unit);
