@@ -176,9 +176,12 @@ private:
                             : forward_kinematics(device_, readings[0].theta, *home_);
       return pose ? *pose : *home_;
     }
-    const auto start = reach_position(device_, *home_, plan_.path->at(0).position);
+    const Eigen::Vector3d begin = plan_.path->at(0).position;
+    const auto start = reach_position(device_, *home_, begin);
     if (!start)
-      throw Usage_error("the device cannot come to where the path begins");
+      throw Usage_error("the device cannot come to where the path begins, at " + examples::decimal(begin[0]) + ", " +
+                        examples::decimal(begin[1]) + ", " + examples::decimal(begin[2]) +
+                        " m; begin it nearer to where the handle is at home");
     return *start;
   }
 

@@ -170,6 +170,35 @@ BOOST_AUTO_TEST_CASE(changes_by_others_are_found) {
 }
 
 // Where it was is nobody's business, not even where no number equals itself.
+// What is in hand has faces that are no more, and nothing is read of them.
+BOOST_AUTO_TEST_CASE(others_that_leave_fewer_elements_than_the_hand_holds_are_found) {
+  for (const bool clears : {false, true})
+    for (int way = 0; way < 6; ++way) {
+      BOOST_TEST_INFO_SCOPE("clears " << clears << ", way " << way);
+      Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.1));
+      const Mesh fewer = meshes::to_mesh(meshes::tetrahedron());
+      Sculptor<Mesh> sculptor(mesh);
+      const Vertex_index v(static_cast<Mesh::size_type>(mesh.number_of_vertices() - 1));
+      auto grab = sculptor.grab(v);
+      BOOST_TEST(grab.drag_to(mesh.point(v) + 0.2 * (mesh.point(v) - CGAL::ORIGIN)).reached);
+      if (clears)
+        mesh.clear();
+      else
+        mesh = Mesh(fewer);
+      const auto use = [&] {
+        switch (way) {
+        case 0: sculptor.nearest_vertex(Point_3(0, 0, 0), 10); break;
+        case 1: sculptor.undo(); break;
+        case 2: grab.release(); break;
+        case 3: sculptor.first_hit(Point_3(9, 9, 9), Point_3(0, 0, 0)); break;
+        case 4: sculptor.probe(Point_3(9, 9, 9)); break;
+        default: sculptor.forget_history(), sculptor.insert_on_face(Mesh::Face_index(0), Point_3(0, 0, 0));
+        }
+      };
+      BOOST_CHECK_THROW(use(), Mesh_changed);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_removed_vertex_may_be_anywhere) {
   Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
   mesh.remove_vertex(mesh.add_vertex({std::nan(""), 0, 0}));

@@ -74,7 +74,7 @@ private:
     Drag_result<Mesh> result = Drag_result<Mesh>::stale_at(position_);
     if (refusal_)
       result.end = Drag_end::refused;
-    if (refusal_ && refusal_->reason == Refusal_reason::too_near) {
+    if (refusal_ && refusal_->reason == Refusal_reason::too_near && refusal_->elements.size() >= 3) {
       Contact_3<Mesh> contact;
       std::copy_n(refusal_->elements.begin(), 3, contact.vertices.begin());
       contact.is_flat = true;

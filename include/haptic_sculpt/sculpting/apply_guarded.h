@@ -48,11 +48,13 @@ Move_report apply_guarded(Sculptor& sculptor, Function&& function,
   const Mesh& mesh = sculptor.mesh();
   Mesh copy = mesh;
   const auto map = get(CGAL::vertex_point, copy);
+  const auto result_of = [&] { return function(copy, map); };
+  auto& guarded = internal::Sculptor_access::guarded(sculptor);
   if constexpr (std::is_same<decltype(function(copy, map)), bool>::value) {
-    if (!function(copy, map))
+    if (!internal::ask(guarded, result_of))
       return Move_report();
   } else
-    function(copy, map);
+    internal::ask(guarded, result_of);
   const internal::Rounding_to_nearest rounding; // points that differ by a subnormal number differ
   internal::check_same_connectivity(copy, mesh);
   std::vector<typename Mesh::Vertex_index> moved;

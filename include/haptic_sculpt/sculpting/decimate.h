@@ -73,12 +73,14 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   const auto get_cost = choose_parameter(get_parameter(np, names::get_cost_policy), SMS::LindstromTurk_cost<Mesh>());
   const auto get_placement =
       choose_parameter(get_parameter(np, names::get_placement_policy), SMS::LindstromTurk_placement<Mesh>());
-  const auto is_constrained = choose_parameter(get_parameter(np, names::edge_is_constrained),
-                                               CGAL::Static_boolean_property_map<Edge_index, false>());
   auto& guarded = internal::Sculptor_access::guarded(sculptor);
+  const auto constraints = choose_parameter(get_parameter(np, names::edge_is_constrained),
+                                            CGAL::Static_boolean_property_map<Edge_index, false>());
+  const internal::Asked_map<std::decay_t<decltype(guarded)>, std::decay_t<decltype(constraints)>> is_constrained(
+      guarded, constraints);
   constexpr bool updates = SMS::internal::Oracles_require_updates<std::decay_t<decltype(get_cost)>>::value;
   if constexpr (updates)
-    get_cost.initialize(mesh, points, traits);
+    internal::ask(guarded, [&] { get_cost.initialize(mesh, points, traits); });
 
   const auto profile_of = [&](Edge_index e) {
     return Profile(mesh.halfedge(e), mesh, traits, get(boost::vertex_index, mesh), points,
@@ -136,7 +138,15 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
       return false;
     if (sculptor.collapse(h))
       return true;
-    sculptor.move_if_free(kept, before);
+    // It was free a moment ago: neither delta nor a bound on work has a say.
+    struct Without_delta {
+      double& delta;
+      const double kept = std::exchange(delta, 0.0);
+      ~Without_delta() { delta = kept; }
+    } const without_delta{guarded.parameters.delta_length};
+    Drag_parameters unbounded = sculptor.parameters().drag;
+    unbounded.work_limit_pairs.reset();
+    sculptor.move_if_free(kept, before, unbounded);
     return false;
   };
   // Whether a face that stays turns its normal by a right angle or more where both ends of h go to p. Rounded. The

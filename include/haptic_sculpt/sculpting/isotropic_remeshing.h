@@ -77,9 +77,17 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
   if (named.do_split)
     internal::check_number_of_faces(sculptor.mesh(), points, range, named, target_edge_length, parameters);
 
-  const auto edge_map = choose_parameter(get_parameter(np, names::edge_is_constrained), No_edges());
-  const auto vertex_map = choose_parameter(get_parameter(np, names::vertex_is_constrained), No_vertices());
-  const auto patch_map = choose_parameter(get_parameter(np, names::face_patch), internal::No_face_patches());
+  auto& guarded = internal::Sculptor_access::guarded(sculptor);
+  const auto asked = [&guarded](const auto& map) {
+    using Map = std::decay_t<decltype(map)>;
+    if constexpr (std::is_same<Map, internal::No_face_patches>::value)
+      return map;
+    else
+      return internal::Asked_map<std::decay_t<decltype(guarded)>, Map>(guarded, map);
+  };
+  const auto edge_map = asked(choose_parameter(get_parameter(np, names::edge_is_constrained), No_edges()));
+  const auto vertex_map = asked(choose_parameter(get_parameter(np, names::vertex_is_constrained), No_vertices()));
+  const auto patch_map = asked(choose_parameter(get_parameter(np, names::face_patch), internal::No_face_patches()));
   using Marks = internal::Remeshing_marks<Mesh, std::decay_t<decltype(edge_map)>, std::decay_t<decltype(patch_map)>>;
   const auto stroke = sculptor.stroke();
   Marks marks(sculptor.mesh(), range, edge_map, vertex_map, patch_map);

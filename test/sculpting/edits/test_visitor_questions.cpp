@@ -35,6 +35,40 @@ using Asked_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Asking_visitor
 
 } // namespace
 
+// Between the questions of one edit the mesh changes.
+BOOST_AUTO_TEST_CASE(each_question_within_an_edit_is_answered_by_the_mesh_as_it_is_then) {
+  const auto add = [](Mesh& mesh, std::array<Mesh::Point, 4> p, bool is_turned) {
+    if (is_turned)
+      std::swap(p[0], p[1]);
+    std::array<Vertex_index, 4> v;
+    std::transform(p.begin(), p.end(), v.begin(), [&mesh](const Mesh::Point& q) { return mesh.add_vertex(q); });
+    mesh.add_face(v[0], v[2], v[1]), mesh.add_face(v[0], v[1], v[3]);
+    mesh.add_face(v[1], v[2], v[3]), mesh.add_face(v[2], v[0], v[3]);
+    return v;
+  };
+  for (const bool is_turned : {false, true}) {
+    Mesh mesh;
+    const auto a = add(mesh, {Mesh::Point(-1, -1, 0), {1, -1, 0}, {0, 1, 0}, {0, 0, 1}}, false);
+    // Beside the way of the tip of the first; the new vertex is drawn out over it.
+    const auto b = add(mesh, {Mesh::Point(2, -1, 1), {2, 0, 4}, {2, 1, 1}, {3, 0, 2}}, is_turned);
+    Asked_sculptor sculptor(mesh);
+    const Mesh::Point target(0, 0, 2.5);
+    BOOST_TEST(!sculptor.first_impact(a[3], target));
+    std::size_t questions = 0;
+    sculptor.visitor().ask = [&] {
+      ++questions;
+      BOOST_TEST(sculptor.first_impact(a[3], target).has_value() == first_impact(mesh, a[3], target).has_value());
+      for (const Vertex_index v : mesh.vertices())
+        BOOST_TEST(sculptor.is_inside_out(v) == (is_turned && v != a[0] && v != a[1] && v != a[2] && v != a[3]));
+    };
+    const auto f = sculptor.face_of(sculptor.id(b[0]), sculptor.id(b[1]), sculptor.id(b[2]));
+    BOOST_TEST(static_cast<bool>(sculptor.insert_on_face(f, {-0.5, 0, 2})));
+    BOOST_TEST(sculptor.first_impact(a[3], target).has_value());
+    BOOST_TEST(static_cast<bool>(sculptor.undo()));
+    BOOST_TEST(questions > 6u);
+  }
+}
+
 // The star of a vertex, looked up while a neighbour is not back yet, would miss what stands where that comes to be.
 BOOST_AUTO_TEST_CASE(a_question_within_an_undo_lets_nothing_be_passed_through) {
   for (const bool asks : {false, true}) {

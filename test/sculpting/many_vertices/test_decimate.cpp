@@ -13,8 +13,10 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
+#include <boost/property_map/function_property_map.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -239,8 +241,36 @@ BOOST_AUTO_TEST_CASE(placements_and_meshes_out_of_range_are_refused_by_name) {
   }
 }
 
+// Where the draw mends altitudes that a delta would not let be so low again.
+BOOST_AUTO_TEST_CASE(what_was_drawn_for_nothing_goes_back_whatever_delta_is) {
+  Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  Sculptor<Mesh> sculptor(mesh);
+  const auto v = *mesh.vertices_begin();
+  const auto home = mesh.point(v);
+  const auto middle = CGAL::centroid(mesh.point(Mesh::Vertex_index(1)), mesh.point(Mesh::Vertex_index(2)),
+                                     mesh.point(Mesh::Vertex_index(3)));
+  BOOST_REQUIRE(sculptor.drag(v, middle + 0.05 * (home - middle)).reached);
+  BOOST_REQUIRE(sculptor.drag(v, home).reached);
+  sculptor.set_delta(0.5 * std::sqrt(CGAL::squared_distance(home, middle)));
+  BOOST_REQUIRE(static_cast<bool>(sculptor.undo()));
+  const Mesh before = mesh;
+  const auto cost = [](const auto& profile, const auto&) {
+    return boost::optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+  };
+  const auto placement = [&](const auto&) { return boost::optional<meshes::Point_3>(middle + 2 * (home - middle)); };
+  const auto report =
+      haptic_sculpt::decimate(sculptor, [](const auto&, const auto&, std::size_t, std::size_t) { return false; },
+                              CGAL::parameters::get_cost(cost).get_placement(placement));
+  BOOST_TEST(report.collapsed == 0u);
+  BOOST_TEST(report.refused > 0u);
+  BOOST_TEST(reading_and_writing::identical(mesh, before));
+  BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
+  BOOST_TEST(sculptor.history().number_of_redo_steps() == 1u);
+  BOOST_TEST(sculptor.delta() > 0);
+}
+
 BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
-  for (const std::string asked : {"stop", "cost", "placement"})
+  for (const std::string asked : {"stop", "cost", "placement", "constraint"})
     BOOST_TEST_CONTEXT(asked) {
       Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
       const Mesh before = mesh;
@@ -264,8 +294,14 @@ BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
         edit("placement");
         return boost::optional<meshes::Point_3>(CGAL::midpoint(profile.p0(), profile.p1()));
       };
+      const std::function<bool(Mesh::Edge_index)> constraint = [&](Mesh::Edge_index) {
+        edit("constraint");
+        return false;
+      };
       BOOST_CHECK_THROW(
-          haptic_sculpt::decimate(sculptor, stop, CGAL::parameters::get_cost(cost).get_placement(placement)),
+          haptic_sculpt::decimate(sculptor, stop,
+                                  CGAL::parameters::get_cost(cost).get_placement(placement).edge_is_constrained_map(
+                                      boost::make_function_property_map<Mesh::Edge_index>(constraint))),
           haptic_sculpt::Reentrant_call);
       BOOST_TEST(haptic_sculpt::validate(mesh).is_valid());
       sculptor.check_unchanged();

@@ -3,6 +3,7 @@
 // name, and the call leads to the same bits.
 #include "sculpting/many_vertices/many_vertices_scene.h"
 
+#include <haptic_sculpt/sculpting/apply_guarded.h>
 #include <haptic_sculpt/sculpting/brushes.h>
 #include <haptic_sculpt/sculpting/isotropic_remeshing.h>
 #include <haptic_sculpt/sculpting/move_rigidly.h>
@@ -46,11 +47,29 @@ std::vector<Named_change> changes() {
           {"set delta", [](auto& s) { s.set_delta(1e-9); }},
           {"set drag parameters", [](auto& s) { s.set_drag_parameters(Drag_parameters()); }},
           {"set history limit", [](auto& s) { s.set_history_limit({}); }},
+          {"forget history", [](auto& s) { s.forget_history(); }},
           {"reserve", [](auto& s) { s.reserve(1, 1); }},
           {"rigid move", [=](auto& s) {
              move_rigidly(s, std::vector<Vertex_index>{v},
                           CGAL::Aff_transformation_3<meshes::Kernel>(CGAL::TRANSLATION, Vector_3(1, 0, 0)));
            }}};
+}
+
+/// Has one value everywhere, and asks where it is read or written.
+template <class Key, class Value>
+struct Asked_property {
+  using key_type = Key;
+  using value_type = Value;
+  using reference = Value;
+  using category = boost::read_write_property_map_tag;
+  Value value;
+  Asked asked;
+  friend Value get(const Asked_property& map, Key) { return map.asked(), map.value; }
+  friend void put(const Asked_property& map, Key, Value) { map.asked(); }
+};
+template <class Key, class Value>
+Asked_property<Key, Value> asked_map(Value value, const Asked& asked) {
+  return {value, asked};
 }
 
 /// Calls that take functions of the caller's.
@@ -103,9 +122,30 @@ std::vector<Named_call> calls() {
        [=](auto& s, const Asked& a) {
          isotropic_remeshing(s, 0.6, CGAL::parameters::number_of_iterations(2), remeshes(a));
        }},
-      {"its projection", [=](auto& s, const Asked& a) {
+      {"its projection",
+       [=](auto& s, const Asked& a) {
          const auto project = [&s, a](Vertex_index v) { return a(), s.mesh().point(v); };
          isotropic_remeshing(s, 0.6, CGAL::parameters::projection_functor(project));
+       }},
+      {"its constrained edges",
+       [=](auto& s, const Asked& a) {
+         isotropic_remeshing(s, 0.6, CGAL::parameters::edge_is_constrained_map(asked_map<Edge_index>(false, a)));
+       }},
+      {"its constrained vertices",
+       [=](auto& s, const Asked& a) {
+         isotropic_remeshing(s, 0.6, CGAL::parameters::vertex_is_constrained_map(asked_map<Vertex_index>(false, a)));
+       }},
+      {"its patches",
+       [=](auto& s, const Asked& a) {
+         isotropic_remeshing(s, 0.6, CGAL::parameters::face_patch_map(asked_map<Mesh::Face_index>(std::size_t(7), a)));
+       }},
+      {"apply_guarded", [=](auto& s, const Asked& a) {
+         apply_guarded(s, [&](Mesh& copy, auto points) {
+           for (int k = 0; k < 6; ++k)
+             a();
+           for (const Vertex_index v : copy.vertices())
+             put(points, v, copy.point(v) + Vector_3(0.1, 0, 0));
+         });
        }}};
 }
 

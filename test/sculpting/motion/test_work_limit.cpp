@@ -121,6 +121,42 @@ BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_an_end_that_is_one_without_a_bound
 }
 
 /// What stands within half a star's width of a large star may be more than any bound, and is no reason to stay.
+// A question is no drag: a search that was left goes on after it.
+BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_the_same_end_with_questions_between_them) {
+  Random random(seed_from_environment(11));
+  int gone_on = 0;
+  for (int scene = 0; scene < 40; ++scene) {
+    const Mesh begin = meshes::to_mesh(random_small_list(random, 6));
+    const Vertex_index v(static_cast<Mesh::size_type>(random() % begin.number_of_vertices()));
+    const Point_3 target = random_target(random, begin.point(v), 3);
+    for (const std::size_t bound : {20, 60, 150}) {
+      const auto portion = Drag_parameters().work_limit(bound);
+      const auto run = [&](bool asks) {
+        Mesh mesh = begin;
+        Sculptor<Mesh> sculptor(mesh);
+        auto grab = sculptor.grab(v);
+        std::vector<Point_3> places;
+        for (int k = 0; k < 60; ++k) {
+          const auto result = grab.drag_to(target, portion);
+          places.push_back(result.position);
+          if (result.end != Drag_end::work_limit)
+            break;
+          if (asks) {
+            sculptor.first_impact(v, target);
+            if (first_impact(mesh, v, target))
+              BOOST_TEST(!sculptor.move_if_free(v, target));
+          }
+        }
+        return places;
+      };
+      const auto places = run(false);
+      gone_on += places.size() > 2;
+      BOOST_TEST((run(true) == places));
+    }
+  }
+  BOOST_TEST(gone_on > 20);
+}
+
 BOOST_AUTO_TEST_CASE(a_large_star_over_a_fine_surface_follows_the_hand) {
   for (const std::size_t valence : {6, 64}) {
     auto list = meshes::bumpy_sphere(5, 0.05).scale_and_move(10, 0, 0, -10);

@@ -191,7 +191,8 @@ inline std::vector<Public_function> sculptor_functions() {
                    outcome.number(is_refused);
                    outcome.mesh(scene.mesh);
                  }});
-  all.push_back({"Sculptor::stroke Sculptor::history Sculptor::set_history_limit Sculptor::check_unchanged Stroke::end "
+  all.push_back({"Sculptor::stroke Sculptor::history Sculptor::set_history_limit Sculptor::forget_history "
+                 "Sculptor::check_unchanged Stroke::end "
                  "Stroke::is_open "
                  "Sculptor::id Sculptor::vertex Sculptor::number_of_ids Sculptor::face_of Sculptor::edge_of "
                  "Sculptor::visitor "
@@ -200,6 +201,7 @@ inline std::vector<Public_function> sculptor_functions() {
                    Scaled_scene scene(unit);
                    Sculptor<Mesh> sculptor(scene.mesh);
                    sculptor.set_history_limit(History_limit{10});
+                   sculptor.forget_history();
                    auto stroke = sculptor.stroke();
                    sculptor.grab(Scaled_scene::vertex(3)).drag_to(scene.beyond(Scaled_scene::vertex(3), 1.25));
                    sculptor.grab(Scaled_scene::vertex(9)).drag_to(scene.beyond(Scaled_scene::vertex(9), 0.5));

@@ -28,13 +28,13 @@ public:
   void make_room() { reserve_records(room, 0, 0, room); }
 
   /// This many edits, of which each has up to eight vertices around in the mean, and this many moves allocate nothing.
-  /// \param ids how many numbers of vertices there are then
-  void reserve(std::size_t edits, std::size_t moves, std::size_t ids) {
+  /// \param ids how many numbers of vertices there are then \param valence of the largest star
+  void reserve(std::size_t edits, std::size_t moves, std::size_t ids, std::size_t valence) {
     if (is_off())
       return;
     reserve_records(moves, edits, edits * usual_words, edits + moves);
     reserve_ids(ids); // or the first stroke would fill it
-    current_.around.reserve(usual_words * usual_words);
+    current_.around.reserve(std::max(valence, usual_words * usual_words));
   }
 
   /// Where there is more already, the oldest is forgotten.

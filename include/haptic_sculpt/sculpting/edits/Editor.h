@@ -49,7 +49,7 @@ public:
   /// This many edits and moves follow: what they need is allocated now, for stars of `valence` faces and this many
   /// candidates about them.
   void reserve(std::size_t edits, std::size_t moves, std::size_t valence, std::size_t candidates) {
-    history_.reserve(edits, moves, ids().size() + edits);
+    history_.reserve(edits, moves, ids().size() + edits, valence);
     changes_.reserve(edits, valence);
     creation_.reserve(candidates);
     collapse_.reserve(valence, candidates);

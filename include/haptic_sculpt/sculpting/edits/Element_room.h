@@ -51,11 +51,11 @@ public:
     insertions_ -= insertions;
   }
 
-  /// Room for this many edits of usual size.
+  /// Room for this many edits of stars of eight faces.
   void reserve(std::size_t edits) {
     reserve({mesh_->num_vertices() + edits, mesh_->num_edges() + 3 * edits, mesh_->num_faces() + 2 * edits});
     ids_->reserve(edits);
-    reserve_insertions(4 * edits);
+    reserve_insertions(8 * edits);
   }
 
 private:

@@ -70,9 +70,7 @@ public:
     if (!is_recorded || number == no_id)
       return;
     store_.erase(store_.begin(), store_.lower_bound(first));
-    if (is_new)
-      store_.erase(store_.lower_bound(number), store_.end());
-    alive_again_ = &store_[number];
+    alive_again_ = &(is_new ? fresh_ : store_)[number];
   }
 
   void created(const Element& element, const Element_ids& ids, const Edit_under_way& under_way,
@@ -113,10 +111,15 @@ public:
   void end() noexcept override {
     if (alive_again_)
       alive_again_->swap(dead_);
+    if (!fresh_.empty()) { // what could be redone before it cannot be any more
+      store_.erase(store_.lower_bound(fresh_.begin()->first), store_.end());
+      store_.merge(fresh_);
+    }
     begin();
   }
   void begin() noexcept override {
     dead_.clear();
+    fresh_.clear();
     alive_again_ = nullptr;
   }
 
@@ -131,7 +134,8 @@ private:
   Carry carry_;
   Entries dead_; ///< by the edit under way
   std::map<std::size_t, Entries>
-      store_;                      ///< by number of edit: what it killed, or, while it is taken back, what it had made
+      store_, ///< by number of edit: what it killed, or, while it is taken back, what it had made
+      fresh_; ///< of a new edit, until it is made
   Entries* alive_again_ = nullptr; ///< that of the edit under way
 
   static const Entry* find(const Entries& entries, const Element_ids& ids) {

@@ -6,6 +6,7 @@
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
+#include <exception>
 #include <memory>
 
 namespace haptic_sculpt::internal {
@@ -38,7 +39,7 @@ public:
         maps_.push_back(std::make_unique<Kept_map_of<Mesh, Hearing_map, Copy_property, false>>(Hearing_map{&visitor},
                                                                                              Copy_property()));
     };
-    tell(Face_index()), tell(Edge_index());
+    tell(Edge_index()), tell(Face_index());
   }
 
   /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_id` where
@@ -61,11 +62,13 @@ public:
   void die(const Vertex_ids<Mesh>& ids, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
     if (maps_.empty())
       return;
-    for_each_element(ids, v, faces, halfedges,
-                     [](auto& map, const Element& element, const Element_ids& of) { map.dies(element, of); });
-    for (const auto& map : maps_)
+    for (const auto& map : maps_) {
+      for_each_element(ids, v, faces, halfedges,
+                       [&](const Element& element, const Element_ids& of) { map->dies(element, of); });
       map->prepare(place_.first, place_.number, place_.is_new);
+    }
   }
+  /// Where a map throws, what it has not been told has the default; the others are told all, and undo knows all values.
   /// \param v the null index where no vertex was created
   template <class Faces, class Halfedges>
   void create(const Vertex_ids<Mesh>& ids, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
@@ -73,11 +76,19 @@ public:
       return;
     if (v.is_valid() && !under_way_.is_back)
       under_way_.weights = weights(ids, vertex_coordinates(*mesh_, v));
-    for_each_element(ids, v, faces, halfedges, [&](auto& map, const Element& element, const Element_ids& of) {
-      map.created(element, of, under_way_, ids);
-    });
-    for (const auto& map : maps_)
+    std::exception_ptr thrown;
+    for (const auto& map : maps_) {
+      try {
+        for_each_element(ids, v, faces, halfedges, [&](const Element& element, const Element_ids& of) {
+          map->created(element, of, under_way_, ids);
+        });
+      } catch (...) {
+        thrown = thrown ? thrown : std::current_exception();
+      }
       map->end();
+    }
+    if (thrown)
+      std::rethrow_exception(thrown);
   }
   ///@}
 
@@ -92,11 +103,7 @@ private:
   template <class Faces, class Halfedges, class Function>
   void for_each_element(const Vertex_ids<Mesh>& ids, Vertex_index v, const Faces& faces, const Halfedges& halfedges,
                         const Function& function) {
-    const auto tell = [&](auto element) {
-      const Element_ids of = ids_of(*mesh_, ids, element);
-      for (const auto& map : maps_)
-        function(*map, element, of);
-    };
+    const auto tell = [&](auto element) { function(element, ids_of(*mesh_, ids, element)); };
     if (v.is_valid())
       tell(v);
     for (const auto h : halfedges) {

@@ -39,6 +39,8 @@ public:
     Write_state& state_;
     bool was_asking_;
   };
+  /// The mesh may have changed since the last question of the same function: nothing is looked up for the next.
+  bool is_asking() const noexcept { return is_asking_; }
   /// \throw Reentrant_call, Unfinished_change
   void check_may_change() const {
     check();

@@ -136,6 +136,8 @@ public:
   auto first_impact(Vertex_index v, const Point& target) {
     const Rounding_to_nearest rounding;
     check_point("the target", target);
+    if (writing_.is_asking())
+      hand_.let_go();
     hold(v, false);
     const auto first = hand_.first_impact(vertex_coordinates(*mesh_, v), coordinates(target));
     hand_.check_candidates();
@@ -184,6 +186,8 @@ public:
     const Rounding_to_nearest rounding;
     check_vertex(*mesh_, v);
     look_at_surface();
+    if (writing_.is_asking())
+      inside_out_.forget();
     return inside_out_.contain(v);
   }
 

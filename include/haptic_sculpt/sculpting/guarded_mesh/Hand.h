@@ -74,10 +74,12 @@ public:
   /// The same where nothing may throw: asks nobody. Whatever comes next lets go first, or tells where the vertex is.
   void let_go() noexcept { is_ready_ = false; }
 
-  /// Tells the broad phase where the vertex has come to: it may be asked by others then.
+  /// Tells the broad phase where the vertex has come to: it may be asked by others then. \throw Mesh_changed
   void tell_where_it_is() {
-    if (held_.is_valid() && has_moved_)
+    if (held_.is_valid() && has_moved_) {
+      watch_->check_counts(); // its faces may be no more
       broad_phase_->faces_moved(guard_.star().faces);
+    }
     has_moved_ = false;
   }
 
@@ -105,11 +107,13 @@ public:
 
   /// Whether the straight way is free, and that has been decided within the bound on the work.
   bool is_free(const Coordinates& source, const Coordinates& target, const Drag_parameters& parameters, double delta) {
+    const Keep_work keep{guard_.work()};
     begin_to_decide(parameters.work_limit_pairs);
     return guard_.is_free(source, target, delta);
   }
 
   auto first_impact(const Coordinates& source, const Coordinates& target) {
+    const Keep_work keep{guard_.work()};
     begin_to_decide(std::nullopt);
     return guard_.decide(source, target, 0).first_impact();
   }
@@ -129,6 +133,13 @@ private:
   struct Fetch_watched {
     const Mesh_watch<Mesh>* watch;
     void operator()(Vertex_index v) const { watch->prefetch(v); }
+  };
+
+  /// A question is no drag: a search that a drag has left goes on afterwards.
+  struct Keep_work {
+    Work& work;
+    const Work kept = work;
+    ~Keep_work() { work = kept; }
   };
 
   const Mesh* mesh_;
