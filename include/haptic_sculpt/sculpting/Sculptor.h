@@ -110,8 +110,8 @@ public:
   }
 
   /// What v would touch first on its straight way to `target`, as the free function first_impact() tells, at the cost
-  /// of a drag. Moves nothing; takes v in hand, and contacts that were carried along are forgotten if that is another
-  /// vertex. \throw Unknown_vertex, Out_of_range, Mesh_changed
+  /// of a grab and a drag, or of a drag alone where the same was asked last and nothing has changed. Moves nothing, and
+  /// who is in hand stays so. \throw Unknown_vertex, Out_of_range, Mesh_changed
   std::optional<Star_impact<Mesh_type, typename Traits::Impact_3>> first_impact(Vertex_index v, const Point& target) {
     return guarded_.first_impact(v, target);
   }

@@ -266,7 +266,7 @@ BOOST_AUTO_TEST_CASE(what_was_drawn_for_nothing_goes_back_whatever_delta_is) {
   BOOST_TEST(reading_and_writing::identical(mesh, before));
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
   BOOST_TEST(sculptor.history().number_of_redo_steps() == 1u);
-  BOOST_TEST(sculptor.delta() > 0);
+  BOOST_TEST(sculptor.parameters().delta_length > 0);
 }
 
 BOOST_AUTO_TEST_CASE(policies_may_not_edit) {

@@ -39,6 +39,7 @@ public:
       , corners_(mesh)
       , editor_(mesh, broad_phase_, corners_, counters_, watch_, writing_, std::move(visitor))
       , hand_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
+      , question_(mesh, broad_phase_, corners_, make_traits(counters_), watch_)
       , probe_(mesh, broad_phase_, corners_, make_traits(counters_), watch_, counters_)
       , finder_(mesh, broad_phase_, corners_, counters_)
       , scene_(mesh, parameters.drag.clearance_length)
@@ -136,11 +137,15 @@ public:
   auto first_impact(Vertex_index v, const Point& target) {
     const Rounding_to_nearest rounding;
     check_point("the target", target);
-    if (writing_.is_asking())
-      hand_.let_go();
-    hold(v, false);
-    const auto first = hand_.first_impact(vertex_coordinates(*mesh_, v), coordinates(target));
-    hand_.check_candidates();
+    check_is_whole();
+    check_vertex(*mesh_, v);
+    hand_.tell_where_it_is();
+    if (std::exchange(asked_at_, changes()) != changes())
+      question_.let_go();
+    if (!question_.holds(v, false))
+      question_.take(v, false, [] {});
+    const auto first = question_.first_impact(vertex_coordinates(*mesh_, v), coordinates(target));
+    question_.check_candidates();
     return first;
   }
 
@@ -300,6 +305,7 @@ public:
     const std::size_t candidates = usual_candidates + 2 * valence;
     editor_.reserve(edits, moves, valence, candidates);
     hand_.reserve(valence, candidates);
+    question_.reserve(valence, candidates);
     probe_.reserve(valence, candidates);
   }
 
@@ -326,7 +332,9 @@ private:
   Broad_phase broad_phase_;
   Face_corners<Mesh> corners_;
   Editor<Mesh, Broad_phase, Visitor> editor_;
-  Hand<Mesh, Broad_phase, Traits> hand_;
+  Hand<Mesh, Broad_phase, Traits> hand_,
+      question_; ///< of first_impact(): what the hand has looked up, and where its search is, stays
+  std::uint64_t asked_at_ = 0; ///< changes() by the last question
   Probe_at_hand<Mesh, Broad_phase, Traits> probe_;
   Surface_finder<Mesh, Broad_phase> finder_;
   Scene_bound<Mesh> scene_;

@@ -107,13 +107,11 @@ public:
 
   /// Whether the straight way is free, and that has been decided within the bound on the work.
   bool is_free(const Coordinates& source, const Coordinates& target, const Drag_parameters& parameters, double delta) {
-    const Keep_work keep{guard_.work()};
     begin_to_decide(parameters.work_limit_pairs);
     return guard_.is_free(source, target, delta);
   }
 
   auto first_impact(const Coordinates& source, const Coordinates& target) {
-    const Keep_work keep{guard_.work()};
     begin_to_decide(std::nullopt);
     return guard_.decide(source, target, 0).first_impact();
   }
@@ -133,13 +131,6 @@ private:
   struct Fetch_watched {
     const Mesh_watch<Mesh>* watch;
     void operator()(Vertex_index v) const { watch->prefetch(v); }
-  };
-
-  /// A question is no drag: a search that a drag has left goes on afterwards.
-  struct Keep_work {
-    Work& work;
-    const Work kept = work;
-    ~Keep_work() { work = kept; }
   };
 
   const Mesh* mesh_;
