@@ -307,7 +307,7 @@ namespace {
 
 struct Interruption {};
 
-/// Throws once where it is told to.
+/// Throws once, at that place.
 struct Throwing_visitor : Default_edit_visitor {
   enum class Place { nowhere, dies, replaces } place = Place::nowhere;
   void face_dies(Mesh::Face_index) { hear(Place::dies); }

@@ -68,7 +68,8 @@ public:
       map->prepare(place_.first, place_.number, place_.is_new);
     }
   }
-  /// Where a map throws, what it has not been told has the default; the others are told all, and undo knows all values.
+  /// Where a map throws, elements after that one may have the default in it; the others hear of all, and undo knows all
+  /// values.
   /// \param v the null index where no vertex was created
   template <class Faces, class Halfedges>
   void create(const Vertex_ids<Mesh>& ids, Vertex_index v, const Faces& faces, const Halfedges& halfedges) {
