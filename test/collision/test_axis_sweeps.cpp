@@ -4,6 +4,7 @@
 #include "collision/Sweeps_under_test.h"
 #include "oracle/axis_oracle.h"
 #include "populations/Portable_random.h"
+#include "sculpting/public_functions/Callers_mode.h"
 
 #include <haptic_sculpt/collision/Axis_sweep_traits_3.h>
 
@@ -197,6 +198,26 @@ BOOST_AUTO_TEST_CASE(axis_sweeps_agree_in_directed_rounding) {
       wrong += found != expected;
     }
     BOOST_TEST(wrong == 0u, "rounding mode " << mode);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(axis_sweeps_of_subnormal_numbers_agree_where_the_caller_flushes_them) {
+  const Axis_traits traits;
+  using P = Kernel::Point_3;
+  constexpr double s = 1e-310;
+  const P a(0, 0, 0), b(4 * s, 0, 0), c(0, 4 * s, 0);
+  for (const bool flushes : {false, true}) {
+    bool through = false, beside = true, edges = true, face = true;
+    {
+      const Callers_mode mode(FE_TONEAREST, flushes);
+      through = traits.vertex_face_axis_sweep_3_object()(2, P(s, s, s), a, b, c, {-s, 0, 0, 0});
+      beside = traits.vertex_face_axis_sweep_3_object()(2, P(3 * s, 3 * s, s), a, b, c, {-s, 0, 0, 0});
+      edges = traits.edge_edge_axis_sweep_3_object()(2, P(-s, 0, s), P(s, 0, s), P(0, -s, 0), P(0, s, 0),
+                                                     {-s, 3 * s, 0, 0});
+      face = traits.degenerate_face_axis_sweep_3_object()(2, a, b, c, {9 * s, -9 * s, s});
+      BOOST_TEST(mode.stands());
+    }
+    BOOST_TEST((through && !beside && !edges && !face));
   }
 }
 

@@ -212,6 +212,25 @@ BOOST_AUTO_TEST_CASE(sweeps_agree_in_directed_rounding) {
 // J enters the plane of the parallelogram A C B D (D = A + B - C) inside ABC. At that very moment JD crosses the
 // diagonal AB, and the triangle J D I, I = 2A - B, contains A: three impacts of three kinds at one time. Then one ulp
 // away.
+// Of a triangle without an area: where it is met at the start is where it is met from above.
+BOOST_AUTO_TEST_CASE(places_on_a_flat_triangle_are_the_same_at_the_start_as_later) {
+  using K = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using P = K::Point_3;
+  const Vertex_face_sweep_3<K> sweep;
+  const P a(0, 0, 0), b(1, 0, 0), c(2, 0, 0);
+  const std::array<std::pair<double, Triangle_location>, 3> places = {{{0, Triangle_location::vertex_a},
+                                                                       {0.5, Triangle_location::edge_ab},
+                                                                       {2, Triangle_location::vertex_c}}};
+  for (const auto& [x, place] : places)
+    for (const double height : {0.0, 1.0}) {
+      const auto impact = sweep(P(x, 0, height), P(x, 0, height - 2), a, b, c);
+      BOOST_REQUIRE(impact.has_value());
+      const bool is_there = impact->location() == place || (place == Triangle_location::edge_ab &&
+                                                            impact->location() == Triangle_location::edge_ca);
+      BOOST_TEST(is_there, "at " << x << ", from " << height << ": " << name_of(impact->location()));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(equal_times_of_different_kinds) {
   const Traits traits;
   std::mt19937_64 engine(5);

@@ -88,4 +88,22 @@ BOOST_AUTO_TEST_CASE(elbows_on_a_line_or_in_one_point_are_named_singular) {
               Device_status::singular));
 }
 
+// The orientation is a product of frames of two triangles, whose areas' squares are eighth powers of lengths.
+BOOST_AUTO_TEST_CASE(orientations_of_the_largest_and_the_smallest_devices_are_those_of_usual_ones) {
+  const auto orientation = [](double size) {
+    Device_description<float> d;
+    d.form = Device_form::general;
+    d.base_radius = d.platform_radius = d.primary_length = static_cast<float>(size);
+    d.secondary_length = static_cast<float>(0.96875 * size);
+    const Device_parameters<float> parameters(d);
+    const auto pose = forward_kinematics(parameters, Device_vector<float>(0.3f, 0.35f, 0.4f));
+    BOOST_REQUIRE(static_cast<bool>(pose));
+    return Device_matrix<float>(pose->orientation);
+  };
+  const Device_matrix<float> usual = orientation(1);
+  for (const int exponent : {-14, -7, 7, 14}) // all the lengths that are taken
+    BOOST_TEST((orientation(std::ldexp(1.9, exponent)) - usual).cwiseAbs().maxCoeff() < 1e-4,
+               "2^" << exponent);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -164,16 +164,30 @@ BOOST_AUTO_TEST_CASE(repair_takes_the_values_of_the_nearest_point) {
 
 BOOST_AUTO_TEST_CASE(names_that_a_header_cannot_hold_are_refused) {
   const Temporary_folder folder;
-  for (const char* name : {"x", "z", "", "two words", "a\nend_header"}) {
+  for (const char* name : {"x", "z", "", "two words", "a\nend_header", "nx", "bell\a\x1b[2J"}) {
     Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
     add_vertex_attribute(mesh, name);
-    BOOST_CHECK_THROW(write_surface(folder.path() / "named.ply", mesh), Write_error);
+    BOOST_CHECK_EXCEPTION(write_surface(folder.path() / "named.ply", mesh), Write_error, [](const Write_error& error) {
+      const std::string what = error.what();
+      return std::all_of(what.begin(), what.end(), [](unsigned char c) { return c >= ' '; });
+    });
     BOOST_TEST(!std::filesystem::exists(folder.path() / "named.ply"));
     write_surface(folder.path() / "named.off", mesh);
   }
   Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
   add_vertex_attribute(mesh, "heat", Type::float32), add_vertex_attribute(mesh, "heat", Type::uint8);
   BOOST_CHECK_THROW(write_surface(folder.path() / "twice.ply", mesh), Write_error);
+  for (const int number : {997, 998}) { // beside x, y, z: as many as are read
+    Mesh many = meshes::to_mesh(meshes::tetrahedron());
+    for (int k = 0; k < number; ++k)
+      add_vertex_attribute(many, "a" + std::to_string(k));
+    if (number == 998) {
+      BOOST_CHECK_THROW(write_surface(folder.path() / "many.ply", many), Write_error);
+      continue;
+    }
+    write_surface(folder.path() / "many.ply", many);
+    BOOST_TEST(vertex_attributes(read_surface<Mesh>(folder.path() / "many.ply")).size() == 997u);
+  }
   std::ofstream(folder.path() / "twice_x.ply")
       << "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\nproperty double z\n"
          "property double x\nend_header\n1 2 3 4\n";

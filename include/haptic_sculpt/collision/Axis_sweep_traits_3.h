@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/collision/arithmetic/axis_sweep.h>
 #include <haptic_sculpt/collision/arithmetic/Sweep_verdict.h>
 
@@ -28,6 +29,7 @@ protected:
   template <class Decide>
   bool decide(int axis, const std::array<Coordinates, points>& start, const std::array<double, points>& heights,
               const Decide& question) const {
+    const Rounding_to_nearest rounding;
     const Axis_motion<points> motion(axis, start, heights);
     CGAL_precondition(0 <= axis && axis < 3 && motion.are_finite());
     Counters ignored;

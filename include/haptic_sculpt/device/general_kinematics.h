@@ -35,7 +35,9 @@ inline bool place_platform(const Device_parameters<S>& parameters, const Link_an
     return false;
   // Orthonormal frames (a, n x a, n) of both triangles; the scales of the first and last are folded into the products.
   const Device_vector<S> world_m = world_n.cross(world_a), seen_m = seen_n.cross(seen_a);
-  const S along = S(1) / sqrt(world_aa * seen_aa), normal = S(1) / sqrt(world_nn * seen_nn), across = along * normal;
+  // Roots first: a product of them is in range wherever the lengths are.
+  const S along = S(1) / (sqrt(world_aa) * sqrt(seen_aa)), normal = S(1) / (sqrt(world_nn) * sqrt(seen_nn)),
+          across = along * normal;
   pose.orientation.noalias() = (world_a * along) * seen_a.transpose() + (world_n * normal) * seen_n.transpose() +
                                (world_m * across) * seen_m.transpose();
   const Device_vector<S> world_centre = pose.elbows.col(0) + pose.elbows.col(1) + pose.elbows.col(2);

@@ -53,13 +53,12 @@ void check_point(const char* what, const Point_3& p) {
 /// What vertex `v` would touch first on its straight way to `target` while all else stands still: the impacts that come
 /// exactly first, or none when the way is free. Changes nothing.
 ///
-/// A mesh that is closed and embedded stays so up to `target`, and passes over no probe, if and only if the result is
-/// empty; otherwise it stays so up to, and not at, the time of the impacts (doc/proofs/exact_sweeps.md,
-/// "Completeness"). On other meshes the answer is about the three sweeps only. A vertex without faces, a probe, stands
-/// in the way of a star like a vertex of the surface, and touches faces itself; probes do not touch each other. \throw
-/// Unknown_vertex, Out_of_range Cost: reads every face once; the sweeps cost valence times the candidates whose boxes
-/// meet the swept star's. \param traits decide the sweeps, a model of SweptCollisionTraits_3: with another than the
-/// default the answer is as right as its
+/// A mesh that is closed and embedded stays so up to `target` if and only if the result is empty; otherwise it stays so
+/// up to, and not at, the time of the impacts (doc/proofs/exact_sweeps.md, "Completeness"). On other meshes the answer
+/// is about the three sweeps only. A vertex without faces touches faces, and nothing touches it: it is no part of the
+/// surface. \throw Unknown_vertex, Out_of_range Cost: reads every face once; the sweeps cost valence times the
+/// candidates whose boxes meet the swept star's. \param traits decide the sweeps, a model of SweptCollisionTraits_3:
+/// with another than the default the answer is as right as its
 template <class Mesh,
           class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
 Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v,

@@ -34,7 +34,11 @@ namespace internal {
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw Read_error("the file cannot be opened; check its permissions");
-  std::string bytes(std::filesystem::file_size(path), '\0');
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error)
+    throw Read_error("the size of the file cannot be read (" + error.message() + ")");
+  std::string bytes(size, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!file || static_cast<std::size_t>(file.gcount()) != bytes.size())
     throw Read_error("the file cannot be read to its end");

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/io/format_attributes.h>
+#include <haptic_sculpt/surface/io/parse_ply.h>
 #include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/surface/validate.h>
 #include <haptic_sculpt/surface/vertex_attributes.h>
@@ -147,12 +148,19 @@ inline Face_soup rounded_to_float(Face_soup soup) {
 /// name an attribute
 inline void prepare_ply(const Face_soup& soup, bool binary) {
   std::set<std::string> names = {"x", "y", "z"};
+  if (names.size() + soup.attributes.size() > most_names)
+    throw Write_error("vertices have " + std::to_string(soup.attributes.size()) + " attributes, of which a PLY file " +
+                      "holds " + std::to_string(most_names - names.size()) + "; remove some");
   for (const Vertex_attribute& attribute : soup.attributes) {
     const bool is_word = !attribute.name.empty() && std::all_of(attribute.name.begin(), attribute.name.end(),
                                                                 [](unsigned char c) { return c > ' ' && c != 0x7f; });
-    if (!is_word || !names.insert(attribute.name).second)
-      throw Write_error("PLY cannot name the attribute '" + attribute.name + "' of vertices: it " +
-                        (is_word ? "stands there already" : "is no single word") + "; give it another name");
+    const bool is_normal = attribute_in_words(attribute.name) == "normals"; // they are not read
+    if (!is_word || is_normal || !names.insert(attribute.name).second)
+      throw Write_error("PLY cannot name the attribute " + in_quotes(attribute.name) + " of vertices: it " +
+                        (is_normal ? "would be a normal"
+                         : is_word ? "stands there already"
+                                   : "is no single word") +
+                        "; give it another name");
   }
   for (std::size_t f = 0; binary && f < soup.number_of_faces(); ++f)
     if (soup.number_of_corners(f) > 255)
@@ -224,7 +232,7 @@ std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path,
       return surface_bytes(mesh, *format, parameters);
     throw Write_error("the extension has to be .off, .ply, .obj or .stl");
   } catch (const Write_error& error) {
-    throw Write_error("cannot write '" + path.string() + "': " + error.what());
+    throw Write_error("cannot write " + internal::quoted_path(path) + ": " + error.what());
   }
 }
 
@@ -236,7 +244,7 @@ std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path,
 /// lossless, but numbers vertices anew, in order of first appearance. Removed elements are left out; vertices close up
 /// in index order or in `vertex_order()`, faces in index order. PLY holds all vertex_attributes(), OBJ colours,
 /// the other formats none (`attributes_not_held()`). An invalid surface is written as it is (and will
-/// not be read back), unless the format cannot hold it.
+/// not be read back, nor is an empty one), unless the format cannot hold it.
 ///
 /// \param path of the file; its folder has to exist. `replace_file()` says what becomes of links and permissions
 /// \throw Write_error

@@ -212,3 +212,49 @@ BOOST_AUTO_TEST_CASE(results_do_not_depend_on_the_broad_phase) {
     BOOST_TEST((tree == positions_after<Brute_force_broad_phase<Mesh>>(mesh, seed, 100)));
   }
 }
+
+// Whole numbers of the least subnormal number: scaled by 2^1074 every answer has to be the same. Stars of more than 14
+// faces have more than one run of planes, the later ones of a motion that the first has shortened.
+BOOST_AUTO_TEST_CASE(first_impacts_in_the_least_unit_are_those_of_usual_ones) {
+  std::size_t asked = 0, met = 0;
+  for (std::uint64_t seed = 90; seed < 106; ++seed) { // 98: the first pair was left out
+    std::mt19937_64 random(seed);
+    const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+    meshes::Triangle_list list = meshes::bipyramid(20 + random() % 8, .3);
+    for (int k = 0; k < 5; ++k) {
+      const double x = uniform(-.8, .8), y = uniform(-.8, .8), z = uniform(.45, .9);
+      list += meshes::tetrahedron().scale_and_move(.15, x, y, z);
+    }
+    const auto size = static_cast<double>(40 + random() % 60);
+    const auto in_unit = [&](double unit) {
+      meshes::Triangle_list scaled = list;
+      scaled.transform([=](const auto& p) {
+        return Point_3(std::nearbyint(p.x() * size) * unit, std::nearbyint(p.y() * size) * unit,
+                       std::nearbyint(p.z() * size) * unit);
+      });
+      return meshes::to_mesh<Mesh>(scaled);
+    };
+    const Mesh usual = in_unit(1), least = in_unit(0x1p-1074);
+    if (!validate(usual).is_valid())
+      continue;
+    BOOST_TEST(validate(least).is_valid());
+    Vertex_index apex;
+    for (const Vertex_index v : usual.vertices())
+      if (usual.degree(v) > 14 && usual.point(v).z() > 0)
+        apex = v;
+    for (int k = 0; k < 40; ++k) {
+      const double x = std::nearbyint(uniform(-size, size)), y = std::nearbyint(uniform(-size, size)),
+                   z = std::nearbyint(uniform(.2 * size, 1.5 * size));
+      const auto a = first_impact(usual, apex, Point_3(x, y, z)),
+                 b = first_impact(least, apex, Point_3(x * 0x1p-1074, y * 0x1p-1074, z * 0x1p-1074));
+      ++asked;
+      BOOST_REQUIRE(a.has_value() == b.has_value());
+      if (a) {
+        ++met;
+        BOOST_TEST((a->feature() == b->feature() && a->vertices() == b->vertices()), "seed " << seed << ", " << k);
+      }
+    }
+  }
+  BOOST_TEST(asked > 300u);
+  BOOST_TEST(met > 50u);
+}

@@ -105,6 +105,13 @@ BOOST_AUTO_TEST_CASE(rights_that_a_file_lends_are_not_passed_on) {
     BOOST_REQUIRE(::stat(target.c_str(), &status) == 0);
     BOOST_TEST((status.st_mode & 07777) == (mode & 0777));
   }
+  const auto look = [](int file, const struct stat& old) {
+    struct stat status {};
+    BOOST_TEST(::fstat(file, &status) == 0);
+    BOOST_TEST((status.st_mode & 07777) == 0600u); // until then nobody else could read it
+    return keep_permissions(file, old);
+  };
+  replace_file(target, "other bytes", look);
   const auto refuse = [](int, const struct stat&) -> std::string {
     throw std::system_error(EPERM, std::generic_category());
   };
@@ -119,12 +126,12 @@ BOOST_AUTO_TEST_CASE(temporary_files_of_killed_processes_are_removed) {
   const pid_t child = ::fork();
   BOOST_REQUIRE(child >= 0);
   if (child == 0) { // is killed while it writes
-    const internal::Temporary_file half(target);
+    const internal::Temporary_file half(target, 0666);
     ::kill(::getpid(), SIGKILL);
   }
   BOOST_REQUIRE(::waitpid(child, nullptr, 0) == child);
   BOOST_REQUIRE(folder.number_of_files() == 1u);
-  const internal::Temporary_file living(target);
+  const internal::Temporary_file living(target, 0666);
   BOOST_REQUIRE(folder.number_of_files() == 2u);
   const auto other = folder.file(".m.off.haptic_sculpt-new-no", "somebody's");
   replace_file(target, "bytes");

@@ -40,7 +40,7 @@ public:
 
   /// The moving vertex against the static triangle a, b, c.
   Sweep_verdict vertex_face(int a, int b, int c) const {
-    if (triangle_contains(a, b, c, 0)) {
+    if (orientation(a, b, c) != 0 && triangle_contains(a, b, c, 0)) { // else its edges say where
       Sweep_verdict verdict = at_start();
       verdict.location = location_from_signs(orientation(a, b, 0), orientation(b, c, 0), orientation(c, a, 0));
       return verdict;

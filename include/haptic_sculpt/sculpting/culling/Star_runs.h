@@ -226,7 +226,7 @@ private:
     return box;
   }
 
-  Vector way_of(const Scene& scene) const { return scaled(scene.motion.way(), unit_); }
+  Vector way_of(const Scene& scene) const { return scene.motion.way(unit_); }
 
   void place(const Star<Mesh>& star, const Candidate_list<Mesh>& list, const Star_motion& motion) {
     reach_ = quick_magnitude(minus(motion.target(), motion.source()));

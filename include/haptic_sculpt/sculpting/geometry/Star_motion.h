@@ -25,8 +25,8 @@ public:
   /// Holds the way as far as it is of interest.
   const Box_3& path() const { return path_; }
 
-  /// About the vector of that way.
-  Vector way() const { return scaled(minus(target_, source_), until_); }
+  /// About the vector of that way, in a unit in which its share of the whole is no subnormal number.
+  Vector way(double unit) const { return scaled(scaled(minus(target_, source_), unit), until_); }
 
   /// Only what happens up to `time`, a fraction of the way, is of interest from now on.
   void shorten(double time) {

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <random>
 #include <string>
 #include <system_error>
 
@@ -22,14 +23,14 @@ namespace haptic_sculpt::internal {
 /// given again, and other machines and containers have their own.)
 class Temporary_file {
 public:
-  /// Makes it, empty. Where that fails, `is_open()` is false and errno says why.
-  [[gnu::cold]] explicit Temporary_file(const std::filesystem::path& target) {
+  /// Makes it, empty. Where that fails, `is_open()` is false and errno says why. \param mode who may do what with it
+  [[gnu::cold]] Temporary_file(const std::filesystem::path& target, mode_t mode) {
     for (int attempt = 0; file_ < 0 && attempt < 1000; ++attempt) {
       // The name of the target says what this is; cut, for names have a greatest length.
       path_ = target.parent_path() / ('.' + target.filename().string().substr(0, 200) + mark +
                                       std::to_string(::getpid()) + '-' + std::to_string(number()));
       // O_EXCL: nobody else's file is touched, whatever its name.
-      file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
       if (file_ < 0 && errno != EEXIST)
         return;
       if (file_ >= 0 && was_taken_for_left())
@@ -66,8 +67,10 @@ public:
       if (!has_such_a_name(entry->path().filename().string()))
         continue;
       const int file = ::open(entry->path().c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-      struct stat status {};
-      if (file >= 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && ::flock(file, LOCK_EX | LOCK_NB) == 0)
+      struct stat status {}, named {};
+      if (file >= 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
+          ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::lstat(entry->path().c_str(), &named) == 0 &&
+          named.st_dev == status.st_dev && named.st_ino == status.st_ino) // else another one has the name by now
         ::unlink(entry->path().c_str());
       if (file >= 0)
         ::close(file);
@@ -75,9 +78,10 @@ public:
   }
 
 private:
-  /// A process gives no number twice: who has looked at an old file and removes its name never meets a new file.
+  /// A process gives no number twice: who has looked at an old file and removes its name never meets a new file. The
+  /// first is random, for in another container another process has the same number.
   static unsigned number() {
-    static std::atomic<unsigned> next{0};
+    static std::atomic<unsigned> next{std::random_device()()};
     return next++;
   }
 

@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/surface/Write_error.h>
 #include <haptic_sculpt/surface/io/Temporary_file.h>
+#include <haptic_sculpt/surface/io/quoted.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -38,7 +39,7 @@ inline std::filesystem::path folder_of(const std::filesystem::path& file) {
       return at;
     const fs::path next = fs::read_symlink(at, error);
     if (error || link == most)
-      throw Write_error("cannot write '" + path.string() + "': " +
+      throw Write_error("cannot write " + internal::quoted_path(path) + ": " +
                         (error ? "the symbolic link cannot be read (" + error.message() + ")"
                                : "its symbolic links lead in a circle, or are more than " + std::to_string(most)));
     at = at.parent_path() / next; // an absolute path takes the place of both
@@ -74,7 +75,7 @@ inline std::string keep_permissions(int new_file, const struct stat& old) {
   const fs::path folder = internal::folder_of(target);
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     return "no file can be made in its folder" + system_says();
-  return fs::is_directory(folder, error) ? "" : "'" + folder.string() + "' is not a folder";
+  return fs::is_directory(folder, error) ? "" : internal::quoted_path(folder) + " is not a folder";
 }
 
 /// Puts a file of these bytes at `path`, whole or not at all (POSIX).
@@ -86,12 +87,14 @@ inline std::string keep_permissions(int new_file, const struct stat& old) {
 ///
 /// \param keep_rights gives the new file what it is to have of the old one, where there is one: it takes the
 /// descriptor of the new file and the status of the old one, returns for people what could not be kept, and may throw
-/// std::system_error
+/// std::system_error. Before that only the owner may read the new file
 /// \return for people: what of the old file could not be kept; empty if all was
 /// \throw Write_error
 [[gnu::cold]] inline std::string replace_file(const std::filesystem::path& path, std::string_view bytes,
                                 std::string (*keep_rights)(int, const struct stat&) = keep_permissions) {
-  const auto fail = [&](const std::string& why) { throw Write_error("cannot write '" + path.string() + "': " + why); };
+  const auto fail = [&](const std::string& why) {
+    throw Write_error("cannot write " + internal::quoted_path(path) + ": " + why);
+  };
   const auto system_says = [] { return " (" + std::generic_category().message(errno) + ")"; };
   const std::filesystem::path target = follow_links(path);
   if (const std::string why = why_not_replaceable(target); !why.empty())
@@ -100,7 +103,8 @@ inline std::string keep_permissions(int new_file, const struct stat& old) {
   const bool is_there = ::stat(target.c_str(), &old) == 0;
 
   internal::Temporary_file::remove_left(internal::folder_of(target));
-  internal::Temporary_file temporary(target);
+  // Until the rights of an old one are kept nobody else may read what he could not read there.
+  internal::Temporary_file temporary(target, is_there ? 0600 : 0666);
   if (!temporary.is_open())
     fail("no file can be made in its folder" + system_says());
   for (std::string_view rest = bytes; !rest.empty();) {
@@ -128,7 +132,7 @@ inline std::string keep_permissions(int new_file, const struct stat& old) {
     ::fsync(directory);
     ::close(directory);
   }
-  return note.empty() ? note : "'" + path.string() + "': " + note;
+  return note.empty() ? note : internal::quoted_path(path) + ": " + note;
 }
 
 } // namespace haptic_sculpt

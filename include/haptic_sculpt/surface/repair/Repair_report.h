@@ -63,8 +63,9 @@ struct Repair_step {
 /// What repair() has done, and what it could not do.
 ///
 /// Points of the input are counted once a place, and only where they have a face; "where it is now" is the farthest of
-/// several if a point was split. Distances are in the unit of the coordinates and rounded: the relative error is less
-/// than 1e-15, unless they are less than 2^-1000.
+/// several if a point was split. Distances are in the unit of the coordinates and rounded: of those of points the
+/// relative error is less than 1e-15, unless they are less than 2^-1000; removed_distance is off by some 1e-15 of the
+/// size of the scene.
 struct Repair_report {
   std::vector<Repair_step> steps; ///< those that did something, or failed to; empty: there was nothing to do
   double moved = 0;               ///< the largest distance of a point from where it was

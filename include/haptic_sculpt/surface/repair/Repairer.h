@@ -20,7 +20,7 @@ public:
     scale_.down(soup_);
     trail_ = Trail(soup_);
     if (parameters_.gap_length)
-      parameters_.gap_length = scale_.down(*parameters_.gap_length);
+      parameters_.gap_length = std::fmin(scale_.down(*parameters_.gap_length), haptic_sculpt::largest_coordinate);
   }
 
   Repair_report run() {

@@ -96,8 +96,11 @@ public:
         if (a->is_first)
           add_slices(*a, slices, first);
       }
-      for (auto a = end; a != at_hubs.end(); ++a)
-        if (a->is_first)
+      CGAL::Bbox_3 around;
+      for (const Box& slice : first)
+        around += slice.bbox();
+      for (auto a = end; a != at_hubs.end(); ++a) // not what is far off, or all faces at hubs were sliced for each hub
+        if (a->is_first && CGAL::do_overlap(around, box(a->face, none).bbox()))
           add_slices(*a, slices, later);
       are_at_hubs = false;
       pairs_between(edges, fan);
