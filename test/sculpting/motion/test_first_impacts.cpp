@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(first_impacts_in_the_least_unit_are_those_of_usual_ones) {
     const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
     meshes::Triangle_list list = meshes::bipyramid(20 + random() % 8, .3);
     for (int k = 0; k < 5; ++k) {
-      const double x = uniform(-.8, .8), y = uniform(-.8, .8), z = uniform(.45, .9);
+      const double z = uniform(.45, .9), y = uniform(-.8, .8), x = uniform(-.8, .8);
       list += meshes::tetrahedron().scale_and_move(.15, x, y, z);
     }
     const auto size = static_cast<double>(40 + random() % 60);
@@ -243,8 +243,8 @@ BOOST_AUTO_TEST_CASE(first_impacts_in_the_least_unit_are_those_of_usual_ones) {
       if (usual.degree(v) > 14 && usual.point(v).z() > 0)
         apex = v;
     for (int k = 0; k < 40; ++k) {
-      const double x = std::nearbyint(uniform(-size, size)), y = std::nearbyint(uniform(-size, size)),
-                   z = std::nearbyint(uniform(.2 * size, 1.5 * size));
+      const double x = std::nearbyint(size * uniform(-1, 1)), y = std::nearbyint(size * uniform(-1, 1)),
+                   z = std::nearbyint(size * uniform(.2, 1.5));
       const auto a = first_impact(usual, apex, Point_3(x, y, z)),
                  b = first_impact(least, apex, Point_3(x * 0x1p-1074, y * 0x1p-1074, z * 0x1p-1074));
       ++asked;
