@@ -75,7 +75,7 @@ struct Faces_and_points {
     const Rounding in_this_mode(rounding);
     internal::Star_motion motion(drawn.source, drawn.target);
     motion.shorten(until);
-    way = motion.way();
+    way = motion.way(1);
     reach = internal::quick_magnitude(internal::minus(drawn.target, drawn.source));
     const auto local = [&](const Coordinates& p) {
       const Coordinates place = internal::minus(p, drawn.source);
