@@ -24,8 +24,10 @@ public:
 /// Where a hand wants to be, and what it does with the button. SI units, axes of the device; linear between rows.
 class Hand_path {
 public:
-  /// m and s: whoever writes more means another unit, and velocities stay finite.
-  static constexpr double largest_number = 1e9, least_time = 1e-9;
+  /// m and s: whoever writes more means another unit.
+  static constexpr double largest_number = 1e9;
+  /// s, between two rows: velocities stay finite.
+  static constexpr double least_time = 1e-9;
 
   /// A place, and when.
   struct Row {
