@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a tool is asked for between two ticks, and that its journal makes all of it again.
-#include "haptic_rendering/exchange/made_again.h"
+#include "haptic_rendering/Tool_bench.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -11,27 +11,8 @@ using namespace exchange_tests;
 
 namespace {
 
-const Mesh ball = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
-
-/// A tool without a button, and what it has done.
-struct Bench {
-  std::unique_ptr<Scene> scene = scene_of(2);
-  Tool<Scene::Sculptor_type> tool{scene->sculptor, map_of_tests, 0.01, 0.001};
-  Edit_journal journal{100000};
-  Bench() { tool.keep_journal(&journal); }
-
-  Vector3d place(Mesh::Vertex_index v) const { return internal::vector_of(scene->mesh.point(v)); }
-  Tool_step move(const Vector3d& hand) { return tool.move(map_of_tests.to_device(hand), 0); }
-  bool is_made_again() {
-    Entries entries;
-    for (Edit entry; journal.take(entry);)
-      entries.push_back(entry);
-    return made_again(ball, entries) == surface_of(*scene);
-  }
-};
-
 BOOST_AUTO_TEST_CASE(a_vertex_that_is_taken_is_anchored_where_it_is_and_held_in_one_stroke) {
-  Bench bench;
+  Tool_bench bench;
   const Mesh::Vertex_index v(17);
   const Vector3d before = bench.place(v), hand(3, 1, 2);
   bench.tool.carry_probe(false);
@@ -59,7 +40,7 @@ BOOST_AUTO_TEST_CASE(a_vertex_that_is_taken_is_anchored_where_it_is_and_held_in_
 }
 
 BOOST_AUTO_TEST_CASE(a_probe_that_is_not_carried_is_in_hand_from_when_it_is_taken_until_something_lets_go) {
-  Bench bench;
+  Tool_bench bench;
   bench.tool.carry_probe(false);
   const Vector3d hand(0.3, 0, 0);
   const auto probe = [&bench] { return internal::vector_of(bench.tool.probe()->position()); };
@@ -84,69 +65,8 @@ BOOST_AUTO_TEST_CASE(a_probe_that_is_not_carried_is_in_hand_from_when_it_is_take
   BOOST_TEST(bench.scene->sculptor.history().number_of_undo_steps() == 0u);
 }
 
-// A Sculptor has one hand, and whoever has it may use it beside the tool.
-BOOST_AUTO_TEST_CASE(a_vertex_that_somebody_else_takes_or_removes_is_let_go_of_without_a_force) {
-  for (const std::string how : {"taken", "removed", "undone"})
-    for (const int button : {0, 1, 2})
-      BOOST_TEST_CONTEXT(how << ", then button " << button) {
-        Bench bench;
-        auto& sculptor = bench.scene->sculptor;
-        const Mesh::Vertex_index v(17);
-        const Vector3d hand = 1.2 * bench.place(v);
-        std::optional<Scene::Sculptor_type::Grab_type> other;
-        if (how == "undone") {
-          const auto f = *bench.scene->mesh.faces_begin();
-          Edit wanted = Edit::of(Edit_kind::insert_on_face);
-          Vector3d middle = Vector3d::Zero();
-          int k = 0;
-          for (const auto corner : bench.scene->mesh.vertices_around_face(bench.scene->mesh.halfedge(f)))
-            wanted.vertices[k++] = sculptor.id(corner), middle += bench.place(corner) / 3;
-          middle *= 1.1;
-          wanted.point = {middle[0], middle[1], middle[2]};
-          BOOST_REQUIRE(static_cast<bool>(bench.tool.create_and_take(wanted)));
-        } else {
-          bench.tool.take(v);
-        }
-        bench.move(hand);
-        BOOST_TEST(bench.tool.holds_vertex());
-        if (how == "taken")
-          other.emplace(sculptor.grab(Mesh::Vertex_index(5)));
-        else if (how == "removed")
-          BOOST_REQUIRE(static_cast<bool>(sculptor.remove(v)));
-        else
-          BOOST_REQUIRE(static_cast<bool>(sculptor.undo()));
-        BOOST_TEST(!bench.tool.holds_vertex());
-        const Mesh before = bench.scene->mesh;
-        const Vector3d far = 3 * hand;
-        for (int k = 0; k < 40; ++k) {
-          const Tool_step step = bench.tool.move(map_of_tests.to_device(far), button);
-          BOOST_TEST(step.reached); // no spring
-          BOOST_TEST(step.contacts == 0);
-        }
-        BOOST_TEST(!bench.tool.holds_vertex());
-        BOOST_TEST(bench.tool.holds_probe());
-        BOOST_TEST((surface_of(before, sculptor) == surface_of(*bench.scene)));
-      }
-}
-
-BOOST_AUTO_TEST_CASE(a_probe_that_is_not_carried_is_not_brought_where_a_vertex_is_let_go_of_by_the_button) {
-  for (const int button : {0, 2}) {
-    Bench bench;
-    bench.tool.carry_probe(false);
-    const Vector3d hand = bench.place(Mesh::Vertex_index(17));
-    for (int k = 0; k < 3; ++k)
-      bench.tool.move(map_of_tests.to_device(hand), 1);
-    BOOST_TEST(bench.tool.holds_vertex());
-    for (int k = 0; k < 40; ++k) {
-      bench.tool.move(map_of_tests.to_device(1.5 * hand), button);
-      BOOST_TEST(!bench.tool.probe());
-    }
-    BOOST_TEST((button == 2 ? bench.tool.edits().removed : bench.tool.edits().released) == 1u);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(a_probe_goes_on_after_edits_where_it_was_or_else_at_the_hand) {
-  Bench bench;
+  Tool_bench bench;
   const Mesh::Vertex_index v(17);
   const Vector3d home = bench.place(v), out = 1.3 * home;
   bench.move(out);
@@ -179,7 +99,7 @@ BOOST_AUTO_TEST_CASE(a_probe_goes_on_after_edits_where_it_was_or_else_at_the_han
 // However the strokes before it have begun, each ends once in the journal, and undo finds the same.
 BOOST_AUTO_TEST_CASE(a_press_while_a_stroke_is_under_way_ends_that) {
   for (int way = 0; way < 3; ++way) {
-    Bench bench;
+    Tool_bench bench;
     const Mesh::Vertex_index v(17), w(30);
     const auto press = [&](Mesh::Vertex_index held, int button, double height) {
       return bench.tool.move(map_of_tests.to_device(Vector3d(height * bench.place(held))), button);
@@ -205,7 +125,7 @@ BOOST_AUTO_TEST_CASE(a_press_while_a_stroke_is_under_way_ends_that) {
 }
 
 BOOST_AUTO_TEST_CASE(scenes_of_all_sizes_leave_the_reach_as_it_was) {
-  Bench bench;
+  Tool_bench bench;
   const auto other = scene_of(2);
   for (const double scale : {1e-200, 1e200, 1e200, 1e-200})
     bench.tool.enter(other->sculptor, Workspace_map(scale, Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()));
@@ -217,7 +137,7 @@ BOOST_AUTO_TEST_CASE(scenes_of_all_sizes_leave_the_reach_as_it_was) {
 }
 
 BOOST_AUTO_TEST_CASE(moves_by_value_are_told_as_their_legs) {
-  Bench bench;
+  Tool_bench bench;
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> number(-1, 1);
   std::size_t slides = 0;
@@ -237,7 +157,7 @@ BOOST_AUTO_TEST_CASE(moves_by_value_are_told_as_their_legs) {
 BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_says) {
   std::mt19937_64 random(5);
   for (const bool carries : {true, false}) {
-    Bench bench;
+    Tool_bench bench;
     bench.tool.carry_probe(carries);
     const auto& sculptor = bench.scene->sculptor;
     std::size_t done[4] = {};
@@ -299,7 +219,7 @@ BOOST_AUTO_TEST_CASE(edits_and_moves_of_many_are_made_again_by_what_the_journal_
 
 BOOST_AUTO_TEST_CASE(functions_that_take_a_sculptor_take_edits_of_a_tool_and_are_made_again) {
   using Kernel = CGAL::Kernel_traits<Mesh::Point>::Kernel;
-  Bench bench;
+  Tool_bench bench;
   auto& sculptor = bench.scene->sculptor;
   const Mesh& mesh = bench.scene->mesh;
   const auto steps = [&] { return sculptor.history().number_of_undo_steps(); };
@@ -341,7 +261,7 @@ BOOST_AUTO_TEST_CASE(functions_that_take_a_sculptor_take_edits_of_a_tool_and_are
 
 BOOST_AUTO_TEST_CASE(an_object_is_in_the_journal_as_shifts_within_one_stroke) {
   using Kernel = CGAL::Kernel_traits<Mesh::Point>::Kernel;
-  Bench bench;
+  Tool_bench bench;
   const std::vector<Mesh::Vertex_index> all(ball.vertices().begin(), ball.vertices().end());
   const Kernel::Vector_3 way(3, 5, 7);
   bench.tool.edit_by([&](auto& edits) {

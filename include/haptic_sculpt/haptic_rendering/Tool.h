@@ -30,7 +30,7 @@ public:
 
   /// In free motion the offset of the target fades with this time, s.
   static constexpr double offset_time = 0.2;
-  /// m: beside a vertex that is let go of the probe is put in parts of the reach.
+  /// m: beside a vertex that is let go of the probe is put in parts of the reach, so it cannot be 0.
   static constexpr double least_reach = 1e-9;
 
   /// \param reach of a grab, in the device, m \param tick s \throw Error naming what cannot be used

@@ -18,10 +18,12 @@ inline Outcome<Device_pose<double>> home_pose(const Device_parameters<double>& p
 
 namespace internal {
 
-/// m. A millimetre, or for arms of metres a thousandth of one: else their workspaces would take minutes.
+/// How finely a workspace is gone through, m: else that of arms of metres would take minutes.
 inline double step_through_workspace(const Device_parameters<double>& parameters) {
+  constexpr double finest = 1e-3;       // m
+  constexpr double share_of_arm = 1e-3; // of arms longer than a metre
   const Device_description<double>& lengths = parameters.description();
-  return std::fmax(1e-3, 1e-3 * (lengths.primary_length + lengths.secondary_length));
+  return std::fmax(finest, share_of_arm * (lengths.primary_length + lengths.secondary_length));
 }
 
 } // namespace internal

@@ -89,7 +89,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   double largest = 0;
   for (const Vertex_index v : mesh.vertices())
     largest = std::fmax(largest, internal::largest_magnitude(vertex_coordinates(mesh, v)));
-  constexpr double largest_of_cost = 0x1p160;
+  constexpr double largest_of_cost = 0x1p160; // CGAL's numbers overflow above 2^170
   constexpr bool is_default = std::is_same<std::decay_t<decltype(get_cost)>, SMS::LindstromTurk_cost<Mesh>>::value;
   if (is_default && largest > largest_of_cost)
     throw Out_of_range("a coordinate of " + internal::number(largest) + " is too large for Lindstrom and Turk's costs" +

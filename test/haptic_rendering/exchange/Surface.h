@@ -64,6 +64,16 @@ inline Surface surface_of(const std::map<std::uint32_t, Face_change>& faces) {
   return surface;
 }
 
+/// As a viewer does it: of another scene nothing is left.
+inline void show(const Face_change& face, std::map<std::uint32_t, Face_change>& shown, std::uint32_t& scene) {
+  if (face.scene != scene)
+    shown.clear(), scene = face.scene;
+  if (face.is_there)
+    shown[face.index] = face;
+  else
+    shown.erase(face.index);
+}
+
 inline Surface surface_of(const Scene_copy& copy) {
   Surface surface;
   for (std::size_t v = 0; v < copy.ids.size(); ++v)

@@ -94,14 +94,8 @@ private:
   std::uint64_t taken_ = 0; ///< faces
 
   void take_faces(std::uint64_t until) {
-    for (Face_change face; taken_ < until && feed_.take(face); ++taken_) {
-      if (face.scene != scene)
-        shown.clear(), scene = face.scene;
-      if (face.is_there)
-        shown[face.index] = face;
-      else
-        shown.erase(face.index);
-    }
+    for (Face_change face; taken_ < until && feed_.take(face); ++taken_)
+      show(face, shown, scene);
   }
 };
 

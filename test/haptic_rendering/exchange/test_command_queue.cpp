@@ -182,14 +182,8 @@ BOOST_AUTO_TEST_CASE(a_viewer_is_passed_all_of_a_scene_that_is_entered_again) {
   const auto run = [&] {
     for (int k = 0; k < 40; ++k)
       session.tick(reading_at(session.ticks()));
-    for (Face_change face; feed.take(face);) {
-      if (face.scene != scene)
-        shown.clear(), scene = face.scene;
-      if (face.is_there)
-        shown[face.index] = face;
-      else
-        shown.erase(face.index);
-    }
+    for (Face_change face; feed.take(face);)
+      show(face, shown, scene);
     BOOST_TEST((surface_of(shown) == surface_of(session.scene())));
   };
   run();

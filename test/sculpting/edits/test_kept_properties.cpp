@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Values of kept property maps: back after undo and redo, carried on by edits; compared with copies by number of
 // vertex.
-#include "sculpting/Mesh_snapshot.h"
+#include "sculpting/edits/Numbered_mesh.h"
 #include "sculpting/edits/random_edits.h"
 
 #include <haptic_sculpt/sculpting/isotropic_remeshing.h>
@@ -13,81 +13,6 @@
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
-
-namespace {
-
-using Names = std::array<std::size_t, 3>;
-
-/// All values of the four kinds of elements by numbers of vertices; those of halfedges by source and target.
-template <class Sculptor, class Get>
-std::map<std::pair<int, Names>, int> all_values(const Sculptor& sculptor, const Get& value_of) {
-  const Mesh& mesh = sculptor.mesh();
-  const auto name = [&](Vertex_index v) { return sculptor.id(v); };
-  std::map<std::pair<int, Names>, int> values;
-  for (const auto v : mesh.vertices())
-    values[{0, {name(v), 0, 0}}] = value_of(v);
-  for (const auto h : mesh.halfedges())
-    values[{1, {name(mesh.source(h)), name(mesh.target(h)), 0}}] = value_of(h);
-  for (const auto e : mesh.edges()) {
-    const auto ends = std::minmax({name(mesh.vertex(e, 0)), name(mesh.vertex(e, 1))});
-    values[{2, {ends.first, ends.second, 0}}] = value_of(e);
-  }
-  for (const auto f : mesh.faces()) {
-    Names corners{};
-    std::size_t i = 0;
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
-      corners[i++] = name(v);
-    std::sort(corners.begin(), corners.end());
-    values[{3, corners}] = value_of(f);
-  }
-  return values;
-}
-
-/// A mesh with a map of int for each kind, all values different.
-struct Numbered_mesh {
-  Mesh mesh;
-  Mesh::Property_map<Mesh::Vertex_index, int> of_vertices;
-  Mesh::Property_map<Mesh::Halfedge_index, int> of_halfedges;
-  Mesh::Property_map<Mesh::Edge_index, int> of_edges;
-  Mesh::Property_map<Mesh::Face_index, int> of_faces;
-  int next = 1;
-
-  explicit Numbered_mesh(const meshes::Triangle_list& list) : mesh(meshes::to_mesh(list)) {
-    of_vertices = mesh.add_property_map<Mesh::Vertex_index, int>("v:number", 0).first;
-    of_halfedges = mesh.add_property_map<Mesh::Halfedge_index, int>("h:number", 0).first;
-    of_edges = mesh.add_property_map<Mesh::Edge_index, int>("e:number", 0).first;
-    of_faces = mesh.add_property_map<Mesh::Face_index, int>("f:number", 0).first;
-    renumber();
-  }
-  void renumber() {
-    for (const auto v : mesh.vertices())
-      of_vertices[v] = next++;
-    for (const auto h : mesh.halfedges())
-      of_halfedges[h] = next++;
-    for (const auto e : mesh.edges())
-      of_edges[e] = next++;
-    for (const auto f : mesh.faces())
-      of_faces[f] = next++;
-  }
-  template <class Sculptor>
-  void keep_all(Sculptor& sculptor) const {
-    sculptor.keep(of_vertices);
-    sculptor.keep(of_halfedges);
-    sculptor.keep(of_edges);
-    sculptor.keep(of_faces);
-  }
-  int operator()(Mesh::Vertex_index v) const { return of_vertices[v]; }
-  int operator()(Mesh::Halfedge_index h) const { return of_halfedges[h]; }
-  int operator()(Mesh::Edge_index e) const { return of_edges[e]; }
-  int operator()(Mesh::Face_index f) const { return of_faces[f]; }
-};
-
-/// For edits by hand, and at random.
-meshes::Triangle_list lumpy_ball() {
-  return meshes::bumpy_sphere(1, 0.1, 0.05);
-}
-
-} // namespace
 
 // Values of what is new are overwritten after each edit by ones never used, so that what undo and redo bring back
 // cannot come from anywhere else.
@@ -301,90 +226,4 @@ BOOST_AUTO_TEST_CASE(a_visitor_hears_what_comes_from_what) {
     for (const auto f : numbered.mesh.faces())
       BOOST_REQUIRE_EQUAL(attribute.at(f), static_cast<std::size_t>(numbered(f)));
   }
-}
-
-namespace {
-
-struct Interruption {};
-
-/// Throws once, at that place.
-struct Throwing_visitor : Default_edit_visitor {
-  enum class Place { nowhere, dies, replaces } place = Place::nowhere;
-  void face_dies(Mesh::Face_index) { hear(Place::dies); }
-  void face_replaces(Mesh::Face_index, Mesh::Face_index) { hear(Place::replaces); }
-
-private:
-  void hear(Place here) {
-    if (here == place) {
-      place = Place::nowhere;
-      throw Interruption();
-    }
-  }
-};
-using Place = Throwing_visitor::Place;
-
-/// Creations on a ball whose elements have values of their own.
-struct Interrupted {
-  Numbered_mesh numbered{lumpy_ball()};
-  Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Throwing_visitor> sculptor{numbered.mesh};
-  Interrupted() { numbered.keep_all(sculptor); }
-
-  auto values() const { return all_values(sculptor, numbered); }
-  bool create(std::uint32_t face, Place place) {
-    sculptor.visitor().place = place;
-    const auto h = numbered.mesh.halfedge(Mesh::Face_index(face));
-    const auto p = [&](auto v) { return numbered.mesh.point(v) - CGAL::ORIGIN; };
-    const auto& mesh = numbered.mesh;
-    const auto middle = (p(mesh.source(h)) + p(mesh.target(h)) + p(mesh.target(mesh.next(h)))) / 3;
-    try {
-      BOOST_TEST(static_cast<bool>(sculptor.insert_on_face(Mesh::Face_index(face), CGAL::ORIGIN + 1.01 * middle)));
-      return true;
-    } catch (const Interruption&) {
-      return false;
-    }
-  }
-};
-
-} // namespace
-
-BOOST_AUTO_TEST_CASE(kept_values_are_those_of_an_edit_that_stands_where_the_visitor_has_thrown) {
-  Interrupted calm, thrown;
-  const auto before = thrown.values();
-  BOOST_TEST(calm.create(3, Place::nowhere));
-  BOOST_TEST(!thrown.create(3, Place::replaces));
-  BOOST_TEST(thrown.sculptor.history().number_of_undo_steps() == 1u);
-  BOOST_TEST((thrown.values() == calm.values()));
-  BOOST_TEST(static_cast<bool>(thrown.sculptor.undo()));
-  BOOST_TEST((thrown.values() == before));
-}
-
-BOOST_AUTO_TEST_CASE(kept_values_are_back_where_an_undo_is_taken_back) {
-  Interrupted scene;
-  const auto begin = scene.values();
-  {
-    const auto stroke = scene.sculptor.stroke();
-    BOOST_TEST((scene.create(3, Place::nowhere) && scene.create(4, Place::nowhere)));
-  }
-  scene.numbered.renumber();
-  const auto before = scene.values();
-  scene.sculptor.visitor().place = Place::replaces;
-  BOOST_CHECK_THROW(scene.sculptor.undo(), Interruption);
-  BOOST_TEST(scene.sculptor.history().number_of_undo_steps() == 1u);
-  BOOST_TEST((scene.values() == before));
-  BOOST_TEST(static_cast<bool>(scene.sculptor.undo()));
-  BOOST_TEST(scene.values().size() == begin.size());
-  BOOST_TEST(static_cast<bool>(scene.sculptor.redo()));
-  BOOST_TEST((scene.values() == before));
-}
-
-BOOST_AUTO_TEST_CASE(an_edit_that_is_not_made_leaves_what_redo_gives_back) {
-  Interrupted scene;
-  BOOST_TEST(scene.create(3, Place::nowhere));
-  scene.numbered.renumber();
-  const auto made = scene.values();
-  BOOST_TEST(static_cast<bool>(scene.sculptor.undo()));
-  BOOST_TEST(!scene.create(9, Place::dies));
-  BOOST_TEST(scene.sculptor.history().number_of_redo_steps() == 1u);
-  BOOST_TEST(static_cast<bool>(scene.sculptor.redo()));
-  BOOST_TEST((scene.values() == made));
 }

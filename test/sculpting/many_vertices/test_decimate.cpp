@@ -229,15 +229,27 @@ BOOST_AUTO_TEST_CASE(placements_and_meshes_out_of_range_are_refused_by_name) {
       BOOST_TEST(mesh.number_of_faces() == before.number_of_faces());
       BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
     }
-  for (const double unit : {0x1p150, 0x1p200}) {
-    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
+  const auto scale = [](Mesh& mesh, double unit) {
     for (const auto v : mesh.vertices())
       mesh.point(v) = meshes::Point_3(unit * mesh.point(v).x(), unit * mesh.point(v).y(), unit * mesh.point(v).z());
-    Sculptor<Mesh> sculptor(mesh);
-    if (unit < 0x1p160)
-      BOOST_TEST(haptic_sculpt::decimate(sculptor, stop).collapsed > 100u);
-    else
-      BOOST_CHECK_THROW(haptic_sculpt::decimate(sculptor, stop), haptic_sculpt::Out_of_range);
+  };
+  Mesh usual;
+  for (const double unit : {1.0, 0x1p-100, 0x1p100, 0x1p150, 0x1p200}) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
+    scale(mesh, unit);
+    {
+      Sculptor<Mesh> sculptor(mesh);
+      if (unit < 0x1p160)
+        BOOST_TEST(haptic_sculpt::decimate(sculptor, stop).collapsed > 100u);
+      else
+        BOOST_CHECK_THROW(haptic_sculpt::decimate(sculptor, stop), haptic_sculpt::Out_of_range);
+    }
+    if (unit > 0x1p100)
+      continue;
+    scale(mesh, 1 / unit);
+    if (unit == 1)
+      usual = mesh;
+    BOOST_TEST(reading_and_writing::identical(mesh, usual));
   }
 }
 

@@ -23,7 +23,6 @@ public:
   /// All indices below this are to be passed on. Allocates nothing. Linear in what waited before.
   void add_all(std::uint32_t faces) {
     clear();
-    ++number_;
     all_until_ = faces;
   }
   /// Amortized constant time.

@@ -39,7 +39,7 @@ public:
     Write_state& state_;
     bool was_asking_;
   };
-  /// The mesh may have changed since the last question of the same function: nothing is looked up for the next.
+  /// Whether one runs now: the mesh may have changed since its last question.
   bool is_asking() const noexcept { return is_asking_; }
   /// \throw Reentrant_call, Unfinished_change
   void check_may_change() const {

@@ -3,9 +3,9 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <random>
 #include <string>
 #include <system_error>
 
@@ -79,9 +79,10 @@ public:
 
 private:
   /// A process gives no number twice: who has looked at an old file and removes its name never meets a new file. The
-  /// first is random, for in another container another process has the same number.
+  /// first is the time, for in another container another process has the same number.
   static unsigned number() {
-    static std::atomic<unsigned> next{std::random_device()()};
+    static std::atomic<unsigned> next{
+        static_cast<unsigned>(std::chrono::system_clock::now().time_since_epoch().count())};
     return next++;
   }
 

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a tool lets go of by itself, and what it does not bring then.
+#include "haptic_rendering/Tool_bench.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <optional>
+#include <string>
+
+using namespace haptic_sculpt;
+using namespace exchange_tests;
+
+namespace {
+
+// A Sculptor has one hand, and whoever has it may use it beside the tool.
+BOOST_AUTO_TEST_CASE(a_vertex_that_somebody_else_takes_or_removes_is_let_go_of_without_a_force) {
+  for (const std::string how : {"taken", "removed", "undone"})
+    for (const int button : {0, 1, 2})
+      BOOST_TEST_CONTEXT(how << ", then button " << button) {
+        Tool_bench bench;
+        auto& sculptor = bench.scene->sculptor;
+        const Mesh::Vertex_index v(17);
+        const Vector3d hand = 1.2 * bench.place(v);
+        std::optional<Scene::Sculptor_type::Grab_type> other;
+        if (how == "undone") {
+          const auto f = *bench.scene->mesh.faces_begin();
+          Edit wanted = Edit::of(Edit_kind::insert_on_face);
+          Vector3d middle = Vector3d::Zero();
+          int k = 0;
+          for (const auto corner : bench.scene->mesh.vertices_around_face(bench.scene->mesh.halfedge(f)))
+            wanted.vertices[k++] = sculptor.id(corner), middle += bench.place(corner) / 3;
+          middle *= 1.1;
+          wanted.point = {middle[0], middle[1], middle[2]};
+          BOOST_REQUIRE(static_cast<bool>(bench.tool.create_and_take(wanted)));
+        } else {
+          bench.tool.take(v);
+        }
+        bench.move(hand);
+        BOOST_TEST(bench.tool.holds_vertex());
+        if (how == "taken")
+          other.emplace(sculptor.grab(Mesh::Vertex_index(5)));
+        else if (how == "removed")
+          BOOST_REQUIRE(static_cast<bool>(sculptor.remove(v)));
+        else
+          BOOST_REQUIRE(static_cast<bool>(sculptor.undo()));
+        BOOST_TEST(!bench.tool.holds_vertex());
+        const Mesh before = bench.scene->mesh;
+        const Vector3d far = 3 * hand;
+        for (int k = 0; k < 40; ++k) {
+          const Tool_step step = bench.tool.move(map_of_tests.to_device(far), button);
+          BOOST_TEST(step.reached); // no spring
+          BOOST_TEST(step.contacts == 0);
+        }
+        BOOST_TEST(!bench.tool.holds_vertex());
+        BOOST_TEST(bench.tool.holds_probe());
+        BOOST_TEST((surface_of(before, sculptor) == surface_of(*bench.scene)));
+      }
+}
+
+BOOST_AUTO_TEST_CASE(a_probe_that_is_not_carried_is_not_brought_where_a_vertex_is_let_go_of_by_the_button) {
+  for (const int button : {0, 2}) {
+    Tool_bench bench;
+    bench.tool.carry_probe(false);
+    const Vector3d hand = bench.place(Mesh::Vertex_index(17));
+    for (int k = 0; k < 3; ++k)
+      bench.tool.move(map_of_tests.to_device(hand), 1);
+    BOOST_TEST(bench.tool.holds_vertex());
+    for (int k = 0; k < 40; ++k) {
+      bench.tool.move(map_of_tests.to_device(1.5 * hand), button);
+      BOOST_TEST(!bench.tool.probe());
+    }
+    BOOST_TEST((button == 2 ? bench.tool.edits().removed : bench.tool.edits().released) == 1u);
+  }
+}
+
+} // namespace

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Values of kept property maps where a visitor throws: of what stands, of what is taken back, and of what is not made.
+#include "sculpting/edits/Numbered_mesh.h"
+
+#include <boost/test/unit_test.hpp>
+
+using namespace haptic_sculpt;
+using namespace haptic_sculpt::test;
+
+namespace {
+
+struct Interruption {};
+
+/// Throws once, at that place.
+struct Throwing_visitor : Default_edit_visitor {
+  enum class Place { nowhere, dies, replaces } place = Place::nowhere;
+  void face_dies(Mesh::Face_index) { hear(Place::dies); }
+  void face_replaces(Mesh::Face_index, Mesh::Face_index) { hear(Place::replaces); }
+
+private:
+  void hear(Place here) {
+    if (here == place) {
+      place = Place::nowhere;
+      throw Interruption();
+    }
+  }
+};
+using Place = Throwing_visitor::Place;
+
+/// Creations on a ball whose elements have values of their own.
+struct Interrupted {
+  Numbered_mesh numbered{lumpy_ball()};
+  Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Throwing_visitor> sculptor{numbered.mesh};
+  Interrupted() { numbered.keep_all(sculptor); }
+
+  auto values() const { return all_values(sculptor, numbered); }
+  bool create(std::uint32_t face, Place place) {
+    sculptor.visitor().place = place;
+    const auto h = numbered.mesh.halfedge(Mesh::Face_index(face));
+    const auto p = [&](auto v) { return numbered.mesh.point(v) - CGAL::ORIGIN; };
+    const auto& mesh = numbered.mesh;
+    const auto middle = (p(mesh.source(h)) + p(mesh.target(h)) + p(mesh.target(mesh.next(h)))) / 3;
+    try {
+      BOOST_TEST(static_cast<bool>(sculptor.insert_on_face(Mesh::Face_index(face), CGAL::ORIGIN + 1.01 * middle)));
+      return true;
+    } catch (const Interruption&) {
+      return false;
+    }
+  }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(kept_values_are_those_of_an_edit_that_stands_where_the_visitor_has_thrown) {
+  Interrupted calm, thrown;
+  const auto before = thrown.values();
+  BOOST_TEST(calm.create(3, Place::nowhere));
+  BOOST_TEST(!thrown.create(3, Place::replaces));
+  BOOST_TEST(thrown.sculptor.history().number_of_undo_steps() == 1u);
+  BOOST_TEST((thrown.values() == calm.values()));
+  BOOST_TEST(static_cast<bool>(thrown.sculptor.undo()));
+  BOOST_TEST((thrown.values() == before));
+}
+
+BOOST_AUTO_TEST_CASE(kept_values_are_back_where_an_undo_is_taken_back) {
+  Interrupted scene;
+  const auto begin = scene.values();
+  {
+    const auto stroke = scene.sculptor.stroke();
+    BOOST_TEST((scene.create(3, Place::nowhere) && scene.create(4, Place::nowhere)));
+  }
+  scene.numbered.renumber();
+  const auto before = scene.values();
+  scene.sculptor.visitor().place = Place::replaces;
+  BOOST_CHECK_THROW(scene.sculptor.undo(), Interruption);
+  BOOST_TEST(scene.sculptor.history().number_of_undo_steps() == 1u);
+  BOOST_TEST((scene.values() == before));
+  BOOST_TEST(static_cast<bool>(scene.sculptor.undo()));
+  BOOST_TEST(scene.values().size() == begin.size());
+  BOOST_TEST(static_cast<bool>(scene.sculptor.redo()));
+  BOOST_TEST((scene.values() == before));
+}
+
+BOOST_AUTO_TEST_CASE(an_edit_that_is_not_made_leaves_what_redo_gives_back) {
+  Interrupted scene;
+  BOOST_TEST(scene.create(3, Place::nowhere));
+  scene.numbered.renumber();
+  const auto made = scene.values();
+  BOOST_TEST(static_cast<bool>(scene.sculptor.undo()));
+  BOOST_TEST(!scene.create(9, Place::dies));
+  BOOST_TEST(scene.sculptor.history().number_of_redo_steps() == 1u);
+  BOOST_TEST(static_cast<bool>(scene.sculptor.redo()));
+  BOOST_TEST((scene.values() == made));
+}
