@@ -246,6 +246,7 @@ BOOST_AUTO_TEST_CASE(placements_and_meshes_out_of_range_are_refused_by_name) {
     }
     if (unit > 0x1p100)
       continue;
+    mesh.collect_garbage();
     scale(mesh, 1 / unit);
     if (unit == 1)
       usual = mesh;
