@@ -256,21 +256,20 @@ BOOST_AUTO_TEST_CASE(placements_and_meshes_out_of_range_are_refused_by_name) {
 
 // Where the draw mends altitudes that a delta would not let be so low again.
 BOOST_AUTO_TEST_CASE(what_was_drawn_for_nothing_goes_back_whatever_delta_is) {
-  Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
+  Mesh mesh;
+  const auto a = mesh.add_vertex({-1, -1, 0}), b = mesh.add_vertex({1, -1, 0}), c = mesh.add_vertex({0, 1, 0}),
+             top = mesh.add_vertex({0, 0, 1});
+  mesh.add_face(a, c, b), mesh.add_face(a, b, top), mesh.add_face(b, c, top), mesh.add_face(c, a, top);
   Sculptor<Mesh> sculptor(mesh);
-  const auto v = *mesh.vertices_begin();
-  const auto home = mesh.point(v);
-  const auto middle = CGAL::centroid(mesh.point(Mesh::Vertex_index(1)), mesh.point(Mesh::Vertex_index(2)),
-                                     mesh.point(Mesh::Vertex_index(3)));
-  BOOST_REQUIRE(sculptor.drag(v, middle + 0.05 * (home - middle)).reached);
-  BOOST_REQUIRE(sculptor.drag(v, home).reached);
-  sculptor.set_delta(0.5 * std::sqrt(CGAL::squared_distance(home, middle)));
+  BOOST_REQUIRE(sculptor.drag(top, {0, -0.9, 0.1}).reached);
+  BOOST_REQUIRE(sculptor.drag(top, {0, 0, 1}).reached);
+  sculptor.set_delta(0.5);
   BOOST_REQUIRE(static_cast<bool>(sculptor.undo()));
   const Mesh before = mesh;
   const auto cost = [](const auto& profile, const auto&) {
     return boost::optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
   };
-  const auto placement = [&](const auto&) { return boost::optional<meshes::Point_3>(middle + 2 * (home - middle)); };
+  const auto placement = [](const auto&) { return boost::optional<meshes::Point_3>(meshes::Point_3(0, 0, 2)); };
   const auto report =
       haptic_sculpt::decimate(sculptor, [](const auto&, const auto&, std::size_t, std::size_t) { return false; },
                               CGAL::parameters::get_cost(cost).get_placement(placement));
