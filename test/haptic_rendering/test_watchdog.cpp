@@ -7,6 +7,7 @@
 #include <limits>
 
 using namespace haptic_sculpt;
+using Eigen::Vector3d;
 
 namespace {
 
