@@ -54,7 +54,7 @@ public:
   /// The next word of the line. \throw Read_error if there is none
   std::string_view word(const char* expected) {
     if (!has_word())
-      fail(std::string("the line ends where ") + expected + " should stand");
+      fail_at_end("line", expected);
     const std::size_t end = std::min(line_.find_first_of(blanks), line_.size());
     const std::string_view found = line_.substr(0, end);
     line_.remove_prefix(end);
@@ -64,7 +64,7 @@ public:
   /// The next word, on a later line if need be. \throw Read_error at the end of the text
   std::string_view word_anywhere(const char* expected) {
     if (!has_word() && !next_line())
-      fail(std::string("the file ends where ") + expected + " should stand");
+      fail_at_end("file", expected);
     return word(expected);
   }
 
@@ -73,7 +73,7 @@ public:
   /// \throw Read_error if the line holds another word
   void expect_end_of_line(const char* after) {
     if (has_word())
-      fail(in_quotes(word("")) + " stands after " + after);
+      fail_at(word(""), " stands after ", after);
   }
 
   /// A number in decimal notation. "nan" and "inf" are numbers here, to be found and named later.
@@ -91,18 +91,27 @@ public:
       if (all && error == std::errc::result_out_of_range)
         if (const Number rounded = static_cast<Number>(nearest(digits)); rounded == 0)
           return rounded; // below the least subnormal
-    fail(in_quotes(word) + " is not " + expected +
-         (error == std::errc::result_out_of_range ? " (too large)" : ""));
+    fail_at(word, " is not ", expected, error == std::errc::result_out_of_range ? " (too large)" : "");
   }
 
   [[noreturn]] void fail(const std::string& message) const {
     throw Read_error("line " + std::to_string(line_number_) + ": " + message);
   }
 
+  /// Says what is wrong with a word, which stands first and in quotation marks.
+  [[noreturn]] void fail_at(std::string_view word, const char* problem, const char* with = "",
+                            const char* more = "") const {
+    fail(in_quotes(word) + problem + with + more);
+  }
+
   /// What has not been taken yet.
   std::string_view rest() const { return rest_; }
 
 private:
+  [[noreturn]] void fail_at_end(const char* of, const char* expected) const {
+    fail(std::string("the ") + of + " ends where " + expected + " should stand");
+  }
+
   static constexpr const char* blanks = " \t\r\v\f";
 
   void take_line(std::size_t end) {

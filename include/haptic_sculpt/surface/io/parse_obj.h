@@ -75,7 +75,7 @@ inline Face_soup parse_obj(std::string_view text) {
       soup.leave_out(found->second);
       scan.skip_rest_of_line();
     } else {
-      scan.fail(in_quotes(keyword) + " is no line of an OBJ mesh");
+      scan.fail_at(keyword, " is no line of an OBJ mesh");
     }
   }
   for (Vertex_attribute& part : colours)

@@ -37,7 +37,7 @@ inline Face_soup parse_off(std::string_view text) {
   if (prefix.find_first_of("4n") != std::string::npos)
     scan.fail("points of " + in_quotes(keyword) + " have more than three coordinates; write them with three");
   if (prefix.find_first_not_of("STCN") != std::string::npos)
-    scan.fail(in_quotes(keyword) + " is no kind of OFF file known here");
+    scan.fail_at(keyword, " is no kind of OFF file known here");
 
   const auto count = [&](const char* what) {
     const std::string_view word = scan.word_anywhere(what);

@@ -57,7 +57,7 @@ struct Ply_header {
     for (int i = 0; i < 8; ++i)
       if (word == names[0][i] || word == names[1][i])
         return static_cast<Ply_type>(i);
-    scan.fail(in_quotes(word) + " is no type of PLY");
+    scan.fail_at(word, " is no type of PLY");
   };
   Ply_header header{};
   bool has_format = false;
@@ -76,7 +76,7 @@ struct Ply_header {
       else if (name == "binary_big_endian")
         header.encoding = Ply_header::Encoding::big_endian;
       else
-        scan.fail(in_quotes(name) + " is no format of PLY");
+        scan.fail_at(name, " is no format of PLY");
       has_format = true;
     } else if (keyword == "element") {
       std::string name(scan.word("a name"));
@@ -111,7 +111,7 @@ struct Ply_header {
       header.lines = std::count(bytes.begin(), bytes.begin() + header.size, '\n');
       return header;
     } else {
-      scan.fail(in_quotes(keyword) + " is no line of a PLY header");
+      scan.fail_at(keyword, " is no line of a PLY header");
     }
   }
 }

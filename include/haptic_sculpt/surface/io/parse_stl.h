@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -59,21 +60,24 @@ private:
   std::unordered_map<Key, Face_soup::Index, Seeded_hash> index_;
 };
 
-inline std::string in_lower_case(std::string_view word) {
-  std::string lower(word);
-  for (char& c : lower)
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
+/// Whether the word is this keyword, which stands in small letters; the word may stand in capitals.
+inline bool is_keyword(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char c, char small) {
+    return c == small || (c >= 'A' && c <= 'Z' && c - 'A' + 'a' == small);
+  });
+}
+
+/// Takes these keywords, on later lines if need be. \throw Read_error
+inline void expect_keywords(Text_scanner& scan, std::initializer_list<const char*> keywords) {
+  for (const char* expected : keywords)
+    if (const std::string_view word = scan.word_anywhere(expected); !is_keyword(word, expected))
+      scan.fail_at(word, " stands where '", expected, "' should");
 }
 
 /// ASCII STL, one or several solids. Coordinates are doubles; normals are skipped. Keywords may stand in capitals.
 /// \throw Read_error
 inline Face_soup parse_ascii_stl(std::string_view text) {
   Text_scanner scan(text, 0);
-  const auto expect = [&](const char* expected) {
-    if (const std::string_view word = scan.word_anywhere(expected); in_lower_case(word) != expected)
-      scan.fail(in_quotes(word) + " stands where '" + expected + "' should");
-  };
   const auto skip_words = [&](int n) {
     for (int i = 0; i < n; ++i)
       scan.word_anywhere("a normal");
@@ -81,28 +85,25 @@ inline Face_soup parse_ascii_stl(std::string_view text) {
   Face_soup soup;
   Stl_vertices vertices(soup);
   while (scan.has_word() || scan.next_line()) {
-    expect("solid");
+    expect_keywords(scan, {"solid"});
     scan.skip_rest_of_line(); // its name
     for (;;) {
       const std::string_view word = scan.word_anywhere("'facet' or 'endsolid'");
-      const std::string keyword = in_lower_case(word);
-      if (keyword == "endsolid")
+      if (is_keyword(word, "endsolid"))
         break;
-      if (keyword != "facet")
-        scan.fail(in_quotes(word) + " stands where 'facet' or 'endsolid' should");
-      expect("normal");
+      if (!is_keyword(word, "facet"))
+        scan.fail_at(word, " stands where 'facet' or 'endsolid' should");
+      expect_keywords(scan, {"normal"});
       skip_words(3);
-      expect("outer");
-      expect("loop");
+      expect_keywords(scan, {"outer", "loop"});
       for (int corner = 0; corner < 3; ++corner) {
-        expect("vertex");
+        expect_keywords(scan, {"vertex"});
         double x[3];
         for (double& coordinate : x)
           coordinate = scan.to_number(scan.word_anywhere("a coordinate"), "a coordinate");
         vertices.add_corner(x[0], x[1], x[2]);
       }
-      expect("endloop");
-      expect("endfacet");
+      expect_keywords(scan, {"endloop", "endfacet"});
       soup.close_face();
     }
     scan.skip_rest_of_line();
@@ -135,7 +136,7 @@ inline Face_soup parse_stl(std::string_view bytes) {
   constexpr std::size_t header = 84, facet = 50;
   const std::string_view text = without_bom(bytes);
   const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-  const bool looks_like_text = in_lower_case(text.substr(start, 5)) == "solid";
+  const bool looks_like_text = is_keyword(text.substr(start, 5), "solid");
   if (bytes.size() >= header) {
     const auto faces = Binary_scanner(bytes.substr(80), false).take<std::uint32_t>();
     const std::uint64_t size = header + std::uint64_t(facet) * faces;

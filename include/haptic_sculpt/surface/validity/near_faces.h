@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace haptic_sculpt::internal {
@@ -80,7 +81,8 @@ public:
     pairs_within(plain, call, run);
     if (at_hubs.empty())
       return;
-    std::stable_sort(at_hubs.begin(), at_hubs.end(), [](const auto& a, const auto& b) { return a.hub < b.hub; });
+    std::sort(at_hubs.begin(), at_hubs.end(),
+              [](const auto& a, const auto& b) { return std::tie(a.hub, a.face) < std::tie(b.hub, b.face); });
     const std::size_t slices = std::clamp<std::size_t>(most_sliced / at_hubs.size(), 1, most_slices);
     Boxes rest; // each face at a hub once: at the hub that is its first
     for (const Face_at_hub& a : at_hubs)
