@@ -168,6 +168,7 @@ void Log_file::append(const std::string& lines) {
 
 void Log_file::fail(const std::string& why) {
   failure_ = "cannot append to " + in_words(path_) + ": " + why;
+  has_failed_ = true;
 }
 
 } // namespace haptic_sculpt::examples

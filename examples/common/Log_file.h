@@ -3,6 +3,7 @@
 
 #include "Log_text.h"
 
+#include <atomic>
 #include <filesystem>
 #include <optional>
 
@@ -51,6 +52,8 @@ public:
 
   /// Why the log does not hold all that was appended; empty if it does.
   const std::string& failure() const { return failure_; }
+  /// Whether there is one: for other threads than that which appends.
+  bool has_failed() const { return has_failed_; }
 
 private:
   std::string path_, mesh_;
@@ -61,6 +64,7 @@ private:
   std::string part_of_head_; ///< all that is there where there are no contents
   Log_writer writer_;
   std::string failure_;
+  std::atomic<bool> has_failed_{false};
 
   void cut_to(const Log_contents::Place& place, const char* what);
   void append(const std::string& lines);

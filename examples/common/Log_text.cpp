@@ -211,7 +211,8 @@ private:
     command->script_line = script_line;
     if (contents_.commands.empty() && (command->kind != Kind::mesh || command->word != mesh_))
       throw Foreign_log("the log '" + name_ + "' does not begin with the hash of this mesh, " + mesh_ +
-                        ": give the mesh it was begun with, or another log");
+                        ": give the mesh it was begun with (of sculpt, with the same --repair, --triangulate and "
+                        "--orient), or another log");
     contents_.commands.push_back(std::move(*command));
   }
 

@@ -85,6 +85,8 @@ public:
 
   std::uint64_t ticks() const { return ticks_; }
   std::uint64_t lost() const { return journal_ ? journal_->lost() : 0; }
+  /// Whether it does not hold all: to be asked by any thread.
+  bool has_failed() const { return file_ && file_->has_failed(); }
   std::string failure() const { return file_ ? file_->failure() : ""; }
 
 private:

@@ -30,7 +30,12 @@ int run_program(const char* name, const Body& body, const Exit_code_of& exit_cod
   put_process_in_order(name);
   const Printable_stream messages(std::cerr);
   try {
-    return body();
+    const int code = body();
+    if (code == done && !std::cout.flush()) {
+      std::cerr << name << ": not all could be written to standard output\n";
+      return cannot_write;
+    }
+    return code;
   } catch (const std::bad_alloc&) {
     std::cerr << name << ": the memory does not suffice for this\n";
     return failed;

@@ -154,7 +154,9 @@ int run(int argc, char** argv) {
          "LENGTH [FORCE]: a hand that holds nothing is drawn to the nearest vertex within LENGTH, m, by at most "
          "FORCE, N (0.2); counts as a stiffness of 2 FORCE / LENGTH")
       ->expected(1, 2);
-  app.add_option("--work", settings.work, "Pairs that a drag may decide")->capture_default_str();
+  app.add_option("--work", settings.work, "Pairs that a drag may decide")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--device", arguments.device, "Device, JSON");
   app.add_option("--hand", arguments.hand, "Hand, JSON");
   app.add_option("--path", arguments.path, "Where the hand wants to be: t,x,y,z,button")->capture_default_str();
@@ -163,7 +165,12 @@ int run(int argc, char** argv) {
       "--log", arguments.log,
       "Where what is done goes while it is done, for `sculpt` too; one that is there is made again, then gone on with");
   app.add_option("--record", arguments.record, "Where the readings of the device go");
-  app.add_option("--replay", arguments.replay, "A recording instead of device, hand and path; its settings hold");
+  auto* const replay =
+      app.add_option("--replay", arguments.replay, "A recording instead of device, hand and path; its settings hold");
+  for (const char* const set_there : {"--seconds", "--rate", "--delay", "--stiffness", "--damping", "--virtual-mass",
+                                      "--controller", "--map", "--reach", "--snap", "--work", "--device", "--hand",
+                                      "--path", "--fault"})
+    replay->excludes(set_there);
   app.add_option("--trace", arguments.trace, "Where a row a tick goes: .csv");
   app.add_option("--report", arguments.report, "Where the JSON report goes");
   app.add_option("--picture", arguments.picture, "Where a picture of the run goes: .png");

@@ -89,9 +89,9 @@ public:
     const Device_pose<double> start = start_pose();
     check(parameters, limits);
     Loop loop(scene.sculptor, device_, start, scene.map, parameters, limits);
-    trace_.open(plan_.trace), record_.open(plan_.record); // nothing is refused any more
-    const double most_lost = 0.1;                         // by a kill, s
+    const double most_lost = 0.1; // by a kill, s
     log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
+    trace_.open(plan_.trace), record_.open(plan_.record); // nothing is refused any more
     Session session(loop, scene, nullptr, nullptr, log_->journal());
     session_ = &session;
     Happenings happenings(scene.sculptor, scene.map.scale());
@@ -255,8 +255,6 @@ private:
                         wall_taken = nanoseconds(CLOCK_MONOTONIC) - wall;
     result_.allocations += allocations() - allocated;
     tick_made_ = &made;
-    if (log_->has_overrun())
-      loop.end_by(Loop_fault::log);
     ++result_.ticks;
     result_.cpu.add(cpu_taken), result_.wall.add(wall_taken);
     result_.missed += static_cast<double>(wall_taken) > 1e9 * tick_;

@@ -28,6 +28,7 @@ public:
       failure_ = std::current_exception();
     }
   }
+  void break_off() const {} ///< what is thrown ends the script
   /// The move is done. \return whether it has told anything \throw what telling has thrown
   bool end() {
     if (failure_)

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -50,7 +51,12 @@ private:
 class Patience {
 public:
   /// \param what goes on, e.g. "repairing 'x.off'"
-  explicit Patience(std::string what) : what_(std::move(what)), thread_([this] { wait(); }) {}
+  explicit Patience(std::string what) : what_(std::move(what)) {
+    try {
+      thread_ = std::thread([this] { wait(); });
+    } catch (const std::system_error&) { // no more threads: what goes on does without being told
+    }
+  }
   Patience(const Patience&) = delete;
   Patience& operator=(const Patience&) = delete;
   ~Patience() {
@@ -59,7 +65,8 @@ public:
       is_done_ = true;
     }
     done_.notify_one();
-    thread_.join();
+    if (thread_.joinable())
+      thread_.join();
   }
 
 private:

@@ -74,9 +74,14 @@ struct Run_result {
 /// nothing of one that did nothing.
 using After_command = std::function<void(const Command&)>;
 
-/// Carries out a script on a mesh. \throw Invalid_surface, Invalid_parameter, and what `after` throws
+struct Run_hooks {
+  std::function<void()> begin; ///< called when mesh and parameters have been taken
+  After_command after;
+};
+
+/// Carries out a script on a mesh. \throw Invalid_surface, Invalid_parameter, and what `hooks` throw
 template <class Broad_phase>
 Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Sculptor_parameters& parameters,
-                      const After_command& after);
+                      const Run_hooks& hooks);
 
 } // namespace haptic_sculpt::sculpt_program

@@ -264,8 +264,10 @@ private:
 
 template <class Broad_phase>
 Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Sculptor_parameters& parameters,
-                      const After_command& after) {
-  return Script_runner<Broad_phase>(mesh, parameters).run(script, after);
+                      const Run_hooks& hooks) {
+  Script_runner<Broad_phase> runner(mesh, parameters);
+  hooks.begin();
+  return runner.run(script, hooks.after);
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -23,7 +23,7 @@ bool is_polygon(const Face_soup& soup, std::size_t f) {
 
 /// Of each face the first triangle takes its place, the others follow behind all faces.
 /// \throw Read_error where a polygon cannot be divided
-Face_soup triangulated(const Face_soup& soup, const std::string& path) {
+Face_soup triangulated(const Face_soup& soup, const Arguments& arguments) {
   Face_soup result;
   result.points = soup.points;
   std::vector<std::array<Face_soup::Index, 3>> others;
@@ -37,11 +37,15 @@ Face_soup triangulated(const Face_soup& soup, const std::string& path) {
     for (const Face_soup::Index* c = corner; c != soup.end(f); ++c)
       places.push_back({soup.points[*c].x(), soup.points[*c].y(), soup.points[*c].z()});
     const auto triangles = divided_polygon(places);
-    if (!triangles)
-      throw Read_error("cannot read '" + path + "': face " + std::to_string(f) + ", of " +
+    if (!triangles) {
+      Validity_report undivided;
+      undivided.non_triangular_faces.emplace_back(static_cast<Face_soup::Index>(f));
+      write_refusal(arguments, soup, undivided);
+      throw Read_error("cannot read '" + arguments.mesh + "': face " + std::to_string(f) + ", of " +
                        std::to_string(places.size()) +
                        " corners, cannot be divided into triangles, as it folds over itself or has all its corners on "
                        "a line: along no axis it is seen as a simple polygon. Divide it by hand");
+    }
     for (const Corners_of_triangle& t : *triangles) {
       const std::array<Face_soup::Index, 3> triangle{corner[t[0]], corner[t[1]], corner[t[2]]};
       if (&t == &triangles->front())
@@ -57,11 +61,12 @@ Face_soup triangulated(const Face_soup& soup, const std::string& path) {
 
 } // namespace
 
-Mesh read_mesh(const Arguments& arguments, std::vector<std::string>& left_out, Validity_report& found) {
+Sculpted_mesh read_mesh(const Arguments& arguments) {
   const std::string& path = arguments.mesh;
   const double delta = arguments.delta.value_or(0);
   Face_soup soup = read_face_soup(path);
-  left_out = std::move(soup.left_out);
+  Sculpted_mesh read;
+  read.left_out = std::move(soup.left_out);
   const auto refuse = [&](const std::string& subject, Validity_report report) {
     if (!arguments.report.empty() || !arguments.picture.empty())
       write_refusal(arguments, soup,
@@ -77,13 +82,15 @@ Mesh read_mesh(const Arguments& arguments, std::vector<std::string>& left_out, V
                                           [&](const auto f) { return is_polygon(soup, static_cast<std::size_t>(f)); });
     if (!arguments.triangulate || !others.is_valid() || !are_polygons)
       refuse("'" + path + "'", std::move(report));
-    soup = triangulated(soup, path); // and looked at again
+    soup = triangulated(soup, arguments); // and looked at again
+    read.is_changed = true;
     report = validate_soup(soup, delta);
     if (!report.is_valid())
       refuse("'" + path + "', its faces divided into triangles,", std::move(report));
   }
-  found = std::move(report);
-  return mesh_of<Mesh>(soup);
+  read.found = std::move(report);
+  read.mesh = mesh_of<Mesh>(soup);
+  return read;
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -4,6 +4,8 @@
 #include "Arguments.h"
 #include "Run_result.h"
 
+#include "../common/Result_writer.h"
+
 #include <haptic_sculpt/surface/Validity_report.h>
 
 #include <string>
@@ -11,16 +13,23 @@
 
 namespace haptic_sculpt::sculpt_program {
 
+/// What a file holds, as it is sculpted.
+struct Sculpted_mesh {
+  Mesh mesh;
+  std::vector<std::string> left_out; ///< what the file has and a mesh has not
+  Validity_report found;             ///< what validate() says of it
+  bool is_changed = false;           ///< other points or faces than those of the file
+};
+
 /// Reads a surface. With `--triangulate` its faces may have more than three corners, and these are divided into
 /// triangles: a face's vertices stay, no vertex is added, and a polygon that folds over itself is refused. Where it is
 /// refused, write_refusal() is called first.
-/// \param left_out receives what the file has and a mesh has not \param found receives what validate() says of the
-/// result \throw Read_error, Out_of_range; Invalid_surface for faults, before or after it was divided
-Mesh read_mesh(const Arguments& arguments, std::vector<std::string>& left_out, Validity_report& found);
+/// \throw Read_error, Out_of_range; Invalid_surface for faults, before or after it was divided
+Sculpted_mesh read_mesh(const Arguments& arguments);
 
 /// Reads what a file holds and repairs it; writes the report that was asked for, whatever comes of it.
-/// \param left_out receives what the file has and a mesh has not, \param told the steps, in words
-/// \throw Read_error, Out_of_range; Read_error also for what cannot be repaired, with what is left; Write_error
-Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_out, std::string& told);
+/// \param told receives the steps, in words
+/// \throw Read_error, Out_of_range; Read_error also for what cannot be repaired, with what is left
+Sculpted_mesh read_repaired(const Arguments& arguments, examples::Result_writer& writer, std::string& told);
 
 } // namespace haptic_sculpt::sculpt_program

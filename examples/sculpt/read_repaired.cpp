@@ -44,7 +44,7 @@ std::string json_of(const Repair_report& report) {
 
 } // namespace
 
-Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_out, std::string& told) {
+Sculpted_mesh read_repaired(const Arguments& arguments, examples::Result_writer& writer, std::string& told) {
   Face_soup soup = read_face_soup(arguments.mesh);
   Repair_parameters parameters;
   parameters.delta(arguments.delta.value_or(0));
@@ -53,16 +53,19 @@ Mesh read_repaired(const Arguments& arguments, std::vector<std::string>& left_ou
   if (arguments.repair.largest_hole)
     parameters.largest_hole(*arguments.repair.largest_hole);
   const Repair_report report = repair(soup, parameters);
-  if (!arguments.repair.report.empty())
-    examples::write_file(arguments.repair.report, json_of(report));
+  writer.write(arguments.repair.report,
+               [&](const std::string& path) { return examples::write_file(path, json_of(report)); });
   told = report.message(Validity_report::Reader::user);
   if (!report.is_repaired()) {
     write_refusal(arguments, report.attempt, report.left);
     throw Read_error("cannot repair '" + arguments.mesh + "':\n" + told +
                      "doc/use/repair.md says what is refused, and what to do then");
   }
-  left_out = std::move(soup.left_out);
-  return make_surface<Mesh>(soup, parameters.delta_length);
+  Sculpted_mesh read;
+  read.left_out = std::move(soup.left_out);
+  read.mesh = make_surface<Mesh>(soup, parameters.delta_length);
+  read.is_changed = true;
+  return read;
 }
 
 } // namespace haptic_sculpt::sculpt_program

@@ -5,4 +5,4 @@
 
 template haptic_sculpt::sculpt_program::Run_result
 haptic_sculpt::sculpt_program::run_script<haptic_sculpt::Brute_force_broad_phase<haptic_sculpt::sculpt_program::Mesh>>(
-    Mesh&, const std::vector<Command>&, const Sculptor_parameters&, const After_command&);
+    Mesh&, const std::vector<Command>&, const Sculptor_parameters&, const Run_hooks&);

@@ -72,21 +72,16 @@ void check_files(const Arguments& a) {
       examples::check_target(path);
 }
 
-/// \throw Foreign_log
-void check_mesh_directives(const std::vector<Command>& script, const Arguments& arguments) {
-  std::string hash;
-  for (const Command& command : script) {
-    if (command.kind != Kind::mesh)
-      continue;
-    if (hash.empty())
-      hash = sha256_of_file(arguments.mesh);
-    if (command.word != hash)
+/// \param hash of the mesh \throw Foreign_log
+void check_mesh_directives(const std::vector<Command>& script, const Arguments& arguments, const std::string& hash) {
+  for (const Command& command : script)
+    if (command.kind == Kind::mesh && command.word != hash)
       throw Foreign_log(arguments.script + ": line " + std::to_string(command.line) + " is about the mesh " +
-                        command.word + ", but '" + arguments.mesh + "' is " + hash);
-  }
+                        command.word + ", but '" + arguments.mesh + "' is " + hash +
+                        " (with other --repair, --triangulate or --orient it is another surface)");
 }
 
-Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& arguments, const After_command& after) {
+Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& arguments, const Run_hooks& hooks) {
   Sculptor_parameters parameters;
   parameters.delta(arguments.delta.value_or(0));
   if (!arguments.response.empty())
@@ -94,10 +89,10 @@ Run_result run(Mesh& mesh, const std::vector<Command>& script, const Arguments& 
   if (arguments.clearance)
     parameters.clearance(*arguments.clearance);
   if (arguments.broad_phase == "brute")
-    return run_script<Brute_force_broad_phase<Mesh>>(mesh, script, parameters, after);
+    return run_script<Brute_force_broad_phase<Mesh>>(mesh, script, parameters, hooks);
   if (arguments.broad_phase == "six-lists")
-    return run_script<Six_list_broad_phase<Mesh>>(mesh, script, parameters, after);
-  return run_script<Box_tree_broad_phase<Mesh>>(mesh, script, parameters, after);
+    return run_script<Six_list_broad_phase<Mesh>>(mesh, script, parameters, hooks);
+  return run_script<Box_tree_broad_phase<Mesh>>(mesh, script, parameters, hooks);
 }
 
 /// \throw Usage_error
@@ -121,21 +116,29 @@ struct Delta_of_no_use : Error {
   using Error::Error;
 };
 
-/// \throw Delta_of_no_use; what reading meshes throws
-Mesh mesh_of(const Arguments& arguments, std::vector<std::string>& left_out, Validity_report& found) {
+/// As it is sculpted. \throw Delta_of_no_use; what reading meshes throws
+Sculpted_mesh mesh_of(const Arguments& arguments, Result_writer& writer) {
   const double delta = arguments.delta.value_or(0);
   if (arguments.repair.is_asked) {
     std::string told;
-    Mesh mesh = [&] {
+    Sculpted_mesh read = [&] {
       const Patience patience("repairing '" + arguments.mesh + "'");
-      return read_repaired(arguments, left_out, told);
+      return read_repaired(arguments, writer, told);
     }();
     std::cout << told;
-    return mesh;
+    return read;
   }
   try {
-    const Patience patience("reading and validating '" + arguments.mesh + "'");
-    return read_mesh(arguments, left_out, found);
+    Sculpted_mesh read = [&] {
+      const Patience patience("reading and validating '" + arguments.mesh + "'");
+      return read_mesh(arguments);
+    }();
+    if (arguments.orient && !read.found.inside_out_components.empty()) {
+      std::cout << "components turned over: " << orient_components(read.mesh) << '\n';
+      read.found.inside_out_components.clear();
+      read.is_changed = true;
+    }
+    return read;
   } catch (const Invalid_surface& error) {
     const auto& low = error.report().low_faces;
     if (low.empty() || low.size() != error.report().number_of_faults())
@@ -216,28 +219,30 @@ int sculpt(const Arguments& arguments) {
   check_lengths(arguments);
   const Script script = script_of(arguments);
   check_files(arguments);
+  Result_writer writer("sculpt");
+  // A log is of what is sculpted: of the file, unless an option makes another surface of it, which is looked at first.
+  std::optional<Sculpted_mesh> read;
+  if (arguments.repair.is_asked || arguments.triangulate || arguments.orient)
+    read = mesh_of(arguments, writer);
+  const std::string hash =
+      read && read->is_changed ? examples::sha256_of_surface(read->mesh) : sha256_of_file(arguments.mesh);
   std::optional<Log_file> log;
   if (!arguments.log.empty())
-    log.emplace(arguments.log, sha256_of_file(arguments.mesh));
+    log.emplace(arguments.log, hash);
   if (log && log->contents() && ends_within_move(script.commands, script.hash, *log->contents()))
     log->drop_last_line();
   const Plan plan = plan_of(script, log ? &*log : nullptr, arguments);
-  std::vector<std::string> left_out;
-  Validity_report found;
-  Mesh mesh = mesh_of(arguments, left_out, found);
-  if (arguments.orient && !found.inside_out_components.empty()) {
-    std::cout << "components turned over: " << orient_components(mesh) << '\n';
-    found.inside_out_components.clear();
-  }
-  check_mesh_directives(script.commands, arguments);
+  if (!read)
+    read = mesh_of(arguments, writer);
+  Mesh& mesh = read->mesh;
+  check_mesh_directives(script.commands, arguments, hash);
   const drawing::Scene before = needs_before(arguments.shown) ? drawing::scene_of(mesh) : drawing::Scene();
 
-  Result_writer writer("sculpt");
-  if (const std::string remarks = found.remarks(); !remarks.empty())
+  if (const std::string remarks = read->found.remarks(); !remarks.empty())
     writer.note("'" + arguments.mesh + "' has " + remarks +
                 "They are sculpted as they are; --orient turns components over "
                 "that are inside out");
-  if (const std::string loss = examples::told_loss(arguments.mesh, arguments.out, mesh, left_out); !loss.empty())
+  if (const std::string loss = examples::told_loss(arguments.mesh, arguments.out, mesh, read->left_out); !loss.empty())
     writer.note(loss);
   bool is_told = false;
   const auto tell_failure = [&] { // once, and at once: the work may take hours
@@ -245,7 +250,9 @@ int sculpt(const Arguments& arguments) {
       writer.note(log->failure() + ". The work goes on without; what the log holds can be resumed");
   };
   const bool is_logging = log && !script.commands.empty();
-  if (log) {
+  const auto begin_log = [&] { // once nothing is refused any more
+    if (!log)
+      return;
     if (log->contents() && !log->contents()->unfinished.empty())
       writer.note("the unfinished last line of the log '" + arguments.log +
                   "' is dropped: " + printable(log->contents()->unfinished));
@@ -253,16 +260,17 @@ int sculpt(const Arguments& arguments) {
     if (is_logging && !plan.rest.is_announced)
       log->begin_pass(script.hash, plan.rest.after);
     tell_failure();
-  }
+  };
   std::optional<Mesh> without_guard;
   if (!arguments.comparison.empty())
     without_guard = sculpted_without_guard(mesh, script.commands);
-  const Run_result result = run(mesh, plan.commands, arguments, [&](const Command& command) {
+  const auto append_to_log = [&](const Command& command) {
     if (log && !command.is_logged) {
       log->append(command);
       tell_failure();
     }
-  });
+  };
+  const Run_result result = run(mesh, plan.commands, arguments, {begin_log, append_to_log});
   if (result.failure)
     writer.note((result.failed.is_logged ? arguments.log : arguments.script) + ": line " +
                 std::to_string(result.failed.line) + ": `" + name_of(result.failed) + "` has ended the script: " +

@@ -125,11 +125,11 @@ public:
     else if (first == "key")
       key();
     else if (first == "view")
-      three(add(Kind::view), "a component of the direction");
+      view();
     else if (first == "orbit")
       add(Kind::orbit).numbers = {line_.number("degrees"), line_.number("degrees"), 0};
     else if (first == "zoom")
-      add(Kind::zoom).numbers[0] = line_.number("a factor");
+      add(Kind::zoom).numbers[0] = more_than_0("a factor");
     else if (first == "fit")
       add(Kind::fit);
     else if (first == "tool")
@@ -143,7 +143,7 @@ public:
     else if (first == "depth")
       add(Kind::depth).numbers[0] = line_.number("a length");
     else if (first == "wait")
-      add(Kind::wait).numbers[0] = line_.number("seconds");
+      wait();
     else if (first == "settle")
       add(Kind::settle);
     else if (first == "screenshot" || first == "save" || first == "open" || first == "record")
@@ -181,6 +181,23 @@ private:
   void three(Action& action, const std::string& expected) {
     for (double& x : action.numbers)
       x = line_.number(expected);
+  }
+  double more_than_0(const std::string& expected) {
+    const double x = line_.number(expected);
+    if (!(x > 0))
+      line_.fail("it takes " + expected + " of more than 0");
+    return x;
+  }
+  void view() {
+    Action& action = add(Kind::view);
+    three(action, "a component of the direction");
+    if (action.numbers == std::array<double, 3>{})
+      line_.fail("0 0 0 is no direction");
+  }
+  void wait() {
+    const double most = 1e6; // s, eleven days
+    if (const double seconds = add(Kind::wait).numbers[0] = line_.number("seconds"); !(seconds >= 0 && seconds <= most))
+      line_.fail("it waits 0 to 1e6 seconds");
   }
   void press() {
     std::string word = buttons[line_.one_of("a button", buttons)];

@@ -34,6 +34,10 @@ void Application::enter(Opened opened) {
   const double extent = view_.camera().unscaled(2.0);
   choices_.brush.radius = 0.12 * extent;
   choices_.depth = 0.03 * extent;
+  if (!path_.empty()) {
+    opened_before_.push_back({"a mesh that was open before", path_});
+    opened_before_.push_back({"the log of '" + path_ + "'", log_});
+  }
   path_ = opened.path, log_ = opened.log, resumed_ = opened.resumed;
   is_saved_ = false, saved_edits_ = 0;
   ++scene_;
@@ -191,10 +195,12 @@ void Application::take_reports() {
       left_.push_back(report.model);
       break;
     case Report::Kind::copied:
-      background_.save(report.copy, to_save_.front().path, report.edits, to_save_.front().quits);
+      to_save_.front().edits = report.edits;
+      if (report.copy)
+        background_.save(report.copy, std::move(to_save_.front()));
+      else
+        fail_to_write("'" + to_save_.front().path + "' is not saved: " + report.text);
       to_save_.pop_front();
-      if (!to_save_.empty())
-        thread_.copy();
       break;
     }
   }
@@ -208,12 +214,18 @@ void Application::take_reports() {
     std::cerr << "sculpt_window: " << examples::message_of(error) << '\n';
     has_failed_to_open_ = true;
   }
+  take_saved();
+}
+
+void Application::take_saved() {
   while (const auto saved = background_.take_saved()) {
     try {
       if (saved->error)
         std::rethrow_exception(saved->error);
-      is_saved_ = true, saved_edits_ = saved->edits;
       say("saved " + saved->path + (saved->lost.empty() ? "" : ": " + saved->lost));
+      if (saved->scene != scene_)
+        continue; // another was opened meanwhile
+      is_saved_ = true, saved_edits_ = saved->edits;
       is_done_ = is_done_ || saved->quits;
     } catch (const std::exception& error) {
       fail_to_write(error.what());
@@ -228,6 +240,8 @@ void Application::step() {
     frames_due_ = std::max(frames_due_, 2);
   if (status_.waits_for_disk && !before.waits_for_disk)
     say("the disk is behind with the log: the hand waits for it");
+  if (status_.log_has_failed && !before.log_has_failed)
+    say("what is done from here on is not in the log, which cannot be written: save the mesh");
   take_reports();
   // What is held still goes on, a frame a dab; in a script only while that waits, so that it does the same each time.
   const bool is_live = !is_playing() || script_[next_action_].kind == Action::Kind::wait;

@@ -7,6 +7,8 @@
 #include "Sculpture_view.h"
 #include "keys.h"
 
+#include "../common/output_targets.h"
+
 #include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
 
 #include <chrono>
@@ -69,7 +71,10 @@ public:
   void frame_done(const Frame_time& time);
   bool is_done() const { return is_done_; }
   /// Of the window: what is open, and whether it is saved.
-  std::string title() const { return "sculpt_window " + path_ + (is_unsaved() ? " (not saved)" : ""); }
+  std::string title() const {
+    return "sculpt_window " + path_ + (is_unsaved() ? " (not saved)" : "") +
+           (status_.log_has_failed ? " (its log cannot be written)" : "");
+  }
   /// Whether a script has actions left.
   bool is_playing() const { return next_action_ < script_.size(); }
   /// A picture is due: of what has just been drawn. \return where it goes; empty: none is due
@@ -91,16 +96,13 @@ private:
   Status status_; ///< as of the last step()
 
   std::string path_, log_;  ///< of the mesh that is shown
+  std::vector<examples::Named_file> opened_before_; ///< other meshes of this session, and their logs
+  std::array<std::vector<examples::Named_file>, 3> written_; ///< in this session, by what they hold
   std::uint32_t scene_ = 0; ///< its number, from 1
   std::size_t resumed_ = 0;
   std::uint64_t saved_edits_ = 0;
   bool is_saved_ = false; ///< at least once
-  /// A copy of the mesh that was asked for.
-  struct Saving {
-    std::string path;
-    bool quits; ///< once it is written
-  };
-  std::deque<Saving> to_save_;
+  std::deque<Background::Saved> to_save_; ///< copies that were asked for and are not there yet
   std::vector<Model*> left_;
   bool keeps_log_ = true; ///< that of the mesh shown before
 
@@ -120,7 +122,6 @@ private:
   Clock::time_point last_frame_{};
   bool is_done_ = false, has_failed_to_write_ = false, discards_ = false;
   std::string screenshot_, last_refusal_;
-  int screenshots_ = 0;
 
   std::vector<Action> script_;
   std::size_t next_action_ = 0;
@@ -140,7 +141,11 @@ private:
   void take_reports();
   void leave(Model* model, bool keeps_log);
   void save(const std::string& path, bool quits = false);
-  bool may_write(const std::string& path, bool is_mesh);
+  /// What a file is to hold that is written while the window is open.
+  enum class Written { mesh, picture, recording };
+  bool may_write(const std::string& path, Written what);
+  std::string free_name(const std::string& extension);
+  void take_saved();
   void open(const std::string& path);
   void quit();
   void obey(Order order);

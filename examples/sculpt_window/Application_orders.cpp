@@ -3,9 +3,9 @@
 /// What keys and questions order.
 #include "Application.h"
 
-#include "../common/output_targets.h"
-
 #include <haptic_sculpt/surface/Mesh_file_format.h>
+
+#include <filesystem>
 
 namespace haptic_sculpt::window_program {
 
@@ -121,10 +121,11 @@ void Application::obey(Order order) {
     choices_.question = Choices::Question::name_to_open;
     break;
   case Order::record:
-    record(record_ == nullptr ? "sculpt_window.actions" : "");
+    record(record_ == nullptr ? free_name(".actions") : "");
     break;
   case Order::screenshot:
-    screenshot_ = "sculpt_window_" + std::to_string(++screenshots_) + ".png";
+    if (const std::string name = free_name(".png"); may_write(name, Written::picture))
+      screenshot_ = name;
     break;
   case Order::quit:
     quit();
@@ -180,10 +181,19 @@ void Application::obey(Order order) {
   }
 }
 
-/// Whether it is no other file of this run; where it is, that has been told, and in a script counts as not written.
-/// \param is_mesh it is to be the sculpted mesh, which may take the place of the one that was read where no log begins
-/// with that
-bool Application::may_write(const std::string& path, bool is_mesh) {
+/// Of a file that is not there yet.
+std::string Application::free_name(const std::string& extension) {
+  std::string name = "sculpt_window" + extension;
+  for (int i = 1; std::filesystem::exists(std::filesystem::symlink_status(name)); ++i)
+    name = "sculpt_window_" + std::to_string(i) + extension;
+  return name;
+}
+
+/// Whether it is no other file of this run; where it is, that has been told, and in a script counts as not written. The
+/// sculpted mesh may take the place of the one that was read where no log begins with that; a file may take the place
+/// of one that held the same before.
+bool Application::may_write(const std::string& path, Written what) {
+  const bool is_mesh = what == Written::mesh;
   std::string why;
   std::vector<examples::Named_file> files = {{"the log", log_},
                                              {"the script", options_.script},
@@ -193,6 +203,12 @@ bool Application::may_write(const std::string& path, bool is_mesh) {
     files.push_back({"the mesh that is open", path_});
   if (!is_mesh)
     files.push_back({"where the sculpted mesh goes", options_.out});
+  if (what != Written::picture)
+    files.push_back({"the picture at the end", options_.screenshot});
+  files.insert(files.end(), opened_before_.begin(), opened_before_.end());
+  for (std::size_t i = 0; i < written_.size(); ++i)
+    if (i != static_cast<std::size_t>(what))
+      files.insert(files.end(), written_[i].begin(), written_[i].end());
   if (const auto* const other = examples::same_file(path, files))
     why = "'" + path + "' is " + other->role + (is_mesh && other->path == path_ ? ", which the log begins with" : "") +
           ": give another name";
@@ -200,15 +216,19 @@ bool Application::may_write(const std::string& path, bool is_mesh) {
     why = "'" + path + "' does not end in .off, .ply, .obj or .stl";
   if (!why.empty())
     is_playing() ? fail_to_write(why) : say(why);
+  else
+    written_[static_cast<std::size_t>(what)].push_back(
+        {is_mesh ? "a mesh that was saved" : what == Written::picture ? "a screenshot" : "a recording", path});
   return why.empty();
 }
 
 void Application::save(const std::string& path, bool quits) {
-  if (!may_write(path, true))
+  if (!may_write(path, Written::mesh))
     return;
-  to_save_.push_back({path, quits});
-  if (to_save_.size() == 1)
-    thread_.copy();
+  Background::Saved saved;
+  saved.path = path, saved.scene = scene_, saved.quits = quits;
+  to_save_.push_back(std::move(saved));
+  thread_.copy();
 }
 
 void Application::open(const std::string& path) {

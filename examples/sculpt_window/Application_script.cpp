@@ -13,6 +13,7 @@
 
 #include <cstdarg>
 #include <iostream>
+#include <thread>
 
 namespace haptic_sculpt::window_program {
 namespace {
@@ -143,7 +144,7 @@ bool Application::act(const Action& action) {
   case Kind::screenshot:
     if (!is_settled())
       return false;
-    if (may_write(action.word, false))
+    if (may_write(action.word, Written::picture))
       screenshot_ = action.word;
     return true;
   case Kind::save:
@@ -166,7 +167,9 @@ bool Application::act(const Action& action) {
   case Kind::close:
     on_close();
     return true;
-  case Kind::quit: // after the picture that is asked for, where there is one
+  case Kind::quit: // after what is asked for: files that are written and read, and the last picture
+    if (!to_save_.empty() || background_.is_saving() || background_.is_opening())
+      return false;
     is_done_ = options_.screenshot.empty();
     script_.resize(next_action_ + 1);
     return true;
@@ -213,7 +216,7 @@ void Application::record(const std::string& path) {
     record_ = nullptr, recorded_to_.clear();
     say("the recording has ended");
   }
-  if (path.empty() || !may_write(path, false))
+  if (path.empty() || !may_write(path, Written::recording))
     return;
   record_ = std::fopen(path.c_str(), "w");
   if (record_ == nullptr)
@@ -251,6 +254,8 @@ void Application::flush_record() {
 }
 
 int Application::finish() {
+  for (; background_.is_saving(); std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    take_saved();
   const Status last = status_;
   const bool keeps = keeps_log();
   const std::vector<Model*> models = thread_.end();

@@ -28,11 +28,10 @@ std::optional<Opened> Background::take_opened() {
   return opening_.get();
 }
 
-void Background::save(const Saved_copy& copy, const std::string& path, std::uint64_t edits, bool quits) {
-  saving_.push_back(std::async(std::launch::async, [=] {
-    Saved saved{path, edits, quits, {}, nullptr};
+void Background::save(const Saved_copy& copy, Saved saved) {
+  saving_.push_back(std::async(std::launch::async, [copy, saved]() mutable {
     try {
-      saved.lost = write_copy(*copy, path);
+      saved.lost = write_copy(*copy, saved.path);
     } catch (...) { // handed on to the window's thread, which tells it
       saved.error = std::current_exception();
     }

@@ -19,12 +19,14 @@ public:
 
   struct Saved {
     std::string path;
-    std::uint64_t edits = 0; ///< of the mesh that was written
+    std::uint32_t scene = 0; ///< the number of the mesh that was written
+    std::uint64_t edits = 0; ///< that it had then
     bool quits = false;      ///< what was asked for is to end then
     std::string lost;        ///< what of an old file could not be kept
     std::exception_ptr error;
   };
-  void save(const Saved_copy& copy, const std::string& path, std::uint64_t edits, bool quits);
+  /// Writes the copy to `saved.path`; the rest of `saved` comes back with it.
+  void save(const Saved_copy& copy, Saved saved);
   bool is_saving() const { return !saving_.empty(); }
   /// What has been written by now, in order.
   std::optional<Saved> take_saved();

@@ -123,7 +123,9 @@ struct Sculpting_thread::Parts {
       const bool has_something = done.tell(report);
       if (answer.failure[0] == '\0')
         return has_something;
+      const bool was_copy = report.kind == Report::Kind::copied;
       report = Report(); // such as no memory
+      report.kind = was_copy ? Report::Kind::copied : Report::Kind::refused;
       report.text = answer.failure.data();
       return true;
     }

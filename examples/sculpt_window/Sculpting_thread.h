@@ -21,7 +21,7 @@ struct Report {
   Kind kind = Kind::refused; ///< beside: the button was pressed, and the mouse did not point at the mesh
   std::string text;
   Model* model = nullptr;
-  Saved_copy copy;
+  Saved_copy copy;         ///< none where it failed: the text says why
   std::uint64_t edits = 0; ///< copied: Status::edits of that moment
 };
 

@@ -104,6 +104,7 @@ struct Status {
   std::uint64_t made = 0;      ///< ticks by the session: fewer where the disk stays behind
   std::uint64_t mouse = 0;     ///< the number of the Mouse_reading that the last of them had
   bool waits_for_disk = false; ///< until the log is written
+  bool log_has_failed = false; ///< what is done is not in it any more
   Percentiles work, lateness;
 
   Hold hold = Hold::nothing;

@@ -83,7 +83,8 @@ void Application::draw_state() {
   ImGui::SameLine();
   button("see all  f", "f");
   ImGui::Separator();
-  ImGui::TextWrapped("%s%s", path_.c_str(), is_unsaved() ? "  (not saved)" : "");
+  ImGui::TextWrapped("%s%s%s", path_.c_str(), is_unsaved() ? "  (not saved)" : "",
+                     status_.log_has_failed ? "  (its log cannot be written)" : "");
   ImGui::Text("%zu triangles", s.faces);
   if (!last_refusal_.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, {1, 0.55f, 0.4f, 1});

@@ -146,6 +146,12 @@ BOOST_AUTO_TEST_CASE(after_a_fault_the_weight_is_carried_again_as_slowly_as_forc
         renderer.fade_out();
       comes_back_from(std::fmax(0, 1 - ticks / 100.0));
     }
+    for (int k = 0; k < 50; ++k)
+      renderer.fade_out();
+    renderer.restart();
+    // Another fault at once: half of the weight fades, and the hand does not drop it.
+    BOOST_TEST((renderer.fade_out().torque - (0.5 - 0.5 / 100) * weight).norm() <= 1e-9 * weight.norm());
+    comes_back_from(0.5 * 0.99);
     renderer.render(handle, Vector3d(0, NAN, 0)); // no torque is left at once
     comes_back_from(0);
     for (int k = 0; k < 200; ++k)

@@ -57,6 +57,26 @@ BOOST_AUTO_TEST_CASE(a_vertex_that_somebody_else_takes_or_removes_is_let_go_of_w
       }
 }
 
+BOOST_AUTO_TEST_CASE(the_step_of_a_button_ends_with_its_release_even_where_a_task_has_taken_the_vertex_out_of_hand) {
+  Tool_bench bench;
+  auto& sculptor = bench.scene->sculptor;
+  const Vector3d hand = map_of_tests.to_device(1.05 * bench.place(Mesh::Vertex_index(17)));
+  bench.tool.move(hand, 0);
+  bench.tool.move(hand, 1);
+  BOOST_REQUIRE(bench.tool.holds_vertex());
+  const auto push = [&](std::uint32_t vertex) {
+    const Mesh::Vertex_index v(vertex);
+    const Vector3d out = 1.02 * bench.place(v);
+    bench.tool.edit_by([&](auto& edits) { return edits.move_if_free(v, internal::point_of<Mesh::Point>(out)); });
+  };
+  push(3);
+  bench.tool.move(hand, 0);
+  const Mesh before = bench.scene->mesh;
+  push(40);
+  BOOST_TEST(static_cast<bool>(sculptor.undo()));
+  BOOST_TEST((surface_of(before, sculptor) == surface_of(*bench.scene)));
+}
+
 BOOST_AUTO_TEST_CASE(a_probe_that_is_not_carried_is_not_brought_where_a_vertex_is_let_go_of_by_the_button) {
   for (const int button : {0, 2}) {
     Tool_bench bench;

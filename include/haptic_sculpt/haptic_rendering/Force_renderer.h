@@ -60,8 +60,11 @@ public:
   }
   /// Forces begin at 0 and come back slowly; as slowly what carries the weight, from what the fade has left of it.
   void restart() {
-    carried_ *= last_.is_finite ? chain_.left() : 0;
+    const double left = last_.is_finite ? chain_.left() : 0;
+    const Eigen::Vector3d weight = left * (last_.torque - last_.interaction_torque);
+    carried_ *= left;
     chain_.restart(), last_ = Rendered_force();
+    last_.torque = weight; // fades, where a fault comes next
   }
 
   double next_ramp() const { return chain_.next_ramp(); } ///< share of the force in the next tick

@@ -6,6 +6,8 @@
 #include <haptic_sculpt/haptic_rendering/finding_and_placing.h>
 #include <haptic_sculpt/haptic_rendering/loop/require_number.h>
 
+#include <utility>
+
 namespace haptic_sculpt {
 
 /// What a hand does in a scene: a probe that touches, a vertex that is grabbed, created, dragged, let go or removed.
@@ -82,7 +84,7 @@ public:
     const internal::Rounding_to_nearest rounding;
     grab_.reset();
     mesh_edits_.end_stroke();
-    is_anchored_ = false;
+    is_anchored_ = is_stroke_of_button_ = false;
     last_drag_.reset();
     if (!carries_probe_)
       drop_probe();
@@ -177,6 +179,7 @@ private:
   std::optional<Probe_type> probe_; ///< never while a vertex is held
   bool is_anchored_ = false, carries_probe_ = true;
   int button_ = 0;
+  bool is_stroke_of_button_ = false; ///< it ends with its release
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(), last_push_ = Eigen::Vector3d::UnitZ();
   std::optional<std::array<Vertex_index, 3>> touched_; ///< the face that the probe touches
   /// From where a vertex was let go, while the probe has no place yet.
@@ -254,6 +257,8 @@ private:
     if (button == 1)
       return counted(grab_or_create(hand));
     const Tool_event released = grab_ && button == 0 ? release() : Tool_event::none;
+    if (button == 0 && std::exchange(is_stroke_of_button_, false))
+      mesh_edits_.end_stroke(); // of a vertex that was taken out of the hand, too
     return counted(button == 2 ? remove(hand) : released);
   }
 
@@ -270,6 +275,7 @@ private:
     const Vertex_index nearest = internal::nearest_vertex(*sculptor_, aim(hand), reach());
     if (nearest.is_valid()) {
       mesh_edits_.begin_stroke();
+      is_stroke_of_button_ = true;
       hold(nearest);
       return Tool_event::grabbed;
     }
@@ -279,6 +285,7 @@ private:
     const auto made = mesh_edits_.make_in_stroke(wanted);
     if (!made)
       return Tool_event::refused;
+    is_stroke_of_button_ = true;
     hold(*made.vertex);
     return wanted.kind == Edit_kind::insert_on_edge ? Tool_event::created_on_edge : Tool_event::created_on_face;
   }

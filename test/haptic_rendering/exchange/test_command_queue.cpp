@@ -248,6 +248,62 @@ BOOST_AUTO_TEST_CASE(copies_are_made_one_after_the_other) {
   BOOST_TEST((surface_of(second.copy) == surface_of(*d.scene)));
 }
 
+// Whoever asked may destroy it, and edits go on.
+BOOST_AUTO_TEST_CASE(a_copy_under_way_is_told_nothing_any_more_once_its_session_has_ended) {
+  Queue d;
+  auto copying = std::make_unique<Copy_task<Scene>>(4000, 8000);
+  copying->copy.begin();
+  d.scene->sculptor.visitor().tell_to(&copying->copy); // as in the midst of a large mesh
+  d.session.end();
+  BOOST_TEST(d.scene->sculptor.visitor().copy() == nullptr);
+  copying.reset();
+  BOOST_TEST(static_cast<bool>(d.scene->sculptor.remove(*d.scene->mesh.vertices_begin())));
+  Session next(d.loop, *d.scene, &d.queue, nullptr, nullptr);
+  Copy_task<Scene> again(4000, 8000);
+  d.ask(Command::Kind::task, 1, &again);
+  for (int k = 0; k < 20; ++k)
+    next.tick(reading_at(next.ticks()));
+  BOOST_TEST((d.answers() == Tickets{1}));
+}
+
+BOOST_AUTO_TEST_CASE(a_viewer_of_another_session_is_passed_all_faces) {
+  Queue d;
+  for (int round = 0; round < 2; ++round) {
+    Scene_feed feed;
+    Session session(d.loop, *d.scene, &d.queue, &feed, nullptr);
+    for (int k = 0; k < 40; ++k)
+      session.tick(reading_at(session.ticks()));
+    std::map<std::uint32_t, Face_change> shown;
+    std::uint32_t scene = 0;
+    for (Face_change face; feed.take(face);)
+      show(face, shown, scene);
+    BOOST_TEST((surface_of(shown) == surface_of(*d.scene)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_command_that_lacks_what_it_is_about_is_answered) {
+  Queue d;
+  Command enter;
+  enter.kind = Command::Kind::enter;
+  BOOST_TEST(d.queue.ask(enter));
+  d.ask(Command::Kind::task, 1);
+  for (int k = 0; k < 3; ++k)
+    d.tick();
+  BOOST_TEST((d.answers() == Tickets{0, 1}));
+  BOOST_TEST((!d.last.done && d.last.failure[0] != 0));
+}
+
+BOOST_AUTO_TEST_CASE(a_journal_that_nobody_writes_ends_the_run) {
+  Queue d(true);
+  d.loop.tool().take(*d.scene->mesh.vertices_begin());
+  for (int k = 0; k < 1100 && d.loop.interaction().fault() == Loop_fault::none; ++k)
+    d.tick();
+  BOOST_TEST(d.journal.has_overrun());
+  BOOST_TEST((d.loop.interaction().fault() == Loop_fault::log));
+  d.tick();
+  BOOST_TEST(!d.loop.tool().holds_vertex());
+}
+
 BOOST_AUTO_TEST_CASE(clutch_and_zoom_are_asked_for_by_another_thread) {
   Queue d;
   d.tick();

@@ -3,7 +3,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <memory>
 #include <random>
+#include <stdexcept>
+#include <string>
 
 using namespace haptic_sculpt;
 using namespace exchange_tests;
@@ -54,6 +57,52 @@ BOOST_AUTO_TEST_CASE(a_removal_where_a_probe_stands_is_told_as_the_collapse_that
   BOOST_TEST_MESSAGE(removed << " removals, after which a probe went on " << kept << " times");
   BOOST_TEST(removed >= 50u);
   BOOST_TEST(kept >= 50u);
+}
+
+/// Throws while `throws` is set.
+struct Throwing_visitor : Default_edit_visitor {
+  std::shared_ptr<bool> throws = std::make_shared<bool>(false);
+  void throw_if() const {
+    if (*throws)
+      throw std::runtime_error("the visitor throws");
+  }
+  void vertex_moved(Mesh::Vertex_index) { throw_if(); }
+  void face_created(Mesh::Face_index) { throw_if(); }
+};
+
+// What stands then is in no journal: what comes after it cannot be made again.
+BOOST_AUTO_TEST_CASE(a_journal_breaks_off_where_an_edit_stands_that_it_was_not_told) {
+  for (const std::string what : {"drag", "move if free", "move", "creation", "flip", "nothing"})
+    BOOST_TEST_CONTEXT(what) {
+      Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
+      Throwing_visitor visitor;
+      Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Throwing_visitor> sculptor(mesh, Sculptor_parameters(), visitor);
+      Edit_journal journal(100);
+      Journaled_edits edits(sculptor);
+      edits.keep_journal(&journal);
+      const Mesh::Vertex_index v(17);
+      const Mesh::Point p = mesh.point(v), target(1.1 * p.x(), 1.1 * p.y(), 1.1 * p.z()), far(1e305, 0, 0);
+      const auto e = *mesh.edges_begin();
+      const Surface before = surface_of(mesh, sculptor);
+      *visitor.throws = true;
+      const auto edit = [&] {
+        if (what == "drag")
+          edits.drag(v, target);
+        else if (what == "move if free")
+          edits.move_if_free(v, target);
+        else if (what == "move")
+          edits.make(Edit::of(Edit_kind::move, {sculptor.id(v), 0, 0}, {target.x(), target.y(), target.z()}));
+        else if (what == "creation")
+          edits.insert_on_edge(e, CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
+        else if (what == "flip")
+          edits.flip(e);
+        else
+          edits.drag(v, far); // throws before anything is done
+      };
+      BOOST_CHECK_THROW(edit(), std::exception);
+      BOOST_TEST((surface_of(mesh, sculptor) == before) == (what == "nothing"));
+      BOOST_TEST(journal.has_overrun() == (what != "nothing"));
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_tick) {

@@ -15,7 +15,8 @@ namespace haptic_sculpt {
 /// tick come through whole or not at all, and one of kind `none` ends them.
 ///
 /// Once an entry finds no room, or the oldest that waits is older than `most_age` ticks, the journal has overrun: it
-/// takes nothing more, so that what is written ends at the end of a tick, and the run should end.
+/// takes nothing more, so that what is written ends at the end of a tick, and the run should end: a Loop_session ends
+/// its loop by the fault `log`.
 class Edit_journal {
 public:
   /// \param most_age in ticks \param entries_a_tick room, in the mean; a slide makes a move a leg, mostly one
@@ -35,6 +36,8 @@ public:
     lost_ += has_overrun_;
     has_entries_ = true;
   }
+  /// Something stands of which nobody can say how it was done: the journal has overrun.
+  void break_off() { has_overrun_ = has_entries_ = true; }
   /// To be called at the end of each tick, with growing numbers.
   void end_tick(std::uint64_t tick) {
     const std::uint64_t taken = taken_.load(std::memory_order_acquire);

@@ -6,6 +6,7 @@
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <optional>
+#include <tuple>
 
 namespace haptic_sculpt {
 
@@ -14,7 +15,10 @@ namespace haptic_sculpt {
 /// It takes the place of a Sculptor in functions that change many elements: move_vertices() without drags,
 /// apply_brush(), move_rigidly(), isotropic_remeshing().
 ///
-/// \tparam Journal has `add(const Edit&)`, which is called once the edit stands, and throws nothing
+/// What a visitor throws leaves an edit that stands, maybe in part, and nobody can say how: the journal breaks off,
+/// except by shifts, which it has.
+///
+/// \tparam Journal has `add(const Edit&)`, which is called once the edit stands, and `break_off()`; they throw nothing
 template <class Sculptor, class Journal = Edit_journal>
 class Journaled_edits {
 public:
@@ -53,7 +57,7 @@ public:
 
   /// \pre it is no stroke and no end
   Edited make(const Edit& wanted) {
-    auto made = sculptor_->apply(wanted);
+    auto made = attempt(wanted);
     if (made)
       tell(made.edit);
     return made;
@@ -62,7 +66,7 @@ public:
   Edited make_in_stroke(const Edit& wanted) {
     end_stroke();
     std::optional<typename Sculptor::Stroke_type> begun(sculptor_->stroke());
-    auto made = sculptor_->apply(wanted);
+    auto made = attempt(wanted);
     if (made) {
       stroke_.emplace(std::move(*begun));
       add(Edit::of(Edit_kind::stroke));
@@ -73,7 +77,9 @@ public:
 
   /// A drag of a vertex of the surface; its legs are reported. \throw what drags throw
   Result drag(Grab_type& grab, const Point& target, const std::optional<Drag_parameters>& parameters) {
-    const auto result = grab.drag_to(target, legs_, parameters);
+    const auto result =
+        or_break_off(Edit::of(Edit_kind::move, {sculptor_->id(grab.vertex()), 0, 0}),
+                     [&] { return grab.drag_to(target, legs_, parameters); });
     for (std::size_t k = 1; k < legs_.size(); ++k)
       if (legs_[k] != legs_[k - 1])
         add_move(grab.vertex(), legs_[k]);
@@ -99,7 +105,8 @@ public:
   /// All of the way or none.
   bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
     const Point before = mesh().point(v);
-    const bool is_there = sculptor_->move_if_free(v, target, drag);
+    const bool is_there = or_break_off(Edit::of(Edit_kind::move, {sculptor_->id(v), 0, 0}),
+                                       [&] { return sculptor_->move_if_free(v, target, drag); });
     if (mesh().point(v) != before)
       add_move(v, target);
     return is_there;
@@ -221,6 +228,30 @@ private:
   static constexpr std::size_t most_legs = 64; ///< of a drag, and more: room that is made for them
   std::optional<typename Sculptor::Stroke_type> stroke_;
   std::vector<Point> legs_; ///< of the last drag
+
+  Edited attempt(const Edit& wanted) {
+    return or_break_off(wanted, [&] { return sculptor_->apply(wanted); });
+  }
+  template <class Function>
+  auto or_break_off(const Edit& wanted, const Function& function) -> decltype(function()) {
+    const auto before = shown_by(wanted);
+    try {
+      return function();
+    } catch (...) {
+      const bool goes_by_history = wanted.kind == Edit_kind::undo || wanted.kind == Edit_kind::redo;
+      if (journal_ != nullptr && (goes_by_history || shown_by(wanted) != before))
+        journal_->break_off();
+      throw;
+    }
+  }
+  /// What is another one where such an edit stands.
+  auto shown_by(const Edit& wanted) const {
+    const Vertex_index a = sculptor_->vertex(wanted.vertices[0]), b = sculptor_->vertex(wanted.vertices[1]);
+    const bool is_edge = wanted.kind == Edit_kind::flip && a.is_valid() && b.is_valid();
+    return std::tuple(mesh().number_of_vertices(),
+                      a.is_valid() ? vertex_coordinates(mesh(), a) : std::array<double, 3>{},
+                      is_edge ? mesh().halfedge(a, b) : Halfedge_index());
+  }
 
   Edit of_ends(Edit_kind kind, Halfedge_index h, const std::array<double, 3>& p = {}) const {
     return Edit::of(kind, {sculptor_->id(mesh().source(h)), sculptor_->id(mesh().target(h)), 0}, p);

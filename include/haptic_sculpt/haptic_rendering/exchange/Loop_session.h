@@ -37,7 +37,7 @@ public:
   ~Loop_session() {
     answer_what_waits();
     loop_->tool().keep_journal(nullptr);
-    scene_->sculptor.visitor().tell_to(nullptr);
+    scene_->sculptor.visitor().mark_all(); // another session's viewer has none of them
   }
   Loop_session(const Loop_session&) = delete;
   Loop_session& operator=(const Loop_session&) = delete;
@@ -48,8 +48,11 @@ public:
     if (queue_ != nullptr)
       serve();
     const auto& made = loop_->tick(reading);
-    if (journal_ != nullptr)
+    if (journal_ != nullptr) {
       journal_->end_tick(ticks_);
+      if (journal_->has_overrun())
+        loop_->end_by(Loop_fault::log);
+    }
     if (feed_ != nullptr) {
       pass_faces_on();
       feed_->tell(view_of(made));
@@ -91,6 +94,7 @@ private:
   std::optional<Loop_command<Scene>> next_;
 
   void answer_what_waits() noexcept {
+    scene_->sculptor.visitor().tell_to(nullptr); // a copy under way is its owner's again
     const auto give_back = [this](const Loop_command<Scene>& command) {
       Loop_answer<Scene> answer = answer_to(command, false);
       if (command.kind == Kind::enter)
@@ -177,12 +181,16 @@ private:
       loop_->restart();
       break;
     case Kind::task:
+      if (command.task == nullptr)
+        throw Error("the command is of the kind `task`, and has none");
       if (!command.task->go_on(*scene_, loop_->tool())) {
         tasks_.push_back(command);
         return false;
       }
       break;
     case Kind::enter:
+      if (command.scene == nullptr)
+        throw Error("the command is of the kind `enter`, and has no scene");
       if (command.scene == scene_) // not `left`: it stays the loop's
         throw Error("this scene is the one that is sculpted; enter another one");
       answer.left = command.scene; // where it is refused or throws
