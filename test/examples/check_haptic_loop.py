@@ -220,4 +220,12 @@ moved = ("--script", "/dev/stdin", "--log", at("moved.log"), "-o", at("moved.off
 check(program_runs.run(MESH, *moved, script="move 0 0 0 -0.25\n").returncode == 0, "an object is moved")
 run(MESH, "--log", at("moved.log"), "--no-wait", "--seconds", "0.01", "-o", at("again.off"))
 check(points(at("again.off")) == points(at("moved.off")) != points(MESH), "the loop makes it another mesh")
+# Nothing is emptied where the log is refused.
+open(at("part.log"), "wb").write(b"".join(open(at("moved.log"), "rb").read().splitlines(True)[:3]))
+for name in ("kept.csv", "kept.rec"):
+    open(at(name), "w").write("kept")
+run(MESH, "--log", at("part.log"), "--trace", at("kept.csv"), "--record", at("kept.rec"), "--no-wait", code=6)
+check(open(at("kept.csv")).read() == open(at("kept.rec")).read() == "kept", "what was there before stays")
+for option in (("--fault", "nan@0.1"), ("--seconds", "0.1"), ("--path", "other.csv"), ("--stiffness", "100")):
+    run(MESH, "--replay", at("a.rec"), *option, code=2)
 end()

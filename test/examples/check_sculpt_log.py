@@ -17,6 +17,9 @@ from program_runs import (LINES_OF_HEAD, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON
 EDITS = ("insert_face 0 1 2 0.2 0.2 0\ndrag 4 0.2 0.2 -0.5\ninsert_edge 1 2 0.55 0.55 0\nundo\nundo\nredo\nremove 4\n"
          "remove 4\nundo\ndrag 4 0.3 0.2 -0.25\nremove 0\nredo\n")
 
+CUBE_OF_SQUARES = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+                   "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
+
 
 def words(line):
     """What a line of a log says, without comments."""
@@ -531,11 +534,35 @@ def full_disk(folder, mesh):
         subprocess.run(["umount", small], check=True)
 
 
+def surfaces_of_options(folder, mesh):
+    """A log is of the surface that was sculpted, which an option may have made of the file."""
+    cube = write(f"{folder}/cube.off", CUBE_OF_SQUARES)
+    inside_out = write(f"{folder}/inside_out.off", TETRAHEDRON.replace("0 2 1", "0 1 2").replace("0 1 3", "0 3 1")
+                       .replace("1 2 3", "1 3 2").replace("2 0 3", "2 3 0"))
+    for path, option, others in ((cube, ("--triangulate",), ("--repair",)), (inside_out, ("--orient",), ()),
+                                 (inside_out, ("--repair",), ())):
+        log, script = f"{path}{option[0]}.log", write(f"{folder}/drag.script", "drag 0 -0.25 -0.25 -0.25\n")
+        first, again = f"{folder}/first.off", f"{folder}/again.off"
+        done = run(path, *option, "--script", script, "--log", log, "-o", first)
+        check(done.returncode == 0, f"{option}: {done.stderr}")
+        check(run(path, *option, "--log", log, "-o", again).returncode == 0 and bytes_of(first) == bytes_of(again), f"{option}: made again")
+        fails(6, ["--orient"], run(path, *others, "--log", log, "-o", f"{folder}/other.off"), f"{option}, then {others}")
+        check(not os.path.exists(f"{folder}/other.off"), f"{option}: another surface is sculpted")
+
+
+def refused_settings(folder, mesh):
+    """A setting that cannot be begins no log: the command without it, or with another one, would be refused for it."""
+    log, script = f"{folder}/edits.log", write(f"{folder}/edits.script", EDITS)
+    fails(2, ["clearance"], run(mesh, "--script", script, "--log", log, "--clearance", "1e5"), "a clearance of no use")
+    check(not os.path.exists(log), "it has begun a log")
+    check(run(mesh, "--script", script, "--log", log, "--clearance", "1e-9").returncode == 0, "another clearance")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
         for part in (edits_and_log, shifts, moves, settings, rerun, strokes, earlier_version, delta_in_stroke, no_logs,
-                     changed_logs, without_checksums, two_processes, places, full_disk):
+                     changed_logs, without_checksums, two_processes, places, full_disk, surfaces_of_options, refused_settings):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             start = time.monotonic()

@@ -134,6 +134,9 @@ def orients(folder):
     check(run(alone, "--repair", "-o", out).returncode == 0 and len(points(out)) == n, "which a repair leaves out")
     octahedron = write(f"{folder}/octahedron.off", OCTAHEDRON)
     check(run(octahedron).stderr == "", "nothing is remarked where there is nothing")
+    whole = f"{folder}/whole.off"
+    fails(5, ["long.json"], run(octahedron, "--repair", "--repair-report", f"{folder}/long.json", "-o", whole, limit=300), "a full disk")
+    check(points(whole) == points(octahedron), "a full disk costs the file that does not fit")
 
 
 with tempfile.TemporaryDirectory() as folder:

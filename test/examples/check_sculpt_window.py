@@ -382,5 +382,27 @@ quit
 """, what="opening")
 check(len(lines) == 1 and lines[0]["faces"] == 192 and lines[0]["edits"] == 0, f"another mesh is opened: {lines}")
 check(os.path.exists(mesh + ".log") and not os.path.exists(second + ".log"), "the log of unsaved work stays")
+# Nothing that the session has made, or has left for another mesh, is written over.
+edit = "settle\ntool drag\ndrag 600 430 700 350 6\nsettle\n"
+for before, line in ((f"save {at('first.off')}\nsettle\n", f"record {at('first.off')}"),
+                     (f"save {at('first.off')}\nsettle\n", f"screenshot {at('first.off')}"),
+                     (f"open {second}\nopen {second}\nsettle\n", f"save {at('left.off')}"),
+                     (f"open {second}\nopen {second}\nsettle\n", f"screenshot {at('left.off.log')}")):
+    left = write(at("left.off"), box(3))
+    _, err = window(left, "--samples", 0, script=f"{edit}{before}{line}\nsettle\nquit\n", code=5, what=line)
+    check("another name" in err and bytes_of(left) == box(3).encode(), f"{line}: {err}")
+    check("open" not in before or b"drag" in bytes_of(left + ".log"), f"{line}: the log of the work is gone")
+    if os.path.exists(left + ".log"):
+        os.remove(left + ".log")
+# What was asked to be saved is, before the window ends, and counts for the mesh that it was asked of.
+ball = write(at("large.off"), box(60))
+window(ball, "--samples", 0, "--no-log", script=f"{edit}save {at('large_saved.off')}\nquit\n", what="save, then quit")
+check(os.path.getsize(at("large_saved.off")) > 1000000, "all of it is there")
+window(ball, "--samples", 0, "--no-log", script=f"{edit}save {at('nowhere/x.off')}\nquit\n", code=5, what="a save that cannot be")
+script = f"{edit}save {at('large_saved.off')}\nopen {second}\nopen {second}\nwait 2\n{edit}print\nquit\n"
+lines, _ = window(ball, "--samples", 0, script=script, what="another mesh is sculpted while one is saved")
+check(lines[0]["faces"] == 192 and lines[0]["edits"] > 0 and os.path.exists(second + ".log"), f"its work is in its log: {lines}")
+for line in ("wait 1e10", "wait -1", "zoom 0", "view 0 0 0"):
+    window(second, "--log", at("lines.log"), script=f"{line}\nquit\n", code=4, what=line)
 
 end()

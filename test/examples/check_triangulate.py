@@ -73,7 +73,8 @@ def main():
                 check([tuple(map(int, p)) for p in points] == at, f"{n} corners: points")
                 check(is_divided(at, faces, triangles, axes.index(2)), f"{n} corners, slope {slope}, axes {axes}: this is no triangulation")
         for text in (FOLDED, FOLDED.replace("2 1 3\n", "2 1 3.5\n")):
-            fails(3, ["face 0", "folds"], run(write(path, text), "--triangulate"), "a folded hexagon")
+            fails(3, ["face 0", "folds"], run(write(path, text), "--triangulate", "--report", f"{folder}/folds.json"), "a folded hexagon")
+            check(json.load(open(f"{folder}/folds.json"))["faults"]["non_triangular_faces"] == [0], "which the report names")
         for length, is_refused in (("1e-5", True), ("1e-300", True), ("0.05", False)):
             report = f"{folder}/report.json"
             done = run(write(path, NEEDLE), "--script", "-", "--report", report, script=f"remesh {length}\n")
