@@ -2,8 +2,12 @@
 // The life of a Grab.
 #include "sculpting/Random_scene.h"
 
+#include <CGAL/boost/graph/copy_face_graph.h>
+
 #include <boost/test/unit_test.hpp>
 
+#include <array>
+#include <cmath>
 #include <memory>
 
 using namespace haptic_sculpt;
@@ -91,4 +95,31 @@ BOOST_AUTO_TEST_CASE(a_broad_phase_knows_where_a_grab_has_left_its_vertex) {
   const auto across = CGAL::cross_product(out, meshes::Kernel::Vector_3(1, 2, 3));
   const Point_3 in_the_spike = CGAL::ORIGIN + 2 * out;
   BOOST_TEST(!sculptor.probe(in_the_spike + across).drag_to(in_the_spike - across).reached);
+}
+
+// Contacts are carried from drag to drag: to let go of them ends the next drag elsewhere.
+BOOST_AUTO_TEST_CASE(a_delta_that_is_refused_lets_go_of_nothing) {
+  std::size_t blocked = 0;
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    std::array<Point_3, 2> ends;
+    for (const bool asks : {false, true}) {
+      Mesh mesh = meshes::to_mesh(meshes::icosphere(2));
+      meshes::Triangle_list beside = meshes::icosphere(2);
+      CGAL::copy_face_graph(meshes::to_mesh(beside.scale_and_move(1, 2.05, 0, 0)), mesh);
+      Sculptor<Mesh> sculptor(mesh);
+      const Vertex_index v(5 * seed);
+      const Point_3 from = mesh.point(v);
+      const meshes::Kernel::Vector_3 way(std::sin(seed), std::cos(2.0 * seed), std::sin(3.0 * seed));
+      auto grab = sculptor.grab(v);
+      for (int i = 1; i <= 8; ++i) {
+        if (asks)
+          BOOST_CHECK_THROW(sculptor.set_delta(-1), Invalid_parameter);
+        const auto result = grab.drag_to(from + i / 8.0 * way);
+        blocked += !result.reached;
+      }
+      ends[asks] = mesh.point(v);
+    }
+    BOOST_TEST((ends[0] == ends[1]));
+  }
+  BOOST_TEST(blocked > 100u);
 }

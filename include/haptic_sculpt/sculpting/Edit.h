@@ -26,7 +26,8 @@ enum class Edit_kind : std::uint8_t {
 };
 
 /// An edit by value: to be kept, queued, written down, and made by `Sculptor::apply()`. Vertices are numbers that last
-/// (`Sculptor::id()`). As apply() gives it back it is certain to be done again where it was done.
+/// (`Sculptor::id()`). As apply() gives it back it is certain to be done again where it was done, without a bound on
+/// work.
 struct Edit {
   Edit_kind kind = Edit_kind::none;      ///< what is done
   std::array<std::size_t, 3> vertices{}; ///< those that the kind names; of the end of a tick, its number first

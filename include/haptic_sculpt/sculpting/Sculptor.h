@@ -303,9 +303,9 @@ public:
     const internal::Rounding_to_nearest rounding;
     if (guarded_.whole_editor().history().is_in_stroke())
       throw Open_stroke("delta may not change within a stroke: end the stroke first");
-    release();
     const Sculptor_parameters changed = Sculptor_parameters(parameters()).delta(length);
     internal::checked_scene(mesh(), changed);
+    release();
     guarded_.parameters = changed;
   }
 

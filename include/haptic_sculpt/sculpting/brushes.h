@@ -44,11 +44,11 @@ Move_report apply_brush(Sculptor& sculptor, const Dab_range& dabs, const Mask_ma
   std::vector<std::pair<Vertex_index, Point>> wanted;
   for (const auto& dab : dabs) {
     internal::check_dab(dab);
-    const auto asking = internal::Sculptor_access::guarded(sculptor).asking(); // the mask
     if (const Vertex_index nearest = sculptor.nearest_vertex(dab.centre, dab.radius); nearest.is_valid()) {
       internal::check_strength(mesh, dab, nearest);
-      internal::for_each_brush_target(touched_vertices(mesh, dab, nearest), mesh, dab, mask,
-                                      dab.kind == Brush_kind::inflate && sculptor.is_inside_out(nearest),
+      const bool inside_out = dab.kind == Brush_kind::inflate && sculptor.is_inside_out(nearest);
+      const auto asking = internal::Sculptor_access::guarded(sculptor).asking(); // the mask
+      internal::for_each_brush_target(touched_vertices(mesh, dab, nearest), mesh, dab, mask, inside_out,
                                       [&](Vertex_index v, const Point& p) { wanted.emplace_back(v, p); });
     }
   }

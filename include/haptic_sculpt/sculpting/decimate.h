@@ -134,19 +134,29 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   const auto collapses = [&](Halfedge_index h, const Point& p) {
     const Vertex_index kept = mesh.target(h);
     const Point before = mesh.point(kept);
+    const auto go_back = [&] {
+      // It was free a moment ago: neither delta nor a bound on work has a say.
+      struct Without_delta {
+        double& delta;
+        const double kept = std::exchange(delta, 0.0);
+        ~Without_delta() { delta = kept; }
+      } const without_delta{guarded.parameters.delta_length};
+      Drag_parameters unbounded = sculptor.parameters().drag;
+      unbounded.work_limit_pairs.reset();
+      sculptor.move_if_free(kept, before, unbounded);
+    };
+    const Vertex_index dying = mesh.source(h);
     if (!sculptor.move_if_free(kept, p))
       return false;
-    if (sculptor.collapse(h))
-      return true;
-    // It was free a moment ago: neither delta nor a bound on work has a say.
-    struct Without_delta {
-      double& delta;
-      const double kept = std::exchange(delta, 0.0);
-      ~Without_delta() { delta = kept; }
-    } const without_delta{guarded.parameters.delta_length};
-    Drag_parameters unbounded = sculptor.parameters().drag;
-    unbounded.work_limit_pairs.reset();
-    sculptor.move_if_free(kept, before, unbounded);
+    try {
+      if (sculptor.collapse(h))
+        return true;
+    } catch (...) { // the visitor's
+      if (!mesh.is_removed(dying))
+        go_back();
+      throw;
+    }
+    go_back();
     return false;
   };
   // Whether a face that stays turns its normal by a right angle or more where both ends of h go to p. Rounded. The

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sculpting/Mesh_snapshot.h"
+#include "sculpting/Random_scene.h"
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <utility>
+
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
 
@@ -91,4 +93,37 @@ BOOST_AUTO_TEST_CASE(an_edit_that_is_not_made_leaves_what_redo_gives_back) {
   BOOST_TEST(scene.sculptor.history().number_of_redo_steps() == 1u);
   BOOST_TEST(static_cast<bool>(scene.sculptor.redo()));
   BOOST_TEST((scene.values() == made));
+}
+
+// A map is not the visitor's: the visitor hears of all that stands.
+BOOST_AUTO_TEST_CASE(a_visitor_hears_of_an_edit_that_stands_where_a_map_has_thrown) {
+  struct Counting_visitor : Default_edit_visitor {
+    int faces = 0, vertices = 0;
+    void face_dies(Mesh::Face_index) { --faces; }
+    void face_created(Mesh::Face_index) { ++faces; }
+    void vertex_dies(Mesh::Vertex_index, std::size_t) { --vertices; }
+    void vertex_created(Mesh::Vertex_index, std::size_t) { ++vertices; }
+  };
+  for (const bool removes : {false, true}) {
+    Mesh mesh = meshes::to_mesh(lumpy_ball());
+    const auto map = mesh.add_property_map<Mesh::Face_index, int>("f:value", 1).first;
+    bool throws = true;
+    const auto policy = [&throws](const Property_origin<int>& origin) {
+      if (std::exchange(throws, false))
+        throw Interruption();
+      return *origin.values[0];
+    };
+    Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Counting_visitor> sculptor(mesh);
+    sculptor.keep(map, policy);
+    const int faces = static_cast<int>(mesh.number_of_faces()), vertices = static_cast<int>(mesh.number_of_vertices());
+    const auto e = *mesh.edges_begin();
+    const auto middle = CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)));
+    if (removes)
+      BOOST_CHECK_THROW(sculptor.remove(Mesh::Vertex_index(7)), Interruption);
+    else
+      BOOST_CHECK_THROW(sculptor.insert_on_edge(e, middle), Interruption);
+    BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
+    BOOST_TEST(static_cast<int>(mesh.number_of_faces()) - faces == sculptor.visitor().faces);
+    BOOST_TEST(static_cast<int>(mesh.number_of_vertices()) - vertices == sculptor.visitor().vertices);
+  }
 }

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
+#include <utility>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -107,6 +109,53 @@ BOOST_AUTO_TEST_CASE(a_question_within_an_undo_lets_nothing_be_passed_through) {
     BOOST_TEST(has_asked == asks);
     BOOST_TEST(!sculptor.drag(v[3], {0, 0, 3}, Drag_parameters().response(Response::stop)).reached);
     BOOST_TEST(validate(mesh).is_valid());
+  }
+}
+
+// A vertex goes from where a stroke has brought it to where it was before: on the way the mesh may be turned over.
+BOOST_AUTO_TEST_CASE(what_a_visitor_hears_of_orientation_within_an_undo_is_not_kept) {
+  Mesh mesh = meshes::to_mesh(meshes::tetrahedron().scale_and_move(1, -0.25, -0.25, -0.25));
+  Asked_sculptor sculptor(mesh);
+  const Mesh before = mesh;
+  {
+    const auto stroke = sculptor.stroke(); // half a turn
+    for (int i = 1; i <= 64; ++i)
+      for (const Vertex_index v : mesh.vertices()) {
+        const Mesh::Point p = before.point(v);
+        const double c = std::cos(i * CGAL_PI / 64), s = std::sin(i * CGAL_PI / 64);
+        BOOST_REQUIRE(sculptor.drag(v, {c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()}).reached);
+      }
+  }
+  int questions = 0, answers = 0;
+  sculptor.visitor().ask = [&] { ++questions, answers += sculptor.is_inside_out(Vertex_index(0)); };
+  BOOST_TEST(static_cast<bool>(sculptor.undo()));
+  sculptor.visitor().ask = nullptr;
+  BOOST_TEST(questions == 4);
+  BOOST_TEST(answers > 0);
+  BOOST_TEST(!sculptor.is_inside_out(Vertex_index(0)));
+}
+
+BOOST_AUTO_TEST_CASE(what_a_question_within_an_undo_finds_out_about_the_scene_is_not_kept) {
+  for (const bool asks : {false, true}) {
+    Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+    Asked_sculptor sculptor(mesh);
+    const Vertex_index far(0), last(1);
+    const auto times = [&](Vertex_index v, double x) { return CGAL::ORIGIN + x * (mesh.point(v) - CGAL::ORIGIN); };
+    BOOST_REQUIRE(sculptor.drag(far, times(far, 0x1p60)).reached);
+    {
+      const auto stroke = sculptor.stroke();
+      BOOST_REQUIRE(sculptor.drag(far, times(far, 0x1p-60)).reached);
+      BOOST_REQUIRE(sculptor.drag(last, times(last, 1.5)).reached);
+    }
+    sculptor.set_drag_parameters(Drag_parameters().clearance(0x1p-10)); // serves the scene as it is
+    if (asks) // in the undo, before the far one is back
+      sculptor.visitor().ask = [&, is_first = true]() mutable {
+        if (std::exchange(is_first, false))
+          BOOST_TEST(static_cast<bool>(sculptor.probe({0, 0, 7})));
+      };
+    BOOST_TEST(static_cast<bool>(sculptor.undo()));
+    sculptor.visitor().ask = nullptr;
+    BOOST_CHECK_THROW(sculptor.drag(last, times(last, 1.1)), Invalid_parameter); // below an ulp of the scene
   }
 }
 

@@ -39,6 +39,7 @@ struct Dab_3 {
 
   /// The square of how far a point is from the centre, in radii.
   double squared_share(const typename Kernel::Point_3& p) const {
+    const internal::Rounding_to_nearest rounding;
     const auto d = p - centre;
     const double x = d.x() / radius, y = d.y() / radius, z = d.z() / radius;
     return x * x + y * y + z * z;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
+
 #include <CGAL/Kernel/global_functions.h>
 
 #include <cmath>
@@ -39,6 +41,7 @@ Vector_3 unit_vector(const Vector_3& v) {
 /// that of CGAL is not: its squares leave the range of doubles. \pre v has faces
 template <class Mesh>
 auto vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
+  const internal::Rounding_to_nearest rounding;
   double size = 0; // of the star; all its edges are multiplied alike
   for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
     size = std::fmax(size, internal::largest_coordinate(mesh.point(mesh.source(h)) - mesh.point(v)));

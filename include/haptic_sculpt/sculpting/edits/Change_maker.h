@@ -13,6 +13,7 @@
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <algorithm>
+#include <exception>
 #include <type_traits>
 
 namespace haptic_sculpt::internal {
@@ -333,7 +334,12 @@ private:
     noted(v);
     writing_->end();
     const Write_state::Asking asking(*writing_);
-    kept_.create(ids_, v, faces, halfedges);
+    std::exception_ptr failure; // of a map: who listens hears all the same of what stands
+    try {
+      kept_.create(ids_, v, faces, halfedges);
+    } catch (...) {
+      failure = std::current_exception();
+    }
     if (has_visitor && tells_visitor_) {
       if (v.is_valid())
         visitor_.vertex_created(v, ids_.id(v));
@@ -342,6 +348,8 @@ private:
       for (const Face_index f : faces)
         visitor_.face_created(f);
     }
+    if (failure)
+      std::rethrow_exception(failure);
   }
 };
 

@@ -191,8 +191,8 @@ public:
     const Rounding_to_nearest rounding;
     check_vertex(*mesh_, v);
     look_at_surface();
-    if (writing_.is_asking())
-      inside_out_.forget();
+    if (writing_.is_asking()) // within an undo of many changes no state on the way need be embedded
+      return Inside_out_vertices<Mesh>(*mesh_).contain(v);
     return inside_out_.contain(v);
   }
 
@@ -233,7 +233,9 @@ public:
   template <class Edit_function>
   Edited restored(const Edit_function& edit) {
     scene_.include_the_past();
-    return edited(edit);
+    const Edited made = edited(edit);
+    scene_.include_the_past(); // a question on the way may have bounded what was there then
+    return made;
   }
 
   /// Has axis moves look at what they may meet from here on: as Axis_move_at_hand::look_around().
