@@ -16,7 +16,7 @@ namespace haptic_sculpt::internal {
 inline unsigned nonempty_boxes(const Box_node& node) {
   unsigned mask = 0;
   for (unsigned j = 0; j < Box_node::width; ++j)
-    mask |= (node.bounds[0][j] <= node.bounds[3][j] ? 1u : 0u) << j;
+    mask |= static_cast<unsigned>(node.bounds[0][j] <= node.bounds[3][j]) << j; // by ?: g++ 12 with UBSan errs
   return mask;
 }
 
@@ -83,7 +83,7 @@ public:
     unsigned mask = node.meeting(around_);
     for (unsigned j = 0; j < Box_node::width; ++j) {
       lowest[j] -= rounding;
-      mask &= ~((lowest[j] > last[j] + rounding ? 1u : 0u) << j);
+      mask &= ~(static_cast<unsigned>(lowest[j] > last[j] + rounding) << j);
     }
     return mask;
   }
