@@ -52,9 +52,9 @@ def reports(out):
 
 
 def shards(out, name):
-    """(shard, note, report) of each shard that has ended."""
-    rows = []
-    for path in sorted((out / "shards" / name).glob("*_of_*.json"), key=lambda p: int(p.name.split("_")[0])):
+    """(shard, note, report) of each shard that has ended. Those of a run with another number of them may lie there, too."""
+    rows, count = [], circumstances(out)["shards"][name]
+    for path in sorted((out / "shards" / name).glob(f"*_of_{count}.json"), key=lambda p: int(p.name.split("_")[0])):
         note = path.with_suffix(".note")
         rows.append((path.stem.replace("_of_", "/"), json.loads(note.read_text()) if note.exists() else {}, json.loads(path.read_text())))
     return rows

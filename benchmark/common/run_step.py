@@ -31,9 +31,17 @@ def report_of_exit(step, shard, shards, code, asked):
     return {"shard": f"{shard}/{shards}", "promises": promises, "exit": 10 if code != 0 else 0}
 
 
-def minutes_used(folder):
-    """By the shards of a step that have ended."""
-    return sum(json.loads(note.read_text())["seconds"] for note in folder.glob("*.note")) / 60
+def made_with(step, options):
+    """What the result of any shard hangs on: the same for all shards of one run, and for what it need not make again."""
+    words, extra = steps.command_of(step, options.mode, 0, options.shards, options.build, options.meshes, options.seed, "", options.repair)
+    program = pathlib.Path(words[0])
+    return {"command": words, "environment": extra, "program": program.stat().st_mtime_ns if program.exists() else 0}
+
+
+def minutes_used(folder, shards, settings):
+    """By the shards of this run that have ended. Of other settings notes lie there, too, and of shards that are being made again."""
+    notes = [json.loads(path.read_text()) for path in folder.glob(f"*_of_{shards}.note") if path.with_suffix(".json").exists()]
+    return sum(note["seconds"] for note in notes if note.get("made_with") == settings) / 60
 
 
 def write_report(path, report):
@@ -58,8 +66,10 @@ def main():
     options = parser.parse_args()
     step = steps.all_steps()[options.step]
     minutes = step.effort(options.mode).minutes
+    settings = made_with(step, options)
+    options.json.with_suffix(".note").unlink(missing_ok=True)  # of a result that is being made again
     if options.minutes > 0:
-        minutes = min(minutes, options.minutes - minutes_used(options.json.parent))
+        minutes = min(minutes, options.minutes - minutes_used(options.json.parent, options.shards, settings))
     if minutes <= 0:
         write_report(options.json, {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"not begun: {options.minutes:g} minutes of the step are used up"})
         return 0
@@ -102,7 +112,7 @@ def main():
     attempts = 1 + (len(failed.read_text().splitlines()) if failed.exists() else 0)
     note = {"command": shown, "seconds": round(seconds, 3), "cpu_seconds": round(sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]), 1),
             "peak_megabytes": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024, "host": platform.node(), "attempts": attempts,
-            "exit": code}
+            "exit": code, "made_with": settings}
     options.json.with_suffix(".note").write_text(json.dumps(note, indent=1) + "\n")
     unfinished.unlink(missing_ok=True)
     write_report(options.json, report)

@@ -135,6 +135,15 @@ def little_time(out):
     expect(little.returncode == 0 and "did not fit: 0/3, 1/3, 2/3 of 3" in page, f"too little time: exit {little.returncode}, {little.stderr}")
     enough = run(out, "axis", "device", "--minutes", "5")
     expect(enough.returncode == 0 and "did not fit" not in (out / "index.html").read_text(), f"enough time: exit {enough.returncode}, {enough.stderr}")
+    # An hour of one shard counts where a resumed run lacks another, but not for another seed or number of shards.
+    note = out / "shards/device/0_of_3.note"
+    note.write_text(json.dumps({**json.loads(note.read_text()), "seconds": 3600}))
+    for lost in ("shards/device/2_of_3.json", "results/device.json"):
+        (out / lost).unlink()
+    for arguments, is_used_up in (((), True), (("--shards", "4"), False), (("--seed", "2"), False)):
+        done = run(out, "device", "--minutes", "5", *arguments)
+        expect(done.returncode == 0 and ("did not fit" in (out / "index.html").read_text()) == is_used_up,
+               f"5 minutes beside an hour, {arguments}: exit {done.returncode}, {done.stderr}")
 
 
 def missing_part():
