@@ -8,6 +8,8 @@ import platform
 import re
 import subprocess
 
+import merge_shards
+
 
 def output_of(*words, cwd=None):
     try:
@@ -81,7 +83,13 @@ def deaths(out, names):
     return found
 
 
+def promises(out):
+    """[(step, promise)] by all shards that have ended: what one of them saw broken is not undone by the death of another."""
+    return [(name, p) for name in circumstances(out)["steps"]
+            for p in merge_shards.merged_promises([report for _, _, report in shards(out, name)])]
+
+
 def broken_promises(out):
     """Of every step: sentences."""
-    return [f"{name}: {p['promise']}: {p['broken']} of {p['asked']} not, exit {p['exit']}" for name, report in reports(out).items()
-            for p in report.get("promises", []) if p["broken"] > p["may"] * p["asked"]]
+    return [f"{name}: {p['promise']}: {p['broken']} of {p['asked']} not, exit {p['exit']}" for name, p in promises(out)
+            if merge_shards.is_broken(p)]

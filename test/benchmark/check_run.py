@@ -185,6 +185,34 @@ def death(out, folder):
     expect(mended.returncode == 0 and "made again: 1/3" in (out / "index.html").read_text(), f"mended, it ends with {mended.returncode}: {mended.stderr}")
 
 
+BREAKING = """#!/usr/bin/python3
+import json, os, sys
+given = dict(zip(sys.argv[1:], sys.argv[2:]))
+if given["--shard"] == "1/2":
+    os.abort()
+promises = [{"exit": 10, "promise": "nothing is crossed", "asked": 100, "broken": 7, "may": 0}]
+json.dump({"shard": given["--shard"], "scripts": [], "promises": promises, "exit": 10}, open(given["--json"], "w"))
+sys.exit(10)
+"""
+
+
+def broken_beside_a_death(out, folder):
+    """A promise that one shard has seen broken is told where another dies. What a run of 7 shards has dumped is not listed."""
+    program = folder / "breaking/benchmark/drag_speed_error"
+    program.parent.mkdir(parents=True)
+    program.write_text(BREAKING)
+    program.chmod(0o755)
+    old = out / "failures/whole_drags/0_of_7/batch_1.script"
+    old.parent.mkdir(parents=True)
+    old.write_text("drag 0 1 1 1\n")
+    done = run(out, "whole_drags", build=folder / "breaking")
+    expect(done.returncode == 4 and "broken: whole_drags: nothing is crossed: 7 of 100 not" in done.stderr and "died: whole_drags, shard 1/2" in done.stderr,
+           f"a broken promise beside a death: exit {done.returncode}, {done.stderr}")
+    page = (out / "index.html").read_text()
+    expect("1 broken promises" in page and "nothing is crossed" in page, "the page does not tell of the promise broken beside a death")
+    expect("batch_1" not in page, "the page lists a case of another number of shards")
+
+
 def own_meshes(out, folder):
     """What is refused is listed, with its reason, and is a broken promise unless it has to be."""
     meshes = folder / "meshes"
@@ -313,6 +341,7 @@ def main():
         missing_part()
         little_time(folder / "little_time")
         death(folder / "death", folder)
+        broken_beside_a_death(folder / "breaks", folder)
         own_meshes(folder / "own", folder)
         answers(folder / "answers", folder)
         failing_case(folder / "failing", folder)
