@@ -71,6 +71,11 @@ def forget_what_did_not_fit(out):
             (out / "results" / f"{path.parent.name}.json").unlink(missing_ok=True)
 
 
+def did_not_fit(out, name):
+    """The shards of a step for which `--minutes` were too few."""
+    return [shard for shard, _, report in shards(out, name) if "did_not_fit" in report]
+
+
 def deaths(out, names):
     """The last word of each shard that has no report."""
     count = circumstances(out)["shards"]

@@ -3,7 +3,8 @@
 """Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER [--repair]] [--minutes M]
 
 The report appears when it is whole. Beside it go FILE.log, what the program printed, and FILE.note, the command and how
-it went. A broken promise is a result; a program that dies is named in FILE.failed, with the command that repeats it.
+it went. A broken promise is a result, and so is that `--minutes` were too few; a program that dies, or takes longer than
+its step allows, is named in FILE.failed, with the command that repeats it.
 Exit: 0 there is a report, 1 there is none, 3 by `--unless-it-fits` alone.
 """
 import argparse
@@ -21,7 +22,9 @@ import time
 import steps
 
 
-def told(code):
+def told(code, minutes):
+    if code is None:
+        return f"had not ended after its {minutes:g} minutes"
     return f"was ended by signal {-code}" if code < 0 else f"ended with exit code {code} and no report"
 
 
@@ -68,8 +71,9 @@ def main():
     minutes = step.effort(options.mode).minutes
     settings = made_with(step, options)
     options.json.with_suffix(".note").unlink(missing_ok=True)  # of a result that is being made again
-    if options.minutes > 0:
-        minutes = min(minutes, options.minutes - minutes_used(options.json.parent, options.shards, settings))
+    left = options.minutes - minutes_used(options.json.parent, options.shards, settings)
+    is_bounded = 0 < options.minutes and left <= minutes  # by the user: what does not fit has not failed
+    minutes = left if is_bounded else minutes
     if minutes <= 0:
         write_report(options.json, {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"not begun: {options.minutes:g} minutes of the step are used up"})
         return 0
@@ -91,8 +95,10 @@ def main():
             log.write(f"{error}\n".encode())
             code = 127
     seconds = time.time() - begin
-    if code is None:
+    if code is None and is_bounded:
         report = {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"more than {minutes:.3g} minutes"}
+    elif code is None:
+        report = None
     elif step.promise and code in (0, 201):  # 201: a test failed
         asked = steps.share_of(step, options.mode, options.shards)
         report = report_of_exit(step, options.shard, options.shards, code, asked)
@@ -106,8 +112,8 @@ def main():
     failed = options.json.with_suffix(".failed")
     if report is None:
         with open(failed, "a") as file:
-            file.write(f"{options.step}, shard {options.shard}/{options.shards}, {told(code)} on {platform.node()} after {seconds:.0f} s: {shown}\n")
-        print(f"{options.step}, shard {options.shard}/{options.shards}, {told(code)}; alone: {shown}", file=sys.stderr)
+            file.write(f"{options.step}, shard {options.shard}/{options.shards}, {told(code, minutes)} on {platform.node()} after {seconds:.0f} s: {shown}\n")
+        print(f"{options.step}, shard {options.shard}/{options.shards}, {told(code, minutes)}; alone: {shown}", file=sys.stderr)
         return 1
     attempts = 1 + (len(failed.read_text().splitlines()) if failed.exists() else 0)
     note = {"command": shown, "seconds": round(seconds, 3), "cpu_seconds": round(sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]), 1),

@@ -13,7 +13,7 @@ MODES = ("tiny", "quick", "full")
 class Effort:
     """How much of a step a mode runs."""
     options: str = ""  # of the program; {seed}, {meshes} and {dump}, a folder for failing cases, are put in
-    minutes: float = 10  # of one shard; what takes longer is ended, and listed as what did not fit
+    minutes: float = 10  # of one shard; what takes longer is ended, and has died
     shards: int = 1
     memory: int = 2000  # MB of one shard
 

@@ -133,6 +133,7 @@ def little_time(out):
     little = run(out, "axis", "device", "--minutes", "0.0001")
     page = (out / "index.html").read_text()
     expect(little.returncode == 0 and "did not fit: 0/3, 1/3, 2/3 of 3" in page, f"too little time: exit {little.returncode}, {little.stderr}")
+    expect("did not fit into --minutes 0.0001: device, nothing of it" in little.stderr, f"it does not say that nothing fitted: {little.stderr}")
     enough = run(out, "axis", "device", "--minutes", "5")
     expect(enough.returncode == 0 and "did not fit" not in (out / "index.html").read_text(), f"enough time: exit {enough.returncode}, {enough.stderr}")
     # An hour of one shard counts where a resumed run lacks another, but not for another seed or number of shards.
@@ -144,6 +145,21 @@ def little_time(out):
         done = run(out, "device", "--minutes", "5", *arguments)
         expect(done.returncode == 0 and ("did not fit" in (out / "index.html").read_text()) == is_used_up,
                f"5 minutes beside an hour, {arguments}: exit {done.returncode}, {done.stderr}")
+
+
+def own_minutes(out):
+    """A program that hangs has died where its step's minutes are up, and has only not fitted where `--minutes` are."""
+    out.mkdir()
+    asked = f"""import sys
+sys.path.insert(0, {str(ROOT / "benchmark/common")!r})
+import run_step, steps
+steps.all_steps = lambda: {{"hang": steps.Step("hang", "sleep", folder="", tiny=steps.Effort("60", 0.005), promise="it ends")}}
+sys.exit(run_step.main())"""
+    for bound, code, said in (("0", 1, "had not ended after its 0.005 minutes"), ("1", 1, "had not ended"), ("0.004", 0, "")):
+        done = subprocess.run([PYTHON, "-c", asked, "hang", "0", "1", "--mode", "tiny", "--build", "/bin", "--json", str(out / "0_of_1.json"), "--minutes", bound],
+                              cwd=out, capture_output=True, text=True)
+        expect(done.returncode == code and said in done.stderr and (out / "0_of_1.json").exists() == (code == 0),
+               f"it hangs, --minutes {bound}: exit {done.returncode}, {done.stderr}")
 
 
 def missing_part():
@@ -339,6 +355,7 @@ def main():
         options_are_known()
         no_case_is_left_out()
         missing_part()
+        own_minutes(folder / "own_minutes")
         little_time(folder / "little_time")
         death(folder / "death", folder)
         broken_beside_a_death(folder / "breaks", folder)
