@@ -23,8 +23,8 @@ def processor():
     return found[1] if found else platform.machine()
 
 
-def write_circumstances(out, root, build, options, shards):
-    """Machine, compiler, flags, commit and seed, before anything runs. \\param shards {step: how many}"""
+def write_circumstances(out, root, build, options, digest, shards):
+    """Machine, compiler, flags, commit and seed, before anything runs. \\param digest of the meshes \\param shards {step: how many}"""
     cache = (build / "CMakeCache.txt").read_text() if (build / "CMakeCache.txt").exists() else ""
     entry = {m[1]: m[2] for m in re.finditer(r"^(\w+):\w+=(.*)$", cache, re.MULTILINE)}
     kind = entry.get("CMAKE_BUILD_TYPE", "")
@@ -33,7 +33,7 @@ def write_circumstances(out, root, build, options, shards):
     changed = output_of("git", "status", "--porcelain", "--untracked-files=no", cwd=root)
     circumstances = {
         "mode": options.mode, "steps": list(shards), "shards": shards, "seed": options.seed, "profile": options.profile,
-        "meshes": str(options.meshes or ""), "begun": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
+        "meshes": str(options.meshes or ""), "meshes_digest": digest, "begun": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
         "version": version[1] if version else "", "commit": output_of("git", "rev-parse", "HEAD", cwd=root) + (", changed" if changed else ""),
         "machine": processor(), "cores": os.cpu_count(), "memory_GB": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30, 1),
         "system": platform.platform(), "compiler": output_of(compiler, "--version").splitlines()[0] if compiler and output_of(compiler, "--version") else "",

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER [--repair]] [--minutes M]
+"""Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER [--meshes-digest D] [--repair]] [--minutes M]
 
 The report appears when it is whole. Beside it go FILE.log, what the program printed, and FILE.note, the command and how
 it went. A broken promise is a result, and so is that `--minutes` were too few; a program that dies, or takes longer than
@@ -38,13 +38,22 @@ def made_with(step, options):
     """What the result of any shard hangs on: the same for all shards of one run, and for what it need not make again."""
     words, extra = steps.command_of(step, options.mode, 0, options.shards, options.build, options.meshes, options.seed, "", options.repair)
     program = pathlib.Path(words[0])
-    return {"command": words, "environment": extra, "program": program.stat().st_mtime_ns if program.exists() else 0}
+    return {"command": words, "environment": extra, "program": program.stat().st_mtime_ns if program.exists() else 0,
+            "meshes": options.meshes_digest if step.with_meshes else ""}
 
 
 def minutes_used(folder, shards, settings):
     """By the shards of this run that have ended. Of other settings notes lie there, too, and of shards that are being made again."""
     notes = [json.loads(path.read_text()) for path in folder.glob(f"*_of_{shards}.note") if path.with_suffix(".json").exists()]
     return sum(note["seconds"] for note in notes if note.get("made_with") == settings) / 60
+
+
+def died(options, why, seconds, shown):
+    """Names a shard that leaves no report, and how it is run alone."""
+    with open(options.json.with_suffix(".failed"), "a") as file:
+        file.write(f"{options.step}, shard {options.shard}/{options.shards}, {why} on {platform.node()} after {seconds:.0f} s: {shown}\n")
+    print(f"{options.step}, shard {options.shard}/{options.shards}, {why}; alone: {shown}", file=sys.stderr)
+    return 1
 
 
 def write_report(path, report):
@@ -62,6 +71,7 @@ def main():
     parser.add_argument("--build", required=True)
     parser.add_argument("--json", required=True, type=pathlib.Path)
     parser.add_argument("--meshes", default="")
+    parser.add_argument("--meshes-digest", default="", help="of what the folder has to hold: that the run began with")
     parser.add_argument("--repair", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=0, help="for all shards of the step together; 0: no bound")
@@ -85,6 +95,9 @@ def main():
                                     str(unfinished), options.repair)
     shown = " ".join([*(f"{k}={v}" for k, v in extra.items()), shlex.join(words)])
     shutil.rmtree(steps.dump_folder(step.name, options.shard, options.shards), ignore_errors=True)  # of an earlier try
+    digest = steps.digest_of(options.meshes) if step.with_meshes else ""
+    if digest and options.meshes_digest not in ("", digest):
+        return died(options, "found other meshes in the folder than the run began with", 0, shown)
     begin = time.time()
     with open(options.json.with_suffix(".log"), "wb") as log:
         try:
@@ -109,12 +122,11 @@ def main():
             report = None
         if report is not None and code != report.get("exit", 0):
             report = None  # it died after it had written
-    failed = options.json.with_suffix(".failed")
     if report is None:
-        with open(failed, "a") as file:
-            file.write(f"{options.step}, shard {options.shard}/{options.shards}, {told(code, minutes)} on {platform.node()} after {seconds:.0f} s: {shown}\n")
-        print(f"{options.step}, shard {options.shard}/{options.shards}, {told(code, minutes)}; alone: {shown}", file=sys.stderr)
-        return 1
+        return died(options, told(code, minutes), seconds, shown)
+    if digest:
+        report["meshes_digest"] = digest  # for the merge: shards that have read other files do not belong together
+    failed = options.json.with_suffix(".failed")
     attempts = 1 + (len(failed.read_text().splitlines()) if failed.exists() else 0)
     note = {"command": shown, "seconds": round(seconds, 3), "cpu_seconds": round(sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]), 1),
             "peak_megabytes": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024, "host": platform.node(), "attempts": attempts,

@@ -229,6 +229,46 @@ def broken_beside_a_death(out, folder):
     expect("batch_1" not in page, "the page lists a case of another number of shards")
 
 
+TELLING = """#!/usr/bin/python3
+import json, os, pathlib, sys
+given = dict(zip(sys.argv[1:], sys.argv[2:]))
+names = sorted(path.name for path in pathlib.Path(given["--meshes"]).iterdir())
+row = {"unit": 0, "scene": "none", "drags": 1, "mean_distance_left": 1, "share_at_minimum": 1, "mean_legs": 1, "mean_ns": 1, "median_ns": 1}
+chart = [{**row, "response": name} for name in ("slide", "stop", "paper")]
+json.dump({"shard": given["--shard"], "names": names, "chart": chart}, open(given["--json"], "w"))
+if "c.off" in names:
+    os.rename(given["--meshes"] + "/c.off", given["--meshes"] + "/d.off")
+"""
+
+
+def changed_meshes(out, folder):
+    """Where the folder of meshes has changed, its steps are made again, and they alone; a shard that finds others has died."""
+    program, meshes = folder / "telling/benchmark/response_quality", folder / "changing"
+    program.parent.mkdir(parents=True)
+    os.symlink(BUILD / "benchmark/axis_speed_error", program.parent / "axis_speed_error")
+    program.write_text(TELLING)
+    program.chmod(0o755)
+    meshes.mkdir()
+    reports = []
+    for name in ("a.off", "b.off", "c.off"):
+        (meshes / name).write_text("OFF")
+        done = run(out, "axis", "responses", "--meshes", str(meshes), build=folder / "telling")
+        reports.append([json.loads(path.read_text()) for path in sorted(out.glob("shards/responses/*.json"))])
+        if name == "a.off":
+            axis = (out / "shards/axis/0_of_1.json").stat().st_mtime_ns
+    names = [[r["names"] for r in of_run] for of_run in reports[:2]]
+    expect(names == [[["a.off"]] * 2, [["a.off", "b.off"]] * 2], f"shards have read {names}")
+    expect((out / "shards/axis/0_of_1.json").stat().st_mtime_ns == axis, "a step without meshes is made again for a mesh")
+    expect(done.returncode == 1 and re.search("died: responses, shard ./2, found other meshes", done.stderr), f"changed meanwhile: exit {done.returncode}, {done.stderr}")
+    sys.path.insert(0, str(ROOT / "benchmark/common"))
+    import merge_shards
+    try:
+        merge_shards.merge([reports[0][0], {**reports[1][1], "names": ["a.off"]}])
+        faults.append("shards of two contents of the folder are merged")
+    except merge_shards.Odd_shards as odd:
+        expect("meshes_digest" in str(odd), f"refused for another reason: {odd}")
+
+
 def own_meshes(out, folder):
     """What is refused is listed, with its reason, and is a broken promise unless it has to be."""
     meshes = folder / "meshes"
@@ -358,6 +398,7 @@ def main():
         own_minutes(folder / "own_minutes")
         little_time(folder / "little_time")
         death(folder / "death", folder)
+        changed_meshes(folder / "changed", folder)
         broken_beside_a_death(folder / "breaks", folder)
         own_meshes(folder / "own", folder)
         answers(folder / "answers", folder)
