@@ -270,19 +270,23 @@ def changed_meshes(out, folder):
 
 
 def own_meshes(out, folder):
-    """What is refused is listed, with its reason, and is a broken promise unless it has to be."""
+    """What is refused, or cannot be read, is listed with its reason, breaks no promise, and costs the other files nothing."""
     meshes = folder / "meshes"
     meshes.mkdir()
     points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
     (meshes / "tetrahedron.off").write_text(f"OFF\n4 4 0\n{points}3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
     (meshes / "open.off").write_text(f"OFF\n4 3 0\n{points}3 0 2 1\n3 0 1 3\n3 1 2 3\n")
-    done = run(out, "drags_and_edits", "--meshes", str(meshes))
+    (meshes / "cut.off").write_text(f"OFF\n4 4 0\n{points}")
+    done = run(out, "drags_and_edits", "responses", "--meshes", str(meshes))
     page = (out / "index.html").read_text()
-    expect(done.returncode == 4 and "what is embedded is accepted" in done.stderr, f"a mesh that is refused: exit {done.returncode}, {done.stderr}")
-    expect("open.off" in page and "Meshes refused" in page, "the page does not list the mesh that is refused")
+    expect(done.returncode == 0 and not done.stderr, f"a mesh that is refused: exit {done.returncode}, {done.stderr}")
+    for reason in ("open.off", "is not a valid surface", "cut.off", "the file ends after 0 of 4 faces"):
+        expect(page.count(reason) >= 2 and page.count("Meshes refused") == 2, f"the page does not say of both steps: {reason}")
+    log = (out / "shards/drags_and_edits/0_of_3.log").read_text()
+    expect(log.startswith("cut.off: refused") and "\ntetrahedron.off: " in log, f"the user's meshes do not come first: {log[:500]}")
     expect("tetrahedron.off" in page, "the page does not list the mesh that is accepted")
     repaired = run(out, "drags_and_edits", "--meshes", str(meshes), "--repair")
-    expect(repaired.returncode == 0 and "open.off, repaired" in (out / "index.html").read_text(), f"a mesh that is repaired: exit {repaired.returncode}, {repaired.stderr}")
+    expect(repaired.returncode == 0 and "open.off, repaired" in (out / "index.html").read_text() and "cut.off" in (out / "index.html").read_text(), f"a mesh that is repaired: exit {repaired.returncode}, {repaired.stderr}")
 
 
 PLANTED_ROBUSTNESS = """#!/usr/bin/python3
@@ -366,6 +370,17 @@ def answers(out, folder):
     """Of a program that is right but for one in ten."""
     queries = folder / "queries"
     queries.mkdir()
+    full = folder / "full"
+    full.mkdir()
+    os.symlink("/dev/full", full / "truth.txt")
+    for words in (["--write-queries", str(full)], ["--json", "/dev/full"]):
+        done = subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "1", *words], capture_output=True, text=True)
+        expect(done.returncode == 5 and "cannot write" in done.stderr, f"{words} where the disk is full: exit {done.returncode}, {done.stderr}")
+    judged = folder / "judged.json"
+    subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "1", "--json", str(judged)], check=True, capture_output=True)
+    report = json.loads(judged.read_text())
+    expect([(p["exit"], p["asked"], p["broken"]) for p in report.get("promises", [])] == [(10, 3 * len(report["populations"]), 0)],
+           f"its three exact rows are not promised to be right: {report.get('promises')}")
     subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "10", "--write-queries", str(queries)], check=True, capture_output=True)
     truth = (queries / "truth.txt").read_text().split("\n")[:-1]
     wrong = sum(i % 10 == 0 for i in range(len(truth)))
