@@ -213,7 +213,7 @@ sys.exit(10)
 
 
 def broken_beside_a_death(out, folder):
-    """A promise that one shard has seen broken is told where another dies. What a run of 7 shards has dumped is not listed."""
+    """A promise that one shard has seen broken is named where another dies. What a run of 7 shards has dumped is not listed."""
     program = folder / "breaking/benchmark/drag_speed_error"
     program.parent.mkdir(parents=True)
     program.write_text(BREAKING)

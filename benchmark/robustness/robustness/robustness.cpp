@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   try {
     robustness::Run run(options);
     if (!options.folder.empty())
-      run.folder(); // first: what is wrong with its files is told before hours of the others
+      run.folder(); // first: one hears of its files before hours of the others
     for (const auto& [name, mesh] : robustness::robustness_meshes())
       run.mesh(name, mesh);
     if (options.has_hard_meshes)
