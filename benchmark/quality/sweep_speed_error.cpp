@@ -237,7 +237,11 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   Shard shard;
   shard.add_option(app, "population");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? all_kept : usage;
+  }
   for (const std::string& name : chosen)
     if (std::none_of(sweep_populations().begin(), sweep_populations().end(),
                      [&](const auto& p) { return p.name == name; })) {
