@@ -4,6 +4,7 @@ import pathlib
 import subprocess
 import sys
 
+import results
 import steps
 
 SECONDS_A_CASE = 60  # a batch of 1,000 drags takes 1 s to replay, so this is some dozens of tries
@@ -12,10 +13,11 @@ SMALL = ".small"
 
 
 def scripts(out, names):
-    """(step, shard, script) of each case of these steps, as the programs wrote it."""
-    found = []
+    """(step, shard, script) of each case of these steps, as the programs wrote it. A run with another number of shards has left
+    its own, which are made again by nobody."""
+    found, count = [], results.circumstances(out)["shards"]
     for name in names:
-        for script in sorted((out / "failures" / name).glob("*_of_*/*.script")):
+        for script in sorted((out / "failures" / name).glob(f"*_of_{count[name]}/*.script")):
             if not script.stem.endswith(SMALL):
                 found.append((name, script.parent.name.replace("_of_", "/"), script))
     return found

@@ -54,12 +54,11 @@ def rows_of_steps(out, names):
     for name in names:
         shards = results.shards(out, name)
         died = results.deaths(out, [name])
-        unfit = [shard for shard, _, report in shards if "did_not_fit" in report]
         rows.append({"name": name, "part": known[name].part, "program": known[name].program, "shards": len(shards),
                      "seconds": sum(note.get("cpu_seconds", 0) for _, note, _ in shards),
                      "memory": max((note.get("peak_megabytes", 0) for _, note, _ in shards), default=0),
                      "hosts": sorted({note["host"] for _, note, _ in shards if "host" in note}),
-                     "retried": [shard for shard, note, _ in shards if note.get("attempts", 1) > 1], "unfit": unfit, "died": died,
+                     "retried": [shard for shard, note, _ in shards if note.get("attempts", 1) > 1], "unfit": results.did_not_fit(out, name), "died": died,
                      "command": next((note.get("command") for _, note, _ in shards), "")})
     return rows
 
@@ -81,7 +80,7 @@ def main():
     page = environment.get_template("page.html.jinja").render(
         run=run, parts=parts, steps=rows_of_steps(options.folder, run["steps"]), broken=results.broken_promises(options.folder),
         failures=failing_cases.rows(options.folder, run["steps"]),
-        promises=sum(len(r.get("promises", [])) for r in reports.values()))
+        promises=len(results.promises(options.folder)))
     target = options.folder / "index.html"
     target.with_suffix(".new").write_text(page)
     target.with_suffix(".new").replace(target)

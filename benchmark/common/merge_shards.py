@@ -88,9 +88,19 @@ def merged_units(lists, where):
     return result
 
 
+def is_broken(promise):
+    """More often than it may be."""
+    return promise["broken"] > promise["may"] * promise["asked"]
+
+
 def exit_of(promises):
-    """The code of the first promise that is broken more often than it may be."""
-    return next((p["exit"] for p in promises if p["broken"] > p["may"] * p["asked"]), 0)
+    """The code of the first promise that is broken."""
+    return next((p["exit"] for p in promises if is_broken(p)), 0)
+
+
+def merged_promises(reports):
+    """Of any shards, in order: all of them or some."""
+    return merged_lists([[], *(report.get("promises", []) for report in reports)], "promises")
 
 
 def in_order(reports):

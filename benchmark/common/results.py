@@ -8,6 +8,8 @@ import platform
 import re
 import subprocess
 
+import merge_shards
+
 
 def output_of(*words, cwd=None):
     try:
@@ -21,8 +23,8 @@ def processor():
     return found[1] if found else platform.machine()
 
 
-def write_circumstances(out, root, build, options, shards):
-    """Machine, compiler, flags, commit and seed, before anything runs. \\param shards {step: how many}"""
+def write_circumstances(out, root, build, options, digest, shards):
+    """Machine, compiler, flags, commit and seed, before anything runs. \\param digest of the meshes \\param shards {step: how many}"""
     cache = (build / "CMakeCache.txt").read_text() if (build / "CMakeCache.txt").exists() else ""
     entry = {m[1]: m[2] for m in re.finditer(r"^(\w+):\w+=(.*)$", cache, re.MULTILINE)}
     kind = entry.get("CMAKE_BUILD_TYPE", "")
@@ -31,7 +33,7 @@ def write_circumstances(out, root, build, options, shards):
     changed = output_of("git", "status", "--porcelain", "--untracked-files=no", cwd=root)
     circumstances = {
         "mode": options.mode, "steps": list(shards), "shards": shards, "seed": options.seed, "profile": options.profile,
-        "meshes": str(options.meshes or ""), "begun": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
+        "meshes": str(options.meshes or ""), "meshes_digest": digest, "begun": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
         "version": version[1] if version else "", "commit": output_of("git", "rev-parse", "HEAD", cwd=root) + (", changed" if changed else ""),
         "machine": processor(), "cores": os.cpu_count(), "memory_GB": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30, 1),
         "system": platform.platform(), "compiler": output_of(compiler, "--version").splitlines()[0] if compiler and output_of(compiler, "--version") else "",
@@ -52,9 +54,9 @@ def reports(out):
 
 
 def shards(out, name):
-    """(shard, note, report) of each shard that has ended."""
-    rows = []
-    for path in sorted((out / "shards" / name).glob("*_of_*.json"), key=lambda p: int(p.name.split("_")[0])):
+    """(shard, note, report) of each shard that has ended. Those of a run with another number of them may lie there, too."""
+    rows, count = [], circumstances(out)["shards"][name]
+    for path in sorted((out / "shards" / name).glob(f"*_of_{count}.json"), key=lambda p: int(p.name.split("_")[0])):
         note = path.with_suffix(".note")
         rows.append((path.stem.replace("_of_", "/"), json.loads(note.read_text()) if note.exists() else {}, json.loads(path.read_text())))
     return rows
@@ -69,6 +71,11 @@ def forget_what_did_not_fit(out):
             (out / "results" / f"{path.parent.name}.json").unlink(missing_ok=True)
 
 
+def did_not_fit(out, name):
+    """The shards of a step for which `--minutes` were too few."""
+    return [shard for shard, _, report in shards(out, name) if "did_not_fit" in report]
+
+
 def deaths(out, names):
     """The last word of each shard that has no report."""
     count = circumstances(out)["shards"]
@@ -81,7 +88,13 @@ def deaths(out, names):
     return found
 
 
+def promises(out):
+    """[(step, promise)] by all shards that have ended: what one of them saw broken is not undone by the death of another."""
+    return [(name, p) for name in circumstances(out)["steps"]
+            for p in merge_shards.merged_promises([report for _, _, report in shards(out, name)])]
+
+
 def broken_promises(out):
     """Of every step: sentences."""
-    return [f"{name}: {p['promise']}: {p['broken']} of {p['asked']} not, exit {p['exit']}" for name, report in reports(out).items()
-            for p in report.get("promises", []) if p["broken"] > p["may"] * p["asked"]]
+    return [f"{name}: {p['promise']}: {p['broken']} of {p['asked']} not, exit {p['exit']}" for name, p in promises(out)
+            if merge_shards.is_broken(p)]

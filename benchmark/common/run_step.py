@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER [--repair]] [--minutes M]
+"""Runs one shard of one step, within its time: run_step.py STEP I N --mode MODE --build FOLDER --json FILE [--meshes FOLDER [--meshes-digest D] [--repair]] [--minutes M]
 
 The report appears when it is whole. Beside it go FILE.log, what the program printed, and FILE.note, the command and how
-it went. A broken promise is a result; a program that dies is named in FILE.failed, with the command that repeats it.
+it went. A broken promise is a result, and so is that `--minutes` were too few; a program that dies, or takes longer than
+its step allows, is named in FILE.failed, with the command that repeats it.
 Exit: 0 there is a report, 1 there is none, 3 by `--unless-it-fits` alone.
 """
 import argparse
@@ -21,7 +22,9 @@ import time
 import steps
 
 
-def told(code):
+def told(code, minutes):
+    if code is None:
+        return f"had not ended after its {minutes:g} minutes"
     return f"was ended by signal {-code}" if code < 0 else f"ended with exit code {code} and no report"
 
 
@@ -31,9 +34,26 @@ def report_of_exit(step, shard, shards, code, asked):
     return {"shard": f"{shard}/{shards}", "promises": promises, "exit": 10 if code != 0 else 0}
 
 
-def minutes_used(folder):
-    """By the shards of a step that have ended."""
-    return sum(json.loads(note.read_text())["seconds"] for note in folder.glob("*.note")) / 60
+def made_with(step, options):
+    """What the result of any shard hangs on: the same for all shards of one run, and for what it need not make again."""
+    words, extra = steps.command_of(step, options.mode, 0, options.shards, options.build, options.meshes, options.seed, "", options.repair)
+    program = pathlib.Path(words[0])
+    return {"command": words, "environment": extra, "program": program.stat().st_mtime_ns if program.exists() else 0,
+            "meshes": options.meshes_digest if step.with_meshes else ""}
+
+
+def minutes_used(folder, shards, settings):
+    """By the shards of this run that have ended. Of other settings notes lie there, too, and of shards that are being made again."""
+    notes = [json.loads(path.read_text()) for path in folder.glob(f"*_of_{shards}.note") if path.with_suffix(".json").exists()]
+    return sum(note["seconds"] for note in notes if note.get("made_with") == settings) / 60
+
+
+def died(options, why, seconds, shown):
+    """Names a shard that leaves no report, and how it is run alone."""
+    with open(options.json.with_suffix(".failed"), "a") as file:
+        file.write(f"{options.step}, shard {options.shard}/{options.shards}, {why} on {platform.node()} after {seconds:.0f} s: {shown}\n")
+    print(f"{options.step}, shard {options.shard}/{options.shards}, {why}; alone: {shown}", file=sys.stderr)
+    return 1
 
 
 def write_report(path, report):
@@ -51,6 +71,7 @@ def main():
     parser.add_argument("--build", required=True)
     parser.add_argument("--json", required=True, type=pathlib.Path)
     parser.add_argument("--meshes", default="")
+    parser.add_argument("--meshes-digest", default="", help="of what the folder has to hold: that the run began with")
     parser.add_argument("--repair", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=0, help="for all shards of the step together; 0: no bound")
@@ -58,8 +79,11 @@ def main():
     options = parser.parse_args()
     step = steps.all_steps()[options.step]
     minutes = step.effort(options.mode).minutes
-    if options.minutes > 0:
-        minutes = min(minutes, options.minutes - minutes_used(options.json.parent))
+    settings = made_with(step, options)
+    options.json.with_suffix(".note").unlink(missing_ok=True)  # of a result that is being made again
+    left = options.minutes - minutes_used(options.json.parent, options.shards, settings)
+    is_bounded = 0 < options.minutes and left <= minutes  # by the user: what does not fit has not failed
+    minutes = left if is_bounded else minutes
     if minutes <= 0:
         write_report(options.json, {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"not begun: {options.minutes:g} minutes of the step are used up"})
         return 0
@@ -71,6 +95,9 @@ def main():
                                     str(unfinished), options.repair)
     shown = " ".join([*(f"{k}={v}" for k, v in extra.items()), shlex.join(words)])
     shutil.rmtree(steps.dump_folder(step.name, options.shard, options.shards), ignore_errors=True)  # of an earlier try
+    digest = steps.digest_of(options.meshes) if step.with_meshes else ""
+    if digest and options.meshes_digest not in ("", digest):
+        return died(options, "found other meshes in the folder than the run began with", 0, shown)
     begin = time.time()
     with open(options.json.with_suffix(".log"), "wb") as log:
         try:
@@ -81,8 +108,10 @@ def main():
             log.write(f"{error}\n".encode())
             code = 127
     seconds = time.time() - begin
-    if code is None:
+    if code is None and is_bounded:
         report = {"shard": f"{options.shard}/{options.shards}", "did_not_fit": f"more than {minutes:.3g} minutes"}
+    elif code is None:
+        report = None
     elif step.promise and code in (0, 201):  # 201: a test failed
         asked = steps.share_of(step, options.mode, options.shards)
         report = report_of_exit(step, options.shard, options.shards, code, asked)
@@ -93,16 +122,15 @@ def main():
             report = None
         if report is not None and code != report.get("exit", 0):
             report = None  # it died after it had written
-    failed = options.json.with_suffix(".failed")
     if report is None:
-        with open(failed, "a") as file:
-            file.write(f"{options.step}, shard {options.shard}/{options.shards}, {told(code)} on {platform.node()} after {seconds:.0f} s: {shown}\n")
-        print(f"{options.step}, shard {options.shard}/{options.shards}, {told(code)}; alone: {shown}", file=sys.stderr)
-        return 1
+        return died(options, told(code, minutes), seconds, shown)
+    if digest:
+        report["meshes_digest"] = digest  # for the merge: shards that have read other files do not belong together
+    failed = options.json.with_suffix(".failed")
     attempts = 1 + (len(failed.read_text().splitlines()) if failed.exists() else 0)
     note = {"command": shown, "seconds": round(seconds, 3), "cpu_seconds": round(sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2]), 1),
             "peak_megabytes": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024, "host": platform.node(), "attempts": attempts,
-            "exit": code}
+            "exit": code, "made_with": settings}
     options.json.with_suffix(".note").write_text(json.dumps(note, indent=1) + "\n")
     unfinished.unlink(missing_ok=True)
     write_report(options.json, report)

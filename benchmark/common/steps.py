@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What there is to run: the steps of performance, quality and robustness, each from the steps.py of its folder."""
+import hashlib
 import importlib.util
 import pathlib
 from dataclasses import dataclass, field
@@ -13,7 +14,7 @@ MODES = ("tiny", "quick", "full")
 class Effort:
     """How much of a step a mode runs."""
     options: str = ""  # of the program; {seed}, {meshes} and {dump}, a folder for failing cases, are put in
-    minutes: float = 10  # of one shard; what takes longer is ended, and listed as what did not fit
+    minutes: float = 10  # of one shard; what takes longer is ended, and has died
     shards: int = 1
     memory: int = 2000  # MB of one shard
 
@@ -64,6 +65,15 @@ def dump_folder(name, shard, shards):
 def share_of(step, mode, shards):
     """How many cases each shard of a step that is given a number is to try: no fewer than that number in all."""
     return -(-step.count.get(mode, 0) // shards)
+
+
+def digest_of(meshes):
+    """Of the names and bytes of a folder's files; of none: nothing. Programs do not look into folders in it."""
+    digest = hashlib.sha256()
+    for path in sorted(p for p in pathlib.Path(meshes).iterdir() if p.is_file()) if meshes else []:
+        content = path.read_bytes()
+        digest.update(f"{path.name}\0{len(content)}\0".encode() + content)
+    return digest.hexdigest() if meshes else ""
 
 
 def command_of(step, mode, shard, shards, build, meshes, seed, json, repair=False):

@@ -180,6 +180,7 @@ struct Options {
 int run(Options& options) {
   Random random(options.seed);
   std::vector<std::pair<std::string, Mesh>> files;
+  Json refused = Json::array();
   if (!options.folder.empty()) {
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::directory_iterator(options.folder))
@@ -191,11 +192,15 @@ int run(Options& options) {
         Mesh mesh = read_surface<Mesh>(path);
         if (mesh.number_of_faces() <= options.largest)
           files.emplace_back(path.stem().string(), std::move(mesh));
-      } catch (const Invalid_surface&) {
-        std::cout << path.filename().string() << " is refused\n";
+      } catch (const Error& error) { // one of them is no reason to lose the others
+        std::cout << path.filename().string() << ": refused: " << error.what() << '\n';
+        refused.push_back({{"file", path.filename().string()}, {"reason", error.what()}});
       }
   }
-  Json report = {{"seed", options.seed}, {"shard", options.shard.text()}, {"drags_per_scene", options.drags}};
+  Json report = {{"seed", options.seed},
+                 {"shard", options.shard.text()},
+                 {"drags_per_scene", options.drags},
+                 {"refused", refused}};
   std::size_t validations = 0, invalid = 0, drags = 0, contradictions = 0, minima = 0, missed = 0;
   if (options.drags > 0) {
     Chart chart(options.seed + 1, options.shard);
@@ -243,11 +248,12 @@ int main(int argc, char** argv) {
   CLI::App app("Drags with each response: distance left to the target, share of ends at a local minimum, time.\n"
                "With --sculpt, slides over the meshes of a folder for long, with creations, removals, undo and redo in "
                "between.\n"
-               "Exit: 0 all kept, 2 usage or a file that cannot be read, 5 the report cannot be written, 10 a mesh is "
+               "Exit: 0 all kept, 2 usage, 5 the report cannot be written, 10 a mesh is "
                "no longer embedded or a leg "
                "crosses something, 11 more than 0.1 % of "
                "the checked slides are at no minimum, 12 a result contradicts itself.");
-  app.add_option("--meshes", options.folder, "Folder of meshes, beside the generated scenes")
+  app.add_option("--meshes", options.folder,
+                 "Folder of meshes, beside the generated scenes; what cannot be read, or is refused, is listed")
       ->check(CLI::ExistingDirectory);
   app.add_option("--drags", options.drags, "Drags in each scene and with each response for the chart; 0: no chart")
       ->capture_default_str();

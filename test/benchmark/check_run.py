@@ -133,8 +133,33 @@ def little_time(out):
     little = run(out, "axis", "device", "--minutes", "0.0001")
     page = (out / "index.html").read_text()
     expect(little.returncode == 0 and "did not fit: 0/3, 1/3, 2/3 of 3" in page, f"too little time: exit {little.returncode}, {little.stderr}")
+    expect("did not fit into --minutes 0.0001: device, nothing of it" in little.stderr, f"it does not say that nothing fitted: {little.stderr}")
     enough = run(out, "axis", "device", "--minutes", "5")
     expect(enough.returncode == 0 and "did not fit" not in (out / "index.html").read_text(), f"enough time: exit {enough.returncode}, {enough.stderr}")
+    # An hour of one shard counts where a resumed run lacks another, but not for another seed or number of shards.
+    note = out / "shards/device/0_of_3.note"
+    note.write_text(json.dumps({**json.loads(note.read_text()), "seconds": 3600}))
+    for lost in ("shards/device/2_of_3.json", "results/device.json"):
+        (out / lost).unlink()
+    for arguments, is_used_up in (((), True), (("--shards", "4"), False), (("--seed", "2"), False)):
+        done = run(out, "device", "--minutes", "5", *arguments)
+        expect(done.returncode == 0 and ("did not fit" in (out / "index.html").read_text()) == is_used_up,
+               f"5 minutes beside an hour, {arguments}: exit {done.returncode}, {done.stderr}")
+
+
+def own_minutes(out):
+    """A program that hangs has died where its step's minutes are up, and has only not fitted where `--minutes` are."""
+    out.mkdir()
+    asked = f"""import sys
+sys.path.insert(0, {str(ROOT / "benchmark/common")!r})
+import run_step, steps
+steps.all_steps = lambda: {{"hang": steps.Step("hang", "sleep", folder="", tiny=steps.Effort("60", 0.005), promise="it ends")}}
+sys.exit(run_step.main())"""
+    for bound, code, said in (("0", 1, "had not ended after its 0.005 minutes"), ("1", 1, "had not ended"), ("0.004", 0, "")):
+        done = subprocess.run([PYTHON, "-c", asked, "hang", "0", "1", "--mode", "tiny", "--build", "/bin", "--json", str(out / "0_of_1.json"), "--minutes", bound],
+                              cwd=out, capture_output=True, text=True)
+        expect(done.returncode == code and said in done.stderr and (out / "0_of_1.json").exists() == (code == 0),
+               f"it hangs, --minutes {bound}: exit {done.returncode}, {done.stderr}")
 
 
 def missing_part():
@@ -176,20 +201,92 @@ def death(out, folder):
     expect(mended.returncode == 0 and "made again: 1/3" in (out / "index.html").read_text(), f"mended, it ends with {mended.returncode}: {mended.stderr}")
 
 
+BREAKING = """#!/usr/bin/python3
+import json, os, sys
+given = dict(zip(sys.argv[1:], sys.argv[2:]))
+if given["--shard"] == "1/2":
+    os.abort()
+promises = [{"exit": 10, "promise": "nothing is crossed", "asked": 100, "broken": 7, "may": 0}]
+json.dump({"shard": given["--shard"], "scripts": [], "promises": promises, "exit": 10}, open(given["--json"], "w"))
+sys.exit(10)
+"""
+
+
+def broken_beside_a_death(out, folder):
+    """A promise that one shard has seen broken is named where another dies. What a run of 7 shards has dumped is not listed."""
+    program = folder / "breaking/benchmark/drag_speed_error"
+    program.parent.mkdir(parents=True)
+    program.write_text(BREAKING)
+    program.chmod(0o755)
+    old = out / "failures/whole_drags/0_of_7/batch_1.script"
+    old.parent.mkdir(parents=True)
+    old.write_text("drag 0 1 1 1\n")
+    done = run(out, "whole_drags", build=folder / "breaking")
+    expect(done.returncode == 4 and "broken: whole_drags: nothing is crossed: 7 of 100 not" in done.stderr and "died: whole_drags, shard 1/2" in done.stderr,
+           f"a broken promise beside a death: exit {done.returncode}, {done.stderr}")
+    page = (out / "index.html").read_text()
+    expect("1 broken promises" in page and "nothing is crossed" in page, "the page does not tell of the promise broken beside a death")
+    expect("batch_1" not in page, "the page lists a case of another number of shards")
+
+
+TELLING = """#!/usr/bin/python3
+import json, os, pathlib, sys
+given = dict(zip(sys.argv[1:], sys.argv[2:]))
+names = sorted(path.name for path in pathlib.Path(given["--meshes"]).iterdir())
+row = {"unit": 0, "scene": "none", "drags": 1, "mean_distance_left": 1, "share_at_minimum": 1, "mean_legs": 1, "mean_ns": 1, "median_ns": 1}
+chart = [{**row, "response": name} for name in ("slide", "stop", "paper")]
+json.dump({"shard": given["--shard"], "names": names, "chart": chart}, open(given["--json"], "w"))
+if "c.off" in names:
+    os.rename(given["--meshes"] + "/c.off", given["--meshes"] + "/d.off")
+"""
+
+
+def changed_meshes(out, folder):
+    """Where the folder of meshes has changed, its steps are made again, and they alone; a shard that finds others has died."""
+    program, meshes = folder / "telling/benchmark/response_quality", folder / "changing"
+    program.parent.mkdir(parents=True)
+    os.symlink(BUILD / "benchmark/axis_speed_error", program.parent / "axis_speed_error")
+    program.write_text(TELLING)
+    program.chmod(0o755)
+    meshes.mkdir()
+    reports = []
+    for name in ("a.off", "b.off", "c.off"):
+        (meshes / name).write_text("OFF")
+        done = run(out, "axis", "responses", "--meshes", str(meshes), build=folder / "telling")
+        reports.append([json.loads(path.read_text()) for path in sorted(out.glob("shards/responses/*.json"))])
+        if name == "a.off":
+            axis = (out / "shards/axis/0_of_1.json").stat().st_mtime_ns
+    names = [[r["names"] for r in of_run] for of_run in reports[:2]]
+    expect(names == [[["a.off"]] * 2, [["a.off", "b.off"]] * 2], f"shards have read {names}")
+    expect((out / "shards/axis/0_of_1.json").stat().st_mtime_ns == axis, "a step without meshes is made again for a mesh")
+    expect(done.returncode == 1 and re.search("died: responses, shard ./2, found other meshes", done.stderr), f"changed meanwhile: exit {done.returncode}, {done.stderr}")
+    sys.path.insert(0, str(ROOT / "benchmark/common"))
+    import merge_shards
+    try:
+        merge_shards.merge([reports[0][0], {**reports[1][1], "names": ["a.off"]}])
+        faults.append("shards of two contents of the folder are merged")
+    except merge_shards.Odd_shards as odd:
+        expect("meshes_digest" in str(odd), f"refused for another reason: {odd}")
+
+
 def own_meshes(out, folder):
-    """What is refused is listed, with its reason, and is a broken promise unless it has to be."""
+    """What is refused, or cannot be read, is listed with its reason, breaks no promise, and costs the other files nothing."""
     meshes = folder / "meshes"
     meshes.mkdir()
     points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
     (meshes / "tetrahedron.off").write_text(f"OFF\n4 4 0\n{points}3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
     (meshes / "open.off").write_text(f"OFF\n4 3 0\n{points}3 0 2 1\n3 0 1 3\n3 1 2 3\n")
-    done = run(out, "drags_and_edits", "--meshes", str(meshes))
+    (meshes / "cut.off").write_text(f"OFF\n4 4 0\n{points}")
+    done = run(out, "drags_and_edits", "responses", "--meshes", str(meshes))
     page = (out / "index.html").read_text()
-    expect(done.returncode == 4 and "what is embedded is accepted" in done.stderr, f"a mesh that is refused: exit {done.returncode}, {done.stderr}")
-    expect("open.off" in page and "Meshes refused" in page, "the page does not list the mesh that is refused")
+    expect(done.returncode == 0 and not done.stderr, f"a mesh that is refused: exit {done.returncode}, {done.stderr}")
+    for reason in ("open.off", "is not a valid surface", "cut.off", "the file ends after 0 of 4 faces"):
+        expect(page.count(reason) >= 2 and page.count("Meshes refused") == 2, f"the page does not say of both steps: {reason}")
+    log = (out / "shards/drags_and_edits/0_of_3.log").read_text()
+    expect(log.startswith("cut.off: refused") and "\ntetrahedron.off: " in log, f"the user's meshes do not come first: {log[:500]}")
     expect("tetrahedron.off" in page, "the page does not list the mesh that is accepted")
     repaired = run(out, "drags_and_edits", "--meshes", str(meshes), "--repair")
-    expect(repaired.returncode == 0 and "open.off, repaired" in (out / "index.html").read_text(), f"a mesh that is repaired: exit {repaired.returncode}, {repaired.stderr}")
+    expect(repaired.returncode == 0 and "open.off, repaired" in (out / "index.html").read_text() and "cut.off" in (out / "index.html").read_text(), f"a mesh that is repaired: exit {repaired.returncode}, {repaired.stderr}")
 
 
 PLANTED_ROBUSTNESS = """#!/usr/bin/python3
@@ -273,6 +370,17 @@ def answers(out, folder):
     """Of a program that is right but for one in ten."""
     queries = folder / "queries"
     queries.mkdir()
+    full = folder / "full"
+    full.mkdir()
+    os.symlink("/dev/full", full / "truth.txt")
+    for words in (["--write-queries", str(full)], ["--json", "/dev/full"]):
+        done = subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "1", *words], capture_output=True, text=True)
+        expect(done.returncode == 5 and "cannot write" in done.stderr, f"{words} where the disk is full: exit {done.returncode}, {done.stderr}")
+    judged = folder / "judged.json"
+    subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "1", "--json", str(judged)], check=True, capture_output=True)
+    report = json.loads(judged.read_text())
+    expect([(p["exit"], p["asked"], p["broken"]) for p in report.get("promises", [])] == [(10, 3 * len(report["populations"]), 0)],
+           f"its three exact rows are not promised to be right: {report.get('promises')}")
     subprocess.run([str(BUILD / "benchmark/sweep_speed_error"), "--queries", "10", "--write-queries", str(queries)], check=True, capture_output=True)
     truth = (queries / "truth.txt").read_text().split("\n")[:-1]
     wrong = sum(i % 10 == 0 for i in range(len(truth)))
@@ -302,8 +410,11 @@ def main():
         options_are_known()
         no_case_is_left_out()
         missing_part()
+        own_minutes(folder / "own_minutes")
         little_time(folder / "little_time")
         death(folder / "death", folder)
+        changed_meshes(folder / "changed", folder)
+        broken_beside_a_death(folder / "breaks", folder)
         own_meshes(folder / "own", folder)
         answers(folder / "answers", folder)
         failing_case(folder / "failing", folder)

@@ -5,6 +5,7 @@
 And the merge refuses what is not one whole run: a shard left out, given twice, or of another seed. A program that is given a mesh
 says so where it cannot be read."""
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -19,12 +20,22 @@ OPTIONS = {"robustness": "--drags 40 --edits 40 --batch 20 --edit-batch 20 --ext
            "edit_performance": "--samples 20 --largest 6000 --largest-valence 16", "certify_ends": "--drags 3 --per-scene 1 --ways 20",
            "device_speed_error": "--count 64", "axis_speed_error": "--queries 30", "haptic_passivity": "--parts rate",
            "brush_dabs": "--level 3 --dabs 4 --vertices 40", "threads": "--level 3 --moves 2 --threads 1,2", "validation": "--largest 1000",
-           "response_quality": "--drags 3", "sweep_speed_error": "--queries 10", "many_vertices_speed_error": "--rounds 1 --level 2",
+           "response_quality": "--drags 3", "sweep_speed_error": "--queries 10", "many_vertices_speed_error": "--rounds 1 --mesh MESH",
            "guard_for_cgal": "--quick --drags-a-vertex 2 --iterations 1 --no-large", "simplification": "--level 2",
            "hand_drags": "--level 3 --drags 600",
            "drag_performance": "--sizes 1000 --valences 3,8 --drags 30 --peer-drags 10 --core -1"}
 MESH_OPTION = {"brush_dabs": "--mesh", "threads": "--mesh", "many_vertices_speed_error": "--mesh",
                "simplification": "--meshes"}
+
+
+def write_torus(path, around=6, across=4):
+    """For a program whose own meshes take minutes, unoptimised."""
+    turn = [2 * math.pi * k / around for k in range(around)], [2 * math.pi * k / across for k in range(across)]
+    points = [((2 + math.cos(b)) * math.cos(a), (2 + math.cos(b)) * math.sin(a), math.sin(b)) for a in turn[0] for b in turn[1]]
+    corner = lambda i, j: i % around * across + j % across
+    faces = [f for i in range(around) for j in range(across)
+             for f in ((corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)), (corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)))]
+    path.write_text(f"OFF\n{len(points)} {len(faces)} 0\n" + "".join("%r %r %r\n" % p for p in points) + "".join("3 %d %d %d\n" % f for f in faces))
 
 
 def untimed(value):
@@ -66,9 +77,10 @@ def merge_of(files, folder):
 
 faults = []
 for program in sys.argv[2:]:
-    options = OPTIONS[pathlib.Path(program).name].split()
     with tempfile.TemporaryDirectory() as place:
         folder = pathlib.Path(place)
+        write_torus(folder / "torus.off")
+        options = OPTIONS[pathlib.Path(program).name].replace("MESH", str(folder / "torus.off")).split()
         whole, code = run(program, folder, "whole", *options)
         shards = [run(program, folder, f"shard{i}", *options, "--shard", f"{i}/{SHARDS}")[0] for i in range(SHARDS)]
         merged, merged_code, output = merge_of(reversed(shards), folder)  # in any order

@@ -11,12 +11,11 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Drags vertices, and mixes drags with creations, removals, undo and redo, at random and on purpose; checks every "
       "promise.\n"
-      "Exit: 0 all kept, 2 usage or a file that cannot be read, 5 the report cannot be written, 10 a mesh is no longer "
+      "Exit: 0 all kept, 2 usage, 5 the report cannot be written, 10 a mesh is no longer "
       "embedded, 11 fewer than 95 % of "
       "the short "
       "drags arrived, 12 a push through the object did not move without reason, 13 a mesh that has to be refused "
-      "was accepted, 14 one was refused without being named by --refuse, 15 an element not in hand has changed, 16 "
-      "undoing "
+      "was accepted, 15 an element not in hand has changed, 16 undoing "
       "everything does not give back the input, 17 redoing everything does not give back the end, 18 more than 1 % of "
       "the "
       "feasible creations were refused, 19 a creation was accepted that crosses or jumps over a part of the surface, "
@@ -24,7 +23,8 @@ int main(int argc, char** argv) {
       "left a coordinate that is not finite, 21 one ended farther from its target than it began, 22 one was refused "
       "but moved something, 23 "
       "the result of a drag contradicts itself, 24 another broad phase has led to other results.");
-  app.add_option("--meshes", options.folder, "Folder of meshes to work on, beside the generated ones")
+  app.add_option("--meshes", options.folder,
+                 "Folder of meshes to work on before the generated ones; what cannot be read, or is refused, is listed")
       ->check(CLI::ExistingDirectory);
   app.add_flag("--repair", options.repairs, "Files of the folder that are refused are repaired, and worked on then");
   app.add_option("--refuse", options.refuse, "File names in the folder that have to be refused");
@@ -83,6 +83,8 @@ int main(int argc, char** argv) {
   }
   try {
     robustness::Run run(options);
+    if (!options.folder.empty())
+      run.folder(); // first: one hears of its files before hours of the others
     for (const auto& [name, mesh] : robustness::robustness_meshes())
       run.mesh(name, mesh);
     if (options.has_hard_meshes)
@@ -90,8 +92,6 @@ int main(int argc, char** argv) {
         run.mesh(name, mesh, true);
     for (const auto& small : robustness::small_meshes())
       run.extreme(small.name, small.mesh, small.share);
-    if (!options.folder.empty())
-      run.folder();
     return run.finish();
   } catch (const Error& error) {
     std::cerr << "robustness: " << error.what() << '\n';
