@@ -65,7 +65,7 @@ std::vector<std::uint64_t> bits_of(const Mesh& mesh) {
 bool carry_out(Mesh& mesh, const std::vector<Command>& commands, const Sculptor_parameters& parameters,
                const After_command& after) {
   try {
-    run_script<Box_tree_broad_phase<Mesh>>(mesh, commands, parameters, after);
+    run_script<Box_tree_broad_phase<Mesh>>(mesh, commands, parameters, {[] {}, after});
     return true;
   } catch (const Error&) {
     return false;
