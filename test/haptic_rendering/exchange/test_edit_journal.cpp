@@ -105,6 +105,19 @@ BOOST_AUTO_TEST_CASE(a_journal_breaks_off_where_an_edit_stands_that_it_was_not_t
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_journal_that_breaks_off_has_the_ticks_before) {
+  Edit_journal journal(100);
+  const Edit move = Edit::of(Edit_kind::move, {3, 0, 0}, {1, 2, 3});
+  journal.add(move), journal.end_tick(0);
+  journal.add(move), journal.break_off(), journal.end_tick(1);
+  journal.add(move), journal.end_tick(2);
+  BOOST_TEST(journal.has_overrun());
+  std::vector<Edit_kind> kinds;
+  for (Edit taken; journal.take(taken);)
+    kinds.push_back(taken.kind);
+  BOOST_TEST((kinds == std::vector<Edit_kind>{Edit_kind::move, Edit_kind::none, Edit_kind::move})); // no end: none of it
+}
+
 BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_tick) {
   Edit move, taken;
   move.kind = Edit_kind::move;
