@@ -16,17 +16,22 @@ public:
   /// \param may the share of `asked` that may be broken
   void add(int exit, const std::string& promise, std::size_t asked, std::size_t broken, double may = 0) {
     rows_.push_back({{"exit", exit}, {"promise", promise}, {"asked", asked}, {"broken", broken}, {"may", may}});
-    if (exit_ == 0 && static_cast<double>(broken) > may * static_cast<double>(asked))
+    if (exit_ == 0 && static_cast<double>(broken) > may * static_cast<double>(asked)) {
       exit_ = exit;
+      first_broken_ = "broken: " + promise + ": " + std::to_string(broken) + " of " + std::to_string(asked) + " not";
+    }
   }
 
   /// 0 where all are kept.
   int exit() const { return exit_; }
+  /// For people; empty where all are kept.
+  const std::string& first_broken() const { return first_broken_; }
   const nlohmann::ordered_json& json() const { return rows_; }
 
 private:
   nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
   int exit_ = 0;
+  std::string first_broken_;
 };
 
 } // namespace haptic_sculpt::benchmark

@@ -16,7 +16,7 @@ import sys
 TIME = re.compile(r"_ns$|_us$|^ns$|_seconds$|^seconds$|^cpu_us|_cpu_us$|^seconds_|_seconds_|^time_ratio$|^set_up$|^ns_a_line|^ms_|^(shift|held_back|validate)_s$")
 LARGEST = re.compile(r"^(largest|longest|most|max)(_|$)")
 SAME = {"unit", "faces", "triangles", "exit", "may"}  # of a row: part of what it is
-ADDED_AT_THE_TOP = {"wrongly_accepted"}
+ADDED_AT_THE_TOP = {"wrongly_accepted", "wrongly_refused"}
 
 
 class Odd_shards(Exception):

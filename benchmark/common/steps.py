@@ -68,11 +68,19 @@ def share_of(step, mode, shards):
 
 
 def digest_of(meshes):
-    """Of the names and bytes of a folder's files; of none: nothing. Programs do not look into folders in it."""
+    """Of the names and bytes of a folder's meshes; of none: nothing. Programs do not look into folders in it, and list
+    what cannot be read."""
     digest = hashlib.sha256()
-    for path in sorted(p for p in pathlib.Path(meshes).iterdir() if p.is_file()) if meshes else []:
-        content = path.read_bytes()
-        digest.update(f"{path.name}\0{len(content)}\0".encode() + content)
+    is_mesh = lambda path: path.suffix.lower() in (".off", ".ply", ".obj", ".stl") and path.is_file()
+    for path in sorted(filter(is_mesh, pathlib.Path(meshes).iterdir())) if meshes else []:
+        content = hashlib.sha256()
+        try:
+            with open(path, "rb") as file:
+                for block in iter(lambda: file.read(1 << 20), b""):
+                    content.update(block)
+        except OSError as error:
+            content.update(error.strerror.encode())
+        digest.update(f"{path.name}\0{content.hexdigest()}\0".encode())
     return digest.hexdigest() if meshes else ""
 
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a drag costs: against the size of the mesh, the valence, and what others do. See doc/results/drags.md.
-#include "Shard.h"
+#include "Benchmark_program.h"
 #include "drag_performance/run_structures.h"
 
 #include <CLI/CLI.hpp>
 
-#include <fstream>
 #include <iostream>
 #include <map>
 #if defined(__linux__)
@@ -86,14 +85,13 @@ void run(Shard& shard, Json& rows, const Run& part) {
 int main(int argument_count, char** arguments) {
   CLI::App app(
       "What a drag costs against the size of the mesh and the valence, beside other structures in the same run");
-  std::string path, parts = "tfpmovn";
+  std::string parts = "tfpmovn";
   std::vector<std::size_t> sizes = {1000, 10000, 100000, 1000000, 5000000};
   std::vector<std::size_t> valences = {3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 512, 1000};
   Effort effort;
   int core = 1;
   std::size_t largest_peer = 1000000;
   bool quick = false;
-  app.add_option("--json", path, "write the results here");
   app.add_option("--seed", effort.seed, "of the random vertices and directions");
   app.add_option("--sizes", sizes, "numbers of triangles")->delimiter(',');
   app.add_option("--valences", valences, "of the apex of a fan; none below 3")->delimiter(',');
@@ -106,57 +104,48 @@ int main(int argument_count, char** arguments) {
                  "t: the box tree; f: finding and placing; p: its phases; m: memory, the floor of a new vertex; o: "
                  "other broad phases; v: valence; n: end states by CGAL");
   app.add_flag("--quick", quick, "small meshes and few drags: shows that everything runs");
-  Shard shard;
-  shard.add_option(app, "part and size");
-  CLI11_PARSE(app, argument_count, arguments);
-  if (quick) {
-    sizes = {1000, 4000};
-    valences = {3, 16, 64};
-    effort.drags = 200, effort.peer_drags = 50, effort.slow = 1;
-  }
-  const bool is_pinned = core >= 0 && pin_to(core);
-  timer(); // calibrates itself now, not within the first measurement
-  const auto wanted = [&](char part) { return parts.find(part) != std::string::npos; };
-  Json rows = Json::array(), phases = Json::array();
-  for (const std::size_t triangles : sizes) {
-    if (wanted('t'))
-      run(shard, rows, [&] { run_box_tree(rows, triangles, effort); });
-    if (wanted('f'))
-      run(shard, rows, [&] { run_finding(rows, triangles, effort); });
-    if (wanted('p') && triangles <= largest_peer)
-      run(shard, phases, [&] { run_phases(phases, triangles, effort); });
-    if (triangles > largest_peer)
-      continue;
-    if (wanted('m'))
-      run(shard, rows, [&] { run_memory(rows, triangles, effort); });
-    if (wanted('o')) {
-      run(shard, rows, [&] { run_brute_force(rows, triangles, effort); });
-      run(shard, rows, [&] { run_six_lists(rows, triangles, effort); });
-      run(shard, rows, [&] { run_rtree(rows, triangles, effort); });
+  Benchmark_program program("drag_performance", app, "part and size");
+  return program.run(argument_count, arguments, [&](Promises&) -> Json {
+    Shard& shard = program.shard;
+    if (quick) {
+      sizes = {1000, 4000};
+      valences = {3, 16, 64};
+      effort.drags = 200, effort.peer_drags = 50, effort.slow = 1;
     }
-    if (wanted('n'))
-      run(shard, rows, [&] { run_end_states(rows, triangles, effort); });
-  }
-  if (wanted('v'))
-    run(shard, rows, [&] { run_valences(rows, valences, effort); });
-  const Json fits = fits_of_valences(rows);
-  for (const Json& fit : fits)
-    std::cout << fit.dump() << '\n';
-  if (path.empty())
-    return 0;
-  std::ofstream file(path);
-  file << Json{{"seed", effort.seed},
-               {"shard", shard.text()},
-               {"pinned_to_core", is_pinned ? Json(core) : Json(nullptr)},
-               {"timer_resolution_ns", timer().resolution()},
-               {"timer_overhead_ns", timer().overhead()},
-               {"valence_fits", fits},
-               {"rows", rows},
-               {"phases", phases}}
-              .dump(1)
-       << '\n';
-  if (!file) {
-    std::cerr << "cannot write " << path << '\n';
-    return 1;
-  }
+    const bool is_pinned = core >= 0 && pin_to(core);
+    timer(); // calibrates itself now, not within the first measurement
+    const auto wanted = [&](char part) { return parts.find(part) != std::string::npos; };
+    Json rows = Json::array(), phases = Json::array();
+    for (const std::size_t triangles : sizes) {
+      if (wanted('t'))
+        run(shard, rows, [&] { run_box_tree(rows, triangles, effort); });
+      if (wanted('f'))
+        run(shard, rows, [&] { run_finding(rows, triangles, effort); });
+      if (wanted('p') && triangles <= largest_peer)
+        run(shard, phases, [&] { run_phases(phases, triangles, effort); });
+      if (triangles > largest_peer)
+        continue;
+      if (wanted('m'))
+        run(shard, rows, [&] { run_memory(rows, triangles, effort); });
+      if (wanted('o')) {
+        run(shard, rows, [&] { run_brute_force(rows, triangles, effort); });
+        run(shard, rows, [&] { run_six_lists(rows, triangles, effort); });
+        run(shard, rows, [&] { run_rtree(rows, triangles, effort); });
+      }
+      if (wanted('n'))
+        run(shard, rows, [&] { run_end_states(rows, triangles, effort); });
+    }
+    if (wanted('v'))
+      run(shard, rows, [&] { run_valences(rows, valences, effort); });
+    const Json fits = fits_of_valences(rows);
+    for (const Json& fit : fits)
+      std::cout << fit.dump() << '\n';
+    return {{"seed", effort.seed},
+            {"pinned_to_core", is_pinned ? Json(core) : Json(nullptr)},
+            {"timer_resolution_ns", timer().resolution()},
+            {"timer_overhead_ns", timer().overhead()},
+            {"valence_fits", fits},
+            {"rows", rows},
+            {"phases", phases}};
+  });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time of each edit, its undo and redo, against the size of the mesh and against the valence; memory of a step that can
 // be undone.
+#include "Benchmark_program.h"
 #include "Query_timer.h"
-#include "Shard.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/sculpting.h>
@@ -27,11 +27,9 @@ using Json = nlohmann::ordered_json;
 using benchmark::Query_timer;
 
 struct Options {
-  std::string json;
   std::uint64_t seed = 1;
   std::size_t samples = 2000, largest = 2000000, largest_valence = 1024;
   bool reserve = false;
-  benchmark::Shard shard;
 };
 
 /// Times in nanoseconds of one kind of edit.
@@ -158,13 +156,13 @@ Json row(const char* name, const Times& times) {
   return result;
 }
 
-Json against_size(Options& options, const Query_timer& timer) {
+Json against_size(const Options& options, benchmark::Shard& shard, const Query_timer& timer) {
   Json sizes = Json::array();
   for (int level = 3; level < 10; ++level) {
     if (20 * (std::size_t{1} << 2 * level) > options.largest)
       break;
-    const std::size_t unit = options.shard.next_unit();
-    if (!options.shard.takes_next())
+    const std::size_t unit = shard.next_unit();
+    if (!shard.takes_next())
       continue;
     const Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.02 / (1 << level)));
     std::printf("%zu triangles\n", static_cast<std::size_t>(mesh.number_of_faces()));
@@ -187,11 +185,11 @@ Json against_size(Options& options, const Query_timer& timer) {
   return sizes;
 }
 
-Json against_valence(Options& options, const Query_timer& timer) {
+Json against_valence(const Options& options, benchmark::Shard& shard, const Query_timer& timer) {
   Json valences = Json::array();
   for (std::size_t valence = 4; valence <= options.largest_valence; valence *= 4) {
-    const std::size_t unit = options.shard.next_unit();
-    if (!options.shard.takes_next())
+    const std::size_t unit = shard.next_unit();
+    if (!shard.takes_next())
       continue;
     std::printf("valence %zu\n", valence);
     Bench bench(meshes::to_mesh(meshes::bipyramid(valence)), timer, options);
@@ -223,32 +221,23 @@ int main(int argc, char** argv) {
                "the apex of a bipyramid\n"
                "of growing valence. Edits are made in a row at different places, then all undone, then all redone. "
                "Nanoseconds.");
-  app.add_option("--json", options.json, "Where the report goes");
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
   app.add_option("--samples", options.samples, "Edits of each kind")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--largest", options.largest, "No mesh of more triangles")->capture_default_str();
   app.add_option("--largest-valence", options.largest_valence, "No higher valence")->capture_default_str();
   app.add_flag("--reserve", options.reserve,
                "Reserve room in the mesh first, so that its arrays need not be copied when they are full");
-  options.shard.add_option(app, "size or valence");
-  CLI11_PARSE(app, argc, argv);
-  try {
+  benchmark::Benchmark_program program("edit_performance", app, "size or valence");
+  return program.run(argc, argv, [&](benchmark::Promises&) -> Json {
     const Query_timer timer;
     std::printf("  %-15s %9s %9s %9s | %9s %9s | %9s %9s | bytes\n", "edit", "p50 ns", "p99", "max", "undo p50", "p99",
                 "redo p50", "p99");
-    const Json sizes = against_size(options, timer), valences = against_valence(options, timer);
-    if (!options.json.empty())
-      replace_file(options.json, Json{{"seed", options.seed},
-                                      {"shard", options.shard.text()},
-                                      {"samples", options.samples},
-                                      {"clock_step_ns", timer.resolution()},
-                                      {"sizes", sizes},
-                                      {"valences", valences}}
-                                         .dump(1) +
-                                     '\n');
-  } catch (const Error& error) {
-    std::cerr << "edit_performance: " << error.what() << '\n';
-    return 2;
-  }
-  return 0;
+    const Json sizes = against_size(options, program.shard, timer),
+               valences = against_valence(options, program.shard, timer);
+    return {{"seed", options.seed},
+            {"samples", options.samples},
+            {"clock_step_ns", timer.resolution()},
+            {"sizes", sizes},
+            {"valences", valences}};
+  });
 }

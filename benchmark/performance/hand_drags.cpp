@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CPU time of single drags when a hand moves a probe, or a grabbed vertex, fast over a fine mesh: with and without a
 // bound on the work of a drag, and how far the bounded drag is then from the unbounded one.
-#include "Shard.h"
+#include "Benchmark_program.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/sculpting.h>
@@ -28,7 +28,6 @@ struct Options {
   double radius = 30, speed = 300, rate = 1000, depth = 2; ///< mm, mm/s, Hz, mm
   std::size_t drags = 100000, ticks_per_grab = 250, work = 0, runs = 1;
   std::uint64_t seed = 1;
-  std::string json;
 };
 
 double cpu_microseconds() {
@@ -178,8 +177,7 @@ Json run(const Mesh& mesh, const Options& options, const std::string& what, doub
   for (std::size_t i = 1; i < options.runs; ++i) {
     const Measured again = measure(mesh, options, what, height);
     if (!again.is_like(m)) {
-      std::fprintf(stderr, "hand_drags: two runs with the same seed differ\n");
-      std::exit(EXIT_FAILURE);
+      throw benchmark::Failed("two runs with the same seed differ");
     }
     m.take_least_times(again);
   }
@@ -217,31 +215,24 @@ int main(int argc, char** argv) {
   app.add_option("--runs", options.runs, "Of the same drags; each has its least time")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--json", options.json, "Write the report here");
-  benchmark::Shard shard;
-  shard.add_option(app, "kind of drags");
-  CLI11_PARSE(app, argc, argv);
-  meshes::Triangle_list list = meshes::bumpy_sphere(options.level, 0.05);
-  const Mesh mesh = meshes::to_mesh(list.scale_and_move(options.radius, 0, 0, 0));
-  Json report = {{"triangles", mesh.number_of_faces()},
-                 {"speed_mm_s", options.speed},
-                 {"rate_hz", options.rate},
-                 {"seed", options.seed},
-                 {"runs", options.runs},
-                 {"rows", Json::array()}};
-  report["shard"] = shard.text();
-  report["rows"] = Json::array();
-  for (const auto& [what, height] : {std::pair("probe", -options.depth), std::pair("vertex inwards", -options.depth),
-                                     std::pair("vertex outwards", options.depth)}) {
-    const std::size_t unit = shard.next_unit();
-    if (!shard.takes_next())
-      continue;
-    report["rows"].push_back(run(mesh, options, what, height));
-    report["rows"].back()["unit"] = unit;
-  }
-  if (!options.json.empty() && !(std::ofstream(options.json) << report.dump(2) << '\n')) {
-    std::fprintf(stderr, "hand_drags: cannot write %s\n", options.json.c_str());
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  benchmark::Benchmark_program program("hand_drags", app, "kind of drags");
+  return program.run(argc, argv, [&](benchmark::Promises&) {
+    meshes::Triangle_list list = meshes::bumpy_sphere(options.level, 0.05);
+    const Mesh mesh = meshes::to_mesh(list.scale_and_move(options.radius, 0, 0, 0));
+    Json report = {{"triangles", mesh.number_of_faces()},
+                   {"speed_mm_s", options.speed},
+                   {"rate_hz", options.rate},
+                   {"seed", options.seed},
+                   {"runs", options.runs},
+                   {"rows", Json::array()}};
+    for (const auto& [what, height] : {std::pair("probe", -options.depth), std::pair("vertex inwards", -options.depth),
+                                       std::pair("vertex outwards", options.depth)}) {
+      const std::size_t unit = program.shard.next_unit();
+      if (!program.shard.takes_next())
+        continue;
+      report["rows"].push_back(run(mesh, options, what, height));
+      report["rows"].back()["unit"] = unit;
+    }
+    return report;
+  });
 }

@@ -2,7 +2,7 @@
 // CPU time of whole ticks of the haptic loop, from joint angles to torques, when a hand goes fast over a fine mesh, a
 // little deep in it: with the probe, with a vertex that it grabs or creates, letting go and removing; or with a vertex
 // of a valence of one's choice in hand. Counts allocations, too.
-#include "Shard.h"
+#include "Benchmark_program.h"
 #include "meshes/generated_meshes.h"
 
 #include "../examples/count_allocations.h"
@@ -35,7 +35,6 @@ struct Options {
   std::size_t ticks = 1000000, work = Haptic_parameters().work_limit, runs = 1, valence = 0;
   std::size_t work_of_a_face = Haptic_parameters().work_of_a_face;
   bool refuses_allocations = false;
-  std::string json;
 };
 
 std::uint64_t cpu_nanoseconds() {
@@ -131,7 +130,7 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   const Hand hand{options, home->position};
   auto pose = reach_position(device, *home, hand.position(0));
   if (!pose)
-    throw Error("the hand's path begins where the device cannot be");
+    throw benchmark::Failed("the hand's path begins where the device cannot be");
   Loop loop(scene.sculptor, device, *pose, scene.map, parameters, limits);
   if (mlockall(MCL_CURRENT) != 0)
     std::cerr << "haptic_ticks: the memory cannot be locked: first uses of pages are in the times\n";
@@ -146,7 +145,7 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   for (std::size_t tick = 0; tick < options.ticks && !loop.has_stopped(); ++tick) {
     pose = reach_position(device, *pose, hand.position(tick));
     if (!pose)
-      throw Error("the hand's path leaves the workspace");
+      throw benchmark::Failed("the hand's path leaves the workspace");
     reading.theta = measured_angles(device, pose->theta);
     reading.button = options.valence == 0 ? Hand::button(tick) : 0, reading.elapsed = tick == 0 ? 0 : parameters.tick;
     const Vector3d tip_before = place_of(scene, tip);
@@ -165,15 +164,16 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
     const auto event = static_cast<std::size_t>(made.tool.event);
     (event != 0 ? events[event] : loop.tool().holds_vertex() ? vertex : probe).add(taken);
     if (made.is_new_fault)
-      throw Error(std::string("a fault: ") + name_of(made.fault));
+      throw benchmark::Failed(std::string("a fault: ") + name_of(made.fault));
   }
   const Tool_edits& done = loop.tool().edits();
   if (options.depth > 0 && options.valence == 0 && 4 * blocked < all.number())
-    throw Error("the hand was held back in " + std::to_string(blocked) +
-                " ticks only: that is not what is measured here");
+    throw benchmark::Failed("the hand was held back in " + std::to_string(blocked) +
+                            " ticks only: that is not what is measured here");
   if (options.refuses_allocations && allocations != 0)
-    throw Error(std::to_string(allocations) + " allocations were made in ticks, with " + std::to_string(done.created) +
-                " creations and " + std::to_string(done.removed) + " removals");
+    throw benchmark::Failed(std::to_string(allocations) + " allocations were made in ticks, with " +
+                            std::to_string(done.created) + " creations and " + std::to_string(done.removed) +
+                            " removals");
   Json of_events;
   for (std::size_t event = 1; event < events.size(); ++event)
     of_events[event_names[event]] = of(events[event]);
@@ -228,23 +228,14 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--no-allocations", options.refuses_allocations, "End with an error where a tick has allocated");
-  app.add_option("--json", options.json, "Write the report here");
-  benchmark::Shard shard;
-  shard.add_option(app, "run; there is one, of one hand");
-  CLI11_PARSE(app, argc, argv);
-  try {
+  benchmark::Benchmark_program program("haptic_ticks", app, "run; there is one, of one hand");
+  return program.run(argc, argv, [&](benchmark::Promises&) {
     std::vector<std::uint64_t> least(options.ticks, std::numeric_limits<std::uint64_t>::max());
     Json report;
-    if (shard.takes_next())
+    if (program.shard.takes_next())
       for (std::size_t k = 0; k < options.runs; ++k)
         report = run(options, least);
-    report["shard"] = shard.text();
     std::cout << report.dump(2) << '\n';
-    if (!options.json.empty() && !(std::ofstream(options.json) << report.dump(2) << '\n'))
-      throw Error("cannot write " + options.json);
-  } catch (const Error& error) {
-    std::cerr << "haptic_ticks: " << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+    return report;
+  });
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time by the clock of axis moves of all vertices and of validation, with one thread after the other number of threads
 // in turn, and whether each number makes the same bits.
-#include "end_run.h"
-#include "Shard.h"
+#include "Benchmark_program.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/sculpting.h>
@@ -28,7 +27,7 @@ using Vertex_index = Mesh::Vertex_index;
 using Json = nlohmann::ordered_json;
 using Ways = std::vector<std::pair<Vertex_index, double>>;
 
-constexpr int usage = 2, other_bits = 10;
+constexpr int other_bits = 10;
 
 template <class Function>
 double seconds_of(const Function& function) {
@@ -83,7 +82,7 @@ Times times_of(Mesh mesh, std::uint64_t seed, int moves) {
 } // namespace
 
 int main(int argc, char** argv) {
-  std::string file, json;
+  std::string file;
   int level = 7, moves = 6;
   std::vector<int> threads{1, 2};
   std::uint64_t seed = 1;
@@ -102,57 +101,47 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--seed", seed, "of the motions")->capture_default_str();
-  app.add_option("--json", json, "where the report goes, too");
-  haptic_sculpt::benchmark::Shard shard;
-  shard.add_option(app, "number of threads");
-  CLI11_PARSE(app, argc, argv);
-
-  Mesh mesh;
-  try {
-    mesh = file.empty() ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
-                        : read_surface<Mesh>(file);
-  } catch (const Error& error) {
-    std::fprintf(stderr, "threads: %s\n", error.what());
-    return usage;
-  }
-  std::printf("%zu triangles, seed %llu; seconds by the clock\n%-8s %10s %10s %10s %10s\n",
-              std::size_t{mesh.number_of_faces()}, static_cast<unsigned long long>(seed), "threads", "shift",
-              "held back", "validate", "same bits");
-  const Times alone = times_of<CGAL::Sequential_tag>(mesh, seed, moves);
-  Json rows = Json::array();
-  if (alone.points.empty())
-    return other_bits;
-  std::size_t asked = 0, broken = 0;
-  const auto tell = [&](int count, const Times& times) {
-    const bool is_same = times.points == alone.points;
-    ++asked, broken += !is_same;
-    std::printf("%-8s %10.3f %10.3f %10.3f %10s\n", count == 0 ? "none" : std::to_string(count).c_str(), times.shift,
-                times.held_back, times.validation, is_same ? "yes" : "NO");
-    rows.push_back({{"unit", shard.next_unit() - 1},
-                    {"threads", count},
-                    {"shift_s", times.shift},
-                    {"held_back_s", times.held_back},
-                    {"validate_s", times.validation},
-                    {"same_bits", is_same}});
-  };
-  if (shard.takes_next())
-    tell(0, alone);
+  benchmark::Benchmark_program program("threads", app, "number of threads");
+  return program.run(argc, argv, [&](benchmark::Promises& promises) -> Json {
+    const Mesh mesh = file.empty()
+                          ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
+                          : read_surface<Mesh>(file);
+    std::printf("%zu triangles, seed %llu; seconds by the clock\n%-8s %10s %10s %10s %10s\n",
+                std::size_t{mesh.number_of_faces()}, static_cast<unsigned long long>(seed), "threads", "shift",
+                "held back", "validate", "same bits");
+    const Times alone = times_of<CGAL::Sequential_tag>(mesh, seed, moves);
+    Json rows = Json::array();
+    std::size_t asked = program.shard.is_first(); // whether it is valid at the end: all shards see that
+    std::size_t broken = program.shard.is_first() && alone.points.empty();
+    const auto tell = [&](int count, const Times& times) {
+      const bool is_same = times.points == alone.points;
+      ++asked, broken += !is_same;
+      std::printf("%-8s %10.3f %10.3f %10.3f %10s\n", count == 0 ? "none" : std::to_string(count).c_str(), times.shift,
+                  times.held_back, times.validation, is_same ? "yes" : "NO");
+      rows.push_back({{"unit", program.shard.next_unit() - 1},
+                      {"threads", count},
+                      {"shift_s", times.shift},
+                      {"held_back_s", times.held_back},
+                      {"validate_s", times.validation},
+                      {"same_bits", is_same}});
+    };
+    if (program.shard.takes_next())
+      tell(0, alone);
 #ifdef CGAL_LINKED_WITH_TBB
-  for (const int count : threads) {
-    if (!shard.takes_next())
-      continue;
-    const tbb::global_control most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
-    tbb::task_arena arena(count);
-    Times times;
-    arena.execute([&] { times = times_of<CGAL::Parallel_tag>(mesh, seed, moves); });
-    tell(count, times);
-  }
+    for (const int count : threads) {
+      if (!program.shard.takes_next())
+        continue;
+      const tbb::global_control most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+      tbb::task_arena arena(count);
+      Times times;
+      arena.execute([&] { times = times_of<CGAL::Parallel_tag>(mesh, seed, moves); });
+      tell(count, times);
+    }
 #else
   std::printf("compiled without oneTBB: nothing is shared\n");
 #endif
-  haptic_sculpt::benchmark::Promises promises;
-  promises.add(other_bits, "any number of threads makes the same bits", asked, broken);
-  return haptic_sculpt::benchmark::end_run(
-      "threads", json,
-      {{"triangles", mesh.number_of_faces()}, {"seed", seed}, {"shard", shard.text()}, {"rows", rows}}, promises);
+    promises.add(other_bits, "any number of threads makes the same bits, of a mesh that is valid at the end", asked,
+                 broken);
+    return {{"triangles", mesh.number_of_faces()}, {"seed", seed}, {"rows", rows}};
+  });
 }

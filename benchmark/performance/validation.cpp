@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time of the validity oracle against the size of the mesh, beside CGAL's does_self_intersect, and whether both say the
 // same of each mesh as it is and with one vertex pulled through it.
-#include "end_run.h"
-#include "Shard.h"
+#include "Benchmark_program.h"
 #include "meshes/generated_meshes.h"
 
 #include <haptic_sculpt/surface.h>
@@ -102,46 +101,42 @@ void pull_through(Mesh& mesh) {
 } // namespace
 
 int main(int argc, char** argv) {
-  std::string json;
   std::size_t largest = 100000;
   CLI::App app(
       "Times validate() against the number of triangles, beside CGAL's does_self_intersect, which looks for "
       "intersections alone. Exit codes: 0; 5 the report cannot be written; 10 a verdict differs from CGAL's, or "
       "a generated mesh is not valid.");
   app.add_option("--largest", largest, "triangles, from 1,000 on by factors of ten")->capture_default_str();
-  app.add_option("--json", json, "where the report goes, too");
-  haptic_sculpt::benchmark::Shard shard;
-  shard.add_option(app, "mesh");
-  CLI11_PARSE(app, argc, argv);
-
-  Json rows = Json::array();
-  std::size_t asked = 0, broken = 0;
-  std::printf("%-28s %10s %12s %12s %12s\n", "mesh", "triangles", "validate, s", "CGAL, s", "bad: both");
-  for (const Family& family : families())
-    for (std::size_t faces = 1000; faces <= std::min(largest, family.largest); faces *= 10) {
-      const std::size_t unit = shard.next_unit();
-      if (!shard.takes_next())
-        continue;
-      Mesh mesh = meshes::to_mesh(family.make(faces));
-      const Answer ours = timed([&] { return validate(mesh).is_valid(); }),
-                   cgal = timed([&] { return !PMP::does_self_intersect(mesh); });
-      pull_through(mesh);
-      const bool ours_of_bad = validate(mesh).is_valid(), cgal_of_bad = !PMP::does_self_intersect(mesh);
-      asked += 2;
-      broken += (!ours.is_valid || !cgal.is_valid) + (ours_of_bad != cgal_of_bad);
-      std::printf("%-28s %10zu %12.4f %12.4f %12s\n", family.name, std::size_t{mesh.number_of_faces()}, ours.seconds,
-                  cgal.seconds,
-                  ours_of_bad != cgal_of_bad ? "DIFFER"
-                  : ours_of_bad              ? "valid"
-                                             : "refused");
-      rows.push_back({{"unit", unit},
-                      {"mesh", family.name},
-                      {"triangles", mesh.number_of_faces()},
-                      {"validate_seconds", ours.seconds},
-                      {"does_self_intersect_seconds", cgal.seconds},
-                      {"pulled_through_is_refused", !ours_of_bad}});
-    }
-  haptic_sculpt::benchmark::Promises promises;
-  promises.add(other_verdict, "the validity oracle agrees with CGAL", asked, broken);
-  return haptic_sculpt::benchmark::end_run("validation", json, {{"shard", shard.text()}, {"rows", rows}}, promises);
+  benchmark::Benchmark_program program("validation", app, "mesh");
+  return program.run(argc, argv, [&](benchmark::Promises& promises) -> Json {
+    Json rows = Json::array();
+    std::size_t asked = 0, broken = 0;
+    std::printf("%-28s %10s %12s %12s %12s\n", "mesh", "triangles", "validate, s", "CGAL, s", "bad: both");
+    for (const Family& family : families())
+      for (std::size_t faces = 1000; faces <= std::min(largest, family.largest); faces *= 10) {
+        const std::size_t unit = program.shard.next_unit();
+        if (!program.shard.takes_next())
+          continue;
+        Mesh mesh = meshes::to_mesh(family.make(faces));
+        const Answer ours = timed([&] { return validate(mesh).is_valid(); }),
+                     cgal = timed([&] { return !PMP::does_self_intersect(mesh); });
+        pull_through(mesh);
+        const bool ours_of_bad = validate(mesh).is_valid(), cgal_of_bad = !PMP::does_self_intersect(mesh);
+        asked += 2;
+        broken += (!ours.is_valid || !cgal.is_valid) + (ours_of_bad != cgal_of_bad);
+        std::printf("%-28s %10zu %12.4f %12.4f %12s\n", family.name, std::size_t{mesh.number_of_faces()}, ours.seconds,
+                    cgal.seconds,
+                    ours_of_bad != cgal_of_bad ? "DIFFER"
+                    : ours_of_bad              ? "valid"
+                                               : "refused");
+        rows.push_back({{"unit", unit},
+                        {"mesh", family.name},
+                        {"triangles", mesh.number_of_faces()},
+                        {"validate_seconds", ours.seconds},
+                        {"does_self_intersect_seconds", cgal.seconds},
+                        {"pulled_through_is_refused", !ours_of_bad}});
+      }
+    promises.add(other_verdict, "the validity oracle agrees with CGAL", asked, broken);
+    return {{"rows", rows}};
+  });
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time against error of the axis sweeps, for several arithmetics, judged by linear feasibility in rational numbers.
+#include "Benchmark_program.h"
 #include "Mpfr_number.h"
 #include "Query_timer.h"
-#include "Shard.h"
 #include "determinant_sweep.h"
-#include "end_run.h"
 #include "oracle/axis_oracle.h"
 
 #include <haptic_sculpt/collision/Axis_sweep_traits_3.h>
@@ -186,44 +185,39 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Time of the axis sweeps against their error, for each arithmetic, judged by linear feasibility in rational "
       "numbers. Exit code 10: the exact ones were wrong.");
-  std::string file;
   std::uint64_t seed = 1;
   std::size_t count = 5000;
-  Shard shard;
-  app.add_option("--json", file, "Write all figures to this file");
   app.add_option("--seed", seed, "Seed of the populations")->capture_default_str();
   app.add_option("--queries", count, "Queries of each population")->capture_default_str()->check(CLI::PositiveNumber);
-  shard.add_option(app, "population");
-  CLI11_PARSE(app, argc, argv);
-  const Query_timer timer;
-  Json rows = Json::array();
-  std::size_t asked = 0, wrong = 0;
-  for (const Population& population : populations()) {
-    const std::size_t unit = shard.next_unit();
-    if (!shard.takes_next())
-      continue;
-    Random random(seed * 1000003 + unit);
-    std::vector<Judged> queries;
-    while (queries.size() < count)
-      if (const Axis_query q = population.draw(random); is_ordinary_seen_along_the_axis(q))
-        queries.push_back({q, test::axis_features_meet(q)});
-    std::printf("%s\n", population.name);
-    Json arithmetics = Json::array();
-    arithmetics.push_back(measure(timer, queries, "double", by_determinants<double>));
-    arithmetics.push_back(measure(timer, queries, "long double", by_determinants<long double>));
-    arithmetics.push_back(measure(timer, queries, "MPFR 113 bits", by_determinants<Mpfr_number<113>>));
-    arithmetics.push_back(measure(timer, queries, "GMP rationals", by_determinants<mpq_class>));
-    arithmetics.push_back(measure(timer, queries, "haptic_sculpt", by_ours));
-    const Json& ours = arithmetics.back();
-    asked += count, wrong += ours["false_positives"].get<std::size_t>() + ours["false_negatives"].get<std::size_t>();
-    rows.push_back({{"unit", unit},
-                    {"name", population.name},
-                    {"degenerate", population.is_degenerate},
-                    {"arithmetics", arithmetics}});
-  }
-  Promises promises;
-  promises.add(ours_was_wrong, "every axis sweep agrees with linear feasibility", asked, wrong);
-  return end_run("axis_speed_error", file,
-                 {{"seed", seed}, {"shard", shard.text()}, {"queries_per_population", count}, {"populations", rows}},
-                 promises);
+  Benchmark_program program("axis_speed_error", app, "population");
+  return program.run(argc, argv, [&](Promises& promises) -> Json {
+    const Query_timer timer;
+    Json rows = Json::array();
+    std::size_t asked = 0, wrong = 0;
+    for (const Population& population : populations()) {
+      const std::size_t unit = program.shard.next_unit();
+      if (!program.shard.takes_next())
+        continue;
+      Random random(seed * 1000003 + unit);
+      std::vector<Judged> queries;
+      while (queries.size() < count)
+        if (const Axis_query q = population.draw(random); is_ordinary_seen_along_the_axis(q))
+          queries.push_back({q, test::axis_features_meet(q)});
+      std::printf("%s\n", population.name);
+      Json arithmetics = Json::array();
+      arithmetics.push_back(measure(timer, queries, "double", by_determinants<double>));
+      arithmetics.push_back(measure(timer, queries, "long double", by_determinants<long double>));
+      arithmetics.push_back(measure(timer, queries, "MPFR 113 bits", by_determinants<Mpfr_number<113>>));
+      arithmetics.push_back(measure(timer, queries, "GMP rationals", by_determinants<mpq_class>));
+      arithmetics.push_back(measure(timer, queries, "haptic_sculpt", by_ours));
+      const Json& ours = arithmetics.back();
+      asked += count, wrong += ours["false_positives"].get<std::size_t>() + ours["false_negatives"].get<std::size_t>();
+      rows.push_back({{"unit", unit},
+                      {"name", population.name},
+                      {"degenerate", population.is_degenerate},
+                      {"arithmetics", arithmetics}});
+    }
+    promises.add(ours_was_wrong, "every axis sweep agrees with linear feasibility", asked, wrong);
+    return {{"seed", seed}, {"queries_per_population", count}, {"populations", rows}};
+  });
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Many vertices to targets: share of the way against time, by axis moves, one after the other, and all at once with a
 // step that is halved until does_self_intersect is content.
-#include "Shard.h"
-#include "end_run.h"
+#include "Benchmark_program.h"
 #include "meshes/generated_meshes.h"
 #include "meshes/thin_walls.h"
 
@@ -30,7 +29,7 @@ using Vertex_index = Mesh::Vertex_index;
 using Json = nlohmann::ordered_json;
 namespace PMP = CGAL::Polygon_mesh_processing;
 
-constexpr int usage = 2, not_embedded = 10;
+constexpr int not_embedded = 10;
 constexpr double finest_step = 1.0 / 128; ///< of the way: the line search gives up below
 constexpr int looks = 64;                 ///< times at which a straight motion is looked at
 
@@ -298,43 +297,36 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Many vertices to targets: share of the way against time, by move_vertices, by one drag after the other, and all "
       "at once with a line search on CGAL's does_self_intersect. Exit code 10: a guarded mesh is not embedded.");
-  std::string file, given;
+  std::string given;
   std::uint64_t seed = 1;
   int level = 4, rounds = 1;
-  Shard shard;
-  app.add_option("--json", file, "Write all figures to this file");
   app.add_option("--mesh", given, "Motions of this mesh instead: times of the motion alone");
-  app.add_option("--level", level, "Fineness: 20 * 4^level triangles")->check(CLI::Range(1, 8))->capture_default_str();
+  app.add_option("--level", level, "Fineness: 20 * 4^level triangles; below 2 they meet")
+      ->check(CLI::Range(2, 8))
+      ->capture_default_str();
   app.add_option("--rounds", rounds, "Each with another seed")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
-  shard.add_option(app, "motion");
-  CLI11_PARSE(app, argc, argv);
-  Mesh mesh;
-  try {
+  Benchmark_program program("many_vertices_speed_error", app, "motion");
+  return program.run(argc, argv, [&](Promises& promises) -> Json {
+    Mesh mesh;
     if (!given.empty())
       mesh = read_surface<Mesh>(given);
-  } catch (const Error& error) {
-    std::cerr << "many_vertices_speed_error: " << error.what() << '\n';
-    return usage;
-  }
-  Json rows = Json::array();
-  std::size_t asked = 0, broken = 0;
-  for (int round = 0; round < rounds; ++round)
-    for (const Motion& m : given.empty()
-                               ? motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))
-                               : motions_of(mesh, seed + static_cast<std::uint64_t>(round))) {
-      const std::size_t unit = shard.next_unit(), before = rows.size();
-      if (!shard.takes_next())
-        continue;
-      given.empty() ? measure(m, rows) : measure_motion(m, rows);
-      for (std::size_t k = before; k < rows.size(); ++k) {
-        rows[k]["unit"] = unit;
-        if (rows[k]["method"] != "halving on does_self_intersect")
-          ++asked, broken += !rows[k]["valid"].get<bool>();
+    Json rows = Json::array();
+    std::size_t asked = 0, broken = 0;
+    for (int round = 0; round < rounds; ++round)
+      for (const Motion& m : given.empty() ? motions(level, seed * 1000003 + static_cast<std::uint64_t>(round))
+                                           : motions_of(mesh, seed + static_cast<std::uint64_t>(round))) {
+        const std::size_t unit = program.shard.next_unit(), before = rows.size();
+        if (!program.shard.takes_next())
+          continue;
+        given.empty() ? measure(m, rows) : measure_motion(m, rows);
+        for (std::size_t k = before; k < rows.size(); ++k) {
+          rows[k]["unit"] = unit;
+          if (rows[k]["method"] != "halving on does_self_intersect")
+            ++asked, broken += !rows[k]["valid"].get<bool>();
+        }
       }
-    }
-  Promises promises;
-  promises.add(not_embedded, "a mesh moved under the guard is embedded", asked, broken);
-  return end_run("many_vertices_speed_error", file,
-                 {{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"rows", rows}}, promises);
+    promises.add(not_embedded, "a mesh moved under the guard is embedded", asked, broken);
+    return {{"seed", seed}, {"level", level}, {"rows", rows}};
+  });
 }

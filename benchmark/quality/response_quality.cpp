@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The same hand drags with each response: how far from the target it ends, how often at a local minimum, how long it
 // takes.
+#include "Benchmark_program.h"
 #include "Long_sculpting.h"
-#include "Shard.h"
-#include "end_run.h"
 
 #include "sculpting/Mover_hand.h"
 #include "sculpting/clearances.h"
@@ -28,7 +27,7 @@ using Point_3 = meshes::Point_3;
 using Vertex_index = Mesh::Vertex_index;
 using Json = nlohmann::ordered_json;
 
-enum Exit { all_kept = 0, usage = 2, not_embedded = 10, no_minimum = 11, contradiction = 12 };
+enum Exit { not_embedded = 10, no_minimum = 11, contradiction = 12 };
 
 using benchmark::Promises;
 using benchmark::Shard;
@@ -171,13 +170,12 @@ void chart_mesh(Chart& chart, const std::string& name, const Mesh& mesh, std::si
 }
 
 struct Options {
-  std::string folder, json;
+  std::string folder;
   std::size_t drags = 200, sculpt = 0, check_every = 100, largest = 200000;
   std::uint64_t seed = 1;
-  Shard shard;
 };
 
-int run(Options& options) {
+Json run(const Options& options, Shard& shard, Promises& promises) {
   Random random(options.seed);
   std::vector<std::pair<std::string, Mesh>> files;
   Json refused = Json::array();
@@ -197,13 +195,10 @@ int run(Options& options) {
         refused.push_back({{"file", path.filename().string()}, {"reason", error.what()}});
       }
   }
-  Json report = {{"seed", options.seed},
-                 {"shard", options.shard.text()},
-                 {"drags_per_scene", options.drags},
-                 {"refused", refused}};
+  Json report = {{"seed", options.seed}, {"drags_per_scene", options.drags}, {"refused", refused}};
   std::size_t validations = 0, invalid = 0, drags = 0, contradictions = 0, minima = 0, missed = 0;
   if (options.drags > 0) {
-    Chart chart(options.seed + 1, options.shard);
+    Chart chart(options.seed + 1, shard);
     chart_scenes(chart, options.drags, random);
     for (const auto& [name, mesh] : files)
       chart_mesh(chart, name, mesh, options.drags, random);
@@ -217,8 +212,8 @@ int run(Options& options) {
   if (options.sculpt > 0) {
     Json rows = Json::array();
     for (const auto& [name, mesh] : files) {
-      const std::size_t unit = options.shard.next_unit();
-      if (!options.shard.takes_next())
+      const std::size_t unit = shard.next_unit();
+      if (!shard.takes_next())
         continue;
       const std::size_t validate_every = std::max<std::size_t>(100, mesh.number_of_faces() / 10);
       const auto tally =
@@ -234,11 +229,10 @@ int run(Options& options) {
     }
     report["sculpting"] = rows;
   }
-  Promises promises;
   promises.add(not_embedded, "every mesh is embedded and no leg crosses anything", validations, invalid);
   promises.add(contradiction, "no result contradicts itself", drags, contradictions);
   promises.add(no_minimum, "a slide ends at a local minimum", minima, missed, 1e-3);
-  return benchmark::end_run("response_quality", options.json, std::move(report), promises);
+  return report;
 }
 
 } // namespace
@@ -263,17 +257,6 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--largest", options.largest, "Leaves out meshes with more faces")->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
-  options.shard.add_option(app, "scene or mesh");
-  app.add_option("--json", options.json, "Where the report goes");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : usage;
-  }
-  try {
-    return run(options);
-  } catch (const Error& error) {
-    std::cerr << "response_quality: " << error.what() << '\n';
-    return usage;
-  }
+  benchmark::Benchmark_program program("response_quality", app, "scene or mesh");
+  return program.run(argc, argv, [&](Promises& promises) { return run(options, program.shard, promises); });
 }

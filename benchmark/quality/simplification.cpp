@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CGAL's edge_collapse beside decimate(), with the same policies to the same number of edges: time, pairs of faces that
 // meet, distance from the input.
-#include "Shard.h"
-#include "end_run.h"
+#include "Benchmark_program.h"
 #include "meshes/generated_meshes.h"
 #include "meshes/thin_walls.h"
 
@@ -29,7 +28,7 @@ using Json = nlohmann::ordered_json;
 namespace PMP = CGAL::Polygon_mesh_processing;
 namespace SMS = CGAL::Surface_mesh_simplification;
 
-constexpr int usage = 2, not_embedded = 10;
+constexpr int not_embedded = 10;
 
 std::size_t number_of_pairs(const Mesh& mesh) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
@@ -93,53 +92,45 @@ int main(int argc, char** argv) {
   CLI::App app(
       "CGAL's edge_collapse beside decimate(), with the same policies to the same share of the edges: time, pairs "
       "of faces that meet, distance from the input. Exit code 10: a guarded mesh is not embedded.");
-  std::string file;
   std::vector<std::string> files;
   unsigned seed = 1;
   int level = 3;
   double share = 0.1;
-  Shard shard;
-  app.add_option("--json", file, "Write all figures to this file");
   app.add_option("--meshes", files, "Files of meshes, in place of generated ones");
   app.add_option("--seed", seed, "Of the generated meshes")->capture_default_str();
-  app.add_option("--level", level, "Their fineness")->check(CLI::Range(1, 8))->capture_default_str();
+  app.add_option("--level", level, "Their fineness; below 2 they cross themselves")
+      ->check(CLI::Range(2, 8))
+      ->capture_default_str();
   app.add_option("--share", share, "Of the edges that is to be left")
       ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();
-  shard.add_option(app, "mesh");
-  CLI11_PARSE(app, argc, argv);
-  std::vector<std::pair<std::string, Mesh>> inputs;
-  try {
+  Benchmark_program program("simplification", app, "mesh");
+  return program.run(argc, argv, [&](Promises& promises) -> Json {
+    std::vector<std::pair<std::string, Mesh>> inputs;
     for (const std::string& path : files)
       inputs.emplace_back(path, read_surface<Mesh>(path));
-  } catch (const Error& error) {
-    std::cerr << "simplification: " << error.what() << '\n';
-    return usage;
-  }
-  if (files.empty())
-    inputs = generated_meshes(level, seed);
-  const auto guarded = [](Mesh& mesh, const auto& stop, const auto& np) {
-    Sculptor<Mesh> sculptor(mesh);
-    decimate(sculptor, stop, np);
-  };
-  const auto alone = [](Mesh& mesh, const auto& stop, const auto& np) { SMS::edge_collapse(mesh, stop, np); };
-  Json rows = Json::array();
-  std::size_t asked = 0, broken = 0;
-  for (const auto& [name, mesh] : inputs) {
-    const std::size_t unit = shard.next_unit(), before = rows.size();
-    if (!shard.takes_next())
-      continue;
-    for (const int policies : {0, 1}) {
-      rows.push_back(row(name, "under the guard", policies, share, mesh, guarded));
-      ++asked, broken += !rows.back()["valid"].get<bool>();
-      rows.push_back(row(name, "edge_collapse", policies, share, mesh, alone));
+    if (files.empty())
+      inputs = generated_meshes(level, seed);
+    const auto guarded = [](Mesh& mesh, const auto& stop, const auto& np) {
+      Sculptor<Mesh> sculptor(mesh);
+      decimate(sculptor, stop, np);
+    };
+    const auto alone = [](Mesh& mesh, const auto& stop, const auto& np) { SMS::edge_collapse(mesh, stop, np); };
+    Json rows = Json::array();
+    std::size_t asked = 0, broken = 0;
+    for (const auto& [name, mesh] : inputs) {
+      const std::size_t unit = program.shard.next_unit(), before = rows.size();
+      if (!program.shard.takes_next())
+        continue;
+      for (const int policies : {0, 1}) {
+        rows.push_back(row(name, "under the guard", policies, share, mesh, guarded));
+        ++asked, broken += !rows.back()["valid"].get<bool>();
+        rows.push_back(row(name, "edge_collapse", policies, share, mesh, alone));
+      }
+      for (std::size_t k = before; k < rows.size(); ++k)
+        rows[k]["unit"] = unit;
     }
-    for (std::size_t k = before; k < rows.size(); ++k)
-      rows[k]["unit"] = unit;
-  }
-  Promises promises;
-  promises.add(not_embedded, "a mesh simplified under the guard is embedded", asked, broken);
-  return end_run("simplification", file,
-                 {{"seed", seed}, {"shard", shard.text()}, {"level", level}, {"share", share}, {"rows", rows}},
-                 promises);
+    promises.add(not_embedded, "a mesh simplified under the guard is embedded", asked, broken);
+    return {{"seed", seed}, {"level", level}, {"share", share}, {"rows", rows}};
+  });
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time against error of the sweeps, for many arithmetics and populations, judged by the rational oracle.
+#include "Benchmark_program.h"
 #include "Mpfr_number.h"
-#include "Promises.h"
 #include "Query_timer.h"
-#include "Shard.h"
 #include "determinant_sweep.h"
 #include "oracle/cgal_sweep.h"
 #include "oracle/sweep_oracle.h"
@@ -27,7 +26,7 @@
 
 namespace haptic_sculpt::benchmark {
 
-enum Exit { all_kept = 0, usage = 2, cannot_write = 5, ours_was_wrong = 10 };
+constexpr int ours_was_wrong = 10;
 
 using test::Cgal_sweep;
 using Kernel = Cgal_sweep::Kernel;
@@ -222,103 +221,73 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Time of the sweeps against their error, for each arithmetic and population, judged by a rational oracle\n"
       "Exit: 0 haptic_sculpt gave no wrong verdict, 2 usage, 5 a file cannot be written, 10 it gave one."};
-  std::string file;
   std::uint64_t seed = 1;
   std::size_t count = 5000;
   std::vector<std::string> chosen;
   std::string folder;
-  app.add_option("--json", file, "Write all figures to this file");
   app.add_option("--seed", seed, "Seed of the populations")->capture_default_str();
   app.add_option("--queries", count, "Queries of each population")->capture_default_str()->check(CLI::PositiveNumber);
-  app.add_option("--population", chosen, "Only these populations");
+  std::vector<std::string> names;
+  for (const auto& population : sweep_populations())
+    names.push_back(population.name);
+  app.add_option("--population", chosen, "Only these populations")->check(CLI::IsMember(names));
   app.add_option(
          "--write-queries", folder,
          "Folder that gets queries.txt, as sweep_queries reads them, and truth.txt, by the oracle; nothing is timed")
       ->check(CLI::ExistingDirectory);
-  Shard shard;
-  shard.add_option(app, "population");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? all_kept : usage;
-  }
-  for (const std::string& name : chosen)
-    if (std::none_of(sweep_populations().begin(), sweep_populations().end(),
-                     [&](const auto& p) { return p.name == name; })) {
-      std::cerr << "sweep_speed_error: no population is called " << name << '\n';
-      return usage;
-    }
-  std::ofstream out;
-  if (!file.empty()) {
-    out.open(file); // now, not after minutes of work
-    if (!out) {
-      std::cerr << "sweep_speed_error: cannot write " << file << '\n';
-      return cannot_write;
-    }
-  }
-  std::ofstream asked, truth;
-  if (!folder.empty()) {
-    asked.open(folder + "/queries.txt"), truth.open(folder + "/truth.txt");
-    if (!asked || !truth) {
-      std::cerr << "sweep_speed_error: cannot write in " << folder << '\n';
-      return cannot_write;
-    }
-  }
-  const Query_timer timer;
-  std::printf("single times are read in steps of %.1f ns; the mean is that of the whole batch\n", timer.resolution());
-  nlohmann::json report{{"seed", seed},
-                        {"shard", shard.text()},
-                        {"queries_per_population", count},
-                        {"clock_resolution_ns", timer.resolution()},
-                        {"populations", nlohmann::json::array()}};
-  std::size_t verdicts = 0, wrong = 0; // of ours
-  for (const auto& population : sweep_populations()) {
-    if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), population.name) == chosen.end())
-      continue;
-    const std::size_t unit = shard.next_unit();
-    if (!shard.takes_next())
-      continue;
-    std::seed_seq sequence(population.name.begin(), population.name.end()); // the same alone as among the others
-    std::mt19937_64 engine(sequence);
-    engine.seed(engine() ^ seed);
-    const std::vector<Judged_query> queries = judged_queries(population, count, engine);
+  Benchmark_program program("sweep_speed_error", app, "population");
+  return program.run(argc, argv, [&](Promises& promises) {
+    std::ofstream asked, truth;
     if (!folder.empty()) {
-      write(queries, asked, truth);
-      continue;
+      asked.open(folder + "/queries.txt"), truth.open(folder + "/truth.txt");
+      if (!asked || !truth)
+        throw haptic_sculpt::Write_error("cannot write in " + folder);
     }
-    const auto hits = std::count_if(queries.begin(), queries.end(), [](const auto& q) { return q.time.has_value(); });
-    std::printf("%s%s: %zu queries, %td hits\n%-34s %9s %9s %10s %7s %7s %10s\n", population.name.c_str(),
-                population.degenerate ? " (degenerate)" : "", count, hits, "", "median ns", "mean ns", "p99 ns",
-                "false +", "false -", "error in u");
-    nlohmann::json entry{{"unit", unit}, {"name", population.name},          {"degenerate", population.degenerate},
-                         {"hits", hits}, {"filter", filter_shares(queries)}, {"arithmetics", nlohmann::json::array()}};
-    for (const Result& result : measure_all(timer, queries)) {
-      char error[16] = "-";
-      if (result.gives_time)
-        std::snprintf(error, sizeof error, "%.1e", result.largest_error);
-      std::printf("%-34s %9.0f %9.0f %10.0f %7llu %7llu %10s\n", result.name.c_str(), result.median, result.mean,
-                  result.p99, static_cast<unsigned long long>(result.false_positives),
-                  static_cast<unsigned long long>(result.false_negatives), error);
-      entry["arithmetics"].push_back(as_json(result));
-      if (result.is_ours)
-        verdicts += count, wrong += result.false_positives + result.false_negatives;
+    const Query_timer timer;
+    std::printf("single times are read in steps of %.1f ns; the mean is that of the whole batch\n", timer.resolution());
+    nlohmann::json report{{"seed", seed},
+                          {"queries_per_population", count},
+                          {"clock_resolution_ns", timer.resolution()},
+                          {"populations", nlohmann::json::array()}};
+    std::size_t verdicts = 0, wrong = 0; // of ours
+    for (const auto& population : sweep_populations()) {
+      if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), population.name) == chosen.end())
+        continue;
+      const std::size_t unit = program.shard.next_unit();
+      if (!program.shard.takes_next())
+        continue;
+      std::seed_seq sequence(population.name.begin(), population.name.end()); // the same alone as among the others
+      std::mt19937_64 engine(sequence);
+      engine.seed(engine() ^ seed);
+      const std::vector<Judged_query> queries = judged_queries(population, count, engine);
+      if (!folder.empty()) {
+        write(queries, asked, truth);
+        continue;
+      }
+      const auto hits = std::count_if(queries.begin(), queries.end(), [](const auto& q) { return q.time.has_value(); });
+      std::printf("%s%s: %zu queries, %td hits\n%-34s %9s %9s %10s %7s %7s %10s\n", population.name.c_str(),
+                  population.degenerate ? " (degenerate)" : "", count, hits, "", "median ns", "mean ns", "p99 ns",
+                  "false +", "false -", "error in u");
+      nlohmann::json entry{
+          {"unit", unit}, {"name", population.name},          {"degenerate", population.degenerate},
+          {"hits", hits}, {"filter", filter_shares(queries)}, {"arithmetics", nlohmann::json::array()}};
+      for (const Result& result : measure_all(timer, queries)) {
+        char error[16] = "-";
+        if (result.gives_time)
+          std::snprintf(error, sizeof error, "%.1e", result.largest_error);
+        std::printf("%-34s %9.0f %9.0f %10.0f %7llu %7llu %10s\n", result.name.c_str(), result.median, result.mean,
+                    result.p99, static_cast<unsigned long long>(result.false_positives),
+                    static_cast<unsigned long long>(result.false_negatives), error);
+        entry["arithmetics"].push_back(as_json(result));
+        if (result.is_ours)
+          verdicts += count, wrong += result.false_positives + result.false_negatives;
+      }
+      std::fflush(stdout);
+      report["populations"].push_back(entry);
     }
-    std::fflush(stdout);
-    report["populations"].push_back(entry);
-  }
-  if (!folder.empty() && (!asked.flush() || !truth.flush())) { // a full disk shows where buffers are emptied
-    std::cerr << "sweep_speed_error: cannot write in " << folder << '\n';
-    return cannot_write;
-  }
-  Promises promises;
-  promises.add(ours_was_wrong, "every sweep agrees with the rational oracle", verdicts, wrong);
-  report["promises"] = promises.json();
-  report["exit"] = promises.exit();
-  if (out.is_open() && !(out << report.dump(2) << std::endl)) {
-    std::cerr << "sweep_speed_error: cannot write " << file << '\n';
-    return cannot_write;
-  }
-  if (promises.exit() != all_kept)
-    std::cerr << "sweep_speed_error: haptic_sculpt was wrong; please report it with this seed\n";
-  return promises.exit();
+    if (!folder.empty() && (!asked.flush() || !truth.flush())) // a full disk shows where buffers are emptied
+      throw haptic_sculpt::Write_error("cannot write in " + folder);
+    promises.add(ours_was_wrong, "every sweep agrees with the rational oracle", verdicts, wrong);
+    return report;
+  });
 }

@@ -18,7 +18,6 @@ public:
     file_->drop_unfinished_tick();
   }
 
-  bool has_edits() const { return file_ && file_->contents() && !file_->contents()->passes.empty(); }
   /// How many were in it, directives not counted.
   std::size_t number_of_edits() const {
     std::size_t edits = 0;

@@ -5,7 +5,6 @@
 #include "contents_of.h"
 
 #include <haptic_sculpt/surface/io/check_regular_file.h>
-#include <haptic_sculpt/surface/write_surface.h>
 
 namespace haptic_sculpt::examples {
 
@@ -19,12 +18,6 @@ inline std::string sha256_of_file(const std::string& path) {
   Sha256 hash;
   read_blocks<Read_error>(path, "", [&](std::string_view block) { hash.add(block); });
   return hash.digest();
-}
-
-/// Of points and faces, to the last bit.
-template <class Mesh>
-std::string sha256_of_surface(const Mesh& mesh) {
-  return Sha256().add(surface_bytes(mesh, "surface.off")).digest();
 }
 
 } // namespace haptic_sculpt::examples

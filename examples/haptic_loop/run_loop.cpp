@@ -66,8 +66,9 @@ public:
       throw Foreign_recording("the recording is of a mesh with the SHA-256 " + plan_.replay->mesh + ", but that of '" +
                               plan_.mesh + "' is " + hash);
     log_.emplace(plan_.log, hash);
-    if (log_->has_edits() && (plan_.replay || !plan_.record.empty()))
-      throw Usage_error("a recording is of a run that begins with the mesh itself; give a log that is not there yet");
+    if (log_->number_of_edits() > 0 && (plan_.replay || !plan_.record.empty()))
+      throw Usage_error("a recording is of a run that begins with the mesh itself; give a log that has no edits, or is "
+                        "not there yet");
     std::vector<std::string> left_out;
     Mesh mesh = read_surface<Mesh>(plan_.mesh, 0, &left_out);
     Scene scene(std::move(mesh), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {

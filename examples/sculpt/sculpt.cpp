@@ -170,6 +170,11 @@ std::vector<Near_vertex> nearest_to(const Arguments& arguments, const Mesh& mesh
   return found;
 }
 
+/// Of points and faces, to the last bit.
+std::string sha256_of_surface(const Mesh& mesh) {
+  return examples::Sha256().add(surface_bytes(mesh, "surface.off")).digest();
+}
+
 /// What the log adds to the work: what to replay, and where the script goes on.
 struct Plan {
   std::vector<Command> commands;
@@ -225,7 +230,7 @@ int sculpt(const Arguments& arguments) {
   if (arguments.repair.is_asked || arguments.triangulate || arguments.orient)
     read = mesh_of(arguments, writer);
   const std::string hash =
-      read && read->is_changed ? examples::sha256_of_surface(read->mesh) : sha256_of_file(arguments.mesh);
+      read && read->is_changed ? sha256_of_surface(read->mesh) : sha256_of_file(arguments.mesh);
   std::optional<Log_file> log;
   if (!arguments.log.empty())
     log.emplace(arguments.log, hash);

@@ -28,7 +28,6 @@ void Application::open_first(int width, int height) {
 }
 
 void Application::enter(Opened opened) {
-  keeps_log_ = keeps_log();
   view_.show(opened.faces, opened.middle, view_size_[0], view_size_[1]);
   frame();
   const double extent = view_.camera().unscaled(2.0);
@@ -38,24 +37,19 @@ void Application::enter(Opened opened) {
     opened_before_.push_back({"a mesh that was open before", path_});
     opened_before_.push_back({"the log of '" + path_ + "'", log_});
   }
-  path_ = opened.path, log_ = opened.log, resumed_ = opened.resumed;
-  is_saved_ = false, saved_edits_ = 0;
+  path_ = opened.path, log_ = opened.log;
+  for (const std::string& open : {path_, log_})
+    while (const auto* const before = examples::same_file(open, opened_before_))
+      opened_before_.erase(opened_before_.begin() + (before - opened_before_.data()));
+  kept_.push_back({log_, opened.resumed});
   ++scene_;
   thread_.enter(opened.model);
   frames_due_ = 3;
   say("opened " + path_);
-  if (resumed_ > 0)
-    say("made " + std::to_string(resumed_) + " lines of " + log_ + " again");
+  if (opened.resumed > 0)
+    say("made " + std::to_string(opened.resumed) + " lines of " + log_ + " again");
   if (!opened.note.empty())
     say(opened.note);
-}
-
-bool Application::is_unsaved() const {
-  return is_saved_ ? status_.edits != saved_edits_ : status_.edits > 0 || resumed_ > 0;
-}
-
-bool Application::keeps_log() const {
-  return (!options_.log.empty() && log_ == options_.log) || (is_unsaved() && !discards_);
 }
 
 void Application::say(const std::string& text) {
@@ -173,12 +167,18 @@ void Application::on_resize(int width, int height) {
   frames_due_ = 3;
 }
 
-void Application::leave(Model* model, bool keeps_log) {
+/// A log stays that was asked for, or that has what nothing else has: what was done by the end, seen or not.
+void Application::leave(Model* model) {
+  const Kept kept = std::move(kept_.front());
+  kept_.pop_front();
+  const bool is_shown = kept_.empty(), was_asked_for = !options_.log.empty() && kept.log == options_.log;
+  const bool keeps_log = was_asked_for || (kept.is_unsaved(number_of_edits(*model)) && !(is_shown && discards_));
   if (const std::string failure = destroy(model, keeps_log); keeps_log && !failure.empty())
     fail_to_write(failure);
 }
 
-void Application::take_reports() {
+/// Of the loop.
+void Application::take_answers() {
   for (Seen_face change; thread_.take(change);)
     if (change.scene + 1 == scene_)
       view_.change(change), frames_due_ = 3;
@@ -194,18 +194,26 @@ void Application::take_reports() {
     case Report::Kind::left:
       left_.push_back(report.model);
       break;
-    case Report::Kind::copied:
-      to_save_.front().edits = report.edits;
-      if (report.copy)
-        background_.save(report.copy, std::move(to_save_.front()));
-      else
-        fail_to_write("'" + to_save_.front().path + "' is not saved: " + report.text);
+    case Report::Kind::copied: {
+      Background::Saved saved = std::move(to_save_.front());
       to_save_.pop_front();
+      saved.edits = report.edits;
+      if (report.copy)
+        background_.save(report.copy, std::move(saved));
+      else if (report.outgrown && saved.scene == scene_) // in turn again, now that it is known how large it is
+        to_save_.push_back(std::move(saved)), thread_.copy();
+      else
+        fail_to_write("'" + saved.path + "' is not saved: " + report.text);
       break;
+    }
     }
   }
   for (Model* const model : std::exchange(left_, {}))
-    leave(model, keeps_log_); // another was opened
+    leave(model); // another was opened
+}
+
+void Application::take_reports() {
+  take_answers();
   try {
     if (auto opened = background_.take_opened())
       enter(std::move(*opened));
@@ -225,7 +233,7 @@ void Application::take_saved() {
       say("saved " + saved->path + (saved->lost.empty() ? "" : ": " + saved->lost));
       if (saved->scene != scene_)
         continue; // another was opened meanwhile
-      is_saved_ = true, saved_edits_ = saved->edits;
+      kept_.back().is_saved = true, kept_.back().saved_edits = saved->edits;
       is_done_ = is_done_ || saved->quits;
     } catch (const std::exception& error) {
       fail_to_write(error.what());
@@ -243,6 +251,14 @@ void Application::step() {
   if (status_.log_has_failed && !before.log_has_failed)
     say("what is done from here on is not in the log, which cannot be written: save the mesh");
   take_reports();
+  if (is_leaving_ && thread_.is_idle()) {
+    is_leaving_ = false;
+    if (is_unsaved())
+      choices_.question = Choices::Question::leave_unsaved;
+    else
+      is_done_ = true;
+    frames_due_ = 3;
+  }
   // What is held still goes on, a frame a dab; in a script only while that waits, so that it does the same each time.
   const bool is_live = !is_playing() || script_[next_action_].kind == Action::Kind::wait;
   if (is_live && thread_.has_stroke() && !thread_.is_stroke_waiting())

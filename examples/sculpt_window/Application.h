@@ -95,16 +95,22 @@ private:
   Background background_;
   Status status_; ///< as of the last step()
 
+  /// Of a mesh until its model has come back: what has it beside the loop.
+  struct Kept {
+    std::string log;
+    std::size_t resumed = 0;       ///< edits of the log that were made again
+    std::uint64_t saved_edits = 0; ///< as of the last saving
+    bool is_saved = false;         ///< at least once
+    bool is_unsaved(std::uint64_t edits) const { return is_saved ? edits != saved_edits : edits > 0 || resumed > 0; }
+  };
+
   std::string path_, log_;  ///< of the mesh that is shown
+  std::deque<Kept> kept_;   ///< in the order in which they were entered; that of the mesh that is shown is the last one
   std::vector<examples::Named_file> opened_before_; ///< other meshes of this session, and their logs
   std::array<std::vector<examples::Named_file>, 3> written_; ///< in this session, by what they hold
   std::uint32_t scene_ = 0; ///< its number, from 1
-  std::size_t resumed_ = 0;
-  std::uint64_t saved_edits_ = 0;
-  bool is_saved_ = false; ///< at least once
   std::deque<Background::Saved> to_save_; ///< copies that were asked for and are not there yet
   std::vector<Model*> left_;
-  bool keeps_log_ = true; ///< that of the mesh shown before
 
   std::array<int, 2> view_size_{};
   std::string next_open_; ///< asked for once while there was unsaved work
@@ -120,7 +126,9 @@ private:
   Tick_statistics frames_, frames_of_thread_, frames_of_process_;
   int frames_due_ = 3;
   Clock::time_point last_frame_{};
-  bool is_done_ = false, has_failed_to_write_ = false, discards_ = false;
+  bool is_done_ = false, has_failed_to_write_ = false;
+  bool is_leaving_ = false; ///< as soon as nothing is under way, if all is saved by then; else that is asked
+  bool discards_ = false;   ///< what is not saved of the mesh that is shown
   std::string screenshot_, last_refusal_;
 
   std::vector<Action> script_;
@@ -132,14 +140,13 @@ private:
   std::string recorded_to_;
   Clock::time_point last_recorded_{};
 
-  bool is_unsaved() const;
-  /// Of the mesh that is shown: one that was asked for, or that has what nothing else has.
-  bool keeps_log() const;
+  bool is_unsaved() const { return !kept_.empty() && kept_.back().is_unsaved(status_.edits); }
   Pointer pointer_here() const;
   void point();
   void enter(Opened opened);
   void take_reports();
-  void leave(Model* model, bool keeps_log);
+  void take_answers();
+  void leave(Model* model);
   void save(const std::string& path, bool quits = false);
   /// What a file is to hold that is written while the window is open.
   enum class Written { mesh, picture, recording };

@@ -191,7 +191,7 @@ std::string Application::free_name(const std::string& extension) {
 
 /// Whether it is no other file of this run; where it is, that has been told, and in a script counts as not written. The
 /// sculpted mesh may take the place of the one that was read where no log begins with that; a file may take the place
-/// of one that held the same before.
+/// of one that held the same before. Where it may be written it counts as a file of this run from here on.
 bool Application::may_write(const std::string& path, Written what) {
   const bool is_mesh = what == Written::mesh;
   std::string why;
@@ -244,10 +244,10 @@ void Application::open(const std::string& path) {
 }
 
 void Application::quit() {
-  if (is_unsaved() && choices_.question != Choices::Question::leave_unsaved)
-    choices_.question = Choices::Question::leave_unsaved;
-  else
+  if (choices_.question == Choices::Question::leave_unsaved)
     is_done_ = true;
+  else
+    is_leaving_ = true;
   frames_due_ = 3;
 }
 

@@ -68,7 +68,7 @@ void Application::play() {
 bool Application::act(const Action& action) {
   using Kind = Action::Kind;
   const auto& n = action.numbers;
-  if (thread_.is_stroke_waiting() && action.kind != Kind::wait)
+  if ((thread_.is_stroke_waiting() && action.kind != Kind::wait) || is_leaving_)
     return false; // a place a dab
   switch (action.kind) {
   case Kind::move: {
@@ -254,13 +254,11 @@ void Application::flush_record() {
 }
 
 int Application::finish() {
-  for (; background_.is_saving(); std::this_thread::sleep_for(std::chrono::milliseconds(1)))
-    take_saved();
+  for (; !to_save_.empty() || background_.is_saving(); std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    take_answers(), take_saved();
   const Status last = status_;
-  const bool keeps = keeps_log();
-  const std::vector<Model*> models = thread_.end();
-  for (Model* const model : models)
-    leave(model, model == models.back() ? keeps : keeps_log_);
+  for (Model* const model : thread_.end())
+    leave(model);
   const Percentiles frames = summary_of(frames_), of_process = summary_of(frames_of_process_);
   const auto ms = [](std::uint64_t ns) { return double(ns) / 1e6; };
   std::printf("%llu frames: median %.2f ms, 99 %% within %.2f ms, longest %.2f ms (%.2f, %.2f, %.2f ms of all "

@@ -83,9 +83,16 @@ Opened open(const std::string& path, const std::string& log) {
   return opened;
 }
 
+std::uint64_t number_of_edits(const Model& model) {
+  return model.edits;
+}
+
 std::string destroy(Model* model, bool keeps_log) {
   model->log.finish();
-  const std::string failure = model->log.failure(), log = keeps_log ? "" : model->log_path;
+  std::string failure = model->log.failure();
+  if (failure.empty() && model->log.has_overrun())
+    failure = "the log '" + model->log_path + "' lacks what was done last: it could not be written as fast as that";
+  const std::string log = keeps_log ? "" : model->log_path;
   delete model;
   if (!log.empty())
     std::remove(log.c_str());
@@ -93,8 +100,6 @@ std::string destroy(Model* model, bool keeps_log) {
 }
 
 std::string write_copy(const Save& saved, const std::string& path) {
-  if (!saved.copy.is_whole())
-    throw Error("the copy of the mesh, which was to be saved as '" + path + "', has no room for all of it; save again");
   const Mesh mesh = saved.mesh();
   std::string lost = examples::write_mesh(path, mesh);
   for (const std::string& word : attributes_not_held(mesh, *mesh_file_format(path)))

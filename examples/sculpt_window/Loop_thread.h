@@ -145,7 +145,7 @@ private:
     status_.vertices = model.mesh.number_of_vertices(), status_.faces = model.mesh.number_of_faces();
     status_.vertex_slots = model.mesh.num_vertices(), status_.face_slots = model.mesh.num_faces();
     status_.edits = model_->edits;
-    status_.log_has_failed = model_->log.has_failed();
+    status_.log_has_failed = model_->log.has_failed() || model_->log.has_overrun();
     status_.dirty_faces = model_->sculptor.visitor().changed.size();
   }
 

@@ -82,6 +82,7 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
       ->check(named);
   app.add_option("--report", options.report, "Where frame and loop times go, as JSON, at the end")->check(named);
   app.add_option("--size", options.size, "Of the window, in pixels")
+      ->expected(2)
       ->type_name("WIDTH HEIGHT")
       ->check(CLI::Range(64, 8192));
   app.add_option("--samples", options.samples,

@@ -137,7 +137,7 @@ struct Sculpting_thread::Parts {
     if (answer.done)
       return false;
     report.text = (answer.edit == Edit_kind::undo ? "nothing is undone: " : "nothing is redone: ") +
-                  std::string(name_of(answer.reason));
+                  (answer.failure[0] != '\0' ? std::string(answer.failure.data()) : name_of(answer.reason));
     return true;
   }
 };
@@ -218,7 +218,11 @@ void Sculpting_thread::copy() {
   auto task = std::make_shared<Save>(v + ticks, f + 2 * ticks);
   parts_->ask(task, [weak = std::weak_ptr<Save>(task)](const Save& done, Report& report) {
     report.kind = Report::Kind::copied, report.edits = done.edits;
-    report.copy = weak.lock();
+    report.outgrown = !done.copy.is_whole();
+    if (report.outgrown)
+      report.text = "the mesh has grown meanwhile; save again";
+    else
+      report.copy = weak.lock();
     return true;
   });
 }

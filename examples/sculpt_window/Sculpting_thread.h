@@ -22,6 +22,7 @@ struct Report {
   std::string text;
   Model* model = nullptr;
   Saved_copy copy;         ///< none where it failed: the text says why
+  bool outgrown = false;   ///< copied: the mesh has grown beyond the room that was made for it
   std::uint64_t edits = 0; ///< copied: Status::edits of that moment
 };
 
@@ -84,6 +85,8 @@ struct Opened {
 /// Takes its time. \param log the path of an edit log that is replayed if it exists; empty: none
 /// \throw what reading meshes and logs throws
 Opened open(const std::string& path, const std::string& log);
+/// Ticks that changed it.
+std::uint64_t number_of_edits(const Model& model);
 /// Ends the log of a model, too. \param keeps_log false: the log is removed
 /// \return why the log does not hold all; empty if it does
 std::string destroy(Model* model, bool keeps_log);

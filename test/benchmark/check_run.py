@@ -287,6 +287,10 @@ def own_meshes(out, folder):
     expect("tetrahedron.off" in page, "the page does not list the mesh that is accepted")
     repaired = run(out, "drags_and_edits", "--meshes", str(meshes), "--repair")
     expect(repaired.returncode == 0 and "open.off, repaired" in (out / "index.html").read_text() and "cut.off" in (out / "index.html").read_text(), f"a mesh that is repaired: exit {repaired.returncode}, {repaired.stderr}")
+    robustness = [str(BUILD / "benchmark/robustness"), "--meshes", str(meshes), "--drags", "3", "--drags-on-large", "1", "--edits", "3", "--edits-on-large", "1", "--extreme", "0"]
+    for refuse, code in ((["cut.off", "open.off"], 0), (["cut.off"], 14), (["cut.off", "open.off", "tetrahedron.off"], 13)):
+        told = subprocess.run([*robustness, "--refuse", *refuse], capture_output=True, text=True)
+        expect(told.returncode == code, f"told to refuse {refuse}: exit {told.returncode}, not {code}: {told.stderr}")
 
 
 PLANTED_ROBUSTNESS = """#!/usr/bin/python3

@@ -12,6 +12,18 @@ using namespace exchange_tests;
 
 namespace {
 
+BOOST_AUTO_TEST_CASE(a_vertex_that_is_not_there_is_not_taken_and_begins_no_step) {
+  Tool_bench bench;
+  BOOST_CHECK_THROW(bench.tool.take(Mesh::Vertex_index(100000)), Unknown_vertex);
+  for (const std::uint32_t v : {3, 5}) // each a step of its own
+    bench.tool.edit_by([&](auto& edits) {
+      return edits.move_if_free(Mesh::Vertex_index(v),
+                                internal::point_of<Mesh::Point>(1.01 * bench.place(Mesh::Vertex_index(v))));
+    });
+  BOOST_TEST(bench.scene->sculptor.history().number_of_undo_steps() == 2u);
+  BOOST_TEST(bench.is_made_again());
+}
+
 // A Sculptor has one hand, and whoever has it may use it beside the tool.
 BOOST_AUTO_TEST_CASE(a_vertex_that_somebody_else_takes_or_removes_is_let_go_of_without_a_force) {
   for (const std::string how : {"taken", "removed", "undone"})

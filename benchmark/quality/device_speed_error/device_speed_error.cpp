@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Speed against error of the device's kinematics and dynamics, for four number types and for simpler models: ns per
 // call beside the error against 60 digits.
-#include "Shard.h"
+#include "Benchmark_program.h"
 #include "device/Mpfr_scalar.h"
 #include "device/populations.h"
 #include "device_speed_error/measure.h"
 
 #include <CLI/CLI.hpp>
 
-#include <fstream>
 #include <iostream>
 
 namespace {
@@ -42,43 +41,32 @@ int main(int argument_count, char** arguments) {
   CLI::App app(
       "Speed against error of the device's kinematics and dynamics for float, double, long double and MPFR numbers, "
       "and of simpler models");
-  std::string path;
   unsigned seed = 1;
   int count = 4096;
-  app.add_option("--json", path, "write the results here");
   app.add_option("--seed", seed, "of the random configurations");
   app.add_option("--count", count, "configurations")->check(CLI::PositiveNumber);
-  Shard shard;
-  shard.add_option(app, "number type, or all models, and population");
-  CLI11_PARSE(app, argument_count, arguments);
-  json rows = json::array(), models = json::array();
-  for (bool along_a_path : {true, false}) {
-    const Population p = make_population(seed, count, along_a_path);
-    Population few = p;
-    few.theta.resize(std::min<std::size_t>(few.theta.size(), 64));
-    const auto unit = [&](const auto& work) {
-      const std::size_t first = rows.size(), first_model = models.size(), number = shard.next_unit();
-      if (shard.takes_next())
-        work();
-      for (std::size_t k = first; k < rows.size(); ++k)
-        rows[k]["unit"] = number;
-      for (std::size_t k = first_model; k < models.size(); ++k)
-        models[k]["unit"] = number;
-    };
-    unit([&] { measure<float>("float", p, 500, 15, rows); });
-    unit([&] { measure<double>("double", p, 500, 15, rows); });
-    unit([&] { measure<long double>("long double", p, 500, 5, rows); });
-    unit([&] { measure<Mpfr<34>>("MPFR 34", few, 64, 2, rows); });
-    unit([&] { measure_models(p, 500, 15, models); });
-  }
-  if (!path.empty()) {
-    std::ofstream file(path);
-    const json report = {{"seed", seed},    {"shard", shard.text()}, {"count", count},
-                         {"design", "D1"}, {"rows", rows},           {"models", models}};
-    file << report.dump(1) << '\n';
-    if (!file) {
-      std::cerr << "cannot write " << path << '\n';
-      return 1;
+  Benchmark_program program("device_speed_error", app, "number type, or all models, and population");
+  return program.run(argument_count, arguments, [&](Promises&) {
+    json rows = json::array(), models = json::array();
+    for (bool along_a_path : {true, false}) {
+      const Population p = make_population(seed, count, along_a_path);
+      Population few = p;
+      few.theta.resize(std::min<std::size_t>(few.theta.size(), 64));
+      const auto unit = [&](const auto& work) {
+        const std::size_t first = rows.size(), first_model = models.size(), number = program.shard.next_unit();
+        if (program.shard.takes_next())
+          work();
+        for (std::size_t k = first; k < rows.size(); ++k)
+          rows[k]["unit"] = number;
+        for (std::size_t k = first_model; k < models.size(); ++k)
+          models[k]["unit"] = number;
+      };
+      unit([&] { measure<float>("float", p, 500, 15, rows); });
+      unit([&] { measure<double>("double", p, 500, 15, rows); });
+      unit([&] { measure<long double>("long double", p, 500, 5, rows); });
+      unit([&] { measure<Mpfr<34>>("MPFR 34", few, 64, 2, rows); });
+      unit([&] { measure_models(p, 500, 15, models); });
     }
-  }
+    return json{{"seed", seed}, {"count", count}, {"design", "D1"}, {"rows", rows}, {"models", models}};
+  });
 }

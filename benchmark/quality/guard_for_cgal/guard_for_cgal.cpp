@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CGAL's functions alone and under the guard: self-intersections, share of the way, quality, time.
-#include "Promises.h"
-#include "Shard.h"
+#include "Benchmark_program.h"
 #include "guard_for_cgal/Comparison.h"
 #include "meshes/thin_walls.h"
 
@@ -9,7 +8,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
 using namespace haptic_sculpt;
@@ -17,8 +15,10 @@ using namespace haptic_sculpt::benchmark;
 
 namespace {
 
+constexpr int not_kept = 10;
+
 struct Options : Settings {
-  std::string folder, large, json;
+  std::string folder, large;
   std::size_t largest = 120000;
   bool no_generated = false, no_functions = false, no_remeshing = false, no_large = false, quick = false;
 };
@@ -69,18 +69,9 @@ void print(const Comparison& c) {
   std::fflush(stdout);
 }
 
-/// After every row: a run over large meshes takes hours. \throw std::runtime_error
-void write(const Json& report, const std::string& path) {
-  if (path.empty())
-    return;
-  std::ofstream out(path);
-  if (!(out << report.dump(1) << '\n'))
-    throw std::runtime_error("cannot write " + path);
-}
-
 } // namespace
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
   CLI::App app("CGAL's functions alone and under the guard: self-intersecting pairs, share of the way, quality, time.");
   Options options;
   app.add_option("--meshes", options.folder, "A folder of .off, .obj, .ply, .stl; beside the generated ones")
@@ -95,72 +86,62 @@ int main(int argc, char** argv) try {
   app.add_option("--only", options.only, "Only functions whose names have this in them");
   app.add_option("--drags-a-vertex", options.drags_a_vertex,
                  "At most, where results are targets; rows that ended so are marked");
-  app.add_option("--json", options.json, "Write all figures here");
   app.add_flag("--no-generated", options.no_generated, "Leave out the generated meshes");
   app.add_flag("--no-functions", options.no_functions, "Leave out the functions that move points");
   app.add_flag("--no-remeshing", options.no_remeshing, "Leave out remeshing");
   app.add_flag("--no-large", options.no_large, "Leave out the large mesh");
-  Shard shard;
-  shard.add_option(app, "mesh, its functions and its remeshing apart");
   app.add_flag("--quick", options.quick, "Small meshes only");
-  CLI11_PARSE(app, argc, argv);
-
-  std::printf("seed %u\n\n| mesh | function | way | pairs alone | pairs guarded | %% of the way | least angle alone / "
-              "guarded | mean least angle "
-              "alone / guarded | Hausdorff alone / guarded | s guarded | time ratio "
-              "|\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-              options.seed);
-  std::vector<Named_mesh> scenes;
-  if (!options.no_generated)
-    scenes = generated(options);
-  if (!options.folder.empty())
-    for (Named_mesh& scene : of_folder(options))
-      scenes.push_back(std::move(scene));
-  Json report = {{"seed", options.seed}, {"shard", shard.text()}, {"comparisons", Json::array()}};
-  std::size_t asked = 0, broken = 0;
-  for (const Named_mesh& scene : scenes) {
-    std::size_t unit = 0;
-    const auto tell = [&](const Comparison& c) {
-      print(c);
-      Json row = {{"unit", unit}};
-      row.update(to_json(c));
-      report["comparisons"].push_back(row);
-      ++asked, broken += !c.is_kept();
-      write(report, options.json);
-    };
-    const auto takes_next = [&] { return unit = shard.next_unit(), shard.takes_next(); };
-    try {
-      if (!has_areas(scene.mesh))
-        std::fprintf(stderr, "%s: areas too large or too small for CGAL's functions; remeshed under the guard alone\n",
-                     scene.name.c_str());
-      else if (!options.no_functions && takes_next())
-        compare_functions(scene, options, tell);
-      if (!options.no_remeshing && takes_next())
-        compare_remeshing(scene, options, tell);
-    } catch (const Invalid_surface& error) {
-      std::fprintf(stderr, "%s: left out: %s\n", scene.name.c_str(), error.what());
+  Benchmark_program program("guard_for_cgal", app, "mesh, its functions and its remeshing apart");
+  return program.run(argc, argv, [&](Promises& promises) {
+    std::printf(
+        "seed %u\n\n| mesh | function | way | pairs alone | pairs guarded | %% of the way | least angle alone / "
+        "guarded | mean least angle "
+        "alone / guarded | Hausdorff alone / guarded | s guarded | time ratio "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+        options.seed);
+    std::vector<Named_mesh> scenes;
+    if (!options.no_generated)
+      scenes = generated(options);
+    if (!options.folder.empty())
+      for (Named_mesh& scene : of_folder(options))
+        scenes.push_back(std::move(scene));
+    Json report = {{"seed", options.seed}, {"comparisons", Json::array()}};
+    std::size_t asked = 0, broken = 0;
+    for (const Named_mesh& scene : scenes) {
+      std::size_t unit = 0;
+      const auto tell = [&](const Comparison& c) {
+        print(c);
+        Json row = {{"unit", unit}};
+        row.update(to_json(c));
+        report["comparisons"].push_back(row);
+        ++asked, broken += !c.is_kept();
+        program.write(report); // after every row: a run over large meshes takes hours
+      };
+      const auto takes_next = [&] { return unit = program.shard.next_unit(), program.shard.takes_next(); };
+      try {
+        if (!has_areas(scene.mesh))
+          std::fprintf(stderr,
+                       "%s: areas too large or too small for CGAL's functions; remeshed under the guard alone\n",
+                       scene.name.c_str());
+        else if (!options.no_functions && takes_next())
+          compare_functions(scene, options, tell);
+        if (!options.no_remeshing && takes_next())
+          compare_remeshing(scene, options, tell);
+      } catch (const Invalid_surface& error) {
+        std::fprintf(stderr, "%s: left out: %s\n", scene.name.c_str(), error.what());
+      }
     }
-  }
-  if (!options.no_large && shard.takes_next()) {
-    const std::size_t cells = options.quick ? 40 : 516; // 2 x 2 x 516^2 = 1,065,024 triangles
-    Mesh large =
-        options.large.empty() ? meshes::to_mesh(meshes::torus(2 * cells, cells)) : read_surface<Mesh>(options.large);
-    report["large"] = move_all_by_a_tenth(std::move(large), options.seed);
-    std::cout << "\nevery vertex by a tenth of an edge: " << report["large"].dump() << '\n';
-    ++asked, broken += report["large"]["self_intersects"].get<bool>();
-  }
-  Promises promises;
-  promises.add(1, "a guarded run ends with a valid mesh, is undone and redone to the bit, and a right angle arrives",
-               asked, broken);
-  report["promises"] = promises.json();
-  report["exit"] = promises.exit();
-  write(report, options.json);
-  if (promises.exit() != 0)
-    std::cerr << "a guarded run ended with a mesh that is not valid, was not undone or redone to the bit, or a right "
-                 "angle did not "
-                 "arrive\n";
-  return promises.exit();
-} catch (const std::runtime_error& error) {
-  std::cerr << error.what() << '\n';
-  return 5;
+    if (!options.no_large && program.shard.takes_next()) {
+      const std::size_t cells = options.quick ? 40 : 516; // 2 x 2 x 516^2 = 1,065,024 triangles
+      Mesh large =
+          options.large.empty() ? meshes::to_mesh(meshes::torus(2 * cells, cells)) : read_surface<Mesh>(options.large);
+      report["large"] = move_all_by_a_tenth(std::move(large), options.seed);
+      std::cout << "\nevery vertex by a tenth of an edge: " << report["large"].dump() << '\n';
+      ++asked, broken += report["large"]["self_intersects"].get<bool>();
+    }
+    promises.add(not_kept,
+                 "a guarded run ends with a valid mesh, is undone and redone to the bit, and a right angle arrives",
+                 asked, broken);
+    return report;
+  });
 }

@@ -23,7 +23,6 @@ struct Options {
   bool chart = false;
   std::vector<std::string> parts{"activity", "gravity", "rate",   "effects", "alarms",
                                  "dynamics", "damping", "knocks", "passive"};
-  std::string json;
   bool has(const char* part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
 };
 

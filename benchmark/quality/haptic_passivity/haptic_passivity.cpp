@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the haptic loop's promises of passivity, stability and weightlessness are worth, measured in simulation.
-#include "Promises.h"
-#include "Shard.h"
+#include "Benchmark_program.h"
 #include "haptic_passivity/chart.h"
 #include "haptic_passivity/contact_reports.h"
 #include "haptic_passivity/damping_limit.h"
@@ -10,13 +9,12 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <fstream>
 
 using namespace haptic_sculpt::passivity_benchmark;
 
 namespace {
 
-enum Exit_code { done = 0, usage = 2, cannot_write = 5, bound_not_kept = 9 };
+constexpr int bound_not_kept = 9;
 
 /// What is wrong, one sentence each.
 std::vector<std::string> broken_bounds(const Json& report) {
@@ -96,38 +94,27 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--chart", options.chart, "Where activity and instability begin, over tick, delay and damping; minutes");
   app.add_option("--seed", options.seed, "Of everything random")->capture_default_str();
-  haptic_sculpt::benchmark::Shard shard;
-  shard.add_option(app, "part");
-  app.add_option("--json", options.json, "Write the report here");
+  haptic_sculpt::benchmark::Benchmark_program program("haptic_passivity", app, "part");
   app.footer("Exit codes: 0 done, 2 usage, 5 cannot write, 9 a bound is not kept.");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : usage;
-  }
-  Json report = {{"version", 1}, {"seed", options.seed}, {"shard", shard.text()}};
-  const auto part = [&](const char* name, Json (*measure)(const Options&)) {
-    if (options.has(name) && shard.takes_next())
-      report[name] = measure(options);
-    std::fflush(stdout);
-  };
-  part("activity", activity_report), part("gravity", gravity), part("rate", rates), part("effects", effects),
-      part("alarms", alarms), part("dynamics", dynamics_report);
-  part("damping", damping_in_hands), part("knocks", knocks), part("passive", passivity);
-  if (options.chart && shard.takes_next())
-    report["chart"] = chart();
-  const std::vector<std::string> broken = broken_bounds(report);
-  report["broken_bounds"] = broken;
-  haptic_sculpt::benchmark::Promises promises;
-  promises.add(bound_not_kept, "every bound of energy, stability and weight is kept", shard.is_first() ? 1 : 0,
-               broken.size());
-  report["promises"] = promises.json();
-  report["exit"] = promises.exit();
-  for (const std::string& sentence : broken)
-    std::fprintf(stderr, "haptic_passivity: %s\n", sentence.c_str());
-  if (!options.json.empty() && !(std::ofstream(options.json) << report.dump(1) << '\n')) {
-    std::fprintf(stderr, "haptic_passivity: cannot write %s\n", options.json.c_str());
-    return cannot_write;
-  }
-  return broken.empty() ? done : bound_not_kept;
+  return program.run(argc, argv, [&](haptic_sculpt::benchmark::Promises& promises) {
+    auto& shard = program.shard;
+    Json report = {{"version", 1}, {"seed", options.seed}};
+    const auto part = [&](const char* name, Json (*measure)(const Options&)) {
+      if (options.has(name) && shard.takes_next())
+        report[name] = measure(options);
+      std::fflush(stdout);
+    };
+    part("activity", activity_report), part("gravity", gravity), part("rate", rates), part("effects", effects),
+        part("alarms", alarms), part("dynamics", dynamics_report);
+    part("damping", damping_in_hands), part("knocks", knocks), part("passive", passivity);
+    if (options.chart && shard.takes_next())
+      report["chart"] = chart();
+    const std::vector<std::string> broken = broken_bounds(report);
+    report["broken_bounds"] = broken;
+    promises.add(bound_not_kept, "every bound of energy, stability and weight is kept", shard.is_first() ? 1 : 0,
+                 broken.size());
+    for (const std::string& sentence : broken)
+      std::fprintf(stderr, "haptic_passivity: %s\n", sentence.c_str());
+    return report;
+  });
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drags vertices of machine parts and near-degenerate solids, and asks of each end whether a free straight way leads
 // nearer.
+#include "Benchmark_program.h"
 #include "Certified_grabs.h"
-#include "Shard.h"
-#include "end_run.h"
 
 #include <CLI/CLI.hpp>
 
@@ -15,15 +14,14 @@ using namespace haptic_sculpt;
 using namespace haptic_sculpt::benchmark;
 using Json = nlohmann::ordered_json;
 
-enum Exit { all_kept = 0, usage = 2, not_embedded = 10, ends_too_early = 11 };
+enum Exit { not_embedded = 10, ends_too_early = 11 };
 
 struct Options {
-  std::string json, dump, family, off, script;
+  std::string dump, family, off, script;
   std::size_t drags = 10000, drags_per_scene = 40, ways = 1000, dumped_per_family = 20;
   std::uint64_t seed = 1;
   double share_of_parts = 2e-3, share_of_near_degenerate = 2e-2; ///< twice what was measured
   bool is_verbose = false;
-  Shard shard;
 };
 
 Json row(const std::string& name, const End_tally& tally) {
@@ -40,7 +38,7 @@ Json row(const std::string& name, const End_tally& tally) {
   return json;
 }
 
-int run(Options& options) {
+Json run(const Options& options, Shard& shard, Promises& promises) {
   const auto& families = test::part_families();
   Json rows = Json::array();
   End_tally parts, near_degenerate;
@@ -52,7 +50,7 @@ int run(Options& options) {
       End_tally tally;
       std::size_t dumped = 0;
       for (std::size_t done = 0, unit = 0; done < options.drags; done += options.drags_per_scene, ++unit) {
-        if (!options.shard.takes_next())
+        if (!shard.takes_next())
           continue;
         const std::uint64_t seed = ((options.seed * 1000003 + family) * 2 + is_kept_deformed) * 1000003 + unit;
         test::Random random(seed);
@@ -78,7 +76,6 @@ int run(Options& options) {
       rows.back()["unit"] = 2 * family + is_kept_deformed;
     }
   Json totals = Json::array();
-  Promises promises;
   promises.add(not_embedded, "the mesh is embedded", parts.drags + near_degenerate.drags,
                parts.invalid + near_degenerate.invalid);
   for (const auto& [name, tally, share] :
@@ -90,25 +87,20 @@ int run(Options& options) {
       continue;
     totals.push_back(row(name, tally));
   }
-  std::cout << "seed " << options.seed << ", shard " << options.shard.text() << ", exit " << promises.exit() << '\n';
-  return end_run("certify_ends", options.json,
-                 {{"seed", options.seed},
-                  {"shard", options.shard.text()},
-                  {"drags", options.drags},
-                  {"ways", options.ways},
-                  {"families", rows},
-                  {"total", totals}},
-                 promises);
+  std::cout << "seed " << options.seed << ", shard " << shard.text() << ", exit " << promises.exit() << '\n';
+  return {
+      {"seed", options.seed}, {"drags", options.drags}, {"ways", options.ways}, {"families", rows}, {"total", totals}};
 }
 
-Exit replay(const Options& options) {
+Json replay(const Options& options, Promises& promises) {
   const Grab_record record = Grab_record::read(options.off, options.script);
   const End_tally tally = Certified_grabs::replay(
       record, options.seed, options.ways, [](const Grab_record& so_far, const std::string& what) {
         std::cout << "drag " << so_far.targets.size() << ": " << what << '\n';
       });
   std::cout << tally.drags << " drags, " << tally.misses() << " end too early\n";
-  return tally.misses() > 0 ? ends_too_early : all_kept;
+  promises.add(ends_too_early, "no free way leads nearer from where a drag ends", tally.drags, tally.misses());
+  return {{"seed", options.seed}, {"ways", options.ways}, {"total", tally.json()}};
 }
 
 } // namespace
@@ -131,23 +123,16 @@ int main(int argc, char** argv) {
   app.add_option("--near-degenerate", options.share_of_near_degenerate, "The same of the near-degenerate solids")
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
-  options.shard.add_option(app, "scene");
   app.add_option("--dump", options.dump,
                  "Folder for what ends too early: NAME.off and NAME.script, for --replay or `sculpt`");
   app.add_option("--dump-most", options.dumped_per_family, "This many of each family are written")
       ->capture_default_str();
   app.add_flag("--verbose", options.is_verbose, "Tell of every end that is too early");
-  app.add_option("--json", options.json, "Where the report goes");
   auto* replayed =
       app.add_option("--replay", options.off, "NAME.off of a case written by --dump: makes its drags again");
   app.add_option("--script", options.script, "NAME.script of it")->needs(replayed);
-  try {
-    app.parse(argc, argv);
-    return options.off.empty() ? run(options) : replay(options);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : usage;
-  } catch (const Error& error) {
-    std::cerr << "certify_ends: " << error.what() << '\n';
-    return usage;
-  }
+  Benchmark_program program("certify_ends", app, "scene");
+  return program.run(argc, argv, [&](Promises& promises) {
+    return options.off.empty() ? run(options, program.shard, promises) : replay(options, promises);
+  });
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Benchmark_program.h"
 #include "Compared_batches.h"
 #include "Extreme_batch.h"
-#include "Shard.h"
 #include "broad_phases.h"
-#include "end_run.h"
 
 #include <haptic_sculpt/sculpting/paper_1997.h>
 #include <haptic_sculpt/surface.h>
@@ -22,12 +21,11 @@
 namespace haptic_sculpt::robustness {
 
 enum Exit {
-  all_kept = 0,
-  usage = 2,
   not_embedded = 10,     ///< validate() found a fault after drags or edits
   lazy_short = 11,       ///< fewer than 95 % of the short random drags arrived
   lazy_long = 12,        ///< a push through the object stayed at its start though it had more than two clearances to go
   wrongly_accepted = 13, ///< a mesh that has to be refused was not
+  wrongly_refused = 14,  ///< a mesh that has to be accepted was refused
   mesh_changed = 15,     ///< a vertex that was not in hand has moved
   undo_differs = 16,     ///< undoing everything did not give back the input, bit for bit
   redo_differs = 17,     ///< redoing everything did not give back the end, bit for bit
@@ -41,14 +39,13 @@ enum Exit {
 };
 
 struct Options {
-  std::string folder, json, dump, response = "slide", motion = "odd";
+  std::string folder, dump, response = "slide", motion = "odd";
   std::size_t drags = 10000, drags_on_large = 1000, edits = 5000, edits_on_large = 100, extreme = 0, batch = 1000,
               edit_batch = 5000, least_faces = 0;
   std::uint64_t seed = 1;
   std::vector<std::string> refuse, broad_phases = {"box_tree"};
   std::vector<double> clearances = {0}; ///< shares of the extent of a mesh; 0: the default of the library
   bool has_hard_meshes = false, repairs = false, dumps_all = false;
-  benchmark::Shard shard;
 };
 
 /// Faces and valence: from here on drags_on_large and edits_on_large, and one validation a batch.
@@ -64,9 +61,9 @@ inline bool is_large(const Mesh& mesh) {
 /// All batches on all meshes, or a shard of them; sums them up.
 class Run {
 public:
-  explicit Run(const Options& options)
+  Run(const Options& options, const benchmark::Shard& shard)
       : options_(options)
-      , shard_(options.shard)
+      , shard_(shard)
       , response_(*response_named(options.response, {Response::paper()}))
       , batches_(broad_phases_named(options.broad_phases), options.dump,
                  options.dumps_all ? Keep::all : Keep::what_fails) {}
@@ -110,8 +107,9 @@ public:
     std::cout << name << ": extreme: " << tally.json().dump() << '\n' << std::flush;
   }
 
-  /// Files that cannot be read are listed as refused ones are: one of them is no reason to lose the others. Nothing is
-  /// said against a refusal: whether a mesh of the user's is embedded is known by the same validation alone.
+  /// Files that cannot be read are listed as refused ones are: one of them is no reason to lose the others. Where
+  /// `--refuse` says which have to be refused the others have to be accepted; else nobody but the validation that is
+  /// tried knows which are embedded.
   void folder() {
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(options_.folder))
@@ -129,38 +127,36 @@ public:
         continue;
       std::cout << name << ": refused: " << reason << '\n';
       const bool is_repaired = options_.repairs && repaired(name, file);
+      wrongly_refused_ += !options_.refuse.empty() && !has_to_be_refused && !is_repaired;
       refused_.push_back(
           {{"file", name}, {"has_to_be", has_to_be_refused}, {"repaired", is_repaired}, {"reason", reason}});
     }
   }
 
-  int finish() const {
-    const benchmark::Promises promises = kept_promises();
-    const int exit = promises.exit();
+  Json finish(benchmark::Promises& promises) const {
+    add_promises(promises);
     std::cout << "in all " << drags_.drags << " drags and " << edits_.edits << " mixed edits, "
               << extremes_.drags + extremes_.refused << " extreme drags, response " << options_.response << ", motion "
-              << options_.motion << ", " << all_counts_.compared << " batches compared, "
-              << all_counts_.other_bits << " with other bits, seed " << options_.seed << ", exit " << exit << '\n';
+              << options_.motion << ", " << all_counts_.compared << " batches compared, " << all_counts_.other_bits
+              << " with other bits, seed " << options_.seed << ", exit " << promises.exit() << '\n';
     for (const auto& [kind, counts] : edits_.rows) {
       std::cout << "  " << kind << ": " << counts.asked << " asked, " << counts.done << " done";
       for (const auto& [reason, count] : counts.refused)
         std::cout << ", " << count << ' ' << reason;
       std::cout << '\n';
     }
-    return benchmark::end_run("robustness", options_.json,
-                   {{"seed", options_.seed},
-                    {"shard", shard_.text()},
-                    {"response", options_.response},
-                    {"motion", options_.motion},
-                    {"broad_phases", joined(options_.broad_phases)},
-                    {"clearances", joined(texts_of_clearances())},
-                    {"meshes", rows_},
-                    {"total", drags_.json()},
-                    {"total_of_edits", edits_.json()},
-                    {"total_of_extreme_drags", extremes_.json()},
-                    {"wrongly_accepted", shard_.is_first() ? wrongly_accepted_ : 0}, // once, for all shares
-                    {"refused", refused_}},
-                   promises);
+    return {{"seed", options_.seed},
+            {"response", options_.response},
+            {"motion", options_.motion},
+            {"broad_phases", joined(options_.broad_phases)},
+            {"clearances", joined(texts_of_clearances())},
+            {"meshes", rows_},
+            {"total", drags_.json()},
+            {"total_of_edits", edits_.json()},
+            {"total_of_extreme_drags", extremes_.json()},
+            {"wrongly_accepted", shard_.is_first() ? wrongly_accepted_ : 0}, // once, for all shares
+            {"wrongly_refused", shard_.is_first() ? wrongly_refused_ : 0},
+            {"refused", refused_}};
   }
 
 private:
@@ -194,7 +190,7 @@ private:
   Options options_;
   benchmark::Shard shard_;
   Response response_;
-  std::size_t files_read_ = 0, wrongly_accepted_ = 0;
+  std::size_t files_read_ = 0, wrongly_accepted_ = 0, wrongly_refused_ = 0;
   Compared_batches batches_;
   Compared_batches::Counts counts_, all_counts_; ///< of the mesh at hand; of all
   bool is_held_with_reason_ = false; ///< of the mesh at hand
@@ -280,8 +276,7 @@ private:
     return true;
   }
 
-  benchmark::Promises kept_promises() const {
-    benchmark::Promises promises;
+  void add_promises(benchmark::Promises& promises) const {
     const std::size_t drags = drags_.drags, extremes = extremes_.drags + extremes_.refused;
     const std::size_t files = shard_.is_first() ? files_read_ : 0; // every share reads all
     promises.add(not_embedded, "the mesh is embedded", drags_.validations + edits_.validations + extremes_.drags,
@@ -302,6 +297,8 @@ private:
     promises.add(redo_differs, "redone, all is as it was, bit for bit", edits_.edits, edits_.redo_differs);
     promises.add(wrongly_accepted, "what has to be refused is refused", files,
                  shard_.is_first() ? wrongly_accepted_ : 0);
+    promises.add(wrongly_refused, "what has to be accepted is accepted", options_.refuse.empty() ? 0 : files,
+                 shard_.is_first() ? wrongly_refused_ : 0);
     // Where parts of a star are a few ulps apart, a way to a rounded place just before the contact may be blocked. A
     // slide looks on from there, the others stay.
     promises.add(lazy_long, "a push through the object comes near the contact", drags_.through_asked,
@@ -310,7 +307,6 @@ private:
                  drags_.short_asked - drags_.short_arrived, 0.05);
     promises.add(lazy_creation, "feasible creations are made", edits_.feasible_creations(),
                  edits_.creations_wrongly_refused, 0.01);
-    return promises;
   }
 };
 

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
       "embedded, 11 fewer than 95 % of "
       "the short "
       "drags arrived, 12 a push through the object did not move without reason, 13 a mesh that has to be refused "
-      "was accepted, 15 an element not in hand has changed, 16 undoing "
+      "was accepted, 14 one was refused where --refuse names others, 15 an element not in hand has changed, 16 undoing "
       "everything does not give back the input, 17 redoing everything does not give back the end, 18 more than 1 % of "
       "the "
       "feasible creations were refused, 19 a creation was accepted that crosses or jumps over a part of the surface, "
@@ -27,7 +27,8 @@ int main(int argc, char** argv) {
                  "Folder of meshes to work on before the generated ones; what cannot be read, or is refused, is listed")
       ->check(CLI::ExistingDirectory);
   app.add_flag("--repair", options.repairs, "Files of the folder that are refused are repaired, and worked on then");
-  app.add_option("--refuse", options.refuse, "File names in the folder that have to be refused");
+  app.add_option("--refuse", options.refuse,
+                 "File names in the folder that have to be refused; the others have to be accepted then");
   app.add_option("--drags", options.drags, "Drags on each mesh")->capture_default_str();
   app.add_option("--drags-on-large", options.drags_on_large,
                  "Drags on meshes of 200,000 faces or valence 4,000 or more")
@@ -74,15 +75,9 @@ int main(int argc, char** argv) {
                  "replayed to the bit; of mixed edits, where a vertex stays in hand meanwhile, most are");
   app.add_flag("--dump-all", options.dumps_all,
                "All batches are written there, and what has become of the mesh, NAME.end.off");
-  options.shard.add_option(app, "batch");
-  app.add_option("--json", options.json, "Where the report goes");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : robustness::usage;
-  }
-  try {
-    robustness::Run run(options);
+  benchmark::Benchmark_program program("robustness", app, "batch");
+  return program.run(argc, argv, [&](benchmark::Promises& promises) {
+    robustness::Run run(options, program.shard);
     if (!options.folder.empty())
       run.folder(); // first: one hears of its files before hours of the others
     for (const auto& [name, mesh] : robustness::robustness_meshes())
@@ -92,9 +87,6 @@ int main(int argc, char** argv) {
         run.mesh(name, mesh, true);
     for (const auto& small : robustness::small_meshes())
       run.extreme(small.name, small.mesh, small.share);
-    return run.finish();
-  } catch (const Error& error) {
-    std::cerr << "robustness: " << error.what() << '\n';
-    return robustness::usage;
-  }
+    return run.finish(promises);
+  });
 }

@@ -99,7 +99,12 @@ public:
   void take(Vertex_index v) {
     const internal::Rounding_to_nearest rounding;
     begin_stroke();
-    hold(v);
+    try {
+      hold(v);
+    } catch (...) { // no stroke without a vertex
+      let_go();
+      throw;
+    }
   }
   /// Makes a creation and takes the vertex, both in one stroke. \pre its kind is one of the creations
   Edited create_and_take(const Edit& wanted) {

@@ -13,8 +13,8 @@ namespace haptic_sculpt {
 /// It has the potential min over all vertices of u(distance), whose second derivatives are at most stiffness(): a force
 /// that is held for a tick gives at most half of that times the square of the handle's step, as a spring of that
 /// stiffness does. So it counts as one where limits of passivity are checked. To take a vertex in hand, and to let go
-/// of it, switches it off and on, and may give energy(). A loop allows for
-/// that once: without a controller (`controller_damping` 0) a second time may be its fault `energy`.
+/// of it, switches it off and on, and may give energy(). A loop allows for that once: without a controller
+/// (`controller_damping` 0) a second time may be its fault `energy`.
 struct Vertex_snap {
   static constexpr double least_length = 1e-5; ///< m, unless it is 0: below it are the counts of encoders
   double length = 0;                           ///< m; 0: no snap

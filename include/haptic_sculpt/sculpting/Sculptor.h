@@ -130,8 +130,8 @@ public:
   Vertex_index nearest_vertex(const Point& p, double within) { return guarded_.nearest_vertex(p, within); }
 
   /// Whether the normals of v's component point into the solid (doc/use/validity.md). \throw Unknown_vertex,
-  /// Mesh_changed. Cost: constant, but n log n when it is asked for the first time, and after edits where components
-  /// differ.
+  /// Mesh_changed. Cost: constant, but n log n when it is asked for the first time, after edits where components
+  /// differ, and each time in the midst of another call.
   bool is_inside_out(Vertex_index v) { return guarded_.is_inside_out(v); }
 
   /// What of the surface the closed segment from `source` to `target` meets first: a vertex, or the inside of an edge

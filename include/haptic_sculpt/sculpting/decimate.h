@@ -146,14 +146,17 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
       sculptor.move_if_free(kept, before, unbounded);
     };
     const Vertex_index dying = mesh.source(h);
-    if (!sculptor.move_if_free(kept, p))
-      return false;
     try {
+      if (!sculptor.move_if_free(kept, p))
+        return false;
       if (sculptor.collapse(h))
         return true;
-    } catch (...) { // the visitor's
-      if (!mesh.is_removed(dying))
-        go_back();
+    } catch (...) { // a visitor's, or memory's
+      try {
+        if (!mesh.is_removed(dying) && mesh.point(kept) != before)
+          go_back();
+      } catch (...) { // the first one counts
+      }
       throw;
     }
     go_back();

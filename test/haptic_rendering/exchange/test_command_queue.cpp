@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tasks: what another thread has the loop's do between two ticks. All in one thread, so each tick is known.
-#include "haptic_rendering/exchange/Threads.h"
-#include "haptic_rendering/exchange/made_again.h"
+#include "haptic_rendering/exchange/Queue_bench.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -13,48 +12,6 @@ using namespace haptic_sculpt;
 using namespace exchange_tests;
 
 namespace {
-
-using Command = Loop_command<Scene>;
-
-/// Is done after this many calls.
-struct Counting : Loop_task<Scene> {
-  int calls = 0, most;
-  Scene* seen = nullptr;
-  explicit Counting(int most) : most(most) {}
-  bool go_on(Scene& scene, Tool_type&) override {
-    seen = &scene;
-    return ++calls >= most;
-  }
-};
-
-struct Queue {
-  std::unique_ptr<Scene> scene = scene_of(2), other = scene_of(1);
-  Command_queue<Scene> queue{64};
-  Edit_journal journal{1000}, journal_of_other{1000};
-  Loop loop{scene->sculptor, scene->map, parameters_of_tests()};
-  Session session;
-  explicit Queue(bool keeps_journal = false)
-      : session(loop, *scene, &queue, nullptr, keeps_journal ? &journal : nullptr) {}
-
-  void ask(Command::Kind kind, std::uint64_t ticket, Loop_task<Scene>* task = nullptr) {
-    Command command;
-    command.kind = kind, command.ticket = ticket, command.task = task;
-    if (kind == Command::Kind::enter)
-      command.scene = other.get();
-    BOOST_TEST(queue.ask(command));
-  }
-  void tick() { session.tick(reading_at(session.ticks())); }
-  /// The tickets of what is answered by now.
-  std::vector<std::uint64_t> answers() {
-    std::vector<std::uint64_t> tickets;
-    for (Loop_answer<Scene> answer; queue.take(answer); tickets.push_back(answer.ticket))
-      last = answer;
-    return tickets;
-  }
-  Loop_answer<Scene> last;
-};
-
-using Tickets = std::vector<std::uint64_t>;
 
 // Each answer finds room: as much is asked for as has not been answered and taken.
 BOOST_AUTO_TEST_CASE(a_full_queue_takes_nothing_until_an_answer_is_taken) {
@@ -103,138 +60,6 @@ BOOST_AUTO_TEST_CASE(tasks_go_on_once_a_tick_beside_what_is_asked_for_later) {
   BOOST_TEST((three.calls == 3 && two.calls == 2 && at_once.calls == 1));
 }
 
-BOOST_AUTO_TEST_CASE(another_scene_is_entered_once_no_task_is_under_way_and_with_a_journal_of_its_own) {
-  Queue d(true);
-  Counting three(3), later(1);
-  d.ask(Command::Kind::task, 1, &three);
-  d.ask(Command::Kind::enter, 2); // without a journal: refused
-  for (int k = 0; k < 4; ++k)
-    d.tick();
-  BOOST_TEST((d.answers() == Tickets{1, 2}));
-  BOOST_TEST(!d.last.done);
-  BOOST_TEST(d.last.left == d.other.get());
-  while (!d.loop.tool().holds_vertex())
-    d.tick();
-  Counting two(2);
-  d.ask(Command::Kind::task, 3, &two);
-  Command enter;
-  enter.kind = Command::Kind::enter, enter.ticket = 4, enter.scene = d.other.get(), enter.journal = &d.journal_of_other;
-  BOOST_TEST(d.queue.ask(enter));
-  d.ask(Command::Kind::task, 5, &later);
-  for (int k = 0; k < 4; ++k)
-    d.tick();
-  BOOST_TEST((d.answers() == Tickets{3, 4, 5}));
-  BOOST_TEST((two.seen == d.scene.get() && later.seen == d.other.get()));
-  BOOST_TEST(d.session.journal() == &d.journal_of_other);
-  Edit entry, last_edit;
-  while (d.journal.take(entry))
-    if (entry.kind != Edit_kind::none)
-      last_edit = entry;
-  BOOST_TEST((last_edit.kind == Edit_kind::end)); // what was held in the old scene, ends there
-  BOOST_TEST((entry.kind == Edit_kind::none));
-  BOOST_TEST(!d.journal_of_other.take(entry));
-}
-
-BOOST_AUTO_TEST_CASE(a_session_that_ends_answers_what_is_under_way_and_leaves_the_rest_to_the_next) {
-  for (const bool is_told : {true, false}) {
-    Queue d;
-    std::optional<Session> session;
-    session.emplace(d.loop, *d.scene, &d.queue, nullptr, nullptr);
-    Counting endless(1 << 30);
-    d.ask(Command::Kind::task, 1, &endless);
-    d.ask(Command::Kind::enter, 2);
-    d.ask(Command::Kind::let_go, 3);
-    for (int k = 0; k < 5; ++k)
-      session->tick(reading_at(session->ticks()));
-    BOOST_TEST(d.answers().empty());
-    if (is_told)
-      session->end();
-    session.reset();
-    Loop_answer<Scene> answer;
-    BOOST_TEST((d.queue.take(answer) && answer.ticket == 1u && !answer.done && answer.task == &endless));
-    BOOST_TEST((d.queue.take(answer) && answer.ticket == 2u && !answer.done && answer.left == d.other.get()));
-    BOOST_TEST(std::string(answer.failure.data()) == "the session has ended");
-    BOOST_TEST(!d.queue.take(answer));
-    d.tick();
-    BOOST_TEST((d.answers() == Tickets{3}));
-    BOOST_TEST(d.last.done);
-    BOOST_TEST(d.queue.waiting() == 0u);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(the_scene_that_is_sculpted_cannot_be_entered_and_is_not_given_back) {
-  Queue d;
-  Command enter;
-  enter.kind = Command::Kind::enter, enter.scene = d.scene.get();
-  BOOST_TEST(d.queue.ask(enter));
-  d.tick();
-  BOOST_TEST(d.answers().size() == 1u);
-  BOOST_TEST((!d.last.done && d.last.left == nullptr && d.last.failure[0] != 0));
-  BOOST_TEST(&d.session.scene() == d.scene.get());
-}
-
-BOOST_AUTO_TEST_CASE(a_viewer_is_passed_all_of_a_scene_that_is_entered_again) {
-  Queue d;
-  Scene_feed feed;
-  Session session(d.loop, *d.scene, &d.queue, &feed, nullptr);
-  std::map<std::uint32_t, Face_change> shown;
-  std::uint32_t scene = 0;
-  const auto run = [&] {
-    for (int k = 0; k < 40; ++k)
-      session.tick(reading_at(session.ticks()));
-    for (Face_change face; feed.take(face);)
-      show(face, shown, scene);
-    BOOST_TEST((surface_of(shown) == surface_of(session.scene())));
-  };
-  run();
-  BOOST_REQUIRE(static_cast<bool>(d.scene->sculptor.remove(*d.scene->mesh.vertices_begin())));
-  run();
-  for (std::uint32_t k = 1; k <= 4; ++k) {
-    Command enter;
-    enter.kind = Command::Kind::enter, enter.scene = k % 2 == 1 ? d.other.get() : d.scene.get();
-    BOOST_TEST(d.queue.ask(enter));
-    run();
-    BOOST_TEST(scene == k);
-  }
-}
-
-// A log holds what its journal says: an undo must not go back beyond it.
-BOOST_AUTO_TEST_CASE(a_journal_that_begins_where_nothing_can_be_undone_is_made_again) {
-  Queue d;
-  Command move, undo;
-  move.kind = undo.kind = Command::Kind::edit;
-  undo.edit = Edit::of(Edit_kind::undo);
-  const auto v = *d.scene->mesh.vertices_begin();
-  const auto p = d.scene->mesh.point(v);
-  move.edit = Edit::of(Edit_kind::move, {d.scene->sculptor.id(v), 0, 0}, {1.3 * p.x(), 1.3 * p.y(), 1.3 * p.z()});
-  BOOST_TEST(d.queue.ask(move));
-  d.tick();
-  d.loop.tool().take(v); // the session begins while something is in hand
-  BOOST_TEST(d.answers().size() == 1u);
-  BOOST_TEST(d.scene->sculptor.history().number_of_undo_steps() == 1u);
-  d.scene->sculptor.forget_history();
-  BOOST_TEST(d.scene->sculptor.history().number_of_undo_steps() == 0u);
-  const Mesh begin = d.scene->mesh;
-  std::vector<Edit> entries;
-  {
-    Session session(d.loop, *d.scene, &d.queue, nullptr, &d.journal);
-    BOOST_TEST(!d.loop.tool().holds_vertex());
-    for (const bool can_be : {false, true}) {
-      move.edit.point = {p.x(), p.y(), p.z()}; // back
-      if (can_be)
-        BOOST_TEST(d.queue.ask(move));
-      BOOST_TEST(d.queue.ask(undo));
-      session.tick(reading_at(0)), session.tick(reading_at(1));
-      d.answers();
-      BOOST_TEST(d.last.done == can_be);
-    }
-    session.end();
-  }
-  for (Edit entry; d.journal.take(entry);)
-    entries.push_back(entry);
-  BOOST_TEST((made_again(begin, entries) == surface_of(*d.scene)));
-}
-
 BOOST_AUTO_TEST_CASE(copies_are_made_one_after_the_other) {
   Queue d;
   Copy_task<Scene> first(4000, 8000), second(4000, 8000), small(10, 8000);
@@ -248,39 +73,6 @@ BOOST_AUTO_TEST_CASE(copies_are_made_one_after_the_other) {
   BOOST_TEST((surface_of(second.copy) == surface_of(*d.scene)));
 }
 
-// Whoever asked may destroy it, and edits go on.
-BOOST_AUTO_TEST_CASE(a_copy_under_way_is_told_nothing_any_more_once_its_session_has_ended) {
-  Queue d;
-  auto copying = std::make_unique<Copy_task<Scene>>(4000, 8000);
-  copying->copy.begin();
-  d.scene->sculptor.visitor().tell_to(&copying->copy); // as in the midst of a large mesh
-  d.session.end();
-  BOOST_TEST(d.scene->sculptor.visitor().copy() == nullptr);
-  copying.reset();
-  BOOST_TEST(static_cast<bool>(d.scene->sculptor.remove(*d.scene->mesh.vertices_begin())));
-  Session next(d.loop, *d.scene, &d.queue, nullptr, nullptr);
-  Copy_task<Scene> again(4000, 8000);
-  d.ask(Command::Kind::task, 1, &again);
-  for (int k = 0; k < 20; ++k)
-    next.tick(reading_at(next.ticks()));
-  BOOST_TEST((d.answers() == Tickets{1}));
-}
-
-BOOST_AUTO_TEST_CASE(a_viewer_of_another_session_is_passed_all_faces) {
-  Queue d;
-  for (int round = 0; round < 2; ++round) {
-    Scene_feed feed;
-    Session session(d.loop, *d.scene, &d.queue, &feed, nullptr);
-    for (int k = 0; k < 40; ++k)
-      session.tick(reading_at(session.ticks()));
-    std::map<std::uint32_t, Face_change> shown;
-    std::uint32_t scene = 0;
-    for (Face_change face; feed.take(face);)
-      show(face, shown, scene);
-    BOOST_TEST((surface_of(shown) == surface_of(*d.scene)));
-  }
-}
-
 BOOST_AUTO_TEST_CASE(a_command_that_lacks_what_it_is_about_is_answered) {
   Queue d;
   Command enter;
@@ -291,17 +83,6 @@ BOOST_AUTO_TEST_CASE(a_command_that_lacks_what_it_is_about_is_answered) {
     d.tick();
   BOOST_TEST((d.answers() == Tickets{0, 1}));
   BOOST_TEST((!d.last.done && d.last.failure[0] != 0));
-}
-
-BOOST_AUTO_TEST_CASE(a_journal_that_nobody_writes_ends_the_run) {
-  Queue d(true);
-  d.loop.tool().take(*d.scene->mesh.vertices_begin());
-  for (int k = 0; k < 1100 && d.loop.interaction().fault() == Loop_fault::none; ++k)
-    d.tick();
-  BOOST_TEST(d.journal.has_overrun());
-  BOOST_TEST((d.loop.interaction().fault() == Loop_fault::log));
-  d.tick();
-  BOOST_TEST(!d.loop.tool().holds_vertex());
 }
 
 BOOST_AUTO_TEST_CASE(clutch_and_zoom_are_asked_for_by_another_thread) {

@@ -72,7 +72,7 @@ struct Throwing_visitor : Default_edit_visitor {
 
 // What stands then is in no journal: what comes after it cannot be made again.
 BOOST_AUTO_TEST_CASE(a_journal_breaks_off_where_an_edit_stands_that_it_was_not_told) {
-  for (const std::string what : {"drag", "move if free", "move", "creation", "flip", "nothing"})
+  for (const std::string what : {"drag", "move if free", "move", "shift", "creation", "flip", "nothing"})
     BOOST_TEST_CONTEXT(what) {
       Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
       Throwing_visitor visitor;
@@ -83,7 +83,9 @@ BOOST_AUTO_TEST_CASE(a_journal_breaks_off_where_an_edit_stands_that_it_was_not_t
       const Mesh::Vertex_index v(17);
       const Mesh::Point p = mesh.point(v), target(1.1 * p.x(), 1.1 * p.y(), 1.1 * p.z()), far(1e305, 0, 0);
       const auto e = *mesh.edges_begin();
-      const Surface before = surface_of(mesh, sculptor);
+      const auto stroke = sculptor.stroke();
+      BOOST_TEST(edits.move_if_free(Mesh::Vertex_index(18), mesh.point(Mesh::Vertex_index(18)) + (target - p) / 100));
+      const Surface before = surface_of(mesh, sculptor); // the next edit makes no step of its own
       *visitor.throws = true;
       const auto edit = [&] {
         if (what == "drag")
@@ -92,7 +94,11 @@ BOOST_AUTO_TEST_CASE(a_journal_breaks_off_where_an_edit_stands_that_it_was_not_t
           edits.move_if_free(v, target);
         else if (what == "move")
           edits.make(Edit::of(Edit_kind::move, {sculptor.id(v), 0, 0}, {target.x(), target.y(), target.z()}));
-        else if (what == "creation")
+        else if (what == "shift") {
+          Edit wanted = Edit::of(Edit_kind::shift);
+          wanted.axis = 0, wanted.ways = {{sculptor.id(v), target.x()}};
+          edits.make(wanted);
+        } else if (what == "creation")
           edits.insert_on_edge(e, CGAL::midpoint(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
         else if (what == "flip")
           edits.flip(e);
@@ -105,6 +111,20 @@ BOOST_AUTO_TEST_CASE(a_journal_breaks_off_where_an_edit_stands_that_it_was_not_t
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_drag_by_a_grab_that_somebody_has_ended_is_no_move) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
+  Sculptor<Mesh> sculptor(mesh);
+  Edit_journal journal(100);
+  Journaled_edits edits(sculptor);
+  edits.keep_journal(&journal);
+  auto grab = sculptor.grab(Mesh::Vertex_index(17));
+  const auto other = sculptor.grab(Mesh::Vertex_index(18));
+  BOOST_TEST((edits.drag(grab, Mesh::Point(2, 2, 2), std::nullopt).end == Drag_end::stale));
+  journal.end_tick(0);
+  Edit taken;
+  BOOST_TEST((!journal.take(taken) && !journal.has_overrun()));
+}
+
 BOOST_AUTO_TEST_CASE(a_journal_that_breaks_off_has_the_ticks_before) {
   Edit_journal journal(100);
   const Edit move = Edit::of(Edit_kind::move, {3, 0, 0}, {1, 2, 3});
@@ -115,7 +135,8 @@ BOOST_AUTO_TEST_CASE(a_journal_that_breaks_off_has_the_ticks_before) {
   std::vector<Edit_kind> kinds;
   for (Edit taken; journal.take(taken);)
     kinds.push_back(taken.kind);
-  BOOST_TEST((kinds == std::vector<Edit_kind>{Edit_kind::move, Edit_kind::none, Edit_kind::move})); // no end: none of it
+  // The last has no end: nothing of it counts.
+  BOOST_TEST((kinds == std::vector<Edit_kind>{Edit_kind::move, Edit_kind::none, Edit_kind::move}));
 }
 
 BOOST_AUTO_TEST_CASE(a_journal_that_is_not_written_in_time_ends_at_the_end_of_a_tick) {

@@ -283,15 +283,24 @@ BOOST_AUTO_TEST_CASE(what_was_drawn_for_nothing_goes_back_whatever_delta_is) {
 
 BOOST_AUTO_TEST_CASE(what_was_drawn_goes_back_where_a_visitor_keeps_the_collapse_from_being_made) {
   struct Throwing_visitor : haptic_sculpt::Default_edit_visitor {
+    bool throws_at_draws = false;
+    void vertex_moved(Mesh::Vertex_index) {
+      if (throws_at_draws)
+        throw haptic_sculpt::Error("the visitor throws");
+    }
     void edge_dies(Mesh::Edge_index) { throw haptic_sculpt::Error("the visitor throws"); }
   };
-  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
-  const Mesh before = mesh;
-  Sculptor<Mesh, haptic_sculpt::Box_tree_broad_phase<Mesh>, Throwing_visitor> sculptor(mesh);
-  const auto never = [](const auto&, const auto&, std::size_t, std::size_t) { return false; };
-  BOOST_CHECK_THROW(haptic_sculpt::decimate(sculptor, never), haptic_sculpt::Error);
-  BOOST_TEST(reading_and_writing::identical(mesh, before));
-  BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
+  for (const bool throws_at_draws : {false, true}) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
+    const Mesh before = mesh;
+    Throwing_visitor visitor;
+    visitor.throws_at_draws = throws_at_draws;
+    Sculptor<Mesh, haptic_sculpt::Box_tree_broad_phase<Mesh>, Throwing_visitor> sculptor(mesh, {}, visitor);
+    const auto never = [](const auto&, const auto&, std::size_t, std::size_t) { return false; };
+    BOOST_CHECK_THROW(haptic_sculpt::decimate(sculptor, never), haptic_sculpt::Error);
+    BOOST_TEST(reading_and_writing::identical(mesh, before));
+    BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(policies_may_not_edit) {

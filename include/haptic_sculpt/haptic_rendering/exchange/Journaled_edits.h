@@ -6,7 +6,6 @@
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <optional>
-#include <tuple>
 
 namespace haptic_sculpt {
 
@@ -16,7 +15,7 @@ namespace haptic_sculpt {
 /// apply_brush(), move_rigidly(), isotropic_remeshing().
 ///
 /// What a visitor throws leaves an edit that stands, maybe in part, and nobody can say how: the journal breaks off,
-/// except by shifts, which it has.
+/// except by shifts of many vertices at once, which it has.
 ///
 /// \tparam Journal has `add(const Edit&)`, which is called once the edit stands, and `break_off()`; they throw nothing
 template <class Sculptor, class Journal = Edit_journal>
@@ -77,9 +76,7 @@ public:
 
   /// A drag of a vertex of the surface; its legs are reported. \throw what drags throw
   Result drag(Grab_type& grab, const Point& target, const std::optional<Drag_parameters>& parameters) {
-    const auto result =
-        or_break_off(Edit::of(Edit_kind::move, {sculptor_->id(grab.vertex()), 0, 0}),
-                     [&] { return grab.drag_to(target, legs_, parameters); });
+    const auto result = or_break_off([&] { return grab.drag_to(target, legs_, parameters); });
     for (std::size_t k = 1; k < legs_.size(); ++k)
       if (legs_[k] != legs_[k - 1])
         add_move(grab.vertex(), legs_[k]);
@@ -105,8 +102,7 @@ public:
   /// All of the way or none.
   bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
     const Point before = mesh().point(v);
-    const bool is_there = or_break_off(Edit::of(Edit_kind::move, {sculptor_->id(v), 0, 0}),
-                                       [&] { return sculptor_->move_if_free(v, target, drag); });
+    const bool is_there = or_break_off([&] { return sculptor_->move_if_free(v, target, drag); });
     if (mesh().point(v) != before)
       add_move(v, target);
     return is_there;
@@ -229,28 +225,21 @@ private:
   std::optional<typename Sculptor::Stroke_type> stroke_;
   std::vector<Point> legs_; ///< of the last drag
 
-  Edited attempt(const Edit& wanted) {
-    return or_break_off(wanted, [&] { return sculptor_->apply(wanted); });
-  }
+  /// Where the function throws, and the mesh has been written.
   template <class Function>
-  auto or_break_off(const Edit& wanted, const Function& function) -> decltype(function()) {
-    const auto before = shown_by(wanted);
+  auto or_break_off(const Function& function) {
+    const auto& guarded = internal::Sculptor_access::guarded(*sculptor_);
+    const std::uint64_t before = guarded.changes();
     try {
       return function();
     } catch (...) {
-      const bool goes_by_history = wanted.kind == Edit_kind::undo || wanted.kind == Edit_kind::redo;
-      if (journal_ != nullptr && (goes_by_history || shown_by(wanted) != before))
+      if (journal_ != nullptr && guarded.changes() != before)
         journal_->break_off();
       throw;
     }
   }
-  /// What is another one where such an edit stands.
-  auto shown_by(const Edit& wanted) const {
-    const Vertex_index a = sculptor_->vertex(wanted.vertices[0]), b = sculptor_->vertex(wanted.vertices[1]);
-    const bool is_edge = wanted.kind == Edit_kind::flip && a.is_valid() && b.is_valid();
-    return std::tuple(mesh().number_of_vertices(),
-                      a.is_valid() ? vertex_coordinates(mesh(), a) : std::array<double, 3>{},
-                      is_edge ? mesh().halfedge(a, b) : Halfedge_index());
+  Edited attempt(const Edit& wanted) {
+    return or_break_off([&] { return sculptor_->apply(wanted); });
   }
 
   Edit of_ends(Edit_kind kind, Halfedge_index h, const std::array<double, 3>& p = {}) const {

@@ -43,6 +43,7 @@ public:
   Loop_session& operator=(const Loop_session&) = delete;
 
   /// What a command or task throws is its answer, what the loop throws a fault of the loop: the force is given anyway.
+  /// A journal that has overrun ends the loop by Loop_fault::log, once: after a restart nothing is in it any more.
   template <class Reading>
   const auto& tick(const Reading& reading) noexcept {
     if (queue_ != nullptr)
@@ -50,7 +51,7 @@ public:
     const auto& made = loop_->tick(reading);
     if (journal_ != nullptr) {
       journal_->end_tick(ticks_);
-      if (journal_->has_overrun())
+      if (journal_->has_overrun() && !std::exchange(has_told_overrun_, true))
         loop_->end_by(Loop_fault::log);
     }
     if (feed_ != nullptr) {
@@ -88,6 +89,7 @@ private:
   Command_queue<Scene>* queue_;
   Feed* feed_;
   Edit_journal* journal_;
+  bool has_told_overrun_ = false; ///< of this journal
   std::uint64_t ticks_ = 0;
   std::uint32_t scenes_ = 0;               ///< entered before the one that is sculpted now
   std::vector<Loop_command<Scene>> tasks_; ///< under way, in the order of the commands
@@ -210,6 +212,7 @@ private:
       journal_->end_tick(ticks_);
     loop_->enter(scene.sculptor, scene.map);
     loop_->tool().keep_journal(journal_ = journal);
+    has_told_overrun_ = false;
     scene_->sculptor.visitor().mark_all(); // where it is entered again no viewer has it
     ++scenes_;
     return std::exchange(scene_, &scene);

@@ -140,7 +140,7 @@ private:
       return 0;
     unsigned result = 0;
     for (std::size_t i = first; i < last; ++i)
-      result |= static_cast<unsigned>((sides & beyond(i)) == 0) << (i - first);
+      result |= ((sides & beyond(i)) == 0 ? 1u : 0u) << (i - first);
     return result;
   }
   unsigned all() const { return (1u << (last - first)) - 1; }

@@ -346,7 +346,7 @@ private:
   /// What a visitor has asked for within a change was looked up in a mesh on its way: it is not used on.
   struct Forget_at_end {
     Guarded_mesh& mesh;
-    ~Forget_at_end() { mesh.hand_.let_go(), mesh.probe_.let_go(), mesh.inside_out_.forget(); }
+    ~Forget_at_end() { mesh.hand_.let_go(), mesh.probe_.let_go(); }
   };
 
   /// For questions about the surface: lets nobody go.

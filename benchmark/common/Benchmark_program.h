@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Promises.h"
+#include "Shard.h"
+
+#include <haptic_sculpt/surface/io/replace_file.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <string>
+#include <utility>
+
+namespace haptic_sculpt::benchmark {
+
+/// Exit codes that all programs share; those of promises are a program's own, and others.
+enum Common_exit { all_kept = 0, failed = 1, usage = 2, cannot_write = 5 };
+
+/// The run cannot go on, and that is no promise's affair.
+struct Failed : Error {
+  using Error::Error;
+};
+
+/// What every program has: `--json`, `--shard`, a report with the promises at its end, one meaning of exit codes.
+class Benchmark_program {
+public:
+  using Json = nlohmann::ordered_json;
+
+  Shard shard;
+
+  /// \param unit what a shard is a share of, for `--help`: "population"
+  Benchmark_program(std::string name, CLI::App& app, const std::string& unit) : name_(std::move(name)), app_(app) {
+    app.add_option("--json", file_, "Where the report goes");
+    shard.add_option(app, unit);
+  }
+
+  /// Reads the options, does the work, and writes the report where `--json` says. That it can be written there is
+  /// looked at before the work.
+  /// \param work makes the report of what it gets, the promises, to which it adds its own
+  /// \return the exit code: that of the promises; `usage` where an option is wrong, or a mesh that was given
+  template <class Work>
+  int run(int argc, char** argv, const Work& work) {
+    try {
+      app_.parse(argc, argv);
+      check_file();
+      Promises promises;
+      Json report = work(promises);
+      report["shard"] = shard.text();
+      report["promises"] = promises.json();
+      report["exit"] = promises.exit();
+      if (promises.exit() != all_kept)
+        say(promises.first_broken() + "; please report it with this command");
+      write(report);
+      return promises.exit();
+    } catch (const CLI::ParseError& error) {
+      return app_.exit(error) == 0 ? all_kept : usage;
+    } catch (const Write_error& error) {
+      return say(error.what()), cannot_write;
+    } catch (const Failed& error) {
+      return say(error.what()), failed;
+    } catch (const Error& error) {
+      return say(error.what()), usage;
+    }
+  }
+
+  /// What there is until now, in the course of long work. \throw Write_error
+  void write(const Json& report) const {
+    if (!file_.empty())
+      replace_file(file_, report.dump(1) + '\n');
+  }
+
+private:
+  std::string name_, file_;
+  CLI::App& app_;
+
+  void check_file() const {
+    if (const std::string why = file_.empty() ? "" : why_not_replaceable(follow_links(file_)); !why.empty())
+      throw Write_error("cannot write '" + file_ + "': " + why);
+  }
+  void say(const std::string& what) const {
+    std::cout.flush();
+    std::cerr << name_ << ": " << what << '\n';
+  }
+};
+
+} // namespace haptic_sculpt::benchmark
