@@ -18,10 +18,20 @@ namespace haptic_sculpt::benchmark {
 /// Exit codes that all programs share; those of promises are a program's own, and others.
 enum Common_exit { all_kept = 0, failed = 1, usage = 2, cannot_write = 5 };
 
-/// The run cannot go on, and that is no promise's affair.
-struct Failed : Error {
+/// What was given cannot be used.
+struct Wrong_use : Error {
   using Error::Error;
 };
+
+/// Reads what was given. \throw Wrong_use where that throws
+template <class Read>
+auto read_given(const Read& read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    throw Wrong_use(error.what());
+  }
+}
 
 /// What every program has: `--json`, `--shard`, a report with the promises at its end, one meaning of exit codes.
 class Benchmark_program {
@@ -39,7 +49,8 @@ public:
   /// Reads the options, does the work, and writes the report where `--json` says. That it can be written there is
   /// looked at before the work.
   /// \param work makes the report of what it gets, the promises, to which it adds its own
-  /// \return the exit code: that of the promises; `usage` where an option is wrong, or a mesh that was given
+  /// \return the exit code: that of the promises; `usage` where an option is wrong, or what was given cannot be used;
+  /// `failed` where the work throws any other Error
   template <class Work>
   int run(int argc, char** argv, const Work& work) {
     try {
@@ -58,10 +69,10 @@ public:
       return app_.exit(error) == 0 ? all_kept : usage;
     } catch (const Write_error& error) {
       return say(error.what()), cannot_write;
-    } catch (const Failed& error) {
-      return say(error.what()), failed;
-    } catch (const Error& error) {
+    } catch (const Wrong_use& error) {
       return say(error.what()), usage;
+    } catch (const Error& error) {
+      return say(error.what()), failed;
     }
   }
 

@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&](benchmark::Promises& promises) -> Json {
     const Mesh start = file.empty()
                            ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
-                           : read_surface<Mesh>(file);
+                           : benchmark::read_given([&] { return read_surface<Mesh>(file); });
     const auto parameters = Move_parameters().drags(drags);
     std::size_t asked = 0, broken = 0;
     Json rows = Json::array();

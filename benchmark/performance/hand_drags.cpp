@@ -177,7 +177,7 @@ Json run(const Mesh& mesh, const Options& options, const std::string& what, doub
   for (std::size_t i = 1; i < options.runs; ++i) {
     const Measured again = measure(mesh, options, what, height);
     if (!again.is_like(m)) {
-      throw benchmark::Failed("two runs with the same seed differ");
+      throw Error("two runs with the same seed differ");
     }
     m.take_least_times(again);
   }

@@ -130,7 +130,7 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   const Hand hand{options, home->position};
   auto pose = reach_position(device, *home, hand.position(0));
   if (!pose)
-    throw benchmark::Failed("the hand's path begins where the device cannot be");
+    throw Error("the hand's path begins where the device cannot be");
   Loop loop(scene.sculptor, device, *pose, scene.map, parameters, limits);
   if (mlockall(MCL_CURRENT) != 0)
     std::cerr << "haptic_ticks: the memory cannot be locked: first uses of pages are in the times\n";
@@ -145,7 +145,7 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   for (std::size_t tick = 0; tick < options.ticks && !loop.has_stopped(); ++tick) {
     pose = reach_position(device, *pose, hand.position(tick));
     if (!pose)
-      throw benchmark::Failed("the hand's path leaves the workspace");
+      throw Error("the hand's path leaves the workspace");
     reading.theta = measured_angles(device, pose->theta);
     reading.button = options.valence == 0 ? Hand::button(tick) : 0, reading.elapsed = tick == 0 ? 0 : parameters.tick;
     const Vector3d tip_before = place_of(scene, tip);
@@ -164,16 +164,15 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
     const auto event = static_cast<std::size_t>(made.tool.event);
     (event != 0 ? events[event] : loop.tool().holds_vertex() ? vertex : probe).add(taken);
     if (made.is_new_fault)
-      throw benchmark::Failed(std::string("a fault: ") + name_of(made.fault));
+      throw Error(std::string("a fault: ") + name_of(made.fault));
   }
   const Tool_edits& done = loop.tool().edits();
   if (options.depth > 0 && options.valence == 0 && 4 * blocked < all.number())
-    throw benchmark::Failed("the hand was held back in " + std::to_string(blocked) +
-                            " ticks only: that is not what is measured here");
+    throw Error("the hand was held back in " + std::to_string(blocked) +
+                " ticks only: that is not what is measured here");
   if (options.refuses_allocations && allocations != 0)
-    throw benchmark::Failed(std::to_string(allocations) + " allocations were made in ticks, with " +
-                            std::to_string(done.created) + " creations and " + std::to_string(done.removed) +
-                            " removals");
+    throw Error(std::to_string(allocations) + " allocations were made in ticks, with " + std::to_string(done.created) +
+                " creations and " + std::to_string(done.removed) + " removals");
   Json of_events;
   for (std::size_t event = 1; event < events.size(); ++event)
     of_events[event_names[event]] = of(events[event]);

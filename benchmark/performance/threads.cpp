@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&](benchmark::Promises& promises) -> Json {
     const Mesh mesh = file.empty()
                           ? meshes::to_mesh(meshes::bumpy_sphere(level, 0.2, 0.01, static_cast<std::uint32_t>(seed)))
-                          : read_surface<Mesh>(file);
+                          : benchmark::read_given([&] { return read_surface<Mesh>(file); });
     std::printf("%zu triangles, seed %llu; seconds by the clock\n%-8s %10s %10s %10s %10s\n",
                 std::size_t{mesh.number_of_faces()}, static_cast<unsigned long long>(seed), "threads", "shift",
                 "held back", "validate", "same bits");

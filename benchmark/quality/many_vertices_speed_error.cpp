@@ -310,7 +310,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&](Promises& promises) -> Json {
     Mesh mesh;
     if (!given.empty())
-      mesh = read_surface<Mesh>(given);
+      mesh = read_given([&] { return read_surface<Mesh>(given); });
     Json rows = Json::array();
     std::size_t asked = 0, broken = 0;
     for (int round = 0; round < rounds; ++round)

@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&](Promises& promises) -> Json {
     std::vector<std::pair<std::string, Mesh>> inputs;
     for (const std::string& path : files)
-      inputs.emplace_back(path, read_surface<Mesh>(path));
+      inputs.emplace_back(path, read_given([&] { return read_surface<Mesh>(path); }));
     if (files.empty())
       inputs = generated_meshes(level, seed);
     const auto guarded = [](Mesh& mesh, const auto& stop, const auto& np) {

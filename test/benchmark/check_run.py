@@ -287,8 +287,10 @@ def own_meshes(out, folder):
     expect("tetrahedron.off" in page, "the page does not list the mesh that is accepted")
     repaired = run(out, "drags_and_edits", "--meshes", str(meshes), "--repair")
     expect(repaired.returncode == 0 and "open.off, repaired" in (out / "index.html").read_text() and "cut.off" in (out / "index.html").read_text(), f"a mesh that is repaired: exit {repaired.returncode}, {repaired.stderr}")
-    robustness = [str(BUILD / "benchmark/robustness"), "--meshes", str(meshes), "--drags", "3", "--drags-on-large", "1", "--edits", "3", "--edits-on-large", "1", "--extreme", "0"]
-    for refuse, code in ((["cut.off", "open.off"], 0), (["cut.off"], 14), (["cut.off", "open.off", "tetrahedron.off"], 13)):
+    robustness = [str(BUILD / "benchmark/robustness"), "--meshes", str(meshes), "--drags", "3", "--drags-on-large", "1",
+                  "--edits", "3", "--edits-on-large", "1", "--extreme", "0"]
+    broken = ["cut.off", "open.off"]
+    for refuse, code in ((broken, 0), (["cut.off"], 14), ([*broken, "tetrahedron.off"], 13)):
         told = subprocess.run([*robustness, "--refuse", *refuse], capture_output=True, text=True)
         expect(told.returncode == code, f"told to refuse {refuse}: exit {told.returncode}, not {code}: {told.stderr}")
 
@@ -370,6 +372,16 @@ def few_jobs(out, folder):
     expect(len(jobs) == 1 and "--mem=2000" in jobs[0], f"of 4 shards 1 uses up the minutes, but {len(jobs)} jobs were submitted: {jobs}")
 
 
+def exit_codes(folder):
+    """1 where a run cannot go on, 2 for what was given, 5 where the report cannot be written: before the work."""
+    for words, code, said in ((["haptic_ticks", "--level", "2", "--ticks", "10", "--depth", "-1000"], 1, "the hand's path"),
+                              (["brush_dabs", "--mesh", str(folder / "nowhere.off")], 2, "nowhere.off"),
+                              (["device_speed_error", "--nothing"], 2, "--nothing"),
+                              (["hand_drags", "--json", str(folder / "nowhere/x.json")], 5, "cannot write")):
+        done = subprocess.run([str(BUILD / "benchmark" / words[0]), *words[1:]], capture_output=True, text=True)
+        expect(done.returncode == code and said in done.stdout + done.stderr, f"{words}: exit {done.returncode}, {done.stderr}")
+
+
 def answers(out, folder):
     """Of a program that is right but for one in ten."""
     queries = folder / "queries"
@@ -420,6 +432,7 @@ def main():
         changed_meshes(folder / "changed", folder)
         broken_beside_a_death(folder / "breaks", folder)
         own_meshes(folder / "own", folder)
+        exit_codes(folder)
         answers(folder / "answers", folder)
         failing_case(folder / "failing", folder)
         few_jobs(folder / "few_jobs", folder)

@@ -401,30 +401,36 @@ window(ball, "--samples", 0, "--no-log", script=f"{edit}save {at('large_saved.of
 check(os.path.getsize(at("large_saved.off")) > 1000000, "all of it is there")
 for line in ("close", "key q"):
     os.remove(at("large_saved.off"))
-    window(ball, "--samples", 0, "--no-log", script=f"{edit}save {at('first.off')}\nsettle\nsave {at('large_saved.off')}\n{line}\nwait 20\nquit\n",
-           what=f"save, save, then {line}")
+    script = f"{edit}save {at('first.off')}\nsettle\nsave {at('large_saved.off')}\n{line}\nwait 20\nquit\n"
+    window(ball, "--samples", 0, "--no-log", script=script, what=f"save, save, then {line}")
     check(os.path.exists(at("large_saved.off")), f"save, save, then {line}: the second one is not there")
 os.remove(at("large_saved.off"))
-process = start(ball, "--samples", 0, "--no-log", script=f"{edit}print\nsave {at('large_saved.off')}\nprint\nwait 100\n")
+script = f"{edit}print\nsave {at('large_saved.off')}\nprint\nwait 100\n"
+process = start(ball, "--samples", 0, "--no-log", script=script)
 process.stdout.readline(), process.stdout.readline()
 process.send_signal(signal.SIGTERM)
 process.communicate(timeout=60)
-check(process.returncode == 0 and os.path.exists(at("large_saved.off")), "a save that was asked for is made though the process is asked to end")
+is_there = os.path.exists(at("large_saved.off"))
+check(process.returncode == 0 and is_there, "a save that was asked for is made though the process is asked to end")
 # What is under way when the window is closed is unsaved work, too: the log stays, or one is asked.
 under_way = write(at("under_way.off"), box(30))
 process = start(under_way, "--samples", 0, script="settle\nprint\nremesh 0.05\nprint\nwait 100\n")
 process.stdout.readline(), process.stdout.readline()
 process.send_signal(signal.SIGTERM)
 process.communicate(timeout=60)
-check(process.returncode == 0 and b"stroke" in bytes_of(under_way + ".log"), "a remeshing that was under way is in the log")
+is_logged = b"stroke" in bytes_of(under_way + ".log")
+check(process.returncode == 0 and is_logged, "a remeshing that was under way is in the log")
 os.remove(under_way + ".log")
-window(under_way, "--samples", 0, script=f"settle\nremesh 0.05\nopen {second}\nwait 0.5\nsettle\nquit\n", what="another mesh, opened while one is remeshed")
+script = f"settle\nremesh 0.05\nopen {second}\nwait 0.5\nsettle\nquit\n"
+window(under_way, "--samples", 0, script=script, what="another mesh, opened while one is remeshed")
 check(os.path.exists(under_way + ".log"), "the log of a mesh that was left while it was remeshed stays")
 os.remove(under_way + ".log")
-window(under_way, "--samples", 0, script=f"settle\nsave {at('remeshed.off')}\nremesh 0.05\nsettle\nquit\n", what="a mesh that grows while it is copied")
+script = f"settle\nsave {at('remeshed.off')}\nremesh 0.05\nsettle\nquit\n"
+window(under_way, "--samples", 0, script=script, what="a mesh that grows while it is copied")
 check(run(at("remeshed.off")).returncode == 0, "what grew while it was copied is saved")
-window(precious, "--samples", 0, "--no-log", script=f"settle\nopen {second}\nwait 0.5\nsettle\nopen {precious}\nwait 0.5\nsettle\nsave {precious}\nsettle\nquit\n",
-       what="a mesh that is open again may be replaced")
+opened = lambda mesh: f"open {mesh}\nwait 0.5\nsettle\n"
+script = f"settle\n{opened(second)}{opened(precious)}save {precious}\nsettle\nquit\n"
+window(precious, "--samples", 0, "--no-log", script=script, what="a mesh that is open again may be replaced")
 window(ball, "--samples", 0, "--no-log", script=f"{edit}save {at('nowhere/x.off')}\nquit\n", code=5, what="a save that cannot be")
 script = f"{edit}save {at('large_saved.off')}\nopen {second}\nopen {second}\nwait 2\n{edit}print\nquit\n"
 lines, _ = window(ball, "--samples", 0, script=script, what="another mesh is sculpted while one is saved")

@@ -133,8 +133,8 @@ int main(int argc, char** argv) {
     }
     if (!options.no_large && program.shard.takes_next()) {
       const std::size_t cells = options.quick ? 40 : 516; // 2 x 2 x 516^2 = 1,065,024 triangles
-      Mesh large =
-          options.large.empty() ? meshes::to_mesh(meshes::torus(2 * cells, cells)) : read_surface<Mesh>(options.large);
+      Mesh large = options.large.empty() ? meshes::to_mesh(meshes::torus(2 * cells, cells))
+                                         : read_given([&] { return read_surface<Mesh>(options.large); });
       report["large"] = move_all_by_a_tenth(std::move(large), options.seed);
       std::cout << "\nevery vertex by a tenth of an edge: " << report["large"].dump() << '\n';
       ++asked, broken += report["large"]["self_intersects"].get<bool>();

@@ -93,7 +93,7 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
 }
 
 Json replay(const Options& options, Promises& promises) {
-  const Grab_record record = Grab_record::read(options.off, options.script);
+  const Grab_record record = read_given([&] { return Grab_record::read(options.off, options.script); });
   const End_tally tally = Certified_grabs::replay(
       record, options.seed, options.ways, [](const Grab_record& so_far, const std::string& what) {
         std::cout << "drag " << so_far.targets.size() << ": " << what << '\n';
