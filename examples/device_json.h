@@ -103,6 +103,26 @@ inline Device_form device_form_from_json(const nlohmann::json& value) {
   throw Bad_request("`form` must be \"ditetra\" or \"general\"");
 }
 
+/// The device of a file: its members, or those of its `params` with others beside them; none without a meaning.
+/// Di-tetrahedral, if it says nothing else. \throw Bad_request, Invalid_device_parameters
+inline Device_description<double> device_from_json(const nlohmann::json& device) {
+  if (!device.is_object())
+    throw Bad_request("a device is an object");
+  nlohmann::json params = device.contains("params") ? device["params"] : device;
+  if (!params.is_object())
+    throw Bad_request("`params` must be an object");
+  for (const auto& [key, value] : device.items())
+    if (key != "params" && !params.contains(key))
+      params[key] = value;
+  for (const auto& [key, value] : params.items())
+    if (!is_device_key(key))
+      throw Bad_request("`" + key + "` means nothing to a device");
+  const Device_description<double> d = device_description_from_json(
+      params, device_form_from_json(params.value("form", nlohmann::json("ditetra"))), true);
+  Device_parameters<double>{d}; // throws what is wrong with it
+  return d;
+}
+
 /// The description in another number type.
 template <class S> Device_description<S> device_description_as(const Device_description<double>& d) {
   Device_description<S> e;

@@ -3,6 +3,7 @@
 // draw.
 #include "common/contents_of.h"
 #include "common/json_words.h"
+#include "common/parse_arguments.h"
 #include "common/run_program.h"
 #include "device_json.h"
 #include "json_line.h"
@@ -12,7 +13,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 
@@ -83,17 +83,10 @@ void figures(Device_description<double> description, const char* name, int per_j
   model_difference.print("planar model's mass matrix off by", "of its norm");
 }
 
-constexpr const char* help =
-    "device_workspace [SAMPLES.txt [DEVICE.json]]\n"
-    "Prints workspace, force and inertia of the designs D1, D2, D3 in both forms, or of DEVICE.json (the keys of "
-    "doc/use/device.md);\n"
-    "writes the samples of the first one for examples/plot_device_workspace.py.\n"
-    "Exit: 0 done, 1 a fault of the program, 3 the device is refused, 5 something cannot be written\n";
-
 /// \throw Write_error where that is known before the work
-void check_target(const char* path) {
+void check_target(const std::string& path) {
   if (const std::string why = why_not_replaceable(follow_links(path)); !why.empty())
-    throw Write_error("cannot write '" + std::string(path) + "': " + why);
+    throw Write_error("cannot write '" + path + "': " + why);
 }
 
 /// Of the designs D1, D2, D3 in both forms; samples of the first.
@@ -107,26 +100,36 @@ void figures_of_designs(std::ostream& samples) {
     }
 }
 
-void figures_of_file(const char* path, std::ostream& samples) {
-  const nlohmann::json params = parse_bounded(examples::contents_of<Error>(path, "the device", 1));
-  figures(device_description_from_json(params, device_form_from_json(params.value("form", nlohmann::json())), true),
-          path, 21, &samples);
+void figures_of_file(const std::string& path, std::ostream& samples) {
+  const nlohmann::json device = parse_bounded(examples::contents_of<Error>(path, "the device", 1));
+  figures(device_from_json(device), path.c_str(), 21, &samples);
 }
 
 int print_figures(int argument_count, char** arguments) {
-  if (argument_count > 1 && std::strcmp(arguments[1], "--help") == 0) {
-    std::fputs(help, stdout);
-  } else {
-    std::ostringstream samples;
-    if (argument_count > 1)
-      check_target(arguments[1]);
-    std::error_code is_missing;
-    if (argument_count > 2 && std::filesystem::equivalent(arguments[1], arguments[2], is_missing))
-      throw Write_error("the samples would replace the device: both are '" + std::string(arguments[2]) + "'");
-    argument_count > 2 ? figures_of_file(arguments[2], samples) : figures_of_designs(samples);
-    if (argument_count > 1)
-      replace_file(arguments[1], samples.str());
+  CLI::App app(
+      "Prints workspace, force and inertia of the designs D1, D2, D3 in both forms, or of a device.\n"
+      "Exit: 0 done, 1 a fault of the program, 2 usage, 3 the device is refused, 5 something cannot be written.");
+  std::string file, device;
+  app.add_option("SAMPLES.txt", file, "Where the samples of the first one go, for examples/plot_device_workspace.py")
+      ->check([](const std::string& name) -> std::string {
+        const std::string end = std::filesystem::path(name).extension().string();
+        return end == ".json" ? "'" + name + "' would be replaced by samples; a device comes second" : "";
+      });
+  app.add_option("DEVICE.json", device, "With the keys of doc/use/device.md");
+  try {
+    examples::parse_arguments(app, argument_count, arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? examples::done : examples::usage;
   }
+  if (!file.empty())
+    check_target(file);
+  std::error_code is_missing;
+  if (std::filesystem::equivalent(file, device, is_missing))
+    throw Write_error("the samples would replace the device: both are '" + device + "'");
+  std::ostringstream samples;
+  device.empty() ? figures_of_designs(samples) : figures_of_file(device, samples);
+  if (!file.empty())
+    replace_file(file, samples.str());
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw Write_error("the figures cannot be written");
   return examples::done;

@@ -4,14 +4,19 @@
 #include "Promises.h"
 #include "Shard.h"
 
+#include "../../examples/common/parse_arguments.h"
+
 #include <haptic_sculpt/surface/io/replace_file.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <utility>
+
+#include <unistd.h>
 
 namespace haptic_sculpt::benchmark {
 
@@ -33,6 +38,16 @@ auto read_given(const Read& read) {
   }
 }
 
+/// That files can be put into a folder, which may have to be made. \throw Write_error
+inline void check_folder(const std::string& folder) {
+  std::error_code none;
+  std::filesystem::path there = std::filesystem::absolute(folder, none);
+  while (!std::filesystem::exists(there, none) && there != there.parent_path())
+    there = there.parent_path();
+  if (!std::filesystem::is_directory(there, none) || ::access(there.c_str(), W_OK | X_OK) != 0)
+    throw Write_error("cannot write into '" + folder + "': '" + there.string() + "' is no folder that can be written");
+}
+
 /// What every program has: `--json`, `--shard`, a report with the promises at its end, one meaning of exit codes.
 class Benchmark_program {
 public:
@@ -50,11 +65,31 @@ public:
   /// looked at before the work.
   /// \param work makes the report of what it gets, the promises, to which it adds its own
   /// \return the exit code: that of the promises; `usage` where an option is wrong, or what was given cannot be used;
-  /// `failed` where the work throws any other Error
+  /// `cannot_write`, also where standard output takes nothing; `failed` where the work throws anything else
   template <class Work>
   int run(int argc, char** argv, const Work& work) {
+    const int code = exit_code_of(argc, argv, work);
+    if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      say("not all could be written to standard output");
+      return code == all_kept ? cannot_write : code;
+    }
+    return code;
+  }
+
+  /// What there is until now, in the course of long work. \throw Write_error
+  void write(const Json& report) const {
+    if (!file_.empty())
+      replace_file(file_, report.dump(1) + '\n');
+  }
+
+private:
+  std::string name_, file_;
+  CLI::App& app_;
+
+  template <class Work>
+  int exit_code_of(int argc, char** argv, const Work& work) {
     try {
-      app_.parse(argc, argv);
+      examples::parse_arguments(app_, argc, argv);
       check_file();
       Promises promises;
       Json report = work(promises);
@@ -71,21 +106,10 @@ public:
       return say(error.what()), cannot_write;
     } catch (const Wrong_use& error) {
       return say(error.what()), usage;
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
       return say(error.what()), failed;
     }
   }
-
-  /// What there is until now, in the course of long work. \throw Write_error
-  void write(const Json& report) const {
-    if (!file_.empty())
-      replace_file(file_, report.dump(1) + '\n');
-  }
-
-private:
-  std::string name_, file_;
-  CLI::App& app_;
-
   void check_file() const {
     if (const std::string why = file_.empty() ? "" : why_not_replaceable(follow_links(file_)); !why.empty())
       throw Write_error("cannot write '" + file_ + "': " + why);

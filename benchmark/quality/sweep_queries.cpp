@@ -127,7 +127,8 @@ int main(int argc, char** argv) {
       "the\n"
       "ends of two edges, to where they are along K at the end.\n"
       "Prints a line each: 0, or 1 and the first time u as num/den in lowest terms; of AX, 1 without a time.\n"
-      "Empty lines and lines that begin with # are skipped. Exit: 0 done, 2 usage or a malformed line.");
+      "Empty lines and lines that begin with # are skipped. Exit: 0 done, 2 usage or a malformed line, 5 the answers "
+      "cannot be written.");
   std::string path;
   app.add_option("FILE", path, "The queries; - is standard input")->required();
   try {
@@ -164,7 +165,7 @@ int main(int argc, char** argv) {
   std::cout.flush();
   if (!std::cout) {
     std::cerr << "sweep_queries: cannot write the answers\n";
-    return 2;
+    return 5;
   }
   return 0;
 }

@@ -16,8 +16,10 @@ public:
   Printable_stream(const Printable_stream&) = delete;
   Printable_stream& operator=(const Printable_stream&) = delete;
   ~Printable_stream() override {
-    sync();
+    const bool is_lost = sync() != 0;
+    const auto state = stream_->rdstate(); // which rdbuf() clears
     stream_->rdbuf(below_);
+    stream_->setstate(is_lost ? state | std::ios_base::badbit : state);
   }
 
 private:

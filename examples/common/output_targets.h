@@ -88,10 +88,15 @@ inline void check_mesh_name(const Named_file& file) {
     throw Usage_error("'" + file.path + "' (" + file.role + ") does not end in .off, .ply, .obj or .stl");
 }
 
-/// \throw Usage_error unless a picture's name ends in .png, or has no extension; none where it is empty
+/// Whether it ends in .png, or has no extension.
+inline bool is_picture_name(const std::string& path) {
+  const auto extension = std::filesystem::path(path).extension();
+  return extension.empty() || extension == ".png" || extension == ".PNG";
+}
+
+/// \throw Usage_error unless it is a picture's name, or empty
 inline void check_picture_name(const Named_file& file) {
-  if (const auto extension = std::filesystem::path(file.path).extension();
-      !extension.empty() && extension != ".png" && extension != ".PNG")
+  if (!is_picture_name(file.path))
     throw Usage_error("a picture is written as PNG: give " + file.role + " a name that ends in .png instead of '" +
                       file.path + "'");
 }

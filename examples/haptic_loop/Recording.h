@@ -78,9 +78,13 @@ inline void Recording::take_head(const std::string& line, const std::string& pat
 
 inline void Recording::take_reading(const std::string& line, const std::string& path) {
   Joint_reading r;
-  if (std::sscanf(line.c_str(), "%la %la %la %la %la %la %d %la", &r.theta[0], &r.theta[1], &r.theta[2], &r.torque[0],
-                  &r.torque[1], &r.torque[2], &r.button, &r.elapsed) != 8)
+  double button = 0; // what is no int has no meaning as one
+  int end = 0;
+  if (std::sscanf(line.c_str(), "%la %la %la %la %la %la %la %la%n", &r.theta[0], &r.theta[1], &r.theta[2],
+                  &r.torque[0], &r.torque[1], &r.torque[2], &button, &r.elapsed, &end) != 8 ||
+      line.c_str()[end] != '\0' || !(button == 0 || button == 1 || button == 2))
     throw Foreign_recording(path + ": line " + std::to_string(readings.size() + 2) + " is no line of a recording");
+  r.button = static_cast<int>(button);
   readings.push_back(r);
 }
 

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <string>
 
+#include <fcntl.h>
+
 namespace haptic_sculpt::loop_program {
 
 /// A file, device or pipe that rows go to as they come. What cannot be written is reported in the end: a run does not
@@ -36,7 +38,10 @@ public:
     if (file_ == nullptr)
       return;
     errno = 0;
-    const bool had_failed = std::ferror(file_) != 0, fails = std::fclose(file_) != 0;
+    const bool had_failed = std::ferror(file_) != 0;
+    if (had_failed) // what is left must not wait for a reader who takes nothing
+      ::fcntl(::fileno(file_), F_SETFL, ::fcntl(::fileno(file_), F_GETFL) | O_NONBLOCK);
+    const bool fails = std::fclose(file_) != 0;
     file_ = nullptr;
     if (had_failed || fails)
       throw Write_error("cannot write all rows of '" + path_ + "': " +

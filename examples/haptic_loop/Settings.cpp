@@ -16,6 +16,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t most_work = 1000000000000000; // pairs; whole numbers of a double
+
 json json_file(const std::string& path) {
   try {
     return parse_bounded(examples::contents_of<Usage_error>(path, "", 1));
@@ -24,24 +26,6 @@ json json_file(const std::string& path) {
   } catch (const No_answer& error) {
     throw Usage_error("'" + path + "' cannot be read: " + error.what());
   }
-}
-
-Device_description<double> device_of(const json& device) {
-  if (!device.is_object())
-    throw Bad_request("a device is an object");
-  json params = device.contains("params") ? device["params"] : device;
-  if (!params.is_object())
-    throw Bad_request("`params` must be an object");
-  for (const auto& [key, value] : device.items()) // those of the joints may stand beside `params`
-    if (key != "params" && !params.contains(key))
-      params[key] = value;
-  for (const auto& [key, value] : params.items())
-    if (!is_device_key(key))
-      throw Bad_request("`" + key + "` means nothing to a device");
-  const Device_form form = device_form_from_json(params.value("form", json("ditetra")));
-  const Device_description<double> d = device_description_from_json(params, form, true);
-  Device_parameters<double>{d}; // throws what is wrong with it
-  return d;
 }
 
 } // namespace
@@ -56,7 +40,7 @@ Device_description<double> default_device() {
 
 Device_description<double> read_device(const std::string& path) {
   try {
-    return device_of(json_file(path));
+    return device_from_json(json_file(path));
   } catch (const Bad_request& error) {
     throw Usage_error("the device '" + path + "': " + error.what());
   } catch (const Invalid_device_parameters& error) {
@@ -102,7 +86,7 @@ Simulated_hand read_hand(const std::string& path) {
 }
 
 Hand_path read_path(const std::string& path) {
-  const std::string text = examples::contents_of<Usage_error>(path, "the path");
+  const std::string text = examples::contents_of<Hand_path_error>(path, "the path");
   return Hand_path::parse(examples::without_byte_order_mark(text), path);
 }
 
@@ -117,7 +101,7 @@ Injected_fault fault_of(const std::string& text) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(begin, end, fault.time);
   if (at == std::string::npos || fault.kind == Loop_fault::none || error != std::errc() || stop != end ||
-      !(fault.time >= 0))
+      !(fault.time >= 0 && std::isfinite(fault.time)))
     throw Usage_error(
         "--fault must be nan, jump, stall, singular, torque or log, `@` and seconds >= 0, such as nan@0.5; not '" +
         text + "'");
@@ -166,11 +150,14 @@ Settings settings_of(const json& j) {
     s.virtual_mass = j.value("virtual_mass", 0.0); // older recordings have none
     if (j.value("compensated_inertia", 0.0) != 0)
       throw Foreign_recording("`compensated_inertia` is no setting any more; record anew without it");
-    if (const json snap = j.value("snap", json()); !snap.is_null()) // older recordings have none
+    if (const json snap = j.value("snap", json()); !snap.is_null()) { // older recordings have none
+      if (snap.size() != 2)
+        throw Foreign_recording("`snap` must be a length and a force");
       s.snap = {snap.at(0), snap.at(1)};
+    }
     const json controller = j.value("controller", json(0.0));
     s.controller = controller.is_null() ? std::nullopt : std::optional<double>(controller.get<double>());
-    s.device = device_of(j.at("device"));
+    s.device = device_from_json(j.at("device"));
     if (const auto bad = bad_setting(s)) {
       std::string key = bad->option;
       std::replace(key.begin(), key.end(), '-', '_');
@@ -194,23 +181,23 @@ std::optional<Bad_setting> bad_setting(const Settings& s) {
     return Bad_setting{"delay", "must be from 0 to 16 ticks"};
   if (!is_length(s.stiffness))
     return Bad_setting{"stiffness", "must be a finite number >= 0, N/m"};
-  if (!is_length(s.damping))
-    return Bad_setting{"damping", "must be a finite number >= 0, N s/m"};
+  if (!(s.damping >= 0 && s.damping <= 1e5))
+    return Bad_setting{"damping", "must be from 0 to 100000 N s/m"};
   if (!(s.virtual_mass >= 0 && s.virtual_mass <= 10))
     return Bad_setting{"virtual-mass", "must be from 0 to 10 kg"};
   if (!is_length(s.controller.value_or(0)))
     return Bad_setting{"controller", "must be a finite number >= 0, N s/m"};
-  if (!is_length(s.reach))
-    return Bad_setting{"reach", "must be a finite length >= 0, m"};
+  if (!(s.reach >= 1e-9 && s.reach <= 1))
+    return Bad_setting{"reach", "must be from 1e-9 to 1 m"};
   if (!(s.snap.length == 0 || (s.snap.length >= Vertex_snap::least_length && s.snap.length <= 1)) ||
       !(s.snap.force >= 0 && s.snap.force <= 100))
     return Bad_setting{"snap", "must be 0, or a length from 0.00001 to 1 m and a force from 0 to 100 N"};
-  if (s.work == 0)
-    return Bad_setting{"work", "must be a whole number of pairs, at least 1"};
+  if (s.work == 0 || s.work > most_work)
+    return Bad_setting{"work", "must be a whole number of pairs, from 1 to 10^15"};
   if (!(s.map.empty() || s.map.size() == 4 || s.map.size() == 7))
     return Bad_setting{"map", "needs 4 numbers, SCALE X Y Z, or 7, with RX RY RZ"};
-  if (!std::all_of(s.map.begin(), s.map.end(), [](double x) { return std::isfinite(x); }))
-    return Bad_setting{"map", "must be finite numbers"};
+  if (!std::all_of(s.map.begin(), s.map.end(), [](double x) { return std::fabs(x) <= 1e300; }))
+    return Bad_setting{"map", "must be numbers of at most 1e300"};
   if (!s.map.empty() && !(s.map[0] > 0))
     return Bad_setting{"map", "must begin with a scale > 0"};
   return std::nullopt;

@@ -5,12 +5,11 @@
 
 #include "../common/mesh_program.h"
 #include "../common/output_targets.h"
+#include "../common/parse_arguments.h"
 #include "../common/write_file.h"
 #include "../count_allocations.h"
 
 #include <haptic_sculpt/haptic_rendering/check_coupling.h>
-
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <iostream>
@@ -30,15 +29,15 @@ struct Arguments {
   std::string mesh = HAPTIC_SCULPT_EXAMPLE_DATA "/ball_and_moon.off",
               path = HAPTIC_SCULPT_EXAMPLE_DATA "/hand_path.csv";
   std::string out, log, device, hand, record, replay, trace, report, picture, fault;
-  double seconds = 0;
+  std::optional<double> seconds;
   bool does_not_wait = false, is_real_time = false;
 };
 
-void check_numbers(const Settings& settings, double seconds) {
+void check_numbers(const Settings& settings, const std::optional<double>& seconds) {
   if (const auto bad = bad_setting(settings))
     throw Usage_error("--" + bad->option + ' ' + bad->demand);
-  if (!(seconds >= 0 && std::isfinite(seconds)))
-    throw Usage_error("--seconds must be a finite time >= 0");
+  if (seconds && !(*seconds > 0 && std::isfinite(*seconds)))
+    throw Usage_error("--seconds must be a finite time > 0; leave it out for as long as the path");
 }
 
 /// \throw Usage_error, Write_error
@@ -78,6 +77,8 @@ int loop(const Arguments& arguments, Plan& plan) {
     settings.hand = read_hand(arguments.hand);
   if (!arguments.fault.empty())
     plan.fault = fault_of(arguments.fault);
+  if (plan.fault && plan.fault->kind == Loop_fault::log && arguments.log.empty())
+    throw Usage_error("--fault log is a fault of the log: give --log, too");
   if (!arguments.replay.empty()) {
     plan.replay = Recording::read(arguments.replay);
     settings = plan.replay->settings;
@@ -88,7 +89,7 @@ int loop(const Arguments& arguments, Plan& plan) {
     throw Usage_error(
         "--real-time is for a run that waits for the time of each tick; leave out --no-wait and --replay");
   plan.picture = arguments.picture, plan.is_real_time = arguments.is_real_time;
-  plan.seconds = arguments.seconds;
+  plan.seconds = arguments.seconds.value_or(0);
   plan.waits = !arguments.does_not_wait && !plan.replay;
   plan.trace = arguments.trace, plan.record = arguments.record;
   examples::Result_writer writer("haptic_loop");
@@ -154,9 +155,7 @@ int run(int argc, char** argv) {
          "LENGTH [FORCE]: a hand that holds nothing is drawn to the nearest vertex within LENGTH, m, by at most "
          "FORCE, N (0.2); counts as a stiffness of 2 FORCE / LENGTH")
       ->expected(1, 2);
-  app.add_option("--work", settings.work, "Pairs that a drag may decide")
-      ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+  app.add_option("--work", settings.work, "Pairs that a drag may decide")->capture_default_str();
   app.add_option("--device", arguments.device, "Device, JSON");
   app.add_option("--hand", arguments.hand, "Hand, JSON");
   app.add_option("--path", arguments.path, "Where the hand wants to be: t,x,y,z,button")->capture_default_str();
@@ -179,7 +178,7 @@ int run(int argc, char** argv) {
       "Asks the system for a thread that goes first (SCHED_FIFO) and memory that stays; says what it does not give");
   app.add_flag("--no-wait", arguments.does_not_wait, "As fast as it goes");
   try {
-    app.parse(argc, argv);
+    examples::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? examples::done : examples::usage;
   }

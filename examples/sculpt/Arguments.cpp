@@ -2,10 +2,9 @@
 #include "Arguments.h"
 
 #include "../common/numbers.h"
+#include "../common/parse_arguments.h"
 
 #include <haptic_sculpt/version.h>
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,15 +34,13 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
                "  brush grab|inflate|smooth|flatten|pinch X Y Z RADIUS STRENGTH [NX NY NZ] | remesh L\n"
                "  shift AXIS N, N lines V C, end | undo | redo | stroke ... end (what is between is one step of undo)\n"
                "  response slide|stop|paper | clearance L|default | delta L | mesh SHA256");
-  const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
   app.set_version_flag("--version", std::string("sculpt of haptic_sculpt ") + HAPTIC_SCULPT_VERSION);
-  app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->required()->check(named);
-  app.add_option("--script", arguments.script, "The edits; - reads them from standard input")->check(named);
-  app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes: .off .ply .obj .stl")->check(named);
-  app.add_option("--report", arguments.report, "Where the JSON report goes")->check(named);
+  app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->required();
+  app.add_option("--script", arguments.script, "The edits; - reads them from standard input");
+  app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes: .off .ply .obj .stl");
+  app.add_option("--report", arguments.report, "Where the JSON report goes");
   app.add_option("--log", arguments.log,
-                 "Edit log: replayed if it exists, then appended to. The same command goes on where it stopped")
-      ->check(named);
+                 "Edit log: replayed if it exists, then appended to. The same command goes on where it stopped");
   app.add_flag("--append", arguments.append,
                "With a log that has the whole script already: makes the same edits once more")
       ->needs("--log")
@@ -56,7 +53,7 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
   app.add_option("--clearance", arguments.clearance,
                  "Distance kept from what blocks, > 0; by default 4 ulp of the largest coordinate of what touches");
   app.add_option("--delta", arguments.delta, "No triangle altitude may be less, >= 0; by default 0");
-  app.add_option("--picture", arguments.picture, "Where a picture goes: .png")->check(named);
+  app.add_option("--picture", arguments.picture, "Where a picture goes: .png");
   Picture_arguments& shown = arguments.shown;
   const CLI::Validator place(
       [](const std::string& text) -> std::string {
@@ -93,7 +90,6 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       ->needs("--picture");
   app.add_option("--compare", arguments.comparison,
                  "Where a picture goes (.png): left what the same script makes without the guard, right with it")
-      ->check(named)
       ->needs("--script")
       ->excludes("--log");
   app.add_option("--nearest", arguments.nearest,
@@ -105,7 +101,6 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       "--repair", arguments.repair.is_asked,
       "Repairs the mesh on reading, and says how; with -o and no script: converts a broken mesh into a valid one");
   app.add_option("--repair-report", arguments.repair.report, "Where the steps of the repair go, as JSON")
-      ->check(named)
       ->needs("--repair");
   app.add_option(
          "--repair-gap", arguments.repair.gap,
@@ -114,10 +109,9 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       ->needs("--repair");
   app.add_option("--repair-largest-hole", arguments.repair.largest_hole,
                  "Holes with more edges than this are not closed, and the mesh is refused; by default all are closed")
-      ->check(CLI::NonNegativeNumber)
       ->needs("--repair");
   try {
-    app.parse(argc, argv);
+    examples::parse_arguments(app, argc, argv);
     if (!shown.view.empty() && arguments.picture.empty() && arguments.comparison.empty())
       throw CLI::RequiresError("--picture-view", "--picture or --compare");
   } catch (const CLI::ParseError& error) {

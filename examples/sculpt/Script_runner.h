@@ -27,6 +27,7 @@ public:
     Progress progress(script.size());
     for (std::size_t i = 0; i < script.size() && !result_.failure; ++i) {
       try {
+        const Patience patience("line " + std::to_string(script[i].line));
         std::optional<Command> found;
         const Command& command = script[i].places.empty() ? script[i] : found.emplace(with_vertices_found(script[i]));
         if (command.kind == Kind::move) {

@@ -6,6 +6,7 @@
 
 #include "../common/contents_of.h"
 #include "../common/numbers.h"
+#include "../common/output_targets.h"
 
 #include <cmath>
 #include <optional>
@@ -151,7 +152,7 @@ public:
           : first == "save"     ? Kind::save
           : first == "open"     ? Kind::open
                                 : Kind::record)
-          .word = line_.rest("the name of a file");
+          .word = line_.rest(first == "screenshot" ? "the name of a .png file" : "the name of a file");
     else if (first == "print")
       add(Kind::print);
     else if (first == "where")
@@ -163,6 +164,8 @@ public:
     else
       line_.fail("'" + first + "' is not an action");
     line_.end();
+    if (first == "screenshot" && !examples::is_picture_name(actions_.back().word))
+      line_.fail("a picture is written as PNG: give it a name that ends in .png");
   }
 
 private:
@@ -289,6 +292,8 @@ std::vector<Action> read_actions(const std::string& text, const std::string& nam
     if (line.size() > most_bytes_of_line)
       throw Action_error(name + ": line " + std::to_string(number) + " is longer than " +
                          std::to_string(most_bytes_of_line) + " bytes");
+    if (line.find('\0') != std::string::npos)
+      throw Action_error(name + ": line " + std::to_string(number) + " has a byte 0, which is no text");
     Line words(line, name, number);
     if (const auto first = words.next())
       Reader(actions, words, number).read(*first);

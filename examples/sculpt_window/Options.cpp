@@ -4,10 +4,9 @@
 #include "keys.h"
 
 #include "../common/output_targets.h"
+#include "../common/parse_arguments.h"
 
 #include <haptic_sculpt/version.h>
-
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 
@@ -59,28 +58,23 @@ void check_files(const Options& options) {
 
 std::optional<bool> read_options(int argc, char** argv, Options& options) {
   CLI::App app("A window to sculpt a closed triangle mesh in; no surface ever passes through a surface.");
-  const CLI::Validator named([](const std::string& path) { return path.empty() ? "the name is empty" : ""; }, "");
   app.set_version_flag("--version", std::string("sculpt_window of haptic_sculpt ") + HAPTIC_SCULPT_VERSION);
   app.footer(lists());
   app.add_option("MESH", options.mesh,
-                 "Input: .off .ply .obj .stl; by default sculpt_window_ball.off, a ball that is written there")
-      ->check(named);
+                 "Input: .off .ply .obj .stl; by default sculpt_window_ball.off, a ball that is written there");
   app.add_option("-o,--output", options.out,
-                 "Where the key s saves to: .off .ply .obj .stl; by default MESH_sculpted with its extension")
-      ->check(named);
+                 "Where the key s saves to: .off .ply .obj .stl; by default MESH_sculpted with its extension");
   auto* const log =
       app.add_option("--log", options.log,
                      "Edit log, as of sculpt: replayed if it exists, then appended to, and kept. By default MESH.log, "
-                     "which is removed when the window is closed in order")
-          ->check(named);
+                     "which is removed when the window is closed in order");
   app.add_flag("--no-log", options.without_log, "Keeps no log: what is not saved is lost if the program ends badly")
       ->excludes(log);
   app.add_option("--script", options.script, "Actions to be carried out, see below")->check(CLI::ExistingFile);
-  app.add_option("--record", options.record, "Writes what the hand does as such a script")->check(named);
+  app.add_option("--record", options.record, "Writes what the hand does as such a script");
   app.add_option("--screenshot", options.screenshot,
-                 "Writes a picture of the window, after the script, and quits: .png")
-      ->check(named);
-  app.add_option("--report", options.report, "Where frame and loop times go, as JSON, at the end")->check(named);
+                 "Writes a picture of the window, after the script, and quits: .png");
+  app.add_option("--report", options.report, "Where frame and loop times go, as JSON, at the end");
   app.add_option("--size", options.size, "Of the window, in pixels")
       ->expected(2)
       ->type_name("WIDTH HEIGHT")
@@ -90,7 +84,7 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
                  "software")
       ->check(CLI::Range(0, 16));
   try {
-    app.parse(argc, argv);
+    examples::parse_arguments(app, argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0;
   }

@@ -100,6 +100,13 @@ def pictures(out, folder):
         expect((folder / "pictures" / name).read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", f"{name} is no picture")
 
 
+def wrong_use(folder):
+    for options in (["--cores", "0"], ["--minutes", "nan"], ["--minutes", "-1"], ["--shards", "-1"], ["--seed", "-5"], ["--build", str(folder / "none")],
+                    ["--profile", "nosuch"], ["--answers", str(folder / "none")], ["--out", ""], ["--out", "/dev/null/x"]):
+        done = run(folder / "wrong", "device", *options)
+        expect(done.returncode == 2 and "Traceback" not in done.stderr, f"{options}: exit {done.returncode}, {done.stderr[-500:]}")
+
+
 def options_are_known():
     """Every program takes what its steps give it, in every mode."""
     sys.path.insert(0, str(ROOT / "benchmark/common"))
@@ -293,6 +300,13 @@ def own_meshes(out, folder):
     for refuse, code in ((broken, 0), (["cut.off"], 14), ([*broken, "tetrahedron.off"], 13)):
         told = subprocess.run([*robustness, "--refuse", *refuse], capture_output=True, text=True)
         expect(told.returncode == code, f"told to refuse {refuse}: exit {told.returncode}, not {code}: {told.stderr}")
+    none = [str(BUILD / "benchmark/robustness"), "--drags", "10", "--edits", "0", "--shard", "0/1000000"]
+    for options, code in ((["--dump", str(meshes / "cut.off")], 5), (["--dump", "/dev/null/x", "--dump-all"], 5), (["--dump", ""], 2), (["--clearance", "nan"], 2)):
+        told = subprocess.run([*none, *options], capture_output=True, text=True)
+        expect(told.returncode == code and told.stderr, f"robustness {options}: exit {told.returncode}, not {code}: {told.stderr}")
+    with open("/dev/full", "w") as full:
+        told = subprocess.run(none, stdout=full, stderr=subprocess.DEVNULL)
+        expect(told.returncode == 5, f"a table that nobody can read: exit {told.returncode}")
 
 
 PLANTED_ROBUSTNESS = """#!/usr/bin/python3
@@ -423,6 +437,7 @@ def main():
         folder = pathlib.Path(place)
         kill_and_resume(folder / "resumed")
         check_page(folder / "resumed")
+        wrong_use(folder)
         options_are_known()
         no_case_is_left_out()
         missing_part()

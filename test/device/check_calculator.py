@@ -125,8 +125,14 @@ with tempfile.TemporaryDirectory() as folder:
     expect(workspace(samples, f"{folder}/none.json").returncode == 3, "a device that is not there")
     expect(workspace("/dev/full", device).returncode == 5, "samples that cannot be written")
     before = open(device).read()
-    run = workspace(device, device)
-    expect(run.returncode == 5 and open(device).read() == before, "samples in the place of the device")
+    os.symlink(device, f"{folder}/link.txt")
+    for arguments, code in (([f"{folder}/link.txt", device], 5), ([device], 2), ([samples, device, "more"], 2), (["--bogus"], 2), ([""], 2)):
+        run = workspace(*arguments)
+        expect(run.returncode == code and open(device).read() == before, f"samples in the place of the device: {arguments}")
+    for text, code in (('{"params":' + good + "}", 0), (good[:-1] + ',"fiction":1}', 3)):
+        with open(device, "w") as file:
+            file.write(text)
+        expect(workspace(samples, device).returncode == code, f"the device {text[:12]}")
     with open("/dev/full", "w") as full:
         expect(workspace("--help", stdout=full).returncode == 5, "words that cannot be written")
 

@@ -93,7 +93,7 @@ def main():
         refused(folder, 4, "a.off", "good.off", "--script", "a.off")
         refused(folder, 5, "a.off", "good.off", "-o", "a.off")
         write(at("deep.json"), "[" * 1000000)
-        refused(folder, 2, "deep", "--no-wait", "--seconds", "0", "--device", "deep.json", program=LOOP)
+        refused(folder, 2, "deep", "--no-wait", "--seconds", "0.01", "--device", "deep.json", program=LOOP)
         write(at("names.ply"), "ply\nformat ascii 1.0\n" + "".join(f"element e{k} 0\n" for k in range(100000)))
         refused(folder, 3, "at most 1000 elements", "names.ply")
 

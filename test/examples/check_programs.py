@@ -124,6 +124,23 @@ def signals(folder, mesh):
     check(told["missed_by_wakeup"] >= 10, f"ticks that came late: {told['missed_by_wakeup']}")
     loop(BALL, "--no-wait", "--seconds", "0.1", "--report", report)
     check(json.load(open(report))["missed_by_wakeup"] == 0, "where nothing is waited for, nothing is late")
+    rows_that_wait(folder)
+
+
+def rows_that_wait(folder):
+    """A signal ends a program whose rows nobody reads."""
+    pipe, out = f"{folder}/rows", f"{folder}/waited.off"
+    os.mkfifo(pipe)
+    process = started(BALL, "--no-wait", "--trace", pipe, "-o", out, program=LOOP)
+    time.sleep(0.5)
+    process.send_signal(signal.SIGTERM)
+    check(process.wait(20) == 5, f"nobody has opened the pipe: exit {process.returncode}")
+    process = started(BALL, "--no-wait", "--trace", pipe, "-o", out, program=LOOP)
+    with open(pipe, "rb") as rows:
+        rows.read(1)
+        time.sleep(1)  # the pipe is full by then
+        process.send_signal(signal.SIGTERM)
+        check(process.wait(20) == 5 and os.path.exists(out), f"nobody reads the pipe: exit {process.returncode}")
 
 
 def thrown_while_a_script_runs(folder, mesh):
@@ -218,10 +235,15 @@ def recordings(folder, mesh):
     check(loop(mesh, "--no-wait", "--seconds", "0.01", "--record", recording).returncode == 0, "a recording")
     head, rest = open(recording).read().split("\n", 1)
     for key, value in (("rate", -1.0), ("rate", 5), ("work", 0), ("work", -1), ("work", 1.5), ("map", [1, 2]), ("map", [0, 0, 0, 0]), ("delay", 99), ("stiffness", -1),
-                       ("damping", -1), ("reach", -1), ("virtual_mass", 11), ("compensated_inertia", 0.5), ("controller", -1)):
+                       ("damping", -1), ("damping", 1e6), ("reach", -1), ("reach", 0), ("reach", 5e-324), ("reach", 1.0000001), ("work", 2 * 10**15), ("snap", [0.1, 0.1, 0]),
+                       ("map", [1e308, 0, 0, 0]), ("virtual_mass", 11), ("compensated_inertia", 0.5), ("controller", -1)):
         bad = write(f"{folder}/bad.rec", json.dumps({**json.loads(head), key: value}) + "\n" + rest)
         fails(6, [key], loop(mesh, "--replay", bad), f"a recording with {key} = {value}")
     check(loop(mesh, "--replay", recording).returncode == 0, "the recording itself")
+    line = rest.split("\n")[2].split()
+    for change in ([*line, "more"], [*line[:6], "99999999999999999999999", line[7]], [*line[:6], "7", line[7]], line[:7]):
+        bad = write(f"{folder}/bad.rec", head + "\n" + " ".join(change) + "\n" + rest)
+        fails(6, ["line 2"], loop(mesh, "--replay", bad), f"a recording with the line {change}")
     # The greatest number is no vertex, for a log either.
     log, out = f"{folder}/a.log", f"{folder}/out.off"
     run(mesh, "--log", log, "--script", "-", "-o", out, script=f"drag {2**64 - 1} 5 5 5\ndrag {2**64 - 2} 5 5 5\n")
@@ -235,6 +257,21 @@ def words(folder, mesh):
     fails(3, ["boundary"], run(write(f"{folder}/open.off", TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", "")), "--delta", "0.01"), "a mesh that is open")
     fails(2, ["--nearest", "nan"], run(mesh, "--nearest", "nan", "0", "0"), "--nearest nan")
     fails(4, ["directory"], run(mesh, "--script", folder), "a folder as script")
+    fails(4, ["no-such"], loop(mesh, "--path", f"{folder}/no-such"), "a path that is not there")
+    for program, options in ((SCULPT, ("--log", "-o", "--delta", "--clearance", "--picture")), (LOOP, ("--log", "-o", "--replay", "--stiffness", "--seconds", "--device"))):
+        for option in options:
+            fails(2, [option, "empty"], run(mesh, option, "", program=program), f"{option} of nothing")
+            if option != "-o":
+                fails(2, [option, "empty"], run(mesh, option + "=", program=program), f"{option}=")
+    fails(2, ["empty"], run(""), "a mesh without a name")
+    fails(2, ["--seconds"], loop(mesh, "--seconds", "0"), "no time")
+    fails(2, ["--log"], loop(mesh, "--fault", "log@0.01"), "a fault of no log")
+    fails(2, ["--fault"], loop(mesh, "--fault", "nan@inf"), "a fault that never comes")
+    fails(2, ["--reach"], loop(mesh, "--reach", "0"), "no reach")
+    with open("/dev/full", "w") as full:
+        for program in (SCULPT, LOOP):
+            for option in ("--help", "--version") if program == SCULPT else ("--help",):
+                check(subprocess.run([program, option], stdout=full, stderr=subprocess.DEVNULL).returncode == 5, f"{option} to a full disk")
     opened = loop(f"{folder}/open.off", "--no-wait")
     fails(3, ["holes"], opened, "advice of haptic_loop")
     check("PMP" not in opened.stderr, f"advice for programmers: {opened.stderr}")

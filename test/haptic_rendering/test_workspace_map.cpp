@@ -29,6 +29,7 @@ BOOST_AUTO_TEST_CASE(a_map_there_and_back_is_the_identity) {
   }
   BOOST_CHECK_THROW(Workspace_map(0, Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()), Error);
   BOOST_CHECK_THROW(Workspace_map(1, Vector3d::Constant(NAN), Vector3d::Zero(), Vector3d::Zero()), Error);
+  BOOST_CHECK_THROW(Workspace_map(1, Vector3d(1e200, 0, 0), Vector3d::Zero(), Vector3d::Zero()), Error); // rad
 }
 
 BOOST_AUTO_TEST_CASE(the_fitted_map_puts_the_corners_of_the_box_on_the_ball) {

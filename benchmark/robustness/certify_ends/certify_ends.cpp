@@ -133,6 +133,8 @@ int main(int argc, char** argv) {
   app.add_option("--script", options.script, "NAME.script of it")->needs(replayed);
   Benchmark_program program("certify_ends", app, "scene");
   return program.run(argc, argv, [&](Promises& promises) {
+    if (!options.dump.empty())
+      check_folder(options.dump);
     return options.off.empty() ? run(options, program.shard, promises) : replay(options, promises);
   });
 }

@@ -64,7 +64,10 @@ int main(int argc, char** argv) {
                  "One or more, e.g. 0,1e-9: of the extent of each mesh; 0: the default, 4 ulp. Where one does not "
                  "serve a mesh its batches are counted as refused")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1.0))
+      ->check([](const std::string& text) -> std::string { // CLI::Range lets pass what is no number
+        const double share = std::strtod(text.c_str(), nullptr);
+        return share >= 0 && share <= 1 ? "" : "'" + text + "' is not a number from 0 to 1";
+      })
       ->capture_default_str();
   app.add_option("--least-faces", options.least_faces, "Leave out meshes with fewer faces");
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
@@ -77,6 +80,8 @@ int main(int argc, char** argv) {
                "All batches are written there, and what has become of the mesh, NAME.end.off");
   benchmark::Benchmark_program program("robustness", app, "batch");
   return program.run(argc, argv, [&](benchmark::Promises& promises) {
+    if (!options.dump.empty())
+      benchmark::check_folder(options.dump);
     robustness::Run run(options, program.shard);
     if (!options.folder.empty())
       run.folder(); // first: one hears of its files before hours of the others

@@ -23,9 +23,9 @@ public:
       : scale_(scale), rotation_vector_(rotation), origin_(origin), home_(home) {
     if (!(scale > 0) || !std::isfinite(scale))
       throw Error("the scale of the workspace map must be a finite number > 0, not " + internal::number(scale));
-    if (!rotation.allFinite() || !origin.allFinite() || !home.allFinite())
-      throw Error("the rotation and the places of the workspace map must be finite numbers");
     const double angle = rotation.norm();
+    if (!std::isfinite(angle) || !origin.allFinite() || !home.allFinite())
+      throw Error("the rotation and the places of the workspace map must be finite numbers, and the angle below 1e154");
     if (angle > 0)
       rotation_ = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
   }

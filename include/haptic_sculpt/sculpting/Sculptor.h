@@ -192,14 +192,15 @@ public:
   /// given again. Done where the surface stays embedded, and the delta rule kept, at every time; decided exactly,
   /// whatever the traits (doc/use/axis_moves.md). Else refused, with the vertices of a place that is in the way. One
   /// change of the history. \tparam Concurrency_tag as of move_vertices() \param axis 0 to 2 \post Nothing has died.
-  /// \throw Unknown_vertex, Out_of_range. Cost: n log n in what moves and is near
+  /// \throw Unknown_vertex, Out_of_range, Invalid_parameter. Cost: n log n in what moves and is near
   template <class Concurrency_tag = CGAL::Sequential_tag>
   Edited shift(int axis, const std::vector<std::pair<Vertex_index, double>>& ways) {
     return internal::shift_all(guarded_, axis, ways, Part_runner::by<Concurrency_tag>());
   }
 
   /// Does an edit given by value, and gives it back as it can be done again. Strokes begun by one are ended by another;
-  /// moves of one vertex that follow each other are one grab. \throw as the functions that the kinds are named after
+  /// moves of one vertex that follow each other are one grab. A move with legs is a drag for each, all one step: what
+  /// is thrown in one leaves those before it. \throw as the functions that the kinds are named after
   Applied<Mesh_type> apply(const Edit& edit) { return applier_.apply(*this, edit); }
 
   /// Takes back the last step that changed the mesh: a drag, creation, removal or flip, or a whole stroke; as many as
@@ -220,7 +221,8 @@ public:
   /// Bounds the history, in steps or bytes (`history().bytes()`), or turns it off; without limit at first. The oldest
   /// steps are forgotten; a stroke that alone is larger is not kept, nor is anything before it.
   void set_history_limit(const History_limit& limit) { guarded_.whole_editor().history().set_limit(limit); }
-  /// Forgets all of it, as where a log begins; the limit stays, and the room. A stroke under way is not kept.
+  /// Forgets all of it, as where a log begins; the limit stays, and the room. A stroke under way that
+  /// has changed the mesh is not kept.
   void forget_history() { guarded_.whole_editor().history().forget(); }
 
   /// Makes room, in the mesh too: after it this many edits (flips, collapses, creations, removals), of stars of eight
@@ -277,9 +279,10 @@ public:
   }
 
   /// What is kept from a contact that a vertex at p makes with features whose coordinates are no larger: the length
-  /// set, or the default.
+  /// set, or the default. \throw Non_finite_point, Out_of_range
   double clearance(const Point& p) const {
     const internal::Rounding_to_nearest rounding;
+    internal::check_point("the place", p);
     return internal::Clearance_rule(parameters().drag.clearance_length)
         .at(internal::largest_magnitude(internal::coordinates(p)));
   }

@@ -19,6 +19,7 @@ inline Validity_report check_repairable(const Face_soup& soup, const Repair_para
   if (!(gap >= 0) || !is_in_range(gap))
     throw Out_of_range("gap " + number(gap) +
                        " is out of range: give a length >= 0 and at most 2^1000, about 1.07e301");
+  check_length_of_delta(parameters.delta_length);
   for (std::size_t i = 0; i < soup.corners.size(); ++i)
     if (soup.corners[i] >= soup.points.size())
       throw Error("corner " + std::to_string(i) + " of the list of faces is point " + std::to_string(soup.corners[i]) +
@@ -56,7 +57,8 @@ inline Repair_report repaired(const Face_soup& soup, const Repair_parameters& pa
 /// All is done on a copy. Where faults are left, the soup is unchanged, and the report says which. Where there is no
 /// fault, no component inside out and no point without a face, the soup is unchanged, too.
 ///
-/// \throw Out_of_range if a coordinate or the gap is; Error if a corner is no index of a point; nothing is changed
+/// \throw Out_of_range if a coordinate or the gap is; Error if a corner is no index of a point, or delta no
+/// length; nothing is changed
 /// \post `report.is_repaired()` and `validate_soup(soup, delta).is_valid()`, or the soup is unchanged
 /// Complexity: O(n log^3 n) and what CGAL's functions take where there are faults; a hole of h <= 500 edges up to
 /// O(h^3).

@@ -21,6 +21,12 @@
 namespace haptic_sculpt {
 namespace internal {
 
+/// \throw Error for a delta that is negative or not finite
+inline void check_length_of_delta(double delta) {
+  if (!(delta >= 0) || !std::isfinite(delta))
+    throw Error("delta is a length: it must be finite and not negative, not " + number(delta));
+}
+
 /// The half-edges of a mesh whose pointers lead nowhere, to something removed, or contradict each other.
 /// Needs no trust in any pointer: each index is checked before it is followed.
 template <class Mesh>
@@ -84,8 +90,7 @@ Validity_report validate_soup(const Face_soup& soup, double delta = 0,
                               std::vector<Face_soup::Index> face_name = {}, std::vector<bool> vertex_exists = {}) {
   const internal::Rounding_to_nearest rounding;
   using Index = Face_soup::Index;
-  if (!(delta >= 0) || !std::isfinite(delta))
-    throw Error("delta is a length: it must be finite and not negative, not " + std::to_string(delta));
+  internal::check_length_of_delta(delta);
   if (face_name.empty()) {
     face_name.resize(soup.number_of_faces());
     std::iota(face_name.begin(), face_name.end(), Index(0));

@@ -125,6 +125,29 @@ BOOST_AUTO_TEST_CASE(a_drag_by_a_grab_that_somebody_has_ended_is_no_move) {
   BOOST_TEST((!journal.take(taken) && !journal.has_overrun()));
 }
 
+// A slide of several legs without a stroke is one step of undo, and so it is where it is made again.
+BOOST_AUTO_TEST_CASE(a_drag_outside_of_strokes_is_undone_as_one_where_it_is_made_again) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> number(-1.5, 1.5);
+  std::size_t slides = 0;
+  for (int round = 0; round < 100; ++round) {
+    Mesh mesh = meshes::to_mesh(meshes::icosphere(1)), again = mesh;
+    Sculptor<Mesh> sculptor(mesh), other(again);
+    Edit_journal journal(100);
+    Journaled_edits edits(sculptor);
+    edits.keep_journal(&journal);
+    const double x = number(random), y = number(random), z = number(random);
+    slides += edits.drag(Mesh::Vertex_index(round % 42), Mesh::Point(x, y, z)).legs > 1;
+    edits.make(Edit::of(Edit_kind::undo));
+    journal.end_tick(0);
+    for (Edit taken; journal.take(taken);)
+      if (taken.kind != Edit_kind::none)
+        other.apply(taken);
+    BOOST_TEST((surface_of(again, other) == surface_of(mesh, sculptor)));
+  }
+  BOOST_TEST(slides > 20u);
+}
+
 BOOST_AUTO_TEST_CASE(a_journal_that_breaks_off_has_the_ticks_before) {
   Edit_journal journal(100);
   const Edit move = Edit::of(Edit_kind::move, {3, 0, 0}, {1, 2, 3});

@@ -6,7 +6,10 @@
 
 #include <haptic_sculpt/sculpting.h>
 
+#include <boost/property_map/property_map.hpp>
 #include <boost/test/unit_test.hpp>
+
+#include <map>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -102,6 +105,45 @@ BOOST_AUTO_TEST_CASE(a_shift_that_is_blocked_changes_nothing) {
   const double here = vertex_coordinates(mesh, v)[0];
   BOOST_TEST(bool(sculptor.shift(0, {{v, 100}, {v, here}}))); // the last counts
   BOOST_TEST((points_of(mesh) == before));
+}
+
+// What undo has left below a delta that was set since goes along with others and may grow, and must not shrink.
+BOOST_AUTO_TEST_CASE(altitudes_that_are_low_already_are_in_nobodys_way) {
+  Mesh mesh = ball();
+  Sculptor<Mesh> sculptor(mesh);
+  const Vertex_index v(20), near = mesh.source(mesh.halfedge(v));
+  const Point_3 p = mesh.point(v);
+  const auto way = 0.95 * (mesh.point(near) - p);
+  BOOST_REQUIRE(sculptor.move_if_free(v, p + way));
+  const Point_3 low = mesh.point(v);
+  BOOST_REQUIRE(sculptor.move_if_free(v, p));
+  sculptor.set_delta(0.04);
+  BOOST_REQUIRE(bool(sculptor.undo()));
+  BOOST_REQUIRE((mesh.point(v) == low));
+  BOOST_REQUIRE(!validate(mesh, 0.04).is_valid());
+  for (int axis = 0; axis < 3; ++axis) { // all of it; by a power of two, without rounding
+    Ways ways;
+    for (const Vertex_index u : mesh.vertices())
+      ways.emplace_back(u, vertex_coordinates(mesh, u)[axis] + 0x1p-10);
+    BOOST_TEST(bool(sculptor.shift(axis, ways)), "axis " << axis);
+    BOOST_TEST(bool(sculptor.undo()));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::fabs(way[axis]) < 0.1)
+      continue;
+    const double here = low[axis], back = here + 0.1 * (p[axis] - here), on = here - 0.01 * (p[axis] - here);
+    const auto shrinks = sculptor.shift(axis, {{v, on}});
+    BOOST_REQUIRE(!shrinks);
+    BOOST_TEST((shrinks.refusal->reason == Refusal_reason::delta),
+               "axis " << axis << ", reason " << int(shrinks.refusal->reason));
+    BOOST_TEST(bool(sculptor.shift(axis, {{v, back}})), "axis " << axis);
+  }
+  std::map<Vertex_index, Point_3> targets;
+  for (const Vertex_index u : mesh.vertices())
+    targets[u] = CGAL::ORIGIN + 1.25 * (mesh.point(u) - CGAL::ORIGIN);
+  const auto report = move_vertices(sculptor, mesh.vertices(), boost::make_assoc_property_map(targets));
+  BOOST_TEST(report.reached == mesh.num_vertices());
+  sculptor.check_unchanged();
 }
 
 // Between two drags of a vertex in one stroke: what is taken back goes by the states that were there.

@@ -258,6 +258,7 @@ BOOST_AUTO_TEST_CASE(finding_refuses_what_is_no_place) {
   BOOST_CHECK_THROW(sculptor.nearest_vertex({0, 0, 0}, -1), Invalid_parameter);
   BOOST_CHECK_THROW(sculptor.nearest_vertex({0, 0, 0}, std::nan("")), Invalid_parameter);
   BOOST_CHECK_THROW(sculptor.first_hit({0, 0, 0}, {0x1p1001, 0, 0}), Out_of_range);
+  BOOST_CHECK_THROW(sculptor.clearance({std::nan(""), 0, 0}), Non_finite_point);
   BOOST_TEST(!sculptor.nearest_vertex({5, 0, 0}, 1).is_valid());
   // The grab at hand goes on.
   auto grab = sculptor.grab(Vertex_index(0));

@@ -129,6 +129,13 @@ BOOST_AUTO_TEST_CASE(an_obstacle_is_named_and_the_share_is_where_it_stands) {
       const Mesh_snapshot before = snapshot(sculptor);
       const auto report = move_rigidly(sculptor, box, translation(turned(2, 0, 0)));
       BOOST_TEST(!report);
+      for (const double least : {0x1p-1074, 0x1p-1073, 0x1p-1022}) { // a rotation by that angle, rad, is none to see
+        Mesh same = start;
+        Sculptor<Mesh> alone(same);
+        const Vector_3 way = turned(2, 0, 0);
+        const Transformation turn(1, -least, 0, way.x(), least, 1, 0, way.y(), 0, 0, 1, way.z());
+        BOOST_TEST(move_rigidly(alone, box, turn).share == report.share);
+      }
       // The last step that does not touch: at gap / 2 of the way it would.
       BOOST_TEST(report.share == (std::ceil(((1 + gap) - 1) / 2 * 1024) - 1) / 1024);
       BOOST_REQUIRE(!report.contacts.empty());

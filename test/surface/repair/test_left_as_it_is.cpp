@@ -91,6 +91,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_repaired_is_left_as_it_is) {
   BOOST_CHECK_THROW(repair(soup, Repair_parameters().gap(-1)), haptic_sculpt::Out_of_range);
   BOOST_CHECK_THROW(repair(soup, Repair_parameters().gap(std::numeric_limits<double>::quiet_NaN())),
                     haptic_sculpt::Out_of_range);
+  BOOST_CHECK_THROW(repair(soup, Repair_parameters().delta(-1)), haptic_sculpt::Error); // before any work
   // A sheet, with its other side upon it, holds nothing.
   Triangle_list sheet;
   sheet.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

@@ -5,6 +5,7 @@
 #include <haptic_sculpt/sculpting.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace haptic_sculpt {
@@ -77,9 +78,12 @@ public:
   /// A drag of a vertex of the surface; its legs are reported. \throw what drags throw
   Result drag(Grab_type& grab, const Point& target, const std::optional<Drag_parameters>& parameters) {
     const auto result = or_break_off([&] { return grab.drag_to(target, legs_, parameters); });
-    for (std::size_t k = 1; k < legs_.size(); ++k)
-      if (legs_[k] != legs_[k - 1])
+    if (!legs_.empty()) // a place twice in a row, and +0 beside -0, is no leg
+      legs_.erase(std::unique(legs_.begin(), legs_.end()), legs_.end());
+    in_one_step(legs_.size() > 2, [&] {
+      for (std::size_t k = 1; k < legs_.size(); ++k)
         add_move(grab.vertex(), legs_[k]);
+    });
     return result;
   }
 
@@ -248,18 +252,25 @@ private:
   void add_move(Vertex_index v, const Point& to) {
     add(Edit::of(Edit_kind::move, {sculptor_->id(v), 0, 0}, {to.x(), to.y(), to.z()}));
   }
-  /// A slide as its legs, each a move of its own, all one step; of what has changed nothing, nothing.
+  /// A slide as its legs, each a move of its own; of what has changed nothing, nothing.
   void tell(const Edit& made) {
-    const bool is_slide = !made.legs.empty() && !stroke_;
-    if (is_slide)
+    in_one_step(!made.legs.empty(), [&] {
+      for (const auto& leg : made.legs)
+        add(Edit::of(Edit_kind::move, made.vertices, leg));
+      if (made.kind == Edit_kind::move)
+        add(Edit::of(Edit_kind::move, made.vertices, made.point));
+      else if (made.kind != Edit_kind::none)
+        add(made);
+    });
+  }
+  /// What the function adds is one step of undo, as it was when it was made.
+  template <class Function>
+  void in_one_step(bool is_several, const Function& function) {
+    const bool is_step = is_several && !stroke_;
+    if (is_step)
       add(Edit::of(Edit_kind::stroke));
-    for (const auto& leg : made.legs)
-      add(Edit::of(Edit_kind::move, made.vertices, leg));
-    if (made.kind == Edit_kind::move)
-      add(Edit::of(Edit_kind::move, made.vertices, made.point));
-    else if (made.kind != Edit_kind::none)
-      add(made);
-    if (is_slide)
+    function();
+    if (is_step)
       add(Edit::of(Edit_kind::end));
   }
   void add(const Edit& edit) {

@@ -11,7 +11,8 @@ namespace haptic_sculpt::internal {
 
 /// Whether q(t) = |n|^2 - delta^2 |side|^2 >= 0 for all t in [0, 1], for each side of the triangle 0, 1, 2; n is the
 /// normal, a cross product of two sides. One coordinate of n is constant and two are affine in t, so q is a quadratic
-/// a t^2 + b t + c, and nothing but signs is asked (doc/use/axis_moves.md).
+/// a t^2 + b t + c, and nothing but signs is asked. Where q(0) < 0 the altitude h = |n| / |side| must not shrink: then
+/// |n|^2 |side(0)|^2 - |n(0)|^2 |side|^2 takes the place of q (doc/proofs/axis_moves.md).
 template <class Number>
 CGAL::Uncertain<bool> is_delta_kept_in(const Axis_motion<3>& motion, double delta) {
   struct Affine { // start + t slope
@@ -42,20 +43,29 @@ CGAL::Uncertain<bool> is_delta_kept_in(const Axis_motion<3>& motion, double delt
   normal.add_square(minor(p_j.start, q_k, q_j.start, p_k), one);
   normal.add_square(minor(q_i.start, p_k, p_i.start, q_k), one);
   normal.add_square({p_i.start * q_j.start - p_j.start * q_i.start, Number(0)}, one);
+  const Number zero(0);
   CGAL::Uncertain<bool> is_kept = true;
   for (int from = 0; from < 3; ++from) {
-    Quadratic q = normal;
+    Quadratic side;
     for (int coordinate = 0; coordinate < 3; ++coordinate)
-      q.add_square(difference(from, (from + 1) % 3, coordinate), -square);
-    const Number zero(0);
-    is_kept = is_kept & (CGAL::make_uncertain(q.c >= zero) & (q.a + q.b + q.c >= zero) &
-                         (CGAL::make_uncertain(q.a <= zero) | (q.b >= zero) | (2 * q.a + q.b <= zero) |
-                          (q.b * q.b <= 4 * q.a * q.c)));
+      side.add_square(difference(from, (from + 1) % 3, coordinate), one);
+    const Quadratic q{normal.a - square * side.a, normal.b - square * side.b, normal.c - square * side.c};
+    const auto is_low = CGAL::make_uncertain(q.c < zero);
+    if (!CGAL::is_certain(is_low))
+      return CGAL::Uncertain<bool>::indeterminate();
+    if (CGAL::get_certain(is_low)) { // t (a t + b)
+      const Number a = normal.a * side.c - normal.c * side.a, b = normal.b * side.c - normal.c * side.b;
+      is_kept = is_kept & (CGAL::make_uncertain(b >= zero) & (a + b >= zero));
+    } else
+      is_kept = is_kept & (CGAL::make_uncertain(q.a + q.b + q.c >= zero) &
+                           (CGAL::make_uncertain(q.a <= zero) | (q.b >= zero) | (2 * q.a + q.b <= zero) |
+                            (q.b * q.b <= 4 * q.a * q.c)));
   }
   return is_kept;
 }
 
-/// Whether no altitude of a triangle is below delta at any time; by intervals, and where these leave it open exactly.
+/// Whether no altitude of a triangle is below min(delta, what it is at the start) at any time; by intervals, and where
+/// these leave it open exactly.
 inline bool is_delta_kept(const Axis_motion<3>& motion, double delta) {
   {
     CGAL::Protect_FPU_rounding<true> upward;

@@ -34,7 +34,7 @@ public:
   /// arc is shorter than that of the arc, and turned against it by half of what is missing. Rounded. \param share in
   /// [0, 1]
   Vector at(double share, const Vector& whole) const {
-    if (angle_ == 0)
+    if (angle_ < straight)
       return scaled(whole, share);
     const double ratio = std::sin(share * angle_ / 2) / std::sin(angle_ / 2), turn = (share - 1) * angle_ / 2;
     const Vector along = scaled(axis_, dot(axis_, whole)), across = minus(whole, along);
@@ -45,6 +45,8 @@ public:
   /// By how much sums of products of the entries of a matrix that are 0 or 1 for a rotation may differ from these: some
   /// thousand times what rounding leaves, for matrices that are products of others; and far less than anyone sees.
   static constexpr double rigidity = 0x1p-40;
+  /// Rad. An arc of less is straight to far more than a double's places; quotients of subnormal sines are not shares.
+  static constexpr double straight = 0x1p-500;
 
 private:
   double angle_;
