@@ -24,10 +24,9 @@ public:
   }
 
   Run_result run(const std::vector<Command>& script, const After_command& after) {
-    Progress progress(script.size());
+    Progress progress("the script", script.size());
     for (std::size_t i = 0; i < script.size() && !result_.failure; ++i) {
       try {
-        const Patience patience("line " + std::to_string(script[i].line));
         std::optional<Command> found;
         const Command& command = script[i].places.empty() ? script[i] : found.emplace(with_vertices_found(script[i]));
         if (command.kind == Kind::move) {

@@ -122,7 +122,7 @@ Sculpted_mesh mesh_of(const Arguments& arguments, Result_writer& writer) {
   if (arguments.repair.is_asked) {
     std::string told;
     Sculpted_mesh read = [&] {
-      const Patience patience("repairing '" + arguments.mesh + "'");
+      const Progress progress("repairing '" + arguments.mesh + "'");
       return read_repaired(arguments, writer, told);
     }();
     std::cout << told;
@@ -130,7 +130,7 @@ Sculpted_mesh mesh_of(const Arguments& arguments, Result_writer& writer) {
   }
   try {
     Sculpted_mesh read = [&] {
-      const Patience patience("reading and validating '" + arguments.mesh + "'");
+      const Progress progress("reading and validating '" + arguments.mesh + "'");
       return read_mesh(arguments);
     }();
     if (arguments.orient && !read.found.inside_out_components.empty()) {

@@ -143,6 +143,15 @@ def rows_that_wait(folder):
         check(process.wait(20) == 5 and os.path.exists(out), f"nobody reads the pipe: exit {process.returncode}")
 
 
+def a_line_that_takes_long(folder, mesh):
+    """It is said that it goes on, and where."""
+    process = started(mesh, "--script", write(f"{folder}/long.script", "remesh 1e-3\n"), stderr=subprocess.PIPE)
+    time.sleep(3)
+    process.kill()
+    words = process.communicate(timeout=100)[1]
+    check(b"sculpt: the script: 0 of 1 lines, 2 s\n" in words, f"a line that takes long: {words}")
+
+
 def thrown_while_a_script_runs(folder, mesh):
     """A line that does not serve any more is refused; what is thrown leaves the results so far."""
     out, report, log = f"{folder}/out.off", f"{folder}/report.json", f"{folder}/a.log"
@@ -295,7 +304,7 @@ def words(folder, mesh):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/mesh.off", TETRAHEDRON)
-        for part in (closed_streams, readers_that_have_gone, signals, thrown_while_a_script_runs, targets, inputs_of_the_loop, recordings, words):
+        for part in (closed_streams, readers_that_have_gone, signals, a_line_that_takes_long, thrown_while_a_script_runs, targets, inputs_of_the_loop, recordings, words):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             part(inner, mesh)
