@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 namespace {
@@ -112,8 +113,9 @@ int print_figures(int argument_count, char** arguments) {
   std::string file, device;
   app.add_option("SAMPLES.txt", file, "Where the samples of the first one go, for examples/plot_device_workspace.py")
       ->check([](const std::string& name) -> std::string {
-        const std::string end = std::filesystem::path(name).extension().string();
-        return end == ".json" ? "'" + name + "' would be replaced by samples; a device comes second" : "";
+        std::error_code none;
+        const bool is_device = std::filesystem::is_regular_file(name, none) && std::ifstream(name).peek() == '{';
+        return is_device ? "'" + name + "' would be replaced by samples; a device comes second" : "";
       });
   app.add_option("DEVICE.json", device, "With the keys of doc/use/device.md");
   try {

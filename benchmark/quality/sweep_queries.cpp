@@ -134,7 +134,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return app.exit(error) != 0 ? 2 : std::cout.flush() ? 0 : 5;
   }
 
   std::ifstream file;

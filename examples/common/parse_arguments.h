@@ -15,7 +15,7 @@ inline void parse_arguments(CLI::App& app, int argc, char** argv) {
     const bool is_option = argument.rfind("--", 0) == 0;
     if (argument.empty())
       throw CLI::ValidationError(before.rfind('-', 0) == 0 ? before : "argument " + std::to_string(i), "is empty");
-    if (is_option && argument.back() == '=')
+    if (is_option && argument.find('=') == argument.size() - 1)
       throw CLI::ValidationError(argument.substr(0, argument.size() - 1), "is empty");
   }
   app.parse(argc, argv);

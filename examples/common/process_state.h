@@ -90,17 +90,14 @@ inline void put_process_in_order(const char* program) {
 }
 
 /// Of a program that goes on until it is ended: from here on control-C, SIGTERM and SIGHUP end it in order, as far as
-/// they were not ignored when it began. A call that waits, such as for the reader of a pipe, is interrupted. \pre
-/// put_process_in_order() \return becomes true with the first of them
+/// they were not ignored when it began. \pre put_process_in_order() \return becomes true with the first of them
 inline const std::atomic<bool>& end_in_order_by_signals() {
-  struct sigaction action {
-  }, old{}; // std::signal() would have such calls begun again
-  action.sa_handler = [](int) { process::is_ended() = true; };
+  const auto note = [](int) { process::is_ended() = true; };
   for (const int signal : {SIGINT, SIGTERM})
-    if (::sigaction(signal, &action, &old) == 0 && old.sa_handler == SIG_IGN)
+    if (std::signal(signal, note) == SIG_IGN)
       std::signal(signal, SIG_IGN);
   if (!process::outlives_terminal())
-    ::sigaction(SIGHUP, &action, nullptr);
+    std::signal(SIGHUP, note);
   return process::is_ended();
 }
 

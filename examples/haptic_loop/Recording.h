@@ -80,7 +80,7 @@ inline void Recording::take_reading(const std::string& line, const std::string& 
   Joint_reading r;
   double button = 0; // what is no int has no meaning as one
   int end = 0;
-  if (std::sscanf(line.c_str(), "%la %la %la %la %la %la %la %la%n", &r.theta[0], &r.theta[1], &r.theta[2],
+  if (std::sscanf(line.c_str(), "%la %la %la %la %la %la %la %la %n", &r.theta[0], &r.theta[1], &r.theta[2],
                   &r.torque[0], &r.torque[1], &r.torque[2], &button, &r.elapsed, &end) != 8 ||
       line.c_str()[end] != '\0' || !(button == 0 || button == 1 || button == 2))
     throw Foreign_recording(path + ": line " + std::to_string(readings.size() + 2) + " is no line of a recording");

@@ -3,17 +3,23 @@
 
 #include <haptic_sculpt/surface/Write_error.h>
 
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <thread>
 
 #include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
 
 namespace haptic_sculpt::loop_program {
 
 /// A file, device or pipe that rows go to as they come. What cannot be written is reported in the end: a run does not
-/// end for a reader who has gone.
+/// end for a reader who has gone. One that is slow is waited for; once the run is to end, no longer than he takes
+/// nothing for two seconds. (GNU)
 class Row_file {
 public:
   Row_file() = default;
@@ -24,11 +30,25 @@ public:
       std::fclose(file_);
   }
 
-  /// \param path empty: none \throw Write_error
-  void open(const std::string& path) {
-    path_ = path;
-    if (!path.empty() && (file_ = std::fopen(path.c_str(), "wb")) == nullptr)
-      throw Write_error("cannot write '" + path + "': " + std::strerror(errno));
+  /// Waits until a pipe has a reader. \param path empty: none \param is_ended whether the run is to end, kept
+  /// \throw Write_error
+  void open(const std::string& path, const std::atomic<bool>& is_ended) {
+    path_ = path, is_ended_ = &is_ended;
+    if (path.empty())
+      return;
+    // A call that waits would go on waiting after a signal, or before one.
+    while ((descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NONBLOCK | O_CLOEXEC, 0666)) < 0 &&
+           errno == ENXIO && !is_ended)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const int why = errno;
+    if (descriptor_ >= 0) {
+      cookie_io_functions_t functions{};
+      functions.write = write, functions.close = close_descriptor;
+      if ((file_ = ::fopencookie(this, "w", functions)) == nullptr)
+        ::close(descriptor_);
+    }
+    if (file_ == nullptr)
+      throw Write_error("cannot write '" + path + "': " + (why == ENXIO ? "nobody reads it" : std::strerror(why)));
   }
   /// nullptr: there is none
   std::FILE* get() const { return file_; }
@@ -37,20 +57,47 @@ public:
   void close() {
     if (file_ == nullptr)
       return;
-    errno = 0;
-    const bool had_failed = std::ferror(file_) != 0;
-    if (had_failed) // what is left must not wait for a reader who takes nothing
-      ::fcntl(::fileno(file_), F_SETFL, ::fcntl(::fileno(file_), F_GETFL) | O_NONBLOCK);
-    const bool fails = std::fclose(file_) != 0;
+    std::fclose(file_);
     file_ = nullptr;
-    if (had_failed || fails)
+    if (failure_ != 0)
       throw Write_error("cannot write all rows of '" + path_ + "': " +
-                        (fails && errno != 0 ? std::strerror(errno) : "the disk is full, or its reader has gone"));
+                        (failure_ == EAGAIN  ? "its reader takes nothing"
+                         : failure_ == EPIPE ? "its reader has gone"
+                                             : std::strerror(failure_)));
   }
 
 private:
   std::string path_;
   std::FILE* file_ = nullptr;
+  int descriptor_ = -1, failure_ = 0; ///< errno of the first write that failed
+  const std::atomic<bool>* is_ended_ = nullptr;
+
+  static ssize_t write(void* self, const char* bytes, std::size_t size) {
+    return static_cast<Row_file*>(self)->write(bytes, size);
+  }
+  /// \return 0: an error
+  ssize_t write(const char* bytes, std::size_t size) {
+    constexpr int milliseconds = 100, most_waits = 20;
+    int waits = 0; // for nothing, since the run is to end
+    for (std::size_t done = 0; done < size && failure_ == 0;) {
+      const ssize_t written = ::write(descriptor_, bytes + done, size - done);
+      pollfd file{descriptor_, POLLOUT, 0};
+      if (written >= 0)
+        done += static_cast<std::size_t>(written), waits = 0;
+      else if (errno == EAGAIN && (!*is_ended_ || ++waits <= most_waits))
+        ::poll(&file, 1, milliseconds);
+      else if (errno != EINTR)
+        failure_ = errno;
+    }
+    return failure_ == 0 ? static_cast<ssize_t>(size) : 0;
+  }
+  static int close_descriptor(void* self) {
+    Row_file& rows = *static_cast<Row_file*>(self);
+    const int code = ::close(rows.descriptor_);
+    if (code != 0 && rows.failure_ == 0)
+      rows.failure_ = errno;
+    return code;
+  }
 };
 
 } // namespace haptic_sculpt::loop_program

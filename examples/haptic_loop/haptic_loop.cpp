@@ -4,6 +4,7 @@
 #include "Loop_report.h"
 
 #include "../common/mesh_program.h"
+#include "../common/numbers.h"
 #include "../common/output_targets.h"
 #include "../common/parse_arguments.h"
 #include "../common/write_file.h"
@@ -84,6 +85,10 @@ int loop(const Arguments& arguments, Plan& plan) {
     settings = plan.replay->settings;
   } else
     plan.path = read_path(arguments.path);
+  if (const double seconds = arguments.seconds.value_or(plan.path ? plan.path->end() : 0);
+      plan.fault && !plan.replay && plan.fault->time >= seconds)
+    throw Usage_error("--fault comes at " + examples::decimal(plan.fault->time) + " s, after the end of the run at " +
+                      examples::decimal(seconds) + " s");
   plan.mesh = arguments.mesh, plan.out = arguments.out, plan.log = arguments.log;
   if (arguments.is_real_time && (arguments.does_not_wait || !arguments.replay.empty()))
     throw Usage_error(

@@ -92,7 +92,7 @@ public:
     Loop loop(scene.sculptor, device_, start, scene.map, parameters, limits);
     const double most_lost = 0.1; // by a kill, s
     log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
-    trace_.open(plan_.trace), record_.open(plan_.record); // nothing is refused any more
+    trace_.open(plan_.trace, is_interrupted_), record_.open(plan_.record, is_interrupted_); // the last to be refused
     Session session(loop, scene, nullptr, nullptr, log_->journal());
     session_ = &session;
     Happenings happenings(scene.sculptor, scene.map.scale());

@@ -66,7 +66,7 @@ private:
   static void say(const std::string& text) {
     std::ostringstream printed;
     {
-      const Printable_stream printable(printed);
+      const examples::Printable_stream printable(printed);
       printed << text;
     }
     const std::string bytes = printed.str();

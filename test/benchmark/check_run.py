@@ -101,10 +101,11 @@ def pictures(out, folder):
 
 
 def wrong_use(folder):
-    for options in (["--cores", "0"], ["--minutes", "nan"], ["--minutes", "-1"], ["--shards", "-1"], ["--seed", "-5"], ["--build", str(folder / "none")],
-                    ["--profile", "nosuch"], ["--answers", str(folder / "none")], ["--out", ""], ["--out", "/dev/null/x"]):
-        done = run(folder / "wrong", "device", *options)
-        expect(done.returncode == 2 and "Traceback" not in done.stderr, f"{options}: exit {done.returncode}, {done.stderr[-500:]}")
+    for option, value, word in (("--cores", "0", "--cores"), ("--minutes", "nan", "--minutes"), ("--minutes", "-1", "--minutes"), ("--shards", "-1", "--shards"),
+                                ("--seed", "-5", "--seed"), ("--build", str(folder / "none"), "no folder with a build"), ("--profile", "nosuch", "no profile nosuch"),
+                                ("--answers", str(folder / "none"), "there is no file"), ("--out", "", "empty"), ("--out", "/dev/null/x", "cannot make the folder")):
+        done = run(folder / "wrong", "device", option, value)
+        expect(done.returncode == 2 and word in done.stderr, f"{option} {value}: exit {done.returncode}, {done.stderr[-500:]}")
 
 
 def options_are_known():

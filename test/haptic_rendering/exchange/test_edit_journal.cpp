@@ -125,27 +125,49 @@ BOOST_AUTO_TEST_CASE(a_drag_by_a_grab_that_somebody_has_ended_is_no_move) {
   BOOST_TEST((!journal.take(taken) && !journal.has_overrun()));
 }
 
-// A slide of several legs without a stroke is one step of undo, and so it is where it is made again.
-BOOST_AUTO_TEST_CASE(a_drag_outside_of_strokes_is_undone_as_one_where_it_is_made_again) {
+// A slide of several legs is one step of undo, and so it is where it is made again; an undo ends the stroke, even one
+// that is refused.
+BOOST_AUTO_TEST_CASE(what_a_journal_has_is_undone_in_the_same_steps_where_it_is_made_again) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> number(-1.5, 1.5);
-  std::size_t slides = 0;
+  std::size_t slides = 0, refused = 0;
   for (int round = 0; round < 100; ++round) {
     Mesh mesh = meshes::to_mesh(meshes::icosphere(1)), again = mesh;
     Sculptor<Mesh> sculptor(mesh), other(again);
-    Edit_journal journal(100);
+    Edit_journal journal(1000);
     Journaled_edits edits(sculptor);
     edits.keep_journal(&journal);
-    const double x = number(random), y = number(random), z = number(random);
-    slides += edits.drag(Mesh::Vertex_index(round % 42), Mesh::Point(x, y, z)).legs > 1;
-    edits.make(Edit::of(Edit_kind::undo));
+    for (int k = 0; k < 8; ++k)
+      switch (random() % 8) {
+      case 0:
+        edits.begin_stroke();
+        break;
+      case 1:
+        edits.end_stroke();
+        break;
+      case 2:
+      case 3:
+        refused += !edits.make(Edit::of(Edit_kind::undo));
+        break;
+      case 4:
+        refused += !edits.make(Edit::of(Edit_kind::redo));
+        break;
+      default: {
+        const double x = number(random), y = number(random), z = number(random);
+        slides += edits.drag(Mesh::Vertex_index(random() % 42), Mesh::Point(x, y, z)).legs > 1;
+      }
+      }
+    edits.end_stroke();
     journal.end_tick(0);
     for (Edit taken; journal.take(taken);)
       if (taken.kind != Edit_kind::none)
         other.apply(taken);
-    BOOST_TEST((surface_of(again, other) == surface_of(mesh, sculptor)));
+    BOOST_TEST((surface_of(again, other) == surface_of(mesh, sculptor)), "round " << round);
+    BOOST_TEST(other.history().number_of_undo_steps() == sculptor.history().number_of_undo_steps());
+    BOOST_TEST(other.history().number_of_redo_steps() == sculptor.history().number_of_redo_steps());
   }
-  BOOST_TEST(slides > 20u);
+  BOOST_TEST(slides > 50u);
+  BOOST_TEST(refused > 50u);
 }
 
 BOOST_AUTO_TEST_CASE(a_journal_that_breaks_off_has_the_ticks_before) {

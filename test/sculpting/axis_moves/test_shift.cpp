@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(a_shift_that_is_blocked_changes_nothing) {
   BOOST_TEST((points_of(mesh) == before));
 }
 
-// What undo has left below a delta that was set since goes along with others and may grow, and must not shrink.
+// What undo has left below a delta that was set since may go along, without rounding, and grow, and must not shrink.
 BOOST_AUTO_TEST_CASE(altitudes_that_are_low_already_are_in_nobodys_way) {
   Mesh mesh = ball();
   Sculptor<Mesh> sculptor(mesh);

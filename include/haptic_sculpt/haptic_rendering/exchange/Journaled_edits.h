@@ -58,8 +58,7 @@ public:
   /// \pre it is no stroke and no end
   Edited make(const Edit& wanted) {
     auto made = attempt(wanted);
-    if (made)
-      tell(made.edit);
+    tell(made.edit); // also one that is refused, and has ended a stroke
     return made;
   }
   /// Makes an edit and begins a stroke with it; the one under way ends. Where it is refused, or throws, there is none.
@@ -133,7 +132,7 @@ public:
   };
   /// Joins the one under way, or begins one.
   Stroke_type stroke() {
-    if (stroke_)
+    if (is_in_stroke())
       return Stroke_type(nullptr);
     begin_stroke();
     return Stroke_type(this);
@@ -263,10 +262,11 @@ private:
         add(made);
     });
   }
+  bool is_in_stroke() const { return stroke_ && stroke_->is_open(); } ///< an undo ends it
   /// What the function adds is one step of undo, as it was when it was made.
   template <class Function>
   void in_one_step(bool is_several, const Function& function) {
-    const bool is_step = is_several && !stroke_;
+    const bool is_step = is_several && !is_in_stroke();
     if (is_step)
       add(Edit::of(Edit_kind::stroke));
     function();
