@@ -7,6 +7,12 @@
 
 namespace haptic_sculpt::examples {
 
+/// A whole number >= 0; as such CLI takes negative ones, too, and wraps them.
+inline std::string why_no_whole_number(const std::string& text) {
+  const bool is_one = text.find_first_not_of("0123456789") == std::string::npos && text.size() < 20;
+  return is_one ? "" : "'" + text + "' is not a whole number from 0 to 10^19";
+}
+
 /// Reads the command line. An empty argument is refused: it is mostly a variable that was not set, and would pass for
 /// 0, or for an option that was not given. \throw CLI::ParseError
 inline void parse_arguments(CLI::App& app, int argc, char** argv) {

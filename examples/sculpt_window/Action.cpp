@@ -6,7 +6,6 @@
 
 #include "../common/contents_of.h"
 #include "../common/numbers.h"
-#include "../common/output_targets.h"
 
 #include <cmath>
 #include <optional>
@@ -152,7 +151,7 @@ public:
           : first == "save"     ? Kind::save
           : first == "open"     ? Kind::open
                                 : Kind::record)
-          .word = line_.rest(first == "screenshot" ? "the name of a .png file" : "the name of a file");
+          .word = line_.rest("the name of a file");
     else if (first == "print")
       add(Kind::print);
     else if (first == "where")
@@ -164,8 +163,6 @@ public:
     else
       line_.fail("'" + first + "' is not an action");
     line_.end();
-    if (first == "screenshot" && !examples::is_picture_name(actions_.back().word))
-      line_.fail("a picture is written as PNG: give it a name that ends in .png");
   }
 
 private:

@@ -214,6 +214,8 @@ bool Application::may_write(const std::string& path, Written what) {
           ": give another name";
   else if (is_mesh && !mesh_file_format(path))
     why = "'" + path + "' does not end in .off, .ply, .obj or .stl";
+  else if (what == Written::picture && !examples::is_picture_name(path))
+    why = "'" + path + "' does not end in .png: give another name";
   if (!why.empty())
     is_playing() ? fail_to_write(why) : say(why);
   else

@@ -346,7 +346,7 @@ _, err = window(precious, "--size", 640, script="", code=2, what="half a size")
 _, err = window(precious, "--screenshot", precious, script="", code=2, what="a screenshot over the mesh")
 check(".png" in err, f"a screenshot over the mesh: {err}")
 for line in (f"save {precious}", f"save {at('precious.off.log')}", f"save {at('nothing.txt')}", f"screenshot {precious}", f"record {precious}",
-             f"record {at('script.txt')}", f"screenshot {at('drawn.json')}"):
+             f"record {at('script.txt')}", f"screenshot {at('drawn.json')}", f"screenshot {at('picture.jpg')}"):
     _, err = window(precious, "--samples", 0, "--size", 100, 100, "--report", at("drawn.json"), script=f"settle\n{line}\nsettle\nquit\n", code=5, what=line)
     check("another name" in err or ".off" in err, f"{line}: {err}")
     check(bytes_of(precious) == kept and open(at("script.txt")).read().startswith("settle"), f"{line}: an input was written over")
