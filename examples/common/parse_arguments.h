@@ -7,7 +7,7 @@
 
 namespace haptic_sculpt::examples {
 
-/// A whole number >= 0; as such CLI takes negative ones, too, and wraps them.
+/// A check of an option that is a whole number >= 0: CLI alone takes a negative one, too, and makes it a large one.
 inline std::string why_no_whole_number(const std::string& text) {
   const bool is_one = text.find_first_not_of("0123456789") == std::string::npos && text.size() < 20;
   return is_one ? "" : "'" + text + "' is not a whole number from 0 to 10^19";

@@ -83,12 +83,12 @@ int loop(const Arguments& arguments, Plan& plan) {
   if (!arguments.replay.empty()) {
     plan.replay = Recording::read(arguments.replay);
     settings = plan.replay->settings;
-  } else
+  } else {
     plan.path = read_path(arguments.path);
-  if (const double seconds = arguments.seconds.value_or(plan.path ? plan.path->end() : 0);
-      plan.fault && !plan.replay && plan.fault->time >= seconds)
-    throw Usage_error("--fault comes at " + examples::decimal(plan.fault->time) + " s, after the end of the run at " +
-                      examples::decimal(seconds) + " s");
+    if (const double seconds = arguments.seconds.value_or(plan.path->end()); plan.fault && plan.fault->time >= seconds)
+      throw Usage_error("--fault comes at " + examples::decimal(plan.fault->time) + " s, after the end of the run at " +
+                        examples::decimal(seconds) + " s");
+  }
   plan.mesh = arguments.mesh, plan.out = arguments.out, plan.log = arguments.log;
   if (arguments.is_real_time && (arguments.does_not_wait || !arguments.replay.empty()))
     throw Usage_error(

@@ -101,11 +101,15 @@ def pictures(out, folder):
 
 
 def wrong_use(folder):
-    for option, value, word in (("--cores", "0", "--cores"), ("--minutes", "nan", "--minutes"), ("--minutes", "-1", "--minutes"), ("--shards", "-1", "--shards"),
-                                ("--seed", "-5", "--seed"), ("--build", str(folder / "none"), "no folder with a build"), ("--profile", "nosuch", "no profile nosuch"),
-                                ("--answers", str(folder / "none"), "there is no file"), ("--out", "", "empty"), ("--out", "/dev/null/x", "cannot make the folder")):
+    none = str(folder / "none")
+    for option, value, said in (("--cores", "0", "--cores"), ("--minutes", "nan", "--minutes"),
+                                ("--minutes", "-1", "--minutes"), ("--shards", "-1", "--shards"), ("--seed", "-5", "--seed"),
+                                ("--build", none, "no folder with a build"), ("--profile", "nosuch", "no profile nosuch"),
+                                ("--answers", none, "there is no file"), ("--out", "", "empty"),
+                                ("--out", "/dev/null/x", "cannot make the folder")):
         done = run(folder / "wrong", "device", option, value)
-        expect(done.returncode == 2 and word in done.stderr, f"{option} {value}: exit {done.returncode}, {done.stderr[-500:]}")
+        text = f"{option} {value}: exit {done.returncode}, {done.stderr[-500:]}"
+        expect(done.returncode == 2 and said in done.stderr.splitlines()[-1], text)
 
 
 def options_are_known():
@@ -302,9 +306,11 @@ def own_meshes(out, folder):
         told = subprocess.run([*robustness, "--refuse", *refuse], capture_output=True, text=True)
         expect(told.returncode == code, f"told to refuse {refuse}: exit {told.returncode}, not {code}: {told.stderr}")
     none = [str(BUILD / "benchmark/robustness"), "--drags", "10", "--edits", "0", "--shard", "0/1000000"]
-    for options, code in ((["--dump", str(meshes / "cut.off")], 5), (["--dump", "/dev/null/x", "--dump-all"], 5), (["--dump", ""], 2), (["--clearance", "nan"], 2)):
+    for options, code in ((["--dump", str(meshes / "cut.off")], 5), (["--dump", "/dev/null/x", "--dump-all"], 5),
+                          (["--dump", ""], 2), (["--clearance", "nan"], 2)):
         told = subprocess.run([*none, *options], capture_output=True, text=True)
-        expect(told.returncode == code and told.stderr, f"robustness {options}: exit {told.returncode}, not {code}: {told.stderr}")
+        text = f"robustness {options}: exit {told.returncode}, not {code}: {told.stderr}"
+        expect(told.returncode == code and told.stderr, text)
     with open("/dev/full", "w") as full:
         told = subprocess.run(none, stdout=full, stderr=subprocess.DEVNULL)
         expect(told.returncode == 5, f"a table that nobody can read: exit {told.returncode}")

@@ -124,13 +124,12 @@ with tempfile.TemporaryDirectory() as folder:
         expect(len(open(samples).read().splitlines()) > 100, "samples are written, and stay where a device is refused")
     expect(workspace(samples, f"{folder}/none.json").returncode == 3, "a device that is not there")
     expect(workspace("/dev/full", device).returncode == 5, "samples that cannot be written")
-    before = good
     with open(device, "w") as file:
         file.write(good)
     os.symlink(device, f"{folder}/link.txt")
-    for arguments, code in (([f"{folder}/link.txt", device], 2), ([device], 2), ([samples, device, "more"], 2), (["--bogus"], 2), ([""], 2)):
-        run = workspace(*arguments)
-        expect(run.returncode == code and open(device).read() == before, f"samples in the place of the device: {arguments}")
+    for arguments in ([f"{folder}/link.txt", device], [device], [samples, device, "more"], ["--bogus"], [""]):
+        kept = workspace(*arguments).returncode == 2 and open(device).read() == good
+        expect(kept, f"samples in the place of the device: {arguments}")
     for text, code in (('{"params":' + good + "}", 0), (good[:-1] + ',"fiction":1}', 3)):
         with open(device, "w") as file:
             file.write(text)
