@@ -67,10 +67,12 @@ private:
 };
 
 /// The value that a text says, or a line.
-/// \throw nlohmann::json::exception if it is no JSON; No_answer (`nested_too_deep`, `too_many_values`) before anything
-/// deeper or more is built; std::bad_alloc
+/// \throw nlohmann::json::exception if it is no JSON; No_answer (`malformed_json` for a byte 0; `nested_too_deep`,
+/// `too_many_values` before anything deeper or more is built); std::bad_alloc
 inline nlohmann::json parse_bounded(std::string_view text) {
   using Event = nlohmann::json::parse_event_t;
+  if (text.find('\0') != text.npos) // the library takes it for the end
+    throw No_answer("malformed_json", "a byte 0 stands at column " + std::to_string(text.find('\0') + 1));
   int values = 0;
   return nlohmann::json::parse(text.begin(), text.end(), [&](int depth, Event event, nlohmann::json&) {
     const bool opens = event == Event::object_start || event == Event::array_start;

@@ -108,6 +108,7 @@ private:
   std::string checksum_; ///< of the line before
   std::size_t at_ = 0, number_ = 0;
   Line_joiner lines_;
+  Settings settings_;            ///< in force
   std::string command_checksum_; ///< before the command under way
   std::size_t command_at_ = 0;   ///< where that begins
 
@@ -200,6 +201,13 @@ private:
       return;
     }
     pass.last_line = *line;
+    pass.settings = settings_;
+    if (*line != 0) { // it goes on with what was in force when it broke off
+      const auto before = std::find_if(contents_.passes.rbegin(), contents_.passes.rend(),
+                                       [&](const Log_contents::Pass& other) { return other.script == pass.script; });
+      if (before != contents_.passes.rend())
+        pass.settings = before->settings;
+    }
     contents_.passes.push_back(pass);
   }
 
@@ -213,6 +221,9 @@ private:
       throw Foreign_log("the log '" + name_ + "' does not begin with the hash of this mesh, " + mesh_ +
                         ": give the mesh it was begun with (of sculpt, with the same --repair, --triangulate and "
                         "--orient), or another log");
+    settings_.follow(*command);
+    if (!contents_.passes.empty())
+      contents_.passes.back().settings.follow(*command);
     contents_.commands.push_back(std::move(*command));
   }
 
@@ -248,6 +259,14 @@ std::vector<Command> Settings::directives() const {
   all[2].kind = Kind::delta;
   all[2].length = delta;
   return all;
+}
+
+std::vector<Command> Settings::changes_from(const Settings& others) const {
+  std::vector<Command> changes = directives(), theirs = others.directives();
+  for (std::size_t i = theirs.size(); i-- > 0;)
+    if (changes[i].word == theirs[i].word && changes[i].length == theirs[i].length)
+      changes.erase(changes.begin() + static_cast<std::ptrdiff_t>(i));
+  return changes;
 }
 
 std::string Log_writer::line(const std::string& payload) {

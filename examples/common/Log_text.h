@@ -24,6 +24,8 @@ struct Settings {
   void follow(const Command& command);
   /// As directives.
   std::vector<Command> directives() const;
+  /// The directives that make these of others.
+  std::vector<Command> changes_from(const Settings& others) const;
 };
 
 /// Makes the lines of a log. Each ends with a checksum of all that stands before it, as a comment, so that a log is a
@@ -60,6 +62,7 @@ struct Log_contents {
     std::string script;        ///< its hash
     std::size_t last_line = 0; ///< the last that was carried out
     bool is_done = false;      ///< to the end of the script, results written
+    Settings settings;         ///< what its next line has to find in force, whatever came between
   };
 
   std::vector<Command> commands; ///< `mesh` is the first
@@ -87,7 +90,7 @@ struct Log_contents {
 
   /// What held at the first edit.
   Settings first_settings() const;
-  /// What holds at the end. (A `delta` that was refused counts.)
+  /// What holds at the end.
   Settings last_settings() const;
 };
 

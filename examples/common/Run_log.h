@@ -5,6 +5,8 @@
 #include "Sha256.h"
 #include "replay_log.h"
 
+#include <algorithm>
+
 namespace haptic_sculpt::examples {
 
 /// The log of a run, if it is to have one: made again where it was left, then gone on with by a thread of its own.
@@ -80,6 +82,13 @@ public:
   void end() {
     if (file_ && !has_overrun())
       file_->end_pass(run_);
+  }
+
+  /// Whether it had edits of other runs before: it is not this program's own. \pre it has begun
+  bool is_of_others() const {
+    const auto is_other = [this](const Log_contents::Pass& pass) { return pass.script != run_; };
+    return file_ && file_->contents() &&
+           std::any_of(file_->contents()->passes.begin(), file_->contents()->passes.end(), is_other);
   }
 
   std::uint64_t ticks() const { return ticks_; }

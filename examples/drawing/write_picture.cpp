@@ -150,6 +150,9 @@ std::string write_picture(const Scene& scene, const std::filesystem::path& path,
 }
 
 std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view) {
+  const auto extension = path.extension(); // a mesh by a slip
+  if (!extension.empty() && extension != ".png" && extension != ".PNG")
+    throw Picture_error("'" + path.string() + "' does not end in .png: give the picture another name");
   const Image image = drawn(scenes, view);
   return write_png(path, image.width, image.height, image.bytes);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // As-rigid-as-possible deformation pulls a ring through itself; its result, taken as targets, does not. An argument is
 // a picture to write: left ARAP alone, with the faces of intersecting pairs in red, right the same under the guard.
+#ifndef CGAL_EIGEN3_ENABLED
 #define CGAL_EIGEN3_ENABLED // CGAL asks for it before it solves by Eigen
+#endif
 
 #include "example_meshes.h"
 #include "picture_of_pairs.h"

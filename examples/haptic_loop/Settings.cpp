@@ -57,6 +57,8 @@ Simulated_hand read_hand(const std::string& path) {
     const auto named = hand["name"].is_string() ? Simulated_hand::named(hand["name"].get<std::string>()) : std::nullopt;
     if (!named)
       fail("`name` must be \"finger\", \"arm\" or \"measured_arm\"");
+    if (hand.size() != 1)
+      fail("a hand that has a `name` has nothing else");
     return *named;
   }
   Simulated_hand read;

@@ -34,6 +34,8 @@ public:
         } else {
           carry_out(command);
           after(command);
+          if (const Command held = as_it_holds(command); held.length != command.length || held.word != command.word)
+            after(held); // refused: who reads the log has to know what is in force
         }
       } catch (const std::exception&) { // told with what was done so far, which is not lost
         result_.failure = std::current_exception();
@@ -77,6 +79,18 @@ private:
       command.edit.vertices[place.which] = nearest_vertices(numbers(), point_of, point(place.point), 1).at(0);
     }
     command.places.clear();
+    return command;
+  }
+
+  /// Of a setting that was refused, the one that is in force; else the command.
+  Command as_it_holds(Command command) const {
+    const Sculptor_parameters& held = sculptor_.parameters();
+    if (command.kind == Kind::delta)
+      command.length = held.delta_length;
+    if (command.kind == Kind::clearance) {
+      command.word = held.drag.clearance_length ? "" : "default";
+      command.length = held.drag.clearance_length.value_or(0);
+    }
     return command;
   }
 

@@ -41,8 +41,12 @@ Rest rest_of(const std::vector<Command>& script, const std::string& script_hash,
         "'" + arguments.script + "' has been carried out to its end already, as the log '" + arguments.log +
         "' says. Leave --script out to replay the log alone; give --append to make the same edits once more");
   rest.after = last->last_line;
-  rest.is_new_pass = false;
+  rest.is_new_pass = rest.after == 0;
   rest.is_announced = last == log.passes.rbegin();
+  if (!rest.is_new_pass)
+    rest.commands = last->settings.changes_from(log.last_settings());
+  for (Command& setting : rest.commands)
+    setting.line = rest.after;
   std::copy_if(script.begin(), script.end(), std::back_inserter(rest.commands),
                [&](const Command& c) { return c.line > rest.after; });
   return rest;

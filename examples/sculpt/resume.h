@@ -9,7 +9,7 @@ namespace haptic_sculpt::sculpt_program {
 
 /// What is to be done of a script, after what a log has of it.
 struct Rest {
-  std::vector<Command> commands;
+  std::vector<Command> commands; ///< at first the settings that the script had made, where others are in force now
   std::size_t after = 0;     ///< the last line that was carried out already; 0: none
   bool is_new_pass = true;   ///< from the beginning
   bool is_announced = false; ///< the log's last pass is the one that goes on, so the log need not say which it is

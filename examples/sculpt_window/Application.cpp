@@ -218,9 +218,7 @@ void Application::take_reports() {
     if (auto opened = background_.take_opened())
       enter(std::move(*opened));
   } catch (const Error& error) {
-    say(examples::message_of(error));
-    std::cerr << "sculpt_window: " << examples::message_of(error) << '\n';
-    has_failed_to_open_ = true;
+    fail_to_open(examples::message_of(error));
   }
   take_saved();
 }

@@ -154,6 +154,7 @@ private:
   std::string free_name(const std::string& extension);
   void take_saved();
   void open(const std::string& path);
+  void fail_to_open(const std::string& why);
   void quit();
   void obey(Order order);
   void choose(Tool tool);

@@ -6,6 +6,7 @@
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 
 #include <filesystem>
+#include <iostream>
 
 namespace haptic_sculpt::window_program {
 
@@ -236,6 +237,8 @@ void Application::save(const std::string& path, bool quits) {
 void Application::open(const std::string& path) {
   if (background_.is_opening())
     return say("a mesh is being opened; wait for it");
+  if (!log_.empty() && examples::same_file(path, {{"open", path_}}))
+    return say(path + " is open");
   if (is_unsaved() && next_open_ != path) {
     next_open_ = path;
     return say("there is unsaved work: save it, or drop the file once more to leave it (the log has it)");
@@ -243,6 +246,12 @@ void Application::open(const std::string& path) {
   next_open_.clear();
   say("opening " + path);
   background_.open(path, options_.log_of(path));
+}
+
+void Application::fail_to_open(const std::string& why) {
+  say(why);
+  std::cerr << "sculpt_window: " << why << '\n';
+  has_failed_to_open_ = true;
 }
 
 void Application::quit() {

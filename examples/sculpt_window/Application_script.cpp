@@ -52,8 +52,9 @@ void Application::play() {
     return;
   frames_due_ = 3;
   if (next_action_ < script_.size()) {
-    if (act(script_[next_action_]))
-      ++next_action_;
+    if (act(script_[next_action_]) && ++next_action_ == script_.size() && !next_open_.empty())
+      fail_to_open("'" + next_open_ +
+                   "' was not opened, for there was unsaved work: save that before, or give `open` twice to leave it");
     return;
   }
   if (options_.screenshot.empty() || !is_settled())
@@ -151,6 +152,8 @@ bool Application::act(const Action& action) {
     save(action.word);
     return true;
   case Kind::open:
+    if (background_.is_opening())
+      return false;
     open(action.word);
     return true;
   case Kind::record:

@@ -87,7 +87,7 @@ struct Opened {
 Opened open(const std::string& path, const std::string& log);
 /// Ticks that changed it.
 std::uint64_t number_of_edits(const Model& model);
-/// Ends the log of a model, too. \param keeps_log false: the log is removed
+/// Ends the log of a model, too. \param keeps_log false: a log that only windows have written is removed
 /// \return why the log does not hold all; empty if it does
 std::string destroy(Model* model, bool keeps_log);
 

@@ -115,7 +115,7 @@ void run_by_polling(Loop& loop, double unplugged) {
   }
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc != 2)
     return std::cerr << "usage: adapters_of_devices MESH\n", 2;
   bool is_right = true;
@@ -141,4 +141,7 @@ int main(int argc, char** argv) {
                vendor::state.position[2] > 0 && vendor::state.position[2] < 0.045;
   }
   return is_right ? 0 : 1;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
 }

@@ -42,7 +42,9 @@ private:
   std::vector<haptic_sculpt::Box_3> boxes_; ///< by index of face
 };
 
-int main(int, char** argv) {
+int main(int argc, char** argv) try {
+  if (argc != 2)
+    return std::cerr << "usage: own_broad_phase MESH\n", 2;
   using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
   Mesh mesh = haptic_sculpt::read_surface<Mesh>(argv[1]), same = mesh;
   haptic_sculpt::Sculptor<Mesh, Box_list<Mesh>> sculptor(mesh);
@@ -55,4 +57,7 @@ int main(int, char** argv) {
       return 1; // the sweeps decide exactly, so this cannot be
   }
   std::cout << "the same, bit for bit, as with the usual broad phase\n";
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
 }

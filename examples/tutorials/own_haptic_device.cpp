@@ -39,7 +39,7 @@ struct Driver { // models PoseDevice
   void write_force(const Eigen::Vector3d& force) { vendor::set_force(force.data()); } // N, on the hand
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc != 2)
     return std::cerr << "usage: own_haptic_device MESH\n", 2;
   Scene scene(read_surface<Mesh>(argv[1]), [](const auto& lower, const auto& upper) {
@@ -56,4 +56,7 @@ int main(int argc, char** argv) {
   std::cout << "the handle rests at " << vendor::z << " m; pushed up by " << vendor::force[2] << " N\n";
   const bool is_held = std::abs(vendor::force[2] - 0.5) < 0.05 && std::abs(vendor::speed) < 0.01 && vendor::z > 0;
   return is_held ? 0 : 1;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
 }

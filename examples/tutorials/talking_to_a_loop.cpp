@@ -38,7 +38,7 @@ struct Look : Loop_task<Scene> {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc != 2)
     return std::cerr << "usage: talking_to_a_loop MESH\n", 2;
   const Eigen::Vector3d home = Eigen::Vector3d::Zero();
@@ -107,6 +107,10 @@ int main(int argc, char** argv) {
   is_good = is_good && copying.copy.is_whole() && before.number_of_vertices() == after.number_of_vertices();
   for (const auto v : before.vertices())
     is_good = is_good && before.point(v) == after.point(v);
-  std::cout << "undone: " << (is_good ? "all is as before\n" : "not all is as before\n");
+  if (has_moved)
+    std::cout << "undone: " << (is_good ? "all is as before\n" : "not all is as before\n");
   return is_good ? 0 : 1;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
 }

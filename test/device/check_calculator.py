@@ -54,7 +54,7 @@ def nested(depth):  # the request itself is the first level
 expect_errors(['{"params":{},"op":"forward","form":' + "[" * 500000 + "]" * 500000 + "}", '{"op":"forward","form":' + "[" * 87000, "[" * 1000000, '{"a":' * 150000, nested(33)], "nested_too_deep")
 expect_errors(["[" * 50000000, " " * (2**20 - len(good_line) + 1) + good_line, '"' + "a" * 2**21], "line_too_long", None if "sanitize" in program else 3 * 2**30)
 expect_errors(["[" + "[]," * 300000 + "[]]", "[" + "1," * 1000 + "1]", '{"x":[' + "1," * 999 + "1]}"], "too_many_values")
-expect_errors(['"' + "a" * 1000000, "\x00\x01\x1b[31m"], "malformed_json")
+expect_errors(['"' + "a" * 1000000, "\x00\x01\x1b[31m", good_line + "\x00 }{"], "malformed_json")
 just, deep, many = answers([" " * (2**20 - len(good_line)) + good_line, nested(32), good_line[:-1] + ', "x": [' + "1," * 900 + "1]}"])
 expect(many.get("ok") is True and many.get("unknown_keys") == ["x"], "many values", many)
 expect(just.get("ok") is True and "unknown_keys" not in just, "a line of the greatest length", just)

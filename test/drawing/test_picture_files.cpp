@@ -72,6 +72,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused_and_leaves_nothing) {
   BOOST_TEST(says(refusal(scene, folder.path), "directory"));
   BOOST_TEST(says(refusal(scene, ""), "not name a file"));
   BOOST_TEST(says(refusal(scene, "/dev/full"), "not a regular file"));
+  BOOST_TEST(says(refusal(scene, folder.path / "mesh.off"), "does not end in .png"));
   BOOST_TEST(fs::is_character_file("/dev/full"));
   BOOST_TEST(folder.entries() == 0u);
 }

@@ -284,6 +284,43 @@ def settings(folder, mesh):
     check(run(mesh, "--script", "/dev/stdin", "-o", again, script=together).returncode == 0 and bytes_of(again) == bytes_of(out), "what the log ends with holds")
 
 
+def settings_that_others_change(folder, mesh):
+    """A script that broke off goes on with what was in force then, whatever came between."""
+    log, out, whole = f"{folder}/broken.log", f"{folder}/broken.off", f"{folder}/whole.off"
+    script = write(f"{folder}/broken.script", "delta 0.3\ndrag 3 0.2 0.3 2\ndrag 1 0.05 0 0\n")
+    command = (mesh, "--script", script, "--log", log, "--response", "stop", "-o")
+    check(run(*command, whole).returncode == 0, "without a break")
+    lines = bytes_of(log).splitlines(keepends=True)
+    broken = b"".join(lines[:LINES_OF_HEAD + 3])  # up to the first drag
+    between = write(f"{folder}/between.script", "delta 0\nresponse slide\nclearance 0.001\n")
+    write(log, broken)
+    check(run(mesh, "--script", between, "--log", log).returncode == 0, "another script in between")
+    visited = len(bytes_of(log).splitlines())
+    check(run(*command, out).returncode == 0 and bytes_of(out) == bytes_of(whole), "goes on with other settings than it had")
+    complete = bytes_of(log)
+    lines = complete.splitlines(keepends=True)
+    check([words(line)[0] for line in lines[visited + 1:visited + 4]] == [b"response", b"clearance", b"delta"], f"what is in force is logged: {lines[visited:]}")
+    for n in range(visited, len(lines) + 1):
+        write(log, b"".join(lines[:n]))
+        done = run(*command, out)
+        check(done.returncode == (2 if n == len(lines) else 0) and bytes_of(out) == bytes_of(whole) and bytes_of(log) == complete, f"cut after line {n}: {done.stderr}")
+
+
+def settings_that_were_refused(folder, mesh):
+    """What was refused is in a log, for a replay says so again, and behind it what is in force."""
+    low, further = write(f"{folder}/low.script", "delta 0\ndrag 1 0.05 0 0\ndelta 0.3\n"), write(f"{folder}/further.script", "drag 3 0.2 0.2 2\n")
+    log, out, again = f"{folder}/low.log", f"{folder}/low.off", f"{folder}/again.off"
+    done = run(mesh, "--script", low, "--log", log, "-o", out, "--delta", "0.3")
+    check(done.returncode == 0 and "refused 1\n" in done.stdout, f"a delta that is refused: {done.stdout}")
+    check([words(line) for line in bytes_of(log).splitlines()[-3:-1]] == [[b"delta", (0.3).hex().encode()], [b"delta", b"0x0p+0"]], "refused, and in force")
+    fails(2, ["--delta 0.3", "ends with", "delta 0'"], run(mesh, "--script", further, "--log", log, "--delta", "0.3"), "a delta that was refused")
+    check(run(mesh, "--log", log, "-o", again).returncode == 0 and bytes_of(again) == bytes_of(out), "replay")
+    wide, log = write(f"{folder}/wide.script", "clearance 1\n"), f"{folder}/wide.log"
+    for arguments in (("--script", wide), ("--script", further)):
+        done = run(mesh, *arguments, "--log", log, "--clearance", "0.001")
+        check(done.returncode == 0, f"a clearance that was refused is in nobody's way: {done.stderr}")
+
+
 def rerun(folder, mesh):
     log, out, report = f"{folder}/rerun.log", f"{folder}/rerun.off", f"{folder}/rerun.json"
     script = write(f"{folder}/rerun.script", "# begin\ninsert_face 0 1 2 0.2 0.2 0\n\ndrag 4 0.2 0.2 -0.5\n")
@@ -561,7 +598,7 @@ def refused_settings(folder, mesh):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
-        for part in (edits_and_log, shifts, moves, settings, rerun, strokes, earlier_version, delta_in_stroke, no_logs,
+        for part in (edits_and_log, shifts, moves, settings, settings_that_others_change, settings_that_were_refused, rerun, strokes, earlier_version, delta_in_stroke, no_logs,
                      changed_logs, without_checksums, two_processes, places, full_disk, surfaces_of_options, refused_settings):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)

@@ -383,6 +383,20 @@ quit
 """, what="opening")
 check(len(lines) == 1 and lines[0]["faces"] == 192 and lines[0]["edits"] == 0, f"another mesh is opened: {lines}")
 check(os.path.exists(mesh + ".log") and not os.path.exists(second + ".log"), "the log of unsaved work stays")
+# One that is not opened is no success; one that is being opened is waited for; one that is open stays.
+unsaved = "settle\ntool drag\ndrag 600 430 700 350 6\nsettle\n"
+_, err = window(mesh, "--samples", 0, "--no-log", script=f"{unsaved}open {second}\nsettle\nquit\n", code=3, what="a mesh that is not opened")
+check("second.off' was not opened" in err and "twice" in err, f"which, and what to do: {err}")
+small, large = write(at("small.off"), box(1)), write(at("large.off"), box(60))
+lines, _ = window(large, "--samples", 0, "--no-log", script=f"settle\nopen {second}\nopen {small}\nopen {small}\nsettle\nprint\nquit\n", what="one after another")
+check(lines[0]["faces"] == 12, f"the one that was opened last is seen: {lines}")
+# The log of a window is removed, and one that others have begun is not.
+others = write(at("others.off"), bytes_of(mesh))
+for arguments, is_kept in (((), False), (("--script", write(at("one.script"), "drag 0 -0.1 -0.1 -0.1\n")), True)):
+    if arguments:
+        check(run(others, "--log", others + ".log", *arguments).returncode == 0, "sculpt begins a log")
+    window(others, "--samples", 0, script=f"{unsaved}save {at('others_saved.off')}\nsettle\nclose\nsettle\n", what="closed in order")
+    check(os.path.exists(others + ".log") == is_kept, f"the log stays, if others have begun it: {is_kept}")
 # Nothing that the session has made, or has left for another mesh, is written over.
 edit = "settle\ntool drag\ndrag 600 430 700 350 6\nsettle\n"
 for before, line in ((f"save {at('first.off')}\nsettle\n", f"record {at('first.off')}"),
@@ -396,17 +410,16 @@ for before, line in ((f"save {at('first.off')}\nsettle\n", f"record {at('first.o
     if os.path.exists(left + ".log"):
         os.remove(left + ".log")
 # What was asked to be saved is, before the window ends, and counts for the mesh that it was asked of.
-ball = write(at("large.off"), box(60))
-window(ball, "--samples", 0, "--no-log", script=f"{edit}save {at('large_saved.off')}\nquit\n", what="save, then quit")
+window(large, "--samples", 0, "--no-log", script=f"{edit}save {at('large_saved.off')}\nquit\n", what="save, then quit")
 check(os.path.getsize(at("large_saved.off")) > 1000000, "all of it is there")
 for line in ("close", "key q"):
     os.remove(at("large_saved.off"))
     script = f"{edit}save {at('first.off')}\nsettle\nsave {at('large_saved.off')}\n{line}\nwait 20\nquit\n"
-    window(ball, "--samples", 0, "--no-log", script=script, what=f"save, save, then {line}")
+    window(large, "--samples", 0, "--no-log", script=script, what=f"save, save, then {line}")
     check(os.path.exists(at("large_saved.off")), f"save, save, then {line}: the second one is not there")
 os.remove(at("large_saved.off"))
 script = f"{edit}print\nsave {at('large_saved.off')}\nprint\nwait 100\n"
-process = start(ball, "--samples", 0, "--no-log", script=script)
+process = start(large, "--samples", 0, "--no-log", script=script)
 process.stdout.readline(), process.stdout.readline()
 process.send_signal(signal.SIGTERM)
 process.communicate(timeout=60)
@@ -421,7 +434,7 @@ process.communicate(timeout=60)
 is_logged = b"stroke" in bytes_of(under_way + ".log")
 check(process.returncode == 0 and is_logged, "a remeshing that was under way is in the log")
 os.remove(under_way + ".log")
-script = f"settle\nremesh 0.05\nopen {second}\nwait 0.5\nsettle\nquit\n"
+script = f"settle\nremesh 0.05\nopen {second}\nopen {second}\nwait 0.5\nsettle\nquit\n"
 window(under_way, "--samples", 0, script=script, what="another mesh, opened while one is remeshed")
 check(os.path.exists(under_way + ".log"), "the log of a mesh that was left while it was remeshed stays")
 os.remove(under_way + ".log")
@@ -431,9 +444,9 @@ check(run(at("remeshed.off")).returncode == 0, "what grew while it was copied is
 opened = lambda mesh: f"open {mesh}\nwait 0.5\nsettle\n"
 script = f"settle\n{opened(second)}{opened(precious)}save {precious}\nsettle\nquit\n"
 window(precious, "--samples", 0, "--no-log", script=script, what="a mesh that is open again may be replaced")
-window(ball, "--samples", 0, "--no-log", script=f"{edit}save {at('nowhere/x.off')}\nquit\n", code=5, what="a save that cannot be")
+window(large, "--samples", 0, "--no-log", script=f"{edit}save {at('nowhere/x.off')}\nquit\n", code=5, what="a save that cannot be")
 script = f"{edit}save {at('large_saved.off')}\nopen {second}\nopen {second}\nwait 2\n{edit}print\nquit\n"
-lines, _ = window(ball, "--samples", 0, script=script, what="another mesh is sculpted while one is saved")
+lines, _ = window(large, "--samples", 0, script=script, what="another mesh is sculpted while one is saved")
 check(lines[0]["faces"] == 192 and lines[0]["edits"] > 0 and os.path.exists(second + ".log"), f"its work is in its log: {lines}")
 for line in ("wait 1e10", "wait -1", "zoom 0", "view 0 0 0"):
     window(second, "--log", at("lines.log"), script=f"{line}\nquit\n", code=4, what=line)

@@ -20,6 +20,7 @@ display = Display()
 
 def start(*arguments, script="", display=display.name, disk=None):
     environment = dict(os.environ, LP_NUM_THREADS="1")
+    environment.setdefault("ASAN_OPTIONS", "detect_leaks=0")  # drivers of OpenGL leak, and are no more there to be named when that is seen
     environment.pop("DISPLAY", None)
     environment.pop("WAYLAND_DISPLAY", None)
     if display:
@@ -29,7 +30,10 @@ def start(*arguments, script="", display=display.name, disk=None):
                             env=environment, cwd=folder, preexec_fn=disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk))))
 
 
-def window(*arguments, script="", code=0, what="window", display=display.name, disk=None, patience=120):
+PATIENCE = 1200 if "sanitize" in WINDOW else 120  # s
+
+
+def window(*arguments, script="", code=0, what="window", display=display.name, disk=None, patience=PATIENCE):
     process = start(*arguments, script=script, display=display, disk=disk)
     try:
         out, err = process.communicate(timeout=patience)

@@ -2,12 +2,15 @@
 // Clutch, zoom and a button that bounces: no step of the force, no energy, one press.
 #include "haptic_rendering/pose_readings.h"
 #include "meshes/generated_meshes.h"
+#include "sculpting/public_functions/Callers_mode.h"
 
 #include <haptic_sculpt/haptic_rendering.h>
 
 #include <boost/test/unit_test.hpp>
 
 #include <random>
+#include <set>
+#include <string>
 
 using namespace haptic_sculpt;
 using namespace exchange_tests;
@@ -136,6 +139,31 @@ BOOST_AUTO_TEST_CASE(a_zoom_that_makes_no_scale_is_refused_where_it_is_asked_for
   b.go(Vector3d::Zero());
   BOOST_CHECK_THROW(b.loop.zoom(1e306), Error); // a scale, and yet no place of the tool could be kept
   BOOST_TEST((b.go(Vector3d::Zero()).fault == Loop_fault::none));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_thrown_beside_a_tick_is_a_fault_of_the_next) {
+  Clutch_bench b;
+  b.loop.attempt([] {});
+  BOOST_TEST((b.go(Vector3d::Zero()).fault == Loop_fault::none));
+  b.loop.attempt([] { throw Error("a viewer's"); });
+  BOOST_TEST((b.go(Vector3d::Zero()).fault == Loop_fault::error));
+  BOOST_TEST(std::string(b.loop.failure()) == "a viewer's");
+}
+
+BOOST_AUTO_TEST_CASE(a_zoom_is_the_same_in_all_modes_of_a_caller) {
+  std::set<double> scales;
+  for (const int rounding : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    Clutch_bench b;
+    b.wait(1);
+    {
+      const haptic_sculpt::test::Callers_mode mode(rounding, true);
+      for (int k = 0; k < 7; ++k)
+        b.loop.zoom(1.1);
+    }
+    b.wait(1);
+    scales.insert(b.loop.map().scale());
+  }
+  BOOST_TEST(scales.size() == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(a_button_that_bounces_is_pressed_once_and_at_once) {

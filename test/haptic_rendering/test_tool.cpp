@@ -136,6 +136,33 @@ BOOST_AUTO_TEST_CASE(scenes_of_all_sizes_leave_the_reach_as_it_was) {
               Tool_event::grabbed));
 }
 
+BOOST_AUTO_TEST_CASE(a_probe_is_sought_within_the_range_of_coordinates) {
+  meshes::Triangle_list list = meshes::bumpy_sphere(2, 0.12);
+  const std::size_t outer = list.points.size();
+  for (const auto& p : meshes::bumpy_sphere(1, 0.12).points) // a ball in a ball: inside of it no probe has a place
+    list.points.emplace_back(0.3 * p.x(), 0.3 * p.y(), 0.3 * p.z());
+  for (auto face : meshes::bumpy_sphere(1, 0.12).faces) {
+    for (auto& corner : face)
+      corner += static_cast<unsigned>(outer);
+    list.faces.push_back(face);
+  }
+  for (auto& p : list.points)
+    p = {std::ldexp(p.x(), 998), std::ldexp(p.y(), 998), std::ldexp(p.z(), 998)};
+  Mesh mesh = meshes::to_mesh(list);
+  const Mesh::Vertex_index v(static_cast<unsigned>(outer));
+  Sculptor<Mesh> sculptor(mesh);
+  const Workspace_map map(std::ldexp(20, 998), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero());
+  Tool<Sculptor<Mesh>> tool(sculptor, map, 0.01, 0.001);
+  const Vector3d hand = map.to_device(internal::vector_of(mesh.point(v)));
+  tool.take(v);
+  tool.move(hand, 0);
+  tool.move(hand, 1);
+  Tool_event last = Tool_event::none;
+  for (int k = 0; k < 60; ++k)
+    last = std::max(last, tool.move(hand, 0).event);
+  BOOST_TEST((last == Tool_event::released));
+}
+
 BOOST_AUTO_TEST_CASE(moves_by_value_are_told_as_their_legs) {
   Tool_bench bench;
   std::mt19937_64 random(6);

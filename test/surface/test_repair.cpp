@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <haptic_sculpt/surface/repair.h>
 
+#include <haptic_sculpt/surface/read_surface.h>
+
 #include "surface/identical.h"
 #include "surface/soup_of.h"
 
@@ -116,6 +118,15 @@ BOOST_AUTO_TEST_CASE(the_elk) {
 }
 
 // Vertices of a ball pulled through its other side, and farther: they go, with few others, and nothing moves.
+BOOST_AUTO_TEST_CASE(an_attribute_that_lacks_values_is_refused) {
+  Face_soup soup = soup_of(meshes::tetrahedron());
+  soup.attributes.push_back({"weight", haptic_sculpt::Vertex_attribute::Type::float64, {1, 2, 3}});
+  BOOST_CHECK_THROW(repair(soup), haptic_sculpt::Error);
+  BOOST_CHECK_THROW(haptic_sculpt::make_surface<meshes::Mesh>(soup), haptic_sculpt::Error);
+  soup.attributes[0].values.push_back(4);
+  BOOST_TEST(haptic_sculpt::make_surface<meshes::Mesh>(soup).number_of_vertices() == 4u);
+}
+
 BOOST_AUTO_TEST_CASE(what_crosses_itself_is_cut_out) {
   Triangle_list list = meshes::icosphere(3);
   for (const std::size_t v : {0, 100, 300})

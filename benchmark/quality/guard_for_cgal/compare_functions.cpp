@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CGAL_EIGEN3_ENABLED
 #define CGAL_EIGEN3_ENABLED // CGAL asks for it before it solves by Eigen
+#endif
 
 #include "guard_for_cgal/Comparison.h"
 

@@ -210,10 +210,15 @@ private:
 
   /// Puts the probe to p. Returns false, and leaves it, where that is refused: on a face, or inside of a solid.
   bool put_probe(const Eigen::Vector3d& p) {
-    auto probe = sculptor_->probe(internal::point_of<Point>(p));
+    auto probe = sculptor_->probe(internal::point_of<Point>(within_range(p)));
     if (probe)
       probe_ = std::move(probe);
     return probe_.has_value();
+  }
+
+  /// The nearest place that a Sculptor takes: from a large scene a few lengths lead beyond.
+  static Eigen::Vector3d within_range(const Eigen::Vector3d& p) {
+    return p.cwiseMin(largest_coordinate).cwiseMax(-largest_coordinate);
   }
 
   /// One that a change of the mesh has ended goes on where it is, or a little off, if that is outside; else it comes to
@@ -326,8 +331,9 @@ private:
       const Eigen::Vector3d& direction = is_second ? last_push_ : next.away;
       if (tried == near + most_surfaces)
         next.from = next.place;
-      const auto hit = sculptor_->first_hit(internal::point_of<Point>(next.from),
-                                            internal::point_of<Point>(next.place + 4 * map_.scale() * direction));
+      const auto hit =
+          sculptor_->first_hit(internal::point_of<Point>(next.from),
+                               internal::point_of<Point>(within_range(next.place + 4 * map_.scale() * direction)));
       if (hit) {
         next.from = internal::vector_of(hit->point) + 0.2 * reach() * direction;
         put_probe(next.from);

@@ -37,6 +37,7 @@ constexpr double edge_share = 0.05;
 template <class Sculptor>
 Edit creation_at(const Sculptor& sculptor, const std::array<typename Sculptor::Vertex_index, 3>& face,
                           const Eigen::Vector3d& p) {
+  const internal::Rounding_to_nearest rounding;
   Edit wanted = Edit::of(Edit_kind::insert_on_face, {sculptor.id(face[0]), sculptor.id(face[1]), sculptor.id(face[2])},
                          {p[0], p[1], p[2]});
   const auto place_of = [&](int i) { return internal::vector_of(sculptor.mesh().point(face[i])); };

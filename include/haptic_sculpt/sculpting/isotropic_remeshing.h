@@ -44,6 +44,7 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
 
   const internal::Rounding_to_nearest rounding;
   internal::check_remeshing(target_edge_length, parameters);
+  sculptor.check_unchanged();
   std::vector<typename Mesh::Face_index> range; // each once, however often it is given
   std::vector<bool> is_in_range(sculptor.mesh().num_faces());
   for (const typename Mesh::Face_index f : faces) {

@@ -66,10 +66,11 @@ inline Face_soup parse(std::string_view bytes, Mesh_file_format format) {
 
 /// The surface as a mesh; vertices and faces keep their indices, and faces their first corners (STL numbers vertices by
 /// first appearance, so writing has to begin faces where reading did). Attributes are vertex_attributes(). \pre it is
-/// closed, 2-manifold and oriented
+/// closed, 2-manifold and oriented \throw Error where an attribute has not one value for each point
 template <class Mesh>
 Mesh mesh_of(const Face_soup& soup) {
   using Vertex = typename Mesh::Vertex_index;
+  internal::check_attributes(soup);
   Mesh mesh;
   mesh.reserve(soup.points.size(), soup.corners.size() / 2, soup.number_of_faces());
   for (const auto& p : soup.points)

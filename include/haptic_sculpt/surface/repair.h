@@ -24,6 +24,7 @@ inline Validity_report check_repairable(const Face_soup& soup, const Repair_para
     if (soup.corners[i] >= soup.points.size())
       throw Error("corner " + std::to_string(i) + " of the list of faces is point " + std::to_string(soup.corners[i]) +
                   ", but there are only " + std::to_string(soup.points.size()) + " points; give indices from 0");
+  check_attributes(soup);
   Validity_report report;
   for (std::size_t v = 0; v < soup.points.size(); ++v)
     if (!soup.is_finite(v))

@@ -31,6 +31,10 @@ BOOST_AUTO_TEST_CASE(friction_encoders_and_delays_are_what_they_say) {
   }
   BOOST_TEST(coulomb_rate<double>() == 0.02);
   BOOST_TEST(joint_friction(parameters, Vector(HUGE_VAL, 1, -HUGE_VAL))[0] == -HUGE_VAL);
+  for (const double finest : {5e-324, 1e-310}) { // more of them in an angle than there are doubles
+    d.encoder_step = finest;
+    BOOST_TEST((measured_angles(Device_parameters<double>(d), Vector(0.1, -0.2, 3)) == Vector(0.1, -0.2, 3)));
+  }
   d.encoder_step = 0;
   BOOST_TEST((measured_angles(Device_parameters<double>(d), Vector(0.1, -0.2, 0.3)) - Vector(0.1, -0.2, 0.3)).norm() ==
              0);

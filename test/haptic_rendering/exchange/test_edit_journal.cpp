@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "haptic_rendering/exchange/made_again.h"
+#include "sculpting/public_functions/Callers_mode.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -123,6 +124,34 @@ BOOST_AUTO_TEST_CASE(a_drag_by_a_grab_that_somebody_has_ended_is_no_move) {
   journal.end_tick(0);
   Edit taken;
   BOOST_TEST((!journal.take(taken) && !journal.has_overrun()));
+}
+
+BOOST_AUTO_TEST_CASE(moves_by_subnormal_lengths_are_told_to_callers_who_flush_them) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
+  const double unit = 0x1p-1074;
+  for (const auto v : mesh.vertices()) {
+    const auto p = mesh.point(v);
+    mesh.point(v) = {std::round(1e5 * p.x()) * unit, std::round(1e5 * p.y()) * unit, std::round(1e5 * p.z()) * unit};
+  }
+  Sculptor<Mesh> sculptor(mesh);
+  Edit_journal journal(100);
+  Journaled_edits edits(sculptor);
+  edits.keep_journal(&journal);
+  {
+    const haptic_sculpt::test::Callers_mode mode(FE_TONEAREST, true);
+    const auto out = [&](std::uint32_t v) {
+      const auto p = mesh.point(Mesh::Vertex_index(v));
+      return Mesh::Point(p.x(), p.y(), std::copysign(2e5 * unit, p.z()));
+    };
+    edits.move_if_free(Mesh::Vertex_index(17), out(17));
+    edits.drag(Mesh::Vertex_index(90), out(90));
+  }
+  BOOST_TEST(sculptor.history().number_of_undo_steps() == 2u);
+  journal.end_tick(0);
+  std::size_t moves = 0;
+  for (Edit entry; journal.take(entry);)
+    moves += entry.kind == Edit_kind::move;
+  BOOST_TEST(moves == 2u);
 }
 
 // A slide of several legs is one step of undo, and so it is where it is made again; an undo ends the stroke, even one

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 using namespace haptic_sculpt;
@@ -107,6 +108,53 @@ BOOST_AUTO_TEST_CASE(a_viewer_is_passed_all_of_a_scene_that_is_entered_again) {
     run();
     BOOST_TEST(scene == k);
   }
+}
+
+/// A caller's value that cannot be copied while `throws` is set.
+struct Value {
+  static inline bool throws = false;
+  Value() = default;
+  Value(const Value&) { check(); }
+  Value& operator=(const Value&) {
+    check();
+    return *this;
+  }
+  static void check() {
+    if (throws)
+      throw std::runtime_error("a value was not copied");
+  }
+};
+
+// The mesh has grown by a vertex, and half of its properties have not.
+BOOST_AUTO_TEST_CASE(a_sculptor_that_an_edit_leaves_unfinished_is_a_fault_and_the_viewer_sees_it) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0.12));
+  mesh.add_property_map<Mesh::Vertex_index, Value>("v:of others", Value());
+  Scene scene(mesh, [](const Vector3d&, const Vector3d&) { return map_of_tests; });
+  Loop loop(scene.sculptor, scene.map, parameters_of_tests());
+  Command_queue<Scene> queue(4);
+  Scene_feed feed;
+  Session session(loop, scene, &queue, &feed, nullptr);
+  session.tick(reading_at(0));
+  const auto h = scene.mesh.halfedge(*scene.mesh.edges_begin());
+  const auto p = CGAL::midpoint(scene.mesh.point(scene.mesh.source(h)), scene.mesh.point(scene.mesh.target(h)));
+  Command command;
+  command.kind = Command::Kind::edit;
+  command.edit = Edit::of(Edit_kind::insert_on_edge,
+                          {scene.sculptor.id(scene.mesh.source(h)), scene.sculptor.id(scene.mesh.target(h)), 0},
+                          {p.x(), p.y(), p.z()});
+  BOOST_TEST(queue.ask(command));
+  Value::throws = true;
+  session.tick(reading_at(1));
+  Value::throws = false;
+  Loop_answer<Scene> answer;
+  BOOST_TEST((queue.take(answer) && !answer.done));
+  BOOST_CHECK_THROW(scene.sculptor.undo(), Unfinished_change);
+  BOOST_TEST((session.tick(reading_at(2)).fault == Loop_fault::error));
+  Tick_view last;
+  for (Tick_view view; feed.take(view);)
+    last = view;
+  BOOST_TEST(last.tick == 2u);
+  BOOST_TEST((last.fault == Loop_fault::error));
 }
 
 // A log holds what its journal says: an undo must not go back beyond it.

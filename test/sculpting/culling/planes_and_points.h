@@ -158,7 +158,8 @@ void check(Random& random, const Faces_and_points& scene, const Planes& planes, 
   const auto on = [](const auto& p, auto& c) { return internal::vertex_face_verdict(p, c); };
   const auto of_edges = [](const auto& p, auto& c) { return internal::edge_edge_verdict(p, c); };
   const auto of_faces = [](const auto& p, auto& c) { return internal::face_vertex_verdict(p, c); };
-  const auto& [source, target] = std::tie(scene.drawn.source, scene.drawn.target);
+  const auto& source = scene.drawn.source;
+  const auto& target = scene.drawn.target;
   const auto& points = scene.points;
   const auto sides = [&](std::size_t k) { return scene.outcodes.outcode(k); };
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -130,4 +130,9 @@ BOOST_AUTO_TEST_CASE(what_apply_says) {
   Edit shift = Edit::of(Edit_kind::shift);
   shift.axis = 3;
   BOOST_CHECK_THROW(sculptor.apply(shift), Invalid_parameter);
+  shift.axis = 2;
+  BOOST_TEST((sculptor.apply(shift).edit.kind == Edit_kind::none));
+  shift.ways = {{5, sculptor.mesh().point(Vertex_index(5)).z()}};
+  BOOST_TEST((sculptor.apply(shift).edit.kind == Edit_kind::none));
+  BOOST_TEST((snapshot(sculptor) == before));
 }

@@ -5,6 +5,7 @@
 #include "sculpting/edits/calls_that_allocate.h"
 #include "sculpting/edits/failing_allocations.h"
 
+#include <haptic_sculpt/haptic_rendering/exchange/Scene_visitor.h>
 #include <haptic_sculpt/sculpting/move_rigidly.h>
 #include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 
@@ -184,6 +185,43 @@ BOOST_AUTO_TEST_CASE(a_property_whose_values_allocate) {
   Mesh mesh = scene();
   mesh.add_property_map<Mesh::Face_index, std::string>("f:label", std::string(100, 'a'));
   try_all<Box_tree_broad_phase<Mesh>>("labelled faces", false, {}, mesh);
+}
+
+// Where there is no memory to remember which faces have changed, all have; and a copy under way stays right.
+BOOST_AUTO_TEST_CASE(a_viewer_and_a_copy_have_all_though_no_memory_is_left_in_the_visitor) {
+  using Faces = std::vector<std::array<std::uint32_t, 3>>;
+  int all_marked = 0;
+  for (std::size_t n = 1; n < 60; ++n) {
+    Mesh mesh = scene();
+    Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Scene_visitor<Mesh>> sculptor(mesh, {}, Scene_visitor<Mesh>(mesh));
+    Scene_visitor<Mesh>& visitor = sculptor.visitor();
+    visitor.mark_all(0); // and no room for more
+    visitor.changed.clear();
+    Scene_copy copy(10000, 20000);
+    visitor.tell_to(&copy);
+    copy.copy_some(sculptor, 100000);
+    Faces seen(copy.faces);
+    for (const std::uint32_t f : {5, 9}) {
+      const Mesh::Halfedge_index h = mesh.halfedge(Mesh::Face_index(f));
+      const Point_3 middle =
+          CGAL::centroid(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))));
+      try {
+        const Failing_allocations failing(f == 5 ? n : 1000000, false);
+        sculptor.insert_on_face(Mesh::Face_index(f), middle);
+      } catch (const std::bad_alloc&) {
+      }
+      all_marked += visitor.changed.size() == mesh.number_of_faces();
+    }
+    for (; visitor.changed.size() != 0; visitor.changed.pop()) {
+      const Mesh::Face_index f(visitor.changed.front());
+      seen[f] = Scene_copy::corners_of(mesh, f);
+    }
+    BOOST_TEST((seen == copy.faces));
+    for (const auto f : mesh.faces())
+      BOOST_TEST((seen[f] == Scene_copy::corners_of(mesh, f)));
+    visitor.tell_to(nullptr);
+  }
+  BOOST_TEST(all_marked > 0);
 }
 
 // Nor where all of memory is used up in the second axis of a step: what takes it back is there already.

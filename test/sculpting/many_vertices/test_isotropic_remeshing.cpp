@@ -255,3 +255,24 @@ BOOST_AUTO_TEST_CASE(bad_parameters_cancel_and_exceptions) {
         sculptor.undo();
     }
 }
+
+BOOST_AUTO_TEST_CASE(relaxation_that_is_told_to_stop_does_so_at_once) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2));
+  Sculptor<Mesh> sculptor(mesh);
+  int calls = 0;
+  const auto report = isotropic_remeshing(
+      sculptor, 0.1, // in the most steps that there are: for ever
+      CGAL::parameters::do_split(false).do_collapse(false).do_flip(false).number_of_relaxation_steps(
+          std::numeric_limits<unsigned>::max()),
+      Remeshing_parameters().progress([&](const Remeshing_progress&) { return ++calls < 10; }));
+  BOOST_TEST(report.cancelled);
+  BOOST_TEST(calls == 10);
+}
+
+BOOST_AUTO_TEST_CASE(a_mesh_that_others_have_opened_is_not_remeshed) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2));
+  Sculptor<Mesh> sculptor(mesh);
+  CGAL::Euler::remove_face(mesh.halfedge(Face_index(7)), mesh);
+  BOOST_CHECK_THROW(isotropic_remeshing(sculptor, 0.1), Mesh_changed);
+  BOOST_CHECK_THROW(isotropic_remeshing(std::vector<Face_index>{Face_index(20)}, sculptor, 0.1), Mesh_changed);
+}

@@ -68,8 +68,9 @@ BOOST_AUTO_TEST_CASE(the_cheaper_proof_is_right_and_often_found) {
   std::mt19937 random(13);
   BOOST_TEST_MESSAGE("seed 13");
   std::size_t free = 0, proven = 0, wrong = 0;
-  for (const auto& [name, mesh] : scenes(false))
+  for (const Named_mesh& scene : scenes(false))
     for (int i = 0; i < 150; ++i) {
+      const Mesh& mesh = scene.mesh;
       const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.num_vertices()));
       const double size = mean_edge(mesh) * std::pow(2, -static_cast<double>(random() % 6));
       const Point_3 target =

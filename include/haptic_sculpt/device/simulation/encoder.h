@@ -9,13 +9,16 @@ namespace haptic_sculpt {
 /// most; halves go up.
 template <class S>
 Device_vector<S> measured_angles(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
+  using std::abs;
   using std::floor;
   const S& step = parameters.encoder_step();
   if (step == S(0))
     return theta;
   Device_vector<S> measured;
-  for (int joint = 0; joint < 3; ++joint)
-    measured[joint] = step * floor(S(theta[joint] / step + S(0.5)));
+  for (int joint = 0; joint < 3; ++joint) {
+    const S steps = theta[joint] / step; // overflows where a step is next to nothing
+    measured[joint] = abs(steps) < S(0x1p52) ? S(step * floor(S(steps + S(0.5)))) : theta[joint];
+  }
   return measured;
 }
 

@@ -17,8 +17,8 @@ public:
   void reserve(std::size_t faces) {
     if (faces <= waits_.size())
       return;
+    waiting_.set_capacity(faces); // first: where memory runs out between the two, what waits still has room
     waits_.resize(faces, false);
-    waiting_.set_capacity(faces);
   }
   /// All indices below this are to be passed on. Allocates nothing. Linear in what waited before.
   void add_all(std::uint32_t faces) {

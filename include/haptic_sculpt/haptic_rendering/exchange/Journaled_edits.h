@@ -76,6 +76,7 @@ public:
 
   /// A drag of a vertex of the surface; its legs are reported. \throw what drags throw
   Result drag(Grab_type& grab, const Point& target, const std::optional<Drag_parameters>& parameters) {
+    const internal::Rounding_to_nearest rounding; // points that differ by a subnormal number differ
     const auto result = or_break_off([&] { return grab.drag_to(target, legs_, parameters); });
     if (!legs_.empty()) // a place twice in a row, and +0 beside -0, is no leg
       legs_.erase(std::unique(legs_.begin(), legs_.end()), legs_.end());
@@ -91,6 +92,7 @@ public:
   ///@{
   const Mesh_type& mesh() const { return sculptor_->mesh(); }                       ///< that is guarded
   const Sculptor_parameters& parameters() const { return sculptor_->parameters(); } ///< of the Sculptor
+  void check_unchanged() const { sculptor_->check_unchanged(); }                    ///< \throw Mesh_changed
   /// Of the surface. \throw as there
   Vertex_index nearest_vertex(const Point& p, double within) { return sculptor_->nearest_vertex(p, within); }
   bool is_inside_out(Vertex_index v) const { return sculptor_->is_inside_out(v); } ///< the component of v
@@ -104,6 +106,7 @@ public:
   Edited flip(Edge_index e) { return make(of_ends(Edit_kind::flip, mesh().halfedge(e))); }
   /// All of the way or none.
   bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
+    const internal::Rounding_to_nearest rounding;
     const Point before = mesh().point(v);
     const bool is_there = or_break_off([&] { return sculptor_->move_if_free(v, target, drag); });
     if (mesh().point(v) != before)

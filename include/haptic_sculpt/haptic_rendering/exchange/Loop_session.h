@@ -55,8 +55,10 @@ public:
         loop_->end_by(Loop_fault::log);
     }
     if (feed_ != nullptr) {
-      pass_faces_on();
-      feed_->tell(view_of(made));
+      loop_->attempt([this] { pass_faces_on(); }); // a Sculptor that a fault has left unfinished answers nothing
+      Tick_view view = view_of(made);
+      loop_->attempt([&] { name_vertex(view); });
+      feed_->tell(view);
     }
     ++ticks_;
     return made;
@@ -242,9 +244,15 @@ private:
     view.reached = made.tool.reached, view.starved = made.tool.starved, view.contacts = made.tool.contacts;
     view.event = made.tool.event, view.fault = made.fault;
     view.faces_passed_on = feed_->passed_on(), view.faces_waiting = scene_->sculptor.visitor().changed.size();
-    view.holds_vertex = loop_->tool().holds_vertex();
-    view.vertex = view.holds_vertex ? scene_->sculptor.id(loop_->tool().vertex()) : 0;
     return view;
+  }
+
+  /// That is in the hand.
+  void name_vertex(Tick_view& view) const {
+    if (!loop_->tool().holds_vertex())
+      return;
+    view.vertex = scene_->sculptor.id(loop_->tool().vertex());
+    view.holds_vertex = true;
   }
 };
 

@@ -7,6 +7,8 @@
 #include <haptic_sculpt/sculpting/Edit_visitor.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
+#include <new>
+
 namespace haptic_sculpt {
 
 /// An EditVisitor that remembers which faces have changed, for a viewer, and keeps a copy under way right.
@@ -38,7 +40,7 @@ public:
   /// Its faces have changed.
   void vertex_moved(Vertex_index v) {
     for (const Face_index f : mesh_->faces_around_target(mesh_->halfedge(v)))
-      changed.add(static_cast<std::uint32_t>(f));
+      mark(f);
     if (copy_ != nullptr)
       copy_->move_vertex(static_cast<std::uint32_t>(v), vertex_coordinates(*mesh_, v));
   }
@@ -64,8 +66,17 @@ private:
   const Mesh* mesh_;
   Scene_copy* copy_ = nullptr;
 
+  /// Where there is no memory to remember which, all are to be passed on.
+  void mark(Face_index f) {
+    try {
+      changed.add(static_cast<std::uint32_t>(f));
+    } catch (const std::bad_alloc&) {
+      mark_all();
+    }
+  }
+
   void changed_face(Face_index f, const std::array<std::uint32_t, 3>& corners) {
-    changed.add(static_cast<std::uint32_t>(f));
+    mark(f);
     if (copy_ != nullptr)
       copy_->set_face(static_cast<std::uint32_t>(f), corners);
   }

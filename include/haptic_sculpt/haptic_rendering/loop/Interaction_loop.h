@@ -56,6 +56,17 @@ public:
 
   /// Ends the run at the next tick, in order, for a reason that the loop itself does not see.
   void end_by(Loop_fault fault) { interaction_.report(fault); }
+  /// Does what belongs to a tick: what it throws becomes a fault of the next one.
+  template <class Function>
+  void attempt(const Function& function) noexcept {
+    try {
+      function();
+    } catch (const std::exception& error) {
+      fail(error.what());
+    } catch (...) { // of a visitor or a task: not of this library, and yet the force has to fade
+      fail("something was thrown that is no std::exception");
+    }
+  }
 
   /// After a fault: forces come back slowly, from 0, from where everything is; a zoom that waits is forgotten.
   void restart() {
@@ -76,6 +87,7 @@ public:
   /// Units of the scene a metre of the device, times a factor, from the next tick with a closed clutch on, about where
   /// the tool is. \throw Error for a factor that makes no scale > 0, or none that can be kept where the tool is now
   void zoom(double factor) {
+    const internal::Rounding_to_nearest rounding;
     const Eigen::Vector3d handle = has_place_ ? interaction_.side().position() : map_.home();
     const Eigen::Vector3d place = has_place_ ? place_ : map_.origin();
     map_.pinned(handle, place, map_.scale() * zoom_ * factor); // throws here, not in a tick
@@ -176,17 +188,6 @@ private:
            std::min(parameters_.work_of_a_face * faces, std::max(faces, Haptic_parameters::most_work_of_faces));
   }
 
-  /// The one place where exceptions end: each becomes a fault.
-  template <class Function>
-  void attempt(const Function& function) noexcept {
-    try {
-      function();
-    } catch (const std::exception& error) {
-      fail(error.what());
-    } catch (...) { // of a visitor or a task: not of this library, and yet the force has to fade
-      fail("something was thrown that is no std::exception");
-    }
-  }
   void fail(const char* what) {
     std::strncpy(failure_.data(), what, failure_.size() - 1);
     interaction_.report(Loop_fault::error);

@@ -107,7 +107,7 @@ inline Hand_path Hand_path::parse(std::string_view text, const std::string& name
       at += k < 4 ? 1 : 0;
     }
     if (values[4] != 0 && values[4] != 1 && values[4] != 2)
-      fail(number, 1, "the button must be 0, 1 or 2");
+      fail(number, line.rfind(',') + 2, "the button must be 0, 1 or 2");
     if (!rows.empty() && !(values[0] - rows.back().time >= least_time))
       fail(number, 1, "the times must grow from row to row, by a nanosecond at least");
     rows.push_back({values[0], {values[1], values[2], values[3]}, static_cast<int>(values[4])});

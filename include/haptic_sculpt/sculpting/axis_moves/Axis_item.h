@@ -21,7 +21,7 @@ inline unsigned shared_corners(const Axis_item& f, const Axis_item& g) {
   unsigned shared = 0;
   for (unsigned i = 0; i < 3; ++i) {
     const std::uint32_t v = f.corners[i];
-    shared |= unsigned((v == g.corners[0]) | (v == g.corners[1]) | (v == g.corners[2])) << i;
+    shared |= (unsigned(v == g.corners[0]) | unsigned(v == g.corners[1]) | unsigned(v == g.corners[2])) << i;
   }
   return shared;
 }

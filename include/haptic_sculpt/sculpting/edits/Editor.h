@@ -167,6 +167,7 @@ public:
   }
 
   /// The face with these three corners, by number and in any order; the null index where there is none.
+  /// \throw Mesh_changed
   Face_index face_of(std::size_t a, std::size_t b, std::size_t c) const {
     const Halfedge_index h = halfedge_of(a, b);
     const Vertex_index third = ids().vertex(c);
@@ -178,8 +179,9 @@ public:
     return Face_index();
   }
 
-  /// The halfedge from a to b, by number; the null index where there is none.
+  /// The halfedge from a to b, by number; the null index where there is none. \throw Mesh_changed
   Halfedge_index halfedge_of(std::size_t a, std::size_t b) const {
+    watch_->check_counts(); // of a mesh that others have made smaller the numbers lead beyond its end
     const Vertex_index v = ids().vertex(a), w = ids().vertex(b);
     if (!v.is_valid() || !w.is_valid() || v == w)
       return Halfedge_index();
@@ -198,6 +200,7 @@ private:
   Pivot_order<Mesh> order_;
   Change change_; ///< the one that is made, kept to allocate no more
   bool has_changed_ = false; ///< the mesh, by the last change that was to be taken back or made again
+  bool is_reversing_ = false; ///< such changes are being made undone
 
   /// Takes a step back or makes it again, all of its changes or none: a part of a step need not be embedded. Where an
   /// exception comes before the last change is made, those before it are made undone, and the stroke under way goes on.
@@ -228,12 +231,14 @@ private:
   /// Makes this many changes undone that were taken back or made again last. The visitor hears of it until it throws.
   void reverse(std::size_t changes, bool is_back) {
     bool is_heard = true;
+    is_reversing_ = true;
     while (changes != 0) {
       try {
         is_back ? make_again() : take_back();
       } catch (...) {
         if (writing_->is_under_way() || (!has_changed_ && !is_heard)) {
           history_.end_stroke();
+          is_reversing_ = false;
           writing_->begin(); // for good
           throw;
         }
@@ -241,6 +246,7 @@ private:
       }
       changes -= has_changed_;
     }
+    is_reversing_ = false;
     changes_.tell_visitor(true);
   }
 
@@ -266,7 +272,7 @@ private:
   }
 
   typename Kept_properties<Mesh>::Place place(std::size_t number, bool is_new) const {
-    return {history_.first_number(), number, is_new};
+    return {history_.first_number(), number, is_new, is_reversing_};
   }
 
   void describe(Edit_kind kind, std::initializer_list<Vertex_index> vertices, const Coordinates& p) {

@@ -39,12 +39,14 @@ public:
   virtual void dies(const Element& element, const Element_ids& ids) = 0;
   /// The mesh is about to change: what is to be allocated for the record is allocated here.
   /// \param first, number of the oldest edit in the history, and of this one; `no_id` where it is not recorded
-  /// \param is_new whether it is made for the first time
-  virtual void prepare(std::size_t first, std::size_t number, bool is_new) = 0;
+  /// \param is_new whether it is made for the first time \param is_reversal whether it is the one before made undone,
+  /// as that was broken off
+  virtual void prepare(std::size_t first, std::size_t number, bool is_new, bool is_reversal) = 0;
   /// Each element that has been created, when the mesh is complete again.
   virtual void created(const Element& element, const Element_ids& ids, const Edit_under_way& under_way,
                        const Vertex_ids<Mesh>& vertices) = 0;
-  virtual void end() noexcept = 0;
+  /// \param is_whole whether nothing was thrown for what has been created
+  virtual void end(bool is_whole) noexcept = 0;
   ///@}
 };
 
@@ -65,8 +67,13 @@ public:
       dead_.push_back({ids, get(map_, *key)});
   }
 
-  void prepare(std::size_t first, std::size_t number, bool is_new) override {
+  void prepare(std::size_t first, std::size_t number, bool is_new, bool is_reversal) override {
     std::sort(dead_.begin(), dead_.end(), [](const Entry& a, const Entry& b) { return a.ids < b.ids; });
+    if (!is_reversal)
+      unwritten_.clear();
+    for (const Entry& saved : unwritten_)
+      if (Entry* dead = find(dead_, saved.ids))
+        dead->value = saved.value;
     if (!is_recorded || number == no_id)
       return;
     store_.erase(store_.begin(), store_.lower_bound(first));
@@ -78,7 +85,7 @@ public:
     if (!std::holds_alternative<Key>(element))
       return;
     const Key key = std::get<Key>(element);
-    if (const Entry* saved = alive_again_ ? find(*alive_again_, ids) : nullptr) {
+    if (const Entry* saved = alive_again_ != nullptr ? find(*alive_again_, ids) : nullptr) {
       put(map_, key, saved->value);
       return;
     }
@@ -108,9 +115,12 @@ public:
       put(map_, key, carry_(static_cast<const Property_origin<Value>&>(origin)));
   }
 
-  void end() noexcept override {
+  void end(bool is_whole) noexcept override {
     if (alive_again_)
       alive_again_->swap(dead_);
+    unwritten_.clear();
+    if (alive_again_ && !is_whole)
+      unwritten_.swap(dead_);
     if (!fresh_.empty()) { // what could be redone before it cannot be any more
       store_.erase(store_.lower_bound(fresh_.begin()->first), store_.end());
       store_.merge(fresh_);
@@ -137,8 +147,11 @@ private:
       store_, ///< by number of edit: what it killed, or, while it is taken back, what it had made
       fresh_; ///< of a new edit, until it is made
   Entries* alive_again_ = nullptr; ///< that of the edit under way
+  Entries unwritten_;              ///< of the edit before, if it was broken off: what it was to write
 
-  static const Entry* find(const Entries& entries, const Element_ids& ids) {
+  /// \return nullptr where there is none
+  template <class Of_map>
+  static auto find(Of_map& entries, const Element_ids& ids) -> decltype(&*entries.begin()) {
     const auto at = std::lower_bound(entries.begin(), entries.end(), ids,
                                      [](const Entry& entry, const Element_ids& n) { return entry.ids < n; });
     return at != entries.end() && at->ids == ids ? &*at : nullptr;

@@ -43,10 +43,11 @@ public:
   }
 
   /// Where an edit stands in the history: the numbers of the oldest one there and of its own, which is `no_id` where
-  /// it is not recorded; whether it is made for the first time.
+  /// it is not recorded; whether it is made for the first time; whether it is the one before made undone, as that was
+  /// broken off.
   struct Place {
     std::size_t first, number;
-    bool is_new;
+    bool is_new, is_reversal;
   };
 
   /// \name In this order, for each edit
@@ -65,7 +66,7 @@ public:
     for (const auto& map : maps_) {
       for_each_element(ids, v, faces, halfedges,
                        [&](const Element& element, const Element_ids& of) { map->dies(element, of); });
-      map->prepare(place_.first, place_.number, place_.is_new);
+      map->prepare(place_.first, place_.number, place_.is_new, place_.is_reversal);
     }
   }
   /// Where a map throws, elements after that one may have the default in it; the others hear of all, and undo knows all
@@ -79,14 +80,16 @@ public:
       under_way_.weights = weights(ids, vertex_coordinates(*mesh_, v));
     std::exception_ptr thrown;
     for (const auto& map : maps_) {
+      bool is_whole = true;
       try {
         for_each_element(ids, v, faces, halfedges, [&](const Element& element, const Element_ids& of) {
           map->created(element, of, under_way_, ids);
         });
       } catch (...) {
+        is_whole = false;
         thrown = thrown ? thrown : std::current_exception();
       }
-      map->end();
+      map->end(is_whole);
     }
     if (thrown)
       std::rethrow_exception(thrown);
@@ -99,7 +102,7 @@ private:
   const Mesh* mesh_;
   std::vector<std::unique_ptr<Kept_map<Mesh>>> maps_;
   Edit_under_way under_way_{nullptr, false, {}};
-  Place place_{0, no_id, true};
+  Place place_{0, no_id, true, false};
 
   template <class Faces, class Halfedges, class Function>
   void for_each_element(const Vertex_ids<Mesh>& ids, Vertex_index v, const Faces& faces, const Halfedges& halfedges,

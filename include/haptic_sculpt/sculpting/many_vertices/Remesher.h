@@ -147,7 +147,8 @@ private:
   /// are one drag.
   void relax() {
     std::vector<std::pair<Vertex_index, Coordinates>> targets;
-    for (unsigned step = 1; step <= named_.relaxation_steps || step == 1; ++step) {
+    const unsigned last = std::max(1u, named_.relaxation_steps);
+    for (unsigned step = 1;; ++step) {
       targets.clear();
       for (const Vertex_index v : mesh_.vertices())
         if (const int degree = movable_degree(v); degree == 0) {
@@ -157,6 +158,10 @@ private:
           targets.emplace_back(v, relaxed_on_line(v));
         }
       move_all(targets);
+      if (state_.report.cancelled)
+        return;
+      if (step == last)
+        break;
     }
     if constexpr (Comes_after_relaxation<typename State::Project>::value) {
       targets.clear();

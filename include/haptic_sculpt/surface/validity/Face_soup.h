@@ -73,4 +73,15 @@ struct Face_soup {
   }
 };
 
+namespace internal {
+
+/// \throw Error where an attribute has not one value for each point
+inline void check_attributes(const Face_soup& soup) {
+  for (const Vertex_attribute& attribute : soup.attributes)
+    if (attribute.values.size() != soup.points.size())
+      throw Error("the attribute '" + attribute.name + "' has " + std::to_string(attribute.values.size()) +
+                  " values, but there are " + std::to_string(soup.points.size()) + " points; give each point one");
+}
+
+} // namespace internal
 } // namespace haptic_sculpt
