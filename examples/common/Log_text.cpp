@@ -240,35 +240,6 @@ private:
 
 } // namespace
 
-void Settings::follow(const Command& command) {
-  if (command.kind == Kind::response)
-    response = command.word;
-  else if (command.kind == Kind::clearance)
-    clearance = command.word.empty() ? std::optional(command.length) : std::nullopt;
-  else if (command.kind == Kind::delta)
-    delta = command.length;
-}
-
-std::vector<Command> Settings::directives() const {
-  std::vector<Command> all(3);
-  all[0].kind = Kind::response;
-  all[0].word = response;
-  all[1].kind = Kind::clearance;
-  all[1].word = clearance ? "" : "default";
-  all[1].length = clearance.value_or(0);
-  all[2].kind = Kind::delta;
-  all[2].length = delta;
-  return all;
-}
-
-std::vector<Command> Settings::changes_from(const Settings& others) const {
-  std::vector<Command> changes = directives(), theirs = others.directives();
-  for (std::size_t i = theirs.size(); i-- > 0;)
-    if (changes[i].word == theirs[i].word && changes[i].length == theirs[i].length)
-      changes.erase(changes.begin() + static_cast<std::ptrdiff_t>(i));
-  return changes;
-}
-
 std::string Log_writer::line(const std::string& payload) {
   checksum_ = checksum_of(checksum_, payload);
   return payload + std::string(checksum_word) + checksum_ + '\n';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Script.h"
+#include "Script_settings.h"
 
 #include <string>
 #include <string_view>
@@ -12,20 +12,6 @@ namespace haptic_sculpt::examples {
 /// A file that is no log, or a log or script of another mesh.
 struct Foreign_log : Error {
   using Error::Error;
-};
-
-/// What holds at the first edit, and how options and directives change it.
-struct Settings {
-  std::string response = "slide";
-  std::optional<double> clearance; ///< unset: the default
-  double delta = 0;
-
-  /// Of commands other than settings: nothing.
-  void follow(const Command& command);
-  /// As directives.
-  std::vector<Command> directives() const;
-  /// The directives that make these of others.
-  std::vector<Command> changes_from(const Settings& others) const;
 };
 
 /// Makes the lines of a log. Each ends with a checksum of all that stands before it, as a comment, so that a log is a

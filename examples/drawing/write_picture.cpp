@@ -4,6 +4,9 @@
 #include "Offscreen_context.h"
 #include "write_png.h"
 #include "write_words.h"
+
+#include "../common/output_targets.h"
+
 #include <cfenv>
 
 namespace haptic_sculpt::drawing {
@@ -150,8 +153,7 @@ std::string write_picture(const Scene& scene, const std::filesystem::path& path,
 }
 
 std::string write_pictures(const std::vector<Scene>& scenes, const std::filesystem::path& path, const View& view) {
-  const auto extension = path.extension(); // a mesh by a slip
-  if (!extension.empty() && extension != ".png" && extension != ".PNG")
+  if (!examples::is_picture_name(path.string())) // a mesh by a slip
     throw Picture_error("'" + path.string() + "' does not end in .png: give the picture another name");
   const Image image = drawn(scenes, view);
   return write_png(path, image.width, image.height, image.bytes);

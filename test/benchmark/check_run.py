@@ -103,10 +103,10 @@ def pictures(out, folder):
 def wrong_use(folder):
     none = str(folder / "none")
     for option, value, said in (("--cores", "0", "--cores"), ("--minutes", "nan", "--minutes"),
-                                ("--minutes", "-1", "--minutes"), ("--shards", "-1", "--shards"), ("--seed", "-5", "--seed"),
-                                ("--build", none, "no folder with a build"), ("--profile", "nosuch", "no profile nosuch"),
-                                ("--answers", none, "there is no file"), ("--out", "", "empty"),
-                                ("--out", "/dev/null/x", "cannot make the folder")):
+                                ("--minutes", "-1", "--minutes"), ("--shards", "-1", "--shards"),
+                                ("--seed", "-5", "--seed"), ("--build", none, "no folder with a build"),
+                                ("--profile", "nosuch", "no profile nosuch"), ("--answers", none, "there is no file"),
+                                ("--out", "", "empty"), ("--out", "/dev/null/x", "cannot make the folder")):
         done = run(folder / "wrong", "device", option, value)
         text = f"{option} {value}: exit {done.returncode}, {done.stderr[-500:]}"
         expect(done.returncode == 2 and said in done.stderr.splitlines()[-1], text)

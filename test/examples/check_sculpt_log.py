@@ -296,24 +296,30 @@ def settings_that_others_change(folder, mesh):
     write(log, broken)
     check(run(mesh, "--script", between, "--log", log).returncode == 0, "another script in between")
     visited = len(bytes_of(log).splitlines())
-    check(run(*command, out).returncode == 0 and bytes_of(out) == bytes_of(whole), "goes on with other settings than it had")
+    done = run(*command, out)
+    check(done.returncode == 0 and bytes_of(out) == bytes_of(whole), f"goes on with other settings: {done.stderr}")
     complete = bytes_of(log)
     lines = complete.splitlines(keepends=True)
-    check([words(line)[0] for line in lines[visited + 1:visited + 4]] == [b"response", b"clearance", b"delta"], f"what is in force is logged: {lines[visited:]}")
+    logged = [words(line)[0] for line in lines[visited + 1:visited + 4]]
+    check(logged == [b"response", b"clearance", b"delta"], f"what is in force is logged: {lines[visited:]}")
     for n in range(visited, len(lines) + 1):
         write(log, b"".join(lines[:n]))
         done = run(*command, out)
-        check(done.returncode == (2 if n == len(lines) else 0) and bytes_of(out) == bytes_of(whole) and bytes_of(log) == complete, f"cut after line {n}: {done.stderr}")
+        is_same = bytes_of(out) == bytes_of(whole) and bytes_of(log) == complete
+        check(done.returncode == (2 if n == len(lines) else 0) and is_same, f"cut after line {n}: {done.stderr}")
 
 
 def settings_that_were_refused(folder, mesh):
     """What was refused is in a log, for a replay says so again, and behind it what is in force."""
-    low, further = write(f"{folder}/low.script", "delta 0\ndrag 1 0.05 0 0\ndelta 0.3\n"), write(f"{folder}/further.script", "drag 3 0.2 0.2 2\n")
+    low = write(f"{folder}/low.script", "delta 0\ndrag 1 0.05 0 0\ndelta 0.3\n")
+    further = write(f"{folder}/further.script", "drag 3 0.2 0.2 2\n")
     log, out, again = f"{folder}/low.log", f"{folder}/low.off", f"{folder}/again.off"
     done = run(mesh, "--script", low, "--log", log, "-o", out, "--delta", "0.3")
     check(done.returncode == 0 and "refused 1\n" in done.stdout, f"a delta that is refused: {done.stdout}")
-    check([words(line) for line in bytes_of(log).splitlines()[-3:-1]] == [[b"delta", (0.3).hex().encode()], [b"delta", b"0x0p+0"]], "refused, and in force")
-    fails(2, ["--delta 0.3", "ends with", "delta 0'"], run(mesh, "--script", further, "--log", log, "--delta", "0.3"), "a delta that was refused")
+    logged = [words(line) for line in bytes_of(log).splitlines()[-3:-1]]
+    check(logged == [[b"delta", (0.3).hex().encode()], [b"delta", b"0x0p+0"]], f"refused, and in force: {logged}")
+    done = run(mesh, "--script", further, "--log", log, "--delta", "0.3")
+    fails(2, ["--delta 0.3", "ends with", "delta 0'"], done, "a delta that was refused")
     check(run(mesh, "--log", log, "-o", again).returncode == 0 and bytes_of(again) == bytes_of(out), "replay")
     wide, log = write(f"{folder}/wide.script", "clearance 1\n"), f"{folder}/wide.log"
     for arguments in (("--script", wide), ("--script", further)):
@@ -598,8 +604,9 @@ def refused_settings(folder, mesh):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
-        for part in (edits_and_log, shifts, moves, settings, settings_that_others_change, settings_that_were_refused, rerun, strokes, earlier_version, delta_in_stroke, no_logs,
-                     changed_logs, without_checksums, two_processes, places, full_disk, surfaces_of_options, refused_settings):
+        for part in (edits_and_log, shifts, moves, settings, settings_that_others_change, settings_that_were_refused,
+                     rerun, strokes, earlier_version, delta_in_stroke, no_logs, changed_logs, without_checksums,
+                     two_processes, places, full_disk, surfaces_of_options, refused_settings):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             start = time.monotonic()

@@ -385,17 +385,20 @@ check(len(lines) == 1 and lines[0]["faces"] == 192 and lines[0]["edits"] == 0, f
 check(os.path.exists(mesh + ".log") and not os.path.exists(second + ".log"), "the log of unsaved work stays")
 # One that is not opened is no success; one that is being opened is waited for; one that is open stays.
 unsaved = "settle\ntool drag\ndrag 600 430 700 350 6\nsettle\n"
-_, err = window(mesh, "--samples", 0, "--no-log", script=f"{unsaved}open {second}\nsettle\nquit\n", code=3, what="a mesh that is not opened")
+script = f"{unsaved}open {second}\nsettle\nquit\n"
+_, err = window(mesh, "--samples", 0, "--no-log", script=script, code=3, what="a mesh that is not opened")
 check("second.off' was not opened" in err and "twice" in err, f"which, and what to do: {err}")
 small, large = write(at("small.off"), box(1)), write(at("large.off"), box(60))
-lines, _ = window(large, "--samples", 0, "--no-log", script=f"settle\nopen {second}\nopen {small}\nopen {small}\nsettle\nprint\nquit\n", what="one after another")
+script = f"settle\nopen {second}\nopen {small}\nopen {small}\nsettle\nprint\nquit\n"
+lines, _ = window(large, "--samples", 0, "--no-log", script=script, what="one after another")
 check(lines[0]["faces"] == 12, f"the one that was opened last is seen: {lines}")
 # The log of a window is removed, and one that others have begun is not.
 others = write(at("others.off"), bytes_of(mesh))
 for arguments, is_kept in (((), False), (("--script", write(at("one.script"), "drag 0 -0.1 -0.1 -0.1\n")), True)):
     if arguments:
         check(run(others, "--log", others + ".log", *arguments).returncode == 0, "sculpt begins a log")
-    window(others, "--samples", 0, script=f"{unsaved}save {at('others_saved.off')}\nsettle\nclose\nsettle\n", what="closed in order")
+    script = f"{unsaved}save {at('others_saved.off')}\nsettle\nclose\nsettle\n"
+    window(others, "--samples", 0, script=script, what="closed in order")
     check(os.path.exists(others + ".log") == is_kept, f"the log stays, if others have begun it: {is_kept}")
 # Nothing that the session has made, or has left for another mesh, is written over.
 edit = "settle\ntool drag\ndrag 600 430 700 350 6\nsettle\n"
@@ -444,7 +447,8 @@ check(run(at("remeshed.off")).returncode == 0, "what grew while it was copied is
 opened = lambda mesh: f"open {mesh}\nwait 0.5\nsettle\n"
 script = f"settle\n{opened(second)}{opened(precious)}save {precious}\nsettle\nquit\n"
 window(precious, "--samples", 0, "--no-log", script=script, what="a mesh that is open again may be replaced")
-window(large, "--samples", 0, "--no-log", script=f"{edit}save {at('nowhere/x.off')}\nquit\n", code=5, what="a save that cannot be")
+script = f"{edit}save {at('nowhere/x.off')}\nquit\n"
+window(large, "--samples", 0, "--no-log", script=script, code=5, what="a save that cannot be")
 script = f"{edit}save {at('large_saved.off')}\nopen {second}\nopen {second}\nwait 2\n{edit}print\nquit\n"
 lines, _ = window(large, "--samples", 0, script=script, what="another mesh is sculpted while one is saved")
 check(lines[0]["faces"] == 192 and lines[0]["edits"] > 0 and os.path.exists(second + ".log"), f"its work is in its log: {lines}")

@@ -20,7 +20,8 @@ display = Display()
 
 def start(*arguments, script="", display=display.name, disk=None):
     environment = dict(os.environ, LP_NUM_THREADS="1")
-    environment.setdefault("ASAN_OPTIONS", "detect_leaks=0")  # drivers of OpenGL leak, and are no more there to be named when that is seen
+    # Drivers of OpenGL leak, and are unloaded when that is looked at: nothing would tell them from others.
+    environment.setdefault("ASAN_OPTIONS", "detect_leaks=0")
     environment.pop("DISPLAY", None)
     environment.pop("WAYLAND_DISPLAY", None)
     if display:

@@ -138,18 +138,9 @@ BOOST_AUTO_TEST_CASE(scenes_of_all_sizes_leave_the_reach_as_it_was) {
 
 BOOST_AUTO_TEST_CASE(a_probe_is_sought_within_the_range_of_coordinates) {
   meshes::Triangle_list list = meshes::bumpy_sphere(2, 0.12);
-  const std::size_t outer = list.points.size();
-  for (const auto& p : meshes::bumpy_sphere(1, 0.12).points) // a ball in a ball: inside of it no probe has a place
-    list.points.emplace_back(0.3 * p.x(), 0.3 * p.y(), 0.3 * p.z());
-  for (auto face : meshes::bumpy_sphere(1, 0.12).faces) {
-    for (auto& corner : face)
-      corner += static_cast<unsigned>(outer);
-    list.faces.push_back(face);
-  }
-  for (auto& p : list.points)
-    p = {std::ldexp(p.x(), 998), std::ldexp(p.y(), 998), std::ldexp(p.z(), 998)};
-  Mesh mesh = meshes::to_mesh(list);
-  const Mesh::Vertex_index v(static_cast<unsigned>(outer));
+  const Mesh::Vertex_index v(static_cast<unsigned>(list.points.size()));
+  list += meshes::bumpy_sphere(1, 0.12).scale_and_move(0.3, 0, 0, 0); // in the other: no probe has a place in there
+  Mesh mesh = meshes::to_mesh(list.scale_and_move(0x1p998, 0, 0, 0));
   Sculptor<Mesh> sculptor(mesh);
   const Workspace_map map(std::ldexp(20, 998), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero());
   Tool<Sculptor<Mesh>> tool(sculptor, map, 0.01, 0.001);

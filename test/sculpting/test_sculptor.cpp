@@ -191,15 +191,9 @@ BOOST_AUTO_TEST_CASE(others_that_leave_fewer_elements_than_the_hand_holds_are_fo
         case 1: sculptor.undo(); break;
         case 2: grab.release(); break;
         case 3: sculptor.first_hit(Point_3(9, 9, 9), Point_3(0, 0, 0)); break;
-        case 4:
-          sculptor.edge_of(100, 101);
-          break;
-        case 5:
-          sculptor.face_of(100, 101, 102);
-          break;
-        case 6:
-          sculptor.apply(Edit::of(Edit_kind::collapse, {100, 101, 0}));
-          break;
+        case 4: sculptor.edge_of(100, 101); break;
+        case 5: sculptor.face_of(100, 101, 102); break;
+        case 6: sculptor.apply(Edit::of(Edit_kind::collapse, {100, 101, 0})); break;
         default: sculptor.probe(Point_3(9, 9, 9));
         }
       };

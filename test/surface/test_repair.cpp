@@ -117,7 +117,6 @@ BOOST_AUTO_TEST_CASE(the_elk) {
   check_distances(broken, soup, report);
 }
 
-// Vertices of a ball pulled through its other side, and farther: they go, with few others, and nothing moves.
 BOOST_AUTO_TEST_CASE(an_attribute_that_lacks_values_is_refused) {
   Face_soup soup = soup_of(meshes::tetrahedron());
   soup.attributes.push_back({"weight", haptic_sculpt::Vertex_attribute::Type::float64, {1, 2, 3}});
@@ -127,6 +126,7 @@ BOOST_AUTO_TEST_CASE(an_attribute_that_lacks_values_is_refused) {
   BOOST_TEST(haptic_sculpt::make_surface<meshes::Mesh>(soup).number_of_vertices() == 4u);
 }
 
+// Vertices of a ball pulled through its other side, and farther: they go, with few others, and nothing moves.
 BOOST_AUTO_TEST_CASE(what_crosses_itself_is_cut_out) {
   Triangle_list list = meshes::icosphere(3);
   for (const std::size_t v : {0, 100, 300})

@@ -41,14 +41,8 @@ std::vector<Named_change> changes() {
           {"flip", [=](auto& s) { s.flip(s.mesh().edge(s.mesh().halfedge(v))); }},
           {"insert on face", [=](auto& s) { s.insert_on_face(s.mesh().face(s.mesh().halfedge(v)), p); }},
           {"insert on edge", [=](auto& s) { s.insert_on_edge(s.mesh().edge(s.mesh().halfedge(v)), p); }},
-          {"shift",
-           [=](auto& s) {
-             s.shift(0, {{v, 0.5}});
-           }},
-          {"apply",
-           [](auto& s) {
-             s.apply(Edit::of(Edit_kind::move, {1, 0, 0}, {0.1, 0.2, 0.3}));
-           }},
+          {"shift", [=](auto& s) { s.shift(0, {{v, 0.5}}); }},
+          {"apply", [](auto& s) { s.apply(Edit::of(Edit_kind::move, {1, 0, 0}, {0.1, 0.2, 0.3})); }},
           {"stroke", [](auto& s) { static_cast<void>(s.stroke()); }},
           {"set delta", [](auto& s) { s.set_delta(1e-9); }},
           {"set drag parameters", [](auto& s) { s.set_drag_parameters(Drag_parameters()); }},

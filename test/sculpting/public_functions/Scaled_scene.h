@@ -31,9 +31,8 @@ struct Scaled_scene {
   Point_3 at(double x, double y, double z) const { return {length(x), length(y), length(z)}; }
   Point_3 middle(Vertex_index v, Vertex_index w) const {
     const internal::Rounding_to_nearest rounding;
-    const Point_3& p = mesh.point(v);
-    const Point_3& q = mesh.point(w);
-    return {computed((p.x() + q.x()) / 2), computed((p.y() + q.y()) / 2), computed((p.z() + q.z()) / 2)};
+    const Point_3 p = CGAL::midpoint(mesh.point(v), mesh.point(w));
+    return {computed(p.x()), computed(p.y()), computed(p.z())};
   }
   /// Where a vertex of the ball would be, this many times as far from the origin, and this many units along x.
   Point_3 beyond(Vertex_index v, double share, double along = 0) const {

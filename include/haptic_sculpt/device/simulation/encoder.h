@@ -17,6 +17,7 @@ Device_vector<S> measured_angles(const Device_parameters<S>& parameters, const D
   Device_vector<S> measured;
   for (int joint = 0; joint < 3; ++joint) {
     const S steps = theta[joint] / step; // overflows where a step is next to nothing
+    // From 2^52 steps on, a step is less than what doubles tell of the angle: it is measured as it is.
     measured[joint] = abs(steps) < S(0x1p52) ? S(step * floor(S(steps + S(0.5)))) : theta[joint];
   }
   return measured;

@@ -85,7 +85,7 @@ public:
     if (!std::holds_alternative<Key>(element))
       return;
     const Key key = std::get<Key>(element);
-    if (const Entry* saved = alive_again_ != nullptr ? find(*alive_again_, ids) : nullptr) {
+    if (const Entry* saved = alive_again_ ? find(*alive_again_, ids) : nullptr) {
       put(map_, key, saved->value);
       return;
     }
@@ -150,8 +150,8 @@ private:
   Entries unwritten_;              ///< of the edit before, if it was broken off: what it was to write
 
   /// \return nullptr where there is none
-  template <class Of_map>
-  static auto find(Of_map& entries, const Element_ids& ids) -> decltype(&*entries.begin()) {
+  template <class Range>
+  static auto find(Range& entries, const Element_ids& ids) -> decltype(&*entries.begin()) {
     const auto at = std::lower_bound(entries.begin(), entries.end(), ids,
                                      [](const Entry& entry, const Element_ids& n) { return entry.ids < n; });
     return at != entries.end() && at->ids == ids ? &*at : nullptr;
