@@ -2,9 +2,8 @@
 #pragma once
 
 #include "Printable_stream.h"
+#include "Usage_error.h"
 #include "process_state.h"
-
-#include <haptic_sculpt/Error.h>
 
 #include <iostream>
 #include <new>
@@ -15,11 +14,6 @@ namespace haptic_sculpt::examples {
 /// Exit codes that all programs share; a program's own begin at 7. `failed`: the memory does not suffice, or the
 /// program is at fault.
 enum Exit { done = 0, failed = 1, usage = 2, mesh_refused = 3, script_error = 4, cannot_write = 5, foreign_log = 6 };
-
-/// Something that was asked for does not fit together, or cannot be used.
-struct Usage_error : Error {
-  using Error::Error;
-};
 
 /// What every main does: puts the process into order (see process_state.h), says on standard error what was thrown, and
 /// gives the exit code. Messages are written by a Printable_stream.

@@ -6,6 +6,8 @@
 #include "nearest_vertices.h"
 #include "Run_result.h"
 
+#include "../common/Usage_error.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -33,9 +35,15 @@ public:
           carry_out_move(command, i != 0 && script[i - 1].edit.kind == Edit_kind::move, after);
         } else {
           carry_out(command);
+          const Command held = as_it_holds(command);
+          const bool is_in_force = held.length == command.length && held.word == command.word;
+          if (!is_in_force && command.is_restored)
+            throw examples::Usage_error(
+                "the script had this when it broke off, and the mesh, changed since, does not take it. "
+                "Undo what was done since, or carry out the lines that are left as another script");
           after(command);
-          if (const Command held = as_it_holds(command); held.length != command.length || held.word != command.word)
-            after(held); // refused: who reads the log has to know what is in force
+          if (!is_in_force)
+            after(held); // who reads the log has to know what is in force
         }
       } catch (const std::exception&) { // told with what was done so far, which is not lost
         result_.failure = std::current_exception();

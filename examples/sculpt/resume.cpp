@@ -46,7 +46,7 @@ Rest rest_of(const std::vector<Command>& script, const std::string& script_hash,
   if (!rest.is_new_pass)
     rest.commands = last->settings.changes_from(log.last_settings());
   for (Command& setting : rest.commands)
-    setting.line = rest.after;
+    setting.line = rest.after, setting.is_restored = true;
   std::copy_if(script.begin(), script.end(), std::back_inserter(rest.commands),
                [&](const Command& c) { return c.line > rest.after; });
   return rest;

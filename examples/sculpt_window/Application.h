@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <deque>
 #include <memory>
+#include <set>
 
 namespace haptic_sculpt::window_program {
 
@@ -114,6 +115,7 @@ private:
 
   std::array<int, 2> view_size_{};
   std::string next_open_; ///< asked for once while there was unsaved work
+  std::set<std::string> unopened_; ///< what was refused for that, and not opened since
   bool has_failed_to_open_ = false;
 
   Eigen::Vector2d mouse_ = Eigen::Vector2d::Zero();

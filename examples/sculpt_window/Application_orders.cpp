@@ -241,9 +241,11 @@ void Application::open(const std::string& path) {
     return say(path + " is open");
   if (is_unsaved() && next_open_ != path) {
     next_open_ = path;
+    unopened_.insert(path);
     return say("there is unsaved work: save it, or drop the file once more to leave it (the log has it)");
   }
   next_open_.clear();
+  unopened_.erase(path);
   say("opening " + path);
   background_.open(path, options_.log_of(path));
 }

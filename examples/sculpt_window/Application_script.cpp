@@ -52,8 +52,8 @@ void Application::play() {
     return;
   frames_due_ = 3;
   if (next_action_ < script_.size()) {
-    if (act(script_[next_action_]) && ++next_action_ == script_.size() && !next_open_.empty())
-      fail_to_open("'" + next_open_ +
+    if (act(script_[next_action_]) && ++next_action_ == script_.size() && !unopened_.empty())
+      fail_to_open("'" + *unopened_.begin() +
                    "' was not opened, for there was unsaved work: save that before, or give `open` twice to leave it");
     return;
   }

@@ -40,7 +40,7 @@ struct Model : Loop_scene<Mesh> {
   /// What is seen of these faces has changed, not the mesh.
   void show_again(Vertex_index v) {
     for (const Face_index f : mesh.faces_around_target(mesh.halfedge(v)))
-      sculptor.visitor().changed.add(static_cast<std::uint32_t>(f)), ++changes_;
+      sculptor.visitor().mark(f), ++changes_;
   }
 
   /// After each tick: counts those that changed something. \param held the vertex in hand, if any: how faces near it

@@ -39,6 +39,16 @@ BOOST_AUTO_TEST_CASE(nine_equations_hold_in_a_million_random_poses_of_each_form)
   }
 }
 
+// An angle is in (-pi, pi], where sine and cosine are exact, too.
+BOOST_AUTO_TEST_CASE(a_level_folded_knee_is_at_plus_pi) {
+  Device_description<double> description;
+  description.base_radius = 1, description.primary_length = 2, description.secondary_length = 3;
+  const Device_parameters<double> parameters(description);
+  const auto angles = ditetrahedral_inverse(parameters, Vector(2, 0, 0), Eigen::Vector3i(0, 0, 0));
+  BOOST_REQUIRE(static_cast<bool>(angles));
+  BOOST_TEST(angles->theta[0] == std::acos(-1.0));
+}
+
 BOOST_AUTO_TEST_CASE(there_and_back) {
   Random random(seed + 1);
   double worst_point = 0, worst_general = 0;

@@ -19,7 +19,7 @@ KEYS = {"version", "ticks", "missed", "missed_by_cpu", "cpu_ns", "wall_ns", "wak
 
 
 def run(*arguments, code=0):
-    done = program_runs.run(*arguments, program=LOOP, seconds=300)
+    done = program_runs.run(*arguments, program=LOOP, seconds=3 * program_runs.PATIENCE)
     check(done.returncode == code, f"{arguments}: exit {done.returncode}, expected {code}: {done.stderr}")
     return done
 
@@ -133,7 +133,7 @@ with open(at("down.csv"), "w") as file:
     file.write("t,x,y,z,button\n" + "".join(f"{t},-0.00898,-0.00003,{z},0\n" for t, z in places))
 done = program_runs.run(MESH, "--no-wait", "--rate", 4000, "--stiffness", 2300, "--hand", at("finger.json"),
                         "--path", at("down.csv"), "--trace", at("d.csv"), "--report", at("d.json"), program=LOOP,
-                        seconds=300)
+                        seconds=3 * program_runs.PATIENCE)
 check(done.returncode in (0, 7, 8), f"a finger that comes down: exit {done.returncode}: {done.stderr}")
 if done.returncode == 7:
     check("is not passive" in done.stderr or "is not calm" in done.stderr, f"refused by name: {done.stderr}")

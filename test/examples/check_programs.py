@@ -11,7 +11,7 @@ import tempfile
 import time
 
 from box_mesh import box
-from program_runs import (FURTHER as LOOP, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points,
+from program_runs import (FURTHER as LOOP, OCTAHEDRON, PATIENCE, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points,
                           run, write)
 
 BALL = f"{SOURCE}/examples/data/ball_and_moon.off"
@@ -49,14 +49,14 @@ def closed_streams(folder, mesh):
     run(mesh, "--script", script, "--log", f"{folder}/sound.log", "-o", f"{folder}/sound.off")
     for streams in ((0,), (1,), (2,), (1, 2), (0, 1, 2)):
         log = f"{folder}/{''.join(map(str, streams))}.log"
-        done = subprocess.run([SCULPT, mesh, "--script", script, "--log", log, "-o", out], preexec_fn=closing(streams), timeout=100)
+        done = subprocess.run([SCULPT, mesh, "--script", script, "--log", log, "-o", out], preexec_fn=closing(streams), timeout=PATIENCE)
         check(done.returncode == 0, f"without the streams {streams}: exit {done.returncode}")
         check(bytes_of(log) == bytes_of(f"{folder}/sound.log") and bytes_of(out) == bytes_of(f"{folder}/sound.off"),
               f"without the streams {streams} log or result are others")
-    done = subprocess.run([SCULPT, mesh, "--script", "-"], preexec_fn=closing((0,)), capture_output=True, text=True, timeout=100)
+    done = subprocess.run([SCULPT, mesh, "--script", "-"], preexec_fn=closing((0,)), capture_output=True, text=True, timeout=PATIENCE)
     fails(4, ["script"], done, "a script from a standard input that is closed")
     log = f"{folder}/loop.log"
-    done = subprocess.run([LOOP, BALL, "--no-wait", "--seconds", "0.1", "--log", log], preexec_fn=closing((1, 2)), timeout=100)
+    done = subprocess.run([LOOP, BALL, "--no-wait", "--seconds", "0.1", "--log", log], preexec_fn=closing((1, 2)), timeout=PATIENCE)
     check(done.returncode == 0 and run(BALL, "--log", log).returncode == 0, "haptic_loop without streams")
 
 
@@ -92,7 +92,7 @@ def signals(folder, mesh):
     process = started(mesh, "--script", script, stderr=subprocess.PIPE)
     time.sleep(0.3)
     process.send_signal(signal.SIGSEGV)
-    words = process.communicate(timeout=100)[1]
+    words = process.communicate(timeout=PATIENCE)[1]
     check(process.returncode == -signal.SIGSEGV and b"sculpt: ended by a fault of its own" in words, f"a crash says so: {process.returncode} {words}")
 
     def running(seconds, before=None):
@@ -108,18 +108,18 @@ def signals(folder, mesh):
                 os.remove(path)
         process = running(60)
         process.send_signal(which)
-        process.communicate(timeout=100)
+        process.communicate(timeout=PATIENCE)
         check(process.returncode == 0 and os.path.exists(out), f"{which} costs the mesh: exit {process.returncode}")
         check(json.load(open(report))["interrupted"] is True, f"{which} in the report")
     process = running(1, lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))  # as by nohup
     process.send_signal(signal.SIGHUP)
-    process.communicate(timeout=100)
+    process.communicate(timeout=PATIENCE)
     check(process.returncode == 0 and json.load(open(report))["interrupted"] is False, "nohup")
     process = running(1)
     process.send_signal(signal.SIGSTOP)
     time.sleep(0.1)
     process.send_signal(signal.SIGCONT)
-    process.communicate(timeout=100)
+    process.communicate(timeout=PATIENCE)
     told = json.load(open(report))
     check(told["missed_by_wakeup"] >= 10, f"ticks that came late: {told['missed_by_wakeup']}")
     loop(BALL, "--no-wait", "--seconds", "0.1", "--report", report)
@@ -161,7 +161,7 @@ def a_line_that_takes_long(folder, mesh):
     process = started(mesh, "--script", write(f"{folder}/long.script", "remesh 1e-3\n"), stderr=subprocess.PIPE)
     words = process.stderr.readline()  # whenever it is said
     process.kill()
-    process.communicate(timeout=100)
+    process.communicate(timeout=PATIENCE)
     check(words == b"sculpt: the script: 0 of 1 lines, 2 s\n", f"a line that takes long: {words}")
 
 
@@ -180,7 +180,7 @@ def thrown_while_a_script_runs(folder, mesh):
     ball = write(f"{folder}/box.off", box(8))
     few = lambda: resource.setrlimit(resource.RLIMIT_AS, (200 << 20, 200 << 20))
     done = subprocess.run([SCULPT, ball, "--script", "-", "-o", out, "--report", report], input="drag 0 -1.25 -1 1\nremesh 0.003\ndrag 0 -1.5 -1 1\n",
-                          capture_output=True, text=True, preexec_fn=few, timeout=300)
+                          capture_output=True, text=True, preexec_fn=few, timeout=3 * PATIENCE)
     fails(1, ["line 2", "remesh", "memory"], done, "no memory in a script")
     check(os.path.exists(out) and run(out).returncode == 0 and (-1.5, -1, 1) not in points(out), "what was done until then is written")
     check("line 2" in " ".join(json.load(open(report))["notes"]), f"and told in the report: {json.load(open(report))['notes']}")
@@ -244,10 +244,10 @@ def inputs_of_the_loop(folder, mesh):
     write(name, OCTAHEDRON)
     os.chmod(name, 0o600)
     done = subprocess.run([LOOP, name, b"--no-wait", b"--seconds", b"0.01", b"-o", os.fsencode(folder) + b"/\xff.off", b"--report", report.encode(), b"--trace",
-                           b"/dev/full", b"--record", os.fsencode(folder) + b"/\xff.rec"], capture_output=True, timeout=100)
+                           b"/dev/full", b"--record", os.fsencode(folder) + b"/\xff.rec"], capture_output=True, timeout=PATIENCE)
     check(done.returncode == 5 and b"/dev/full" in done.stderr, f"names that are not UTF-8: exit {done.returncode}: {done.stderr}")
     done = subprocess.run([LOOP, name, b"--no-wait", b"--seconds", b"0.2", b"--report", report.encode(), b"--trace", os.fsencode(folder) + b"/full\xff"],
-                          capture_output=True, timeout=100, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16384, 16384)))
+                          capture_output=True, timeout=PATIENCE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16384, 16384)))
     check(done.returncode == 5 and b"full\\xff" in done.stderr and "full" in " ".join(json.load(open(report))["notes"]), f"a note with such a name: exit {done.returncode}: {done.stderr}")
 
 

@@ -309,6 +309,23 @@ def settings_that_others_change(folder, mesh):
         check(done.returncode == (2 if n == len(lines) else 0) and is_same, f"cut after line {n}: {done.stderr}")
 
 
+def settings_that_cannot_be_set_again(folder, mesh):
+    """A script does not go on without what was in force when it broke off."""
+    log, out = f"{folder}/broken.log", f"{folder}/broken.off"
+    script = write(f"{folder}/broken.script", "delta 0.3\ndrag 3 0.2 0.3 2\ndrag 1 0.05 0 0\n")
+    command = (mesh, "--script", script, "--log", log, "-o", out)
+    check(run(*command).returncode == 0, "without a break")
+    write(log, b"".join(bytes_of(log).splitlines(keepends=True)[:LINES_OF_HEAD + 3]))  # up to the first drag
+    between = write(f"{folder}/between.script", "delta 0\ndrag 1 0.05 0 0\n")
+    check(run(mesh, "--script", between, "--log", log).returncode == 0, "lower than its delta")
+    for attempt in range(2):
+        fails(2, ["delta", "had this when it broke off", "Undo"], run(*command), f"without its delta, {attempt}")
+    undo = write(f"{folder}/undo.script", "undo\n")
+    check(run(mesh, "--script", undo, "--log", log).returncode == 0, "what was done since is undone")
+    done = run(*command)
+    check(done.returncode == 0 and "blocked 1," in done.stdout, f"goes on, with its delta: {done.stdout}{done.stderr}")
+
+
 def settings_that_were_refused(folder, mesh):
     """What was refused is in a log, for a replay says so again, and behind it what is in force."""
     low = write(f"{folder}/low.script", "delta 0\ndrag 1 0.05 0 0\ndelta 0.3\n")
@@ -604,7 +621,8 @@ def refused_settings(folder, mesh):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
-        for part in (edits_and_log, shifts, moves, settings, settings_that_others_change, settings_that_were_refused,
+        for part in (edits_and_log, shifts, moves, settings, settings_that_others_change,
+                     settings_that_cannot_be_set_again, settings_that_were_refused,
                      rerun, strokes, earlier_version, delta_in_stroke, no_logs, changed_logs, without_checksums,
                      two_processes, places, full_disk, surfaces_of_options, refused_settings):
             inner = f"{folder}/{part.__name__}"

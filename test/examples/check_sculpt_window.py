@@ -11,7 +11,7 @@ import subprocess
 import time
 
 from box_mesh import box
-from program_runs import SOURCE, TETRAHEDRON, bytes_of, check, end, points, run, write
+from program_runs import PATIENCE, SOURCE, TETRAHEDRON, bytes_of, check, end, points, run, write
 from window_runs import WINDOW, at, pixels_of, read_png, replayed, start, window
 
 
@@ -365,7 +365,7 @@ for which in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT):
     process = start(ended, "--samples", 0, "--report", at("ended.json"), script="settle\ntool drag\ndrag 700 450 800 350 6\nsettle\nprint\nwait 100\n")
     process.stdout.readline()
     process.send_signal(which)
-    process.communicate(timeout=60)
+    process.communicate(timeout=PATIENCE)
     check(process.returncode == 0 and os.path.exists(ended + ".log") and json.load(open(at("ended.json")))["edits"] > 0, f"{which}: exit {process.returncode}")
     os.remove(at("ended.json"))
 
@@ -388,6 +388,10 @@ unsaved = "settle\ntool drag\ndrag 600 430 700 350 6\nsettle\n"
 script = f"{unsaved}open {second}\nsettle\nquit\n"
 _, err = window(mesh, "--samples", 0, "--no-log", script=script, code=3, what="a mesh that is not opened")
 check("second.off' was not opened" in err and "twice" in err, f"which, and what to do: {err}")
+script = f"{unsaved}open {second}\nsettle\nsave {at('unopened.off')}\nsettle\nopen {mesh}\nsettle\nquit\n"
+_, err = window(write(at("first.off"), bytes_of(mesh)), "--samples", 0, "--no-log", script=script, code=3,
+                what="a mesh that is not opened, and another one")
+check("second.off' was not opened" in err, f"which: {err}")
 small, large = write(at("small.off"), box(1)), write(at("large.off"), box(60))
 script = f"settle\nopen {second}\nopen {small}\nopen {small}\nsettle\nprint\nquit\n"
 lines, _ = window(large, "--samples", 0, "--no-log", script=script, what="one after another")
@@ -425,7 +429,7 @@ script = f"{edit}print\nsave {at('large_saved.off')}\nprint\nwait 100\n"
 process = start(large, "--samples", 0, "--no-log", script=script)
 process.stdout.readline(), process.stdout.readline()
 process.send_signal(signal.SIGTERM)
-process.communicate(timeout=60)
+process.communicate(timeout=PATIENCE)
 is_there = os.path.exists(at("large_saved.off"))
 check(process.returncode == 0 and is_there, "a save that was asked for is made though the process is asked to end")
 # What is under way when the window is closed is unsaved work, too: the log stays, or one is asked.
@@ -433,7 +437,7 @@ under_way = write(at("under_way.off"), box(30))
 process = start(under_way, "--samples", 0, script="settle\nprint\nremesh 0.05\nprint\nwait 100\n")
 process.stdout.readline(), process.stdout.readline()
 process.send_signal(signal.SIGTERM)
-process.communicate(timeout=60)
+process.communicate(timeout=PATIENCE)
 is_logged = b"stroke" in bytes_of(under_way + ".log")
 check(process.returncode == 0 and is_logged, "a remeshing that was under way is in the log")
 os.remove(under_way + ".log")

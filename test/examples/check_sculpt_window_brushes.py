@@ -6,7 +6,7 @@ import math
 import os
 import random
 
-from program_runs import SOURCE, bytes_of, check, end, points, run, surface
+from program_runs import PATIENCE, SOURCE, bytes_of, check, end, points, run, surface
 from window_runs import at, pixels_of, read_png, replayed, window
 
 BALL_AND_MOON = os.path.join(SOURCE, "examples/data/ball_and_moon.off")
@@ -187,7 +187,7 @@ check(len(points(at("saved.off"))) == len(places) + 1, "a file that holds no col
 # The head of the README, by brushes alone.
 CREATURE = open(os.path.join(SOURCE, "examples/data/creature.window-script")).read()
 lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 320, 200, script=CREATURE + f"settle\nprint\nsave {at('head.off')}\nsettle\nquit\n",
-                  what="a head", patience=900)
+                  what="a head", patience=8 * PATIENCE)
 is_valid(at("head.off"), "a head")
 head = points(at("head.off"))
 check(lines[0]["faces"] > 8 * 71 ** 2 + 5000 and lines[0]["undo"] > 15, f"a head has more triangles where it needs them: {lines}")

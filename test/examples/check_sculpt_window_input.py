@@ -11,7 +11,7 @@ import tempfile
 import time
 
 from box_mesh import box
-from program_runs import FURTHER as WINDOW, bytes_of, check, end, points, run, write
+from program_runs import FURTHER as WINDOW, PATIENCE, bytes_of, check, end, points, run, write
 from virtual_display import Display, Hand
 
 display = Display()
@@ -20,7 +20,7 @@ folder = tempfile.mkdtemp()
 at = lambda name: os.path.join(folder, name)
 
 
-def eventually(is_so, what, patience=10.0):
+def eventually(is_so, what, patience=PATIENCE / 10):
     """Events take their way: a frame, a tick and a write of the log."""
     due = time.monotonic() + patience
     while not is_so():
@@ -268,7 +268,7 @@ check(process.poll() is None, "the save after one that was refused does not quit
 
 hand.close(identity)
 try:
-    out, err = process.communicate(timeout=10)
+    out, err = process.communicate(timeout=PATIENCE)
     check(process.returncode == 0 and err == "", f"closing without unsaved work ends: exit {process.returncode}: {err}")
 except subprocess.TimeoutExpired:
     process.kill()

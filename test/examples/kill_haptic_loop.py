@@ -22,7 +22,7 @@ MESH = f"{SOURCE}/examples/data/ball_and_moon.off"
 
 
 def run(*arguments, program=LOOP):
-    done = program_runs.run(*arguments, program=program, seconds=300)
+    done = program_runs.run(*arguments, program=program, seconds=3 * program_runs.PATIENCE)
     check(done.returncode == 0, f"{arguments}: exit {done.returncode}: {done.stderr}")
 
 

@@ -10,6 +10,7 @@ import sys
 
 SCULPT, SOURCE = map(os.path.abspath, sys.argv[1:3])
 FURTHER = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else ""
+PATIENCE = 1200 if "sanitize" in SCULPT else 120  # seconds that a program may take
 FAULTS = []
 OCTAHEDRON = ("OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n"
               "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n")
@@ -22,7 +23,7 @@ def check(condition, what):
         print("FAULT:", what)
 
 
-def run(*arguments, program=SCULPT, script=None, limit=None, folder=None, user=None, seconds=100):
+def run(*arguments, program=SCULPT, script=None, limit=None, folder=None, user=None, seconds=PATIENCE):
     def limit_size():
         if limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))

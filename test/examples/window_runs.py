@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 import zlib
 
-from program_runs import FURTHER as WINDOW, bytes_of, check, run, write
+from program_runs import FURTHER as WINDOW, PATIENCE, bytes_of, check, run, write
 from virtual_display import Display
 
 folder = tempfile.mkdtemp()
@@ -29,9 +29,6 @@ def start(*arguments, script="", display=display.name, disk=None):
     path = write(at("script.txt"), script)
     return subprocess.Popen([WINDOW, *map(str, arguments), "--script", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                             env=environment, cwd=folder, preexec_fn=disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk))))
-
-
-PATIENCE = 1200 if "sanitize" in WINDOW else 120  # s
 
 
 def window(*arguments, script="", code=0, what="window", display=display.name, disk=None, patience=PATIENCE):

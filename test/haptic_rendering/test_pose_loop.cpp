@@ -82,7 +82,10 @@ BOOST_AUTO_TEST_CASE(what_throws_in_a_tick_is_a_fault_that_fades) {
   (void)extra;
   const Haptic_tick& tick = b.go(0.9);
   BOOST_TEST((tick.fault == Loop_fault::error));
-  BOOST_TEST(std::string(b.loop.failure()) != "");
+  const std::string first = b.loop.failure();
+  BOOST_TEST(first != "");
+  b.loop.attempt([] { throw Error("what came of it"); });
+  BOOST_TEST(b.loop.failure() == first);
   BOOST_TEST(tick.rendered.force.norm() < before);
   BOOST_TEST(tick.rendered.force.norm() > 0.9 * before);
   for (int k = 0; k < 101; ++k)

@@ -4,6 +4,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <limits>
 #include <random>
 
 using namespace haptic_sculpt;
@@ -152,6 +153,22 @@ BOOST_AUTO_TEST_CASE(a_probe_is_sought_within_the_range_of_coordinates) {
   for (int k = 0; k < 60; ++k)
     last = std::max(last, tool.move(hand, 0).event);
   BOOST_TEST((last == Tool_event::released));
+}
+
+BOOST_AUTO_TEST_CASE(a_place_beyond_the_range_of_coordinates_is_sought_within_and_never_taken) {
+  Mesh mesh = meshes::to_mesh(meshes::bipyramid(4).scale_and_move(0x1p1000, 0, 0, 0));
+  Sculptor<Mesh> sculptor(mesh);
+  const Workspace_map map(std::ldexp(20, 998), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero());
+  Tool<Sculptor<Mesh>> tool(sculptor, map, 0.01, 0.001);
+  const Vector3d hand = map.to_device(internal::vector_of(mesh.point(Mesh::Vertex_index(0))));
+  tool.take(Mesh::Vertex_index(0)); // around it all places are beyond
+  tool.move(hand, 0);
+  tool.move(hand, 1);
+  for (int k = 0; k < 60; ++k)
+    tool.move(hand, 0);
+  BOOST_TEST(!tool.holds_vertex());
+  for (const double x : {0x1p1001, std::numeric_limits<double>::infinity()})
+    BOOST_CHECK_THROW(tool.take_probe(Vector3d(x, 0, 0)), Out_of_range);
 }
 
 BOOST_AUTO_TEST_CASE(moves_by_value_are_told_as_their_legs) {

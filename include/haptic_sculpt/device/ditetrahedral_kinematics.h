@@ -235,7 +235,7 @@ inline Outcome<Joint_angles<S>> ditetrahedral_inverse(const Device_parameters<S>
     }
     const S cosine = (t.one_plus - t.one_minus) / S(2);
     const S sine = working_mode[leg] == 0 ? S(-sqrt(t.one_minus * t.one_plus)) : S(sqrt(t.one_minus * t.one_plus));
-    angles.theta[leg] = atan2(t.z * cosine + t.x * sine, t.x * cosine - t.z * sine);
+    angles.theta[leg] = atan2(t.z * cosine + t.x * sine + S(0), t.x * cosine - t.z * sine);
   }
   if (!finite)
     outcome.fail(at_shoulder ? Device_status::singular : Device_status::not_finite, S(0));

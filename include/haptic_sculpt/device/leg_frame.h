@@ -62,8 +62,7 @@ template <class S> struct Leg_frame {
 
 namespace internal {
 
-/// True where every entry is a number: neither infinite nor not-a-number. Overflow of the sum of squares counts as
-/// infinite.
+/// True where every entry is a number: neither infinite nor not-a-number.
 template <class V> bool all_finite(const Eigen::MatrixBase<V>& values) {
   using S = typename V::Scalar;
   S sum(0);

@@ -210,13 +210,13 @@ private:
 
   /// Puts the probe to p. Returns false, and leaves it, where that is refused: on a face, or inside of a solid.
   bool put_probe(const Eigen::Vector3d& p) {
-    auto probe = sculptor_->probe(internal::point_of<Point>(within_range(p)));
+    auto probe = sculptor_->probe(internal::point_of<Point>(p));
     if (probe)
       probe_ = std::move(probe);
     return probe_.has_value();
   }
 
-  /// The nearest place that a Sculptor takes: from a large scene a few lengths lead beyond.
+  /// The nearest place that a Sculptor takes: from a large scene a few lengths lead beyond; a hand is refused.
   static Eigen::Vector3d within_range(const Eigen::Vector3d& p) {
     return p.cwiseMin(largest_coordinate).cwiseMax(-largest_coordinate);
   }
@@ -229,7 +229,7 @@ private:
       drop_probe();
       for (const double share : {0.0, 0.02}) // pressed on, it may be nearer to a face than a probe may begin
         if (!probe_)
-          put_probe(place + share * reach() * last_push_);
+          put_probe(within_range(place + share * reach() * last_push_));
     }
     if (!probe_ && carries_probe_) {
       offset_.setZero();
@@ -325,7 +325,7 @@ private:
     Probe_placement& next = *placement_;
     const int tried = next.tried++;
     if (tried < near)
-      put_probe(next.place + shares[tried] * reach() * next.away);
+      put_probe(within_range(next.place + shares[tried] * reach() * next.away));
     else {
       const bool is_second = tried >= near + most_surfaces;
       const Eigen::Vector3d& direction = is_second ? last_push_ : next.away;
@@ -335,7 +335,7 @@ private:
           sculptor_->first_hit(internal::point_of<Point>(next.from),
                                internal::point_of<Point>(within_range(next.place + 4 * map_.scale() * direction)));
       if (hit) {
-        next.from = internal::vector_of(hit->point) + 0.2 * reach() * direction;
+        next.from = within_range(internal::vector_of(hit->point) + 0.2 * reach() * direction);
         put_probe(next.from);
       } else
         next.tried = near + (is_second ? 2 : 1) * most_surfaces;

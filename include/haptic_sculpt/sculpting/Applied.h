@@ -134,17 +134,15 @@ private:
   static Done shift(Sculptor& sculptor, const Edit& edit, Edit&& made) {
     std::vector<std::pair<typename Mesh::Vertex_index, double>> ways;
     ways.reserve(edit.ways.size());
-    const bool is_axis = 0 <= edit.axis && edit.axis < 3; // shift() says what it thinks of another
-    bool has_a_way = false;
     for (const auto& [id, end] : edit.ways) {
       ways.emplace_back(sculptor.vertex(id), end);
       if (!ways.back().first.is_valid())
         return done({}, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
-      const auto at = vertex_coordinates(sculptor.mesh(), ways.back().first);
-      has_a_way = has_a_way || (is_axis && at[edit.axis] != end);
     }
+    const auto& guarded = Sculptor_access::guarded(sculptor);
+    const std::uint64_t before = guarded.changes();
     auto result = sculptor.shift(edit.axis, ways);
-    return done(has_a_way ? std::move(made) : Edit(), std::move(result));
+    return done(guarded.changes() != before ? std::move(made) : Edit(), std::move(result));
   }
 };
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/surface/cgal_compatibility.h>
 
 #include <cstddef>
-#include <locale>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +33,8 @@ struct Validity_report {
   /// The `delta` asked for: length of the smallest altitude allowed, in the unit of the coordinates.
   double delta = 0;
 
-  /// Half-edges whose pointers contradict each other. Where there are any, nothing else was looked at.
+  /// Half-edges whose pointers contradict each other, of edges without faces, and into a vertex that names none of
+  /// them. Where there are any, nothing else was looked at.
   std::vector<Halfedge_index> inconsistent_halfedges;
   /// Vertices with a coordinate that is infinite or not a number.
   std::vector<Vertex_index> non_finite_vertices;
@@ -115,7 +115,7 @@ struct Validity_report {
         text += counted(elements.size(), kind, names(elements, named), named, has_more) + ". " +
                 (reader == Reader::user ? cure : by_cgal) + '\n';
     };
-    const std::string low = "face(s) with an altitude below delta = " + number(delta);
+    const std::string low = "face(s) with an altitude below delta = " + internal::number(delta);
     list(inconsistent_halfedges, "half-edge(s) with contradictory connectivity", "Make the mesh anew.",
          "Rebuild the mesh from its points and faces (PMP::polygon_soup_to_polygon_mesh).");
     list(non_finite_vertices, "vertex(es) with a coordinate that is infinite or not a number",
@@ -163,12 +163,6 @@ private:
     return text;
   }
 
-  static std::string number(double value) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << value;
-    return out.str();
-  }
   template <class Index>
   static std::string name(Index index) {
     return std::to_string(static_cast<std::size_t>(index));

@@ -27,7 +27,8 @@ inline void check_length_of_delta(double delta) {
     throw Error("delta is a length: it must be finite and not negative, not " + number(delta));
 }
 
-/// The half-edges of a mesh whose pointers lead nowhere, to something removed, or contradict each other.
+/// The half-edges of a mesh whose pointers lead nowhere, to something removed, or contradict each other, those of edges
+/// without faces, and those that their target does not know.
 /// Needs no trust in any pointer: each index is checked before it is followed.
 template <class Mesh>
 std::vector<typename Mesh::Halfedge_index> inconsistent_halfedges(const Mesh& mesh) {
@@ -38,7 +39,8 @@ std::vector<typename Mesh::Halfedge_index> inconsistent_halfedges(const Mesh& me
     const auto f = mesh.face(h);
     const bool good = lives(n) && lives(p) && lives(mesh.target(h)) && mesh.prev(n) == h && mesh.next(p) == h &&
                       mesh.face(n) == f && mesh.target(mesh.opposite(n)) == mesh.target(h) &&
-                      (f == Mesh::null_face() || lives(f));
+                      (f == Mesh::null_face() ? mesh.face(mesh.opposite(h)) != f : lives(f)) &&
+                      mesh.halfedge(mesh.target(h)) != Mesh::null_halfedge();
     if (!good)
       found.push_back(h);
   }

@@ -155,6 +155,14 @@ BOOST_AUTO_TEST_CASE(a_sculptor_that_an_edit_leaves_unfinished_is_a_fault_and_th
     last = view;
   BOOST_TEST(last.tick == 2u);
   BOOST_TEST((last.fault == Loop_fault::error));
+  static_assert(noexcept(session.pass_faces_on()), "a thread may call it between two ticks");
+  Copy_task<Scene> copying(4000, 8000);
+  command = Command();
+  command.kind = Command::Kind::task, command.task = &copying;
+  BOOST_TEST(queue.ask(command));
+  session.tick(reading_at(3));
+  BOOST_TEST((queue.take(answer) && !answer.done)); // it is the asking thread's again, and nobody else knows it
+  BOOST_TEST((scene.sculptor.visitor().copy() == nullptr));
 }
 
 // A log holds what its journal says: an undo must not go back beyond it.

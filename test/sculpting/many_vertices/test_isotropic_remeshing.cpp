@@ -267,6 +267,18 @@ BOOST_AUTO_TEST_CASE(relaxation_that_is_told_to_stop_does_so_at_once) {
       Remeshing_parameters().progress([&](const Remeshing_progress&) { return ++calls < 10; }));
   BOOST_TEST(report.cancelled);
   BOOST_TEST(calls == 10);
+  calls = 0;
+  const auto fixed = mesh.add_property_map<Vertex_index, bool>("v:fixed", true).first; // nothing moves
+  BOOST_TEST(
+      isotropic_remeshing(sculptor, 0.1,
+                          CGAL::parameters::do_split(false)
+                              .do_collapse(false)
+                              .do_flip(false)
+                              .vertex_is_constrained_map(fixed)
+                              .number_of_relaxation_steps(std::numeric_limits<unsigned>::max()),
+                          Remeshing_parameters().progress([&](const Remeshing_progress&) { return ++calls < 10; }))
+          .cancelled);
+  BOOST_TEST(calls == 10);
 }
 
 BOOST_AUTO_TEST_CASE(a_mesh_that_others_have_opened_is_not_remeshed) {

@@ -123,6 +123,14 @@ BOOST_AUTO_TEST_CASE(inconsistent_connectivity) {
   mesh.remove_vertex(V(2)); // while faces still use it
   BOOST_TEST(!validate(mesh).inconsistent_halfedges.empty());
   BOOST_TEST(validate(mesh).message().find("contradictory") != std::string::npos);
+  mesh = to_mesh(meshes::cube());
+  mesh.set_halfedge(V(2), Mesh::null_halfedge()); // nothing would be found about it
+  BOOST_TEST(!validate(mesh).inconsistent_halfedges.empty());
+  mesh = to_mesh(meshes::cube());
+  const auto bare = mesh.add_edge(V(0), V(7)); // no face has it
+  mesh.set_next(bare, mesh.opposite(bare));
+  mesh.set_next(mesh.opposite(bare), bare);
+  BOOST_TEST(validate(mesh).inconsistent_halfedges.size() == 2u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

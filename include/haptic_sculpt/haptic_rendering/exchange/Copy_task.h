@@ -27,8 +27,15 @@ public:
       copy.begin();
       visitor.tell_to(&copy);
     }
-    if (visitor.copy() != &copy || !copy.copy_some(scene.sculptor, copied_a_tick))
+    if (visitor.copy() != &copy)
       return false;
+    try {
+      if (!copy.copy_some(scene.sculptor, copied_a_tick))
+        return false;
+    } catch (...) { // of a Sculptor that a fault has left unfinished: the task is not gone on with
+      visitor.tell_to(nullptr);
+      throw;
+    }
     visitor.tell_to(nullptr);
     return true;
   }

@@ -55,7 +55,7 @@ public:
         loop_->end_by(Loop_fault::log);
     }
     if (feed_ != nullptr) {
-      loop_->attempt([this] { pass_faces_on(); }); // a Sculptor that a fault has left unfinished answers nothing
+      pass_faces_on();
       Tick_view view = view_of(made);
       loop_->attempt([&] { name_vertex(view); });
       feed_->tell(view);
@@ -65,10 +65,12 @@ public:
   }
 
   /// Passes on what has changed, as tick() does. \pre there is a feed
-  void pass_faces_on() {
-    Changed_faces& changed = scene_->sculptor.visitor().changed;
-    for (std::size_t i = 0; i < faces_a_tick && changed.size() > 0 && feed_->tell(face(changed.front())); ++i)
-      changed.pop();
+  void pass_faces_on() noexcept {
+    loop_->attempt([this] { // a Sculptor that a fault has left unfinished answers nothing
+      Changed_faces& changed = scene_->sculptor.visitor().changed;
+      for (std::size_t i = 0; i < faces_a_tick && changed.size() > 0 && feed_->tell(face(changed.front())); ++i)
+        changed.pop();
+    });
   }
 
   /// Lets go, and what is done is in the journal. Tasks under way, and what waits for them, are answered: not done.

@@ -31,6 +31,15 @@ public:
   /// The same within the room that there is.
   void mark_all() { changed.add_all(static_cast<std::uint32_t>(mesh_->num_faces())); }
 
+  /// A face is to be passed on; where there is no memory to remember which, all are.
+  void mark(Face_index f) {
+    try {
+      changed.add(static_cast<std::uint32_t>(f));
+    } catch (const std::bad_alloc&) {
+      mark_all();
+    }
+  }
+
   void tell_to(Scene_copy* copy) { copy_ = copy; } ///< that is under way; none: nullptr
   const Scene_copy* copy() const { return copy_; } ///< that hears of changes; none: nullptr
 
@@ -65,15 +74,6 @@ public:
 private:
   const Mesh* mesh_;
   Scene_copy* copy_ = nullptr;
-
-  /// Where there is no memory to remember which, all are to be passed on.
-  void mark(Face_index f) {
-    try {
-      changed.add(static_cast<std::uint32_t>(f));
-    } catch (const std::bad_alloc&) {
-      mark_all();
-    }
-  }
 
   void changed_face(Face_index f, const std::array<std::uint32_t, 3>& corners) {
     mark(f);

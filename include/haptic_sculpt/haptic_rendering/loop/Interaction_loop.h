@@ -189,6 +189,8 @@ private:
   }
 
   void fail(const char* what) {
+    if (interaction_.fault() != Loop_fault::none)
+      return; // what ended the run is said, not what came of it
     std::strncpy(failure_.data(), what, failure_.size() - 1);
     interaction_.report(Loop_fault::error);
   }

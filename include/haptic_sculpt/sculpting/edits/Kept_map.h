@@ -7,6 +7,7 @@
 #include <boost/container/small_vector.hpp>
 #include <boost/property_map/property_map.hpp>
 
+#include <algorithm>
 #include <map>
 #include <variant>
 #include <vector>
@@ -70,12 +71,17 @@ public:
   void prepare(std::size_t first, std::size_t number, bool is_new, bool is_reversal) override {
     std::sort(dead_.begin(), dead_.end(), [](const Entry& a, const Entry& b) { return a.ids < b.ids; });
     if (!is_reversal)
-      unwritten_.clear();
+      unwritten_.clear(), broken_off_ = no_id;
     for (const Entry& saved : unwritten_)
       if (Entry* dead = find(dead_, saved.ids))
         dead->value = saved.value;
     if (!is_recorded || number == no_id)
       return;
+    if (is_reversal && number == broken_off_) // what it was to carry on is carried on when it is made
+      dead_.erase(std::remove_if(dead_.begin(), dead_.end(),
+                                 [this](const Entry& dead) { return find(unwritten_, dead.ids) == nullptr; }),
+                  dead_.end());
+    number_ = number;
     store_.erase(store_.begin(), store_.lower_bound(first));
     alive_again_ = &(is_new ? fresh_ : store_)[number];
   }
@@ -118,9 +124,9 @@ public:
   void end(bool is_whole) noexcept override {
     if (alive_again_)
       alive_again_->swap(dead_);
-    unwritten_.clear();
+    unwritten_.clear(), broken_off_ = no_id;
     if (alive_again_ && !is_whole)
-      unwritten_.swap(dead_);
+      unwritten_.swap(dead_), broken_off_ = number_;
     if (!fresh_.empty()) { // what could be redone before it cannot be any more
       store_.erase(store_.lower_bound(fresh_.begin()->first), store_.end());
       store_.merge(fresh_);
@@ -148,6 +154,7 @@ private:
       fresh_; ///< of a new edit, until it is made
   Entries* alive_again_ = nullptr; ///< that of the edit under way
   Entries unwritten_;              ///< of the edit before, if it was broken off: what it was to write
+  std::size_t number_ = no_id, broken_off_ = no_id; ///< of the edit under way; of the one before, if it was broken off
 
   /// \return nullptr where there is none
   template <class Range>

@@ -158,11 +158,11 @@ private:
           targets.emplace_back(v, relaxed_on_line(v));
         }
       move_all(targets);
-      if (state_.report.cancelled)
-        return;
-      if (step == last)
+      if (step == last || !state_.is_wanted()) // asked where nothing moves, too: there may be 2^32 steps
         break;
     }
+    if (state_.report.cancelled)
+      return;
     if constexpr (Comes_after_relaxation<typename State::Project>::value) {
       targets.clear();
       auto& guarded = Sculptor_access::guarded(state_.sculptor);
