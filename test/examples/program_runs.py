@@ -10,7 +10,8 @@ import sys
 
 SCULPT, SOURCE = map(os.path.abspath, sys.argv[1:3])
 FURTHER = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else ""
-PATIENCE = 1200 if "sanitize" in SCULPT else 120  # seconds that a program may take
+IS_SANITIZED = "sanitize" in SCULPT  # it is slow, takes signals of faults itself, and much memory
+PATIENCE = 1200 if IS_SANITIZED else 120  # seconds that a program may take
 FAULTS = []
 OCTAHEDRON = ("OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n"
               "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n")
