@@ -16,7 +16,8 @@ import shutil
 import subprocess
 import tempfile
 
-from program_runs import FURTHER as LOOP, PATIENCE, SCULPT, SOURCE, bytes_of, check, end, failing_calls, surface, up_to_last_tick
+from program_runs import FURTHER as LOOP, PATIENCE, SCULPT, SOURCE, bytes_of, check, end, failing_calls
+from program_runs import surface, up_to_last_tick
 
 MOST = os.environ.get("HAPTIC_SCULPT_FAILING_CALLS", "12")
 SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "1"))
@@ -41,8 +42,9 @@ class Task:
             for which, value in limits:
                 resource.setrlimit(which, (value, value))
 
-        done = subprocess.run([self.program, *self.arguments], cwd=folder, capture_output=True, text=True, timeout=3 * PATIENCE, env={**os.environ, **(environment or {})},
-                              preexec_fn=limit, restore_signals=True)
+        done = subprocess.run([self.program, *self.arguments], cwd=folder, capture_output=True, text=True,
+                              timeout=3 * PATIENCE, env={**os.environ, **(environment or {})}, preexec_fn=limit,
+                              restore_signals=True)
         COUNTS[self.name, done.returncode] = COUNTS.get((self.name, done.returncode), 0) + 1
         return done
 
@@ -94,7 +96,8 @@ class Task:
             check(done.returncode == 0, f"{self.name}, {what}: then it does not come through: exit {done.returncode}: {done.stderr}")
             now = if_there(f"{folder}/{self.log}")
             check(now.startswith(up_to_last_tick(left)), f"{self.name}, {what}: the log does not go on behind its last whole tick")
-            again = subprocess.run([SCULPT, "mesh.off", "--log", self.log, "-o", "again.off"], cwd=folder, capture_output=True, text=True, timeout=3 * PATIENCE)
+            again = subprocess.run([SCULPT, "mesh.off", "--log", self.log, "-o", "again.off"], cwd=folder,
+                                   capture_output=True, text=True, timeout=3 * PATIENCE)
             check(again.returncode == 0 and surface(f"{folder}/again.off") == surface(f"{folder}/{self.outputs[0]}"), f"{self.name}, {what}: its log gives another mesh: {again.stderr}")
             return
         complete = self.log and if_there(f"{folder}/{self.log}") == self.sound[self.log]

@@ -41,7 +41,8 @@ def refused(folder, code, words, *arguments, program=SCULPT, size=0):
     check(words in text, f"{what}: does not say '{words}': {text[-300:]}")
     check(len(text) < 20000, f"{what}: says {len(text)} bytes")
     taken = used.ru_maxrss << 10
-    check(taken <= size + BESIDE_THE_FILE or IS_SANITIZED, f"{what}: takes {taken >> 20} MiB for a file of {size >> 20} MiB")
+    check(taken <= size + BESIDE_THE_FILE or IS_SANITIZED,
+          f"{what}: takes {taken >> 20} MiB for a file of {size >> 20} MiB")
     return taken
 
 

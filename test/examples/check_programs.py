@@ -11,8 +11,8 @@ import tempfile
 import time
 
 from box_mesh import box
-from program_runs import (FURTHER as LOOP, IS_SANITIZED, OCTAHEDRON, PATIENCE, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points,
-                          run, write)
+from program_runs import (FURTHER as LOOP, IS_SANITIZED, OCTAHEDRON, PATIENCE, SCULPT, SOURCE, TETRAHEDRON,
+                          bytes_of, check, end, fails, points, run, write)
 
 BALL = f"{SOURCE}/examples/data/ball_and_moon.off"
 PATH = f"{SOURCE}/examples/data/hand_path.csv"
@@ -49,14 +49,17 @@ def closed_streams(folder, mesh):
     run(mesh, "--script", script, "--log", f"{folder}/sound.log", "-o", f"{folder}/sound.off")
     for streams in ((0,), (1,), (2,), (1, 2), (0, 1, 2)):
         log = f"{folder}/{''.join(map(str, streams))}.log"
-        done = subprocess.run([SCULPT, mesh, "--script", script, "--log", log, "-o", out], preexec_fn=closing(streams), timeout=PATIENCE)
+        done = subprocess.run([SCULPT, mesh, "--script", script, "--log", log, "-o", out],
+                              preexec_fn=closing(streams), timeout=PATIENCE)
         check(done.returncode == 0, f"without the streams {streams}: exit {done.returncode}")
         check(bytes_of(log) == bytes_of(f"{folder}/sound.log") and bytes_of(out) == bytes_of(f"{folder}/sound.off"),
               f"without the streams {streams} log or result are others")
-    done = subprocess.run([SCULPT, mesh, "--script", "-"], preexec_fn=closing((0,)), capture_output=True, text=True, timeout=PATIENCE)
+    done = subprocess.run([SCULPT, mesh, "--script", "-"], preexec_fn=closing((0,)), capture_output=True, text=True,
+                          timeout=PATIENCE)
     fails(4, ["script"], done, "a script from a standard input that is closed")
     log = f"{folder}/loop.log"
-    done = subprocess.run([LOOP, BALL, "--no-wait", "--seconds", "0.1", "--log", log], preexec_fn=closing((1, 2)), timeout=PATIENCE)
+    done = subprocess.run([LOOP, BALL, "--no-wait", "--seconds", "0.1", "--log", log],
+                          preexec_fn=closing((1, 2)), timeout=PATIENCE)
     check(done.returncode == 0 and run(BALL, "--log", log).returncode == 0, "haptic_loop without streams")
 
 
@@ -246,11 +249,13 @@ def inputs_of_the_loop(folder, mesh):
     os.symlink(b"\xff", os.fsencode(folder) + b"/link")
     write(name, OCTAHEDRON)
     os.chmod(name, 0o600)
-    done = subprocess.run([LOOP, name, b"--no-wait", b"--seconds", b"0.01", b"-o", os.fsencode(folder) + b"/\xff.off", b"--report", report.encode(), b"--trace",
-                           b"/dev/full", b"--record", os.fsencode(folder) + b"/\xff.rec"], capture_output=True, timeout=PATIENCE)
+    done = subprocess.run([LOOP, name, b"--no-wait", b"--seconds", b"0.01", b"-o", os.fsencode(folder) + b"/\xff.off",
+                           b"--report", report.encode(), b"--trace", b"/dev/full", b"--record",
+                           os.fsencode(folder) + b"/\xff.rec"], capture_output=True, timeout=PATIENCE)
     check(done.returncode == 5 and b"/dev/full" in done.stderr, f"names that are not UTF-8: exit {done.returncode}: {done.stderr}")
     done = subprocess.run([LOOP, name, b"--no-wait", b"--seconds", b"0.2", b"--report", report.encode(), b"--trace", os.fsencode(folder) + b"/full\xff"],
-                          capture_output=True, timeout=PATIENCE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16384, 16384)))
+                          capture_output=True, timeout=PATIENCE,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16384, 16384)))
     check(done.returncode == 5 and b"full\\xff" in done.stderr and "full" in " ".join(json.load(open(report))["notes"]), f"a note with such a name: exit {done.returncode}: {done.stderr}")
 
 

@@ -34,7 +34,8 @@ def bad_targets(folder, mesh):
         fails(5, ["nowhere"], run(mesh, "-o", kept, option, f"{folder}/nowhere/file"), f"missing folder of {option} beside a good result")
         check(open(kept).read() == "kept", f"the result is written though {option} cannot be")
     with open("/dev/full", "w") as full:
-        done = subprocess.run([SCULPT, mesh, "-o", f"{folder}/table.off"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=PATIENCE)
+        done = subprocess.run([SCULPT, mesh, "-o", f"{folder}/table.off"], stdout=full,
+                              stderr=subprocess.PIPE, text=True, timeout=PATIENCE)
     fails(5, ["standard output"], done, "no room for the table")
     check(os.path.exists(f"{folder}/table.off"), "the result is written before the table")
     fails(5, ["nowhere"], run(mesh, "--report", f"{folder}/nowhere/report.json"), "missing folder of the report")
@@ -163,7 +164,8 @@ def hostile_inputs(folder, mesh):
         fails(3, ["not a regular file"], run(endless, *options, seconds=PATIENCE / 6), f"a mesh without end {options}")
     with open(f"{folder}/hole.log", "wb") as hole:
         hole.truncate(1 << 36)
-    fails(6, ["is not a log"], run(mesh, "--log", f"{folder}/hole.log", seconds=PATIENCE / 6), "a log of 64 GiB of nothing")
+    done = run(mesh, "--log", f"{folder}/hole.log", seconds=PATIENCE / 6)
+    fails(6, ["is not a log"], done, "a log of 64 GiB of nothing")
     head = "ply\nformat ascii 1.0\nelement vertex 3\n"
     for line, number, part in (("property float p{}\n", 1001, "1000 properties"), ("element e{} 0\n", 1000, "1000 elements")):
         many = write(f"{folder}/many.ply", head + "".join(line.format(i) for i in range(number)))
