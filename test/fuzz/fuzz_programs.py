@@ -32,6 +32,9 @@ MEMORY = 3 << 30  # bytes: what is refused below this is refused in order
 PATIENCE = 10  # seconds before a run is asked to end
 GRACE = 20  # seconds that it may take then
 FAULT_OF_THE_PROGRAM = 1
+# AddressSanitizer reserves more than any limit of addresses. It is given bounds of its own, and ends a program there.
+BOUNDS_OF_THE_SANITIZER = f"max_allocation_size_mb={MEMORY >> 20}:hard_rss_limit_mb={2 * MEMORY >> 20}"
+ENDED_AT_A_BOUND = re.compile(rb"AddressSanitizer: (allocation-size-too-big|out-of-memory|hard rss limit exhausted)")
 RUNTIME = re.compile(rb"Sanitizer|runtime error:|terminate called|Assertion|CGAL error|std::|what\(\):")
 
 
@@ -169,8 +172,13 @@ WRITTEN = {"--output": ".off", "--report": ".json", "--repair-report": ".json", 
            "--trace": ".csv", "--json": ".json", "--screenshot": ".png"}
 
 
-def limits():
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+def is_sanitized(program):
+    return "sanitize" in program
+
+
+def limits(program):
+    if not is_sanitized(program):
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30, 1 << 30))
 
@@ -178,15 +186,16 @@ def limits():
 def run(arguments, stdin, folder):
     """(exit code, what stands on the screen, whether it had to be asked to end)"""
     # Without a terminal, in a folder of its own.
-    with subprocess.Popen([os.fsencode(a) for a in arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          cwd=folder, preexec_fn=limits, env={**os.environ, "ASAN_OPTIONS": "abort_on_error=1"}) as process:
+    with subprocess.Popen([os.fsencode(a) for a in arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, cwd=folder, preexec_fn=lambda: limits(arguments[0]),
+                          env={**os.environ, "ASAN_OPTIONS": f"abort_on_error=1:{BOUNDS_OF_THE_SANITIZER}"}) as process:
         try:
             output = process.communicate(stdin, timeout=PATIENCE)[0]
             return process.returncode, output, False
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGTERM)
             try:
-                output = process.communicate(timeout=GRACE)[0]
+                output = process.communicate(timeout=GRACE * (10 if is_sanitized(arguments[0]) else 1))[0]
             except subprocess.TimeoutExpired:
                 process.kill()
                 return None, process.communicate()[0], True
@@ -195,6 +204,8 @@ def run(arguments, stdin, folder):
 
 def faults_of(draw, program, codes, arguments, code, output, was_asked, validator):
     faults = []
+    if is_sanitized(arguments[0]) and ENDED_AT_A_BOUND.search(output):
+        return faults
     if code is None:
         faults.append(f"does not end within {GRACE} s of a SIGTERM")
     elif code < 0 and not (was_asked and code == -signal.SIGTERM):
@@ -211,7 +222,7 @@ def faults_of(draw, program, codes, arguments, code, output, was_asked, validato
     if code == 0 and "--output" in arguments and not faults:
         made = arguments[arguments.index("--output") + 1]
         if os.path.isfile(made) and made not in draw.inputs and made.endswith((".off", ".ply", ".obj")):
-            read = subprocess.run([validator, made], capture_output=True, preexec_fn=limits)
+            read = subprocess.run([validator, made], capture_output=True, preexec_fn=lambda: limits(validator))
             if read.returncode != 0:
                 faults.append(f"the mesh it wrote is refused: {read.stderr.decode(errors='replace')[:300]}")
     return faults
