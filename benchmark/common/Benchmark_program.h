@@ -10,7 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -90,6 +92,7 @@ private:
   int exit_code_of(int argc, char** argv, const Work& work) {
     try {
       examples::parse_arguments(app_, argc, argv);
+      refuse_nan();
       check_file();
       Promises promises;
       Json report = work(promises);
@@ -109,6 +112,13 @@ private:
     } catch (const std::exception& error) {
       return say(error.what()), failed;
     }
+  }
+  /// It is in any range of CLI11.
+  void refuse_nan() const {
+    for (const CLI::Option* option : app_.get_options())
+      for (const std::string& value : option->results())
+        if (option->get_type_name().compare(0, 5, "FLOAT") == 0 && std::isnan(std::strtod(value.c_str(), nullptr)))
+          throw CLI::ValidationError(option->get_name(), "a number is expected, not " + value);
   }
   void check_file() const {
     if (const std::string why = file_.empty() ? "" : why_not_replaceable(follow_links(file_)); !why.empty())

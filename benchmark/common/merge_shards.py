@@ -108,6 +108,8 @@ def in_order(reports):
     numbered = {}
     for report in reports:
         i, n = map(int, report["shard"].split("/"))
+        if not 0 <= i < n:
+            raise Odd_shards(f"there is no shard {i}/{n}")
         if i in numbered:
             raise Odd_shards(f"shard {i}/{n} is there twice")
         numbered[i] = report
@@ -148,13 +150,24 @@ def merge(reports):
     return merged
 
 
+def report_in(path):
+    """\\throw Odd_shards unless it is the report of a shard"""
+    try:
+        report = json.loads(path.read_text())
+    except (OSError, ValueError) as error:
+        raise Odd_shards(f"{path}: {error}") from error
+    if not isinstance(report, dict) or not re.fullmatch(r"\d+/\d+", str(report.get("shard"))):
+        raise Odd_shards(f"{path} is no report of a shard")
+    return report
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("reports", nargs="+", type=pathlib.Path)
     parser.add_argument("--json", type=pathlib.Path, required=True, help="where the merged report goes")
     options = parser.parse_args()
     try:
-        merged = merge([json.loads(path.read_text()) for path in options.reports])
+        merged = merge([report_in(path) for path in options.reports])
     except Odd_shards as odd:
         print("merge_shards:", odd, file=sys.stderr)
         return 2

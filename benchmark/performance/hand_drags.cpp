@@ -202,13 +202,15 @@ int main(int argc, char** argv) {
   CLI::App app("CPU time of single drags under a fast hand, with and without a bound on the work of a drag. The object "
                "is a sphere with hills.");
   app.add_option("--level", options.level, "Times the icosahedron is divided: 20 * 4^level triangles")
+      ->check(CLI::Range(0, 10))
       ->capture_default_str();
   app.add_option("--speed", options.speed, "Of the hand, mm/s; the object has a radius of 30 mm")
       ->capture_default_str();
-  app.add_option("--rate", options.rate, "Drags a second")->capture_default_str();
+  app.add_option("--rate", options.rate, "Drags a second")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--depth", options.depth, "How deep the hand is under the surface, mm")->capture_default_str();
   app.add_option("--drags", options.drags, "Of each kind")->capture_default_str();
   app.add_option("--ticks-per-grab", options.ticks_per_grab, "Drags until the hand lets go, and the mesh is as it was")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--work", options.work, "The bound; 0: none")->capture_default_str();
   app.add_option("--seed", options.seed, "Where the hand begins")->capture_default_str();

@@ -205,10 +205,11 @@ int main(int argc, char** argv) {
   CLI::App app(
       "CPU time of whole ticks of the haptic loop under a fast hand. The object is a sphere with hills, 60 mm wide.");
   app.add_option("--level", options.level, "Times the icosahedron is divided: 20 * 4^level triangles")
+      ->check(CLI::Range(0, 10))
       ->capture_default_str();
   app.add_option("--ticks", options.ticks)->capture_default_str();
   app.add_option("--speed", options.speed, "Of the hand, mm/s")->capture_default_str();
-  app.add_option("--rate", options.rate, "Ticks a second")->capture_default_str();
+  app.add_option("--rate", options.rate, "Ticks a second")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--depth", options.depth,
                  "How deep the hand is under the mean surface, mm; less than 0: above it, which tells what the machine "
                  "itself takes")

@@ -74,10 +74,7 @@ void Log_file::lock() const {
                           ? in_words(path_) +
                                 " is in use by another process; wait until it has ended, or give another log"
                           : "cannot lock " + in_words(path_) + ": " + system_says());
-  struct stat here {
-  }, there{};
-  if (::fstat(file_, &here) != 0 || ::stat(target_.c_str(), &there) != 0 || here.st_ino != there.st_ino ||
-      here.st_dev != there.st_dev)
+  if (!is_at_its_path())
     throw Write_error(in_words(path_) + " has just been replaced by another process; try again");
 }
 
@@ -113,7 +110,7 @@ void Log_file::begin(const Settings& settings) {
   }
   append(head.substr(part_of_head_.size())); // in one write: only a process that is killed leaves a part
   if (is_made && !failure_.empty())
-    ::unlink(target_.c_str());
+    remove();
 }
 
 void Log_file::drop_unfinished_tick() {
@@ -153,6 +150,8 @@ void Log_file::begin_pass(const std::string& script, std::size_t after) {
 void Log_file::append(const std::string& lines) {
   if (!failure_.empty())
     return;
+  if (struct stat now{}; ::fstat(file_, &now) != 0 || now.st_size != size_ || !is_at_its_path())
+    return fail("it was moved away, or changed, while it was written");
   for (std::size_t done = 0; done < lines.size();) {
     const ssize_t written = ::write(file_, lines.data() + done, lines.size() - done);
     if (written < 0 && errno != EINTR) {
@@ -164,6 +163,18 @@ void Log_file::append(const std::string& lines) {
     done += written > 0 ? static_cast<std::size_t>(written) : 0;
   }
   size_ += static_cast<off_t>(lines.size());
+}
+
+void Log_file::remove() {
+  if (file_ >= 0 && is_at_its_path())
+    ::unlink(target_.c_str());
+}
+
+bool Log_file::is_at_its_path() const {
+  struct stat here {
+  }, there{};
+  return ::fstat(file_, &here) == 0 && ::stat(target_.c_str(), &there) == 0 && here.st_ino == there.st_ino &&
+         here.st_dev == there.st_dev;
 }
 
 void Log_file::fail(const std::string& why) {

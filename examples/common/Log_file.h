@@ -38,6 +38,9 @@ public:
   /// `begin()`. \pre the contents have one
   void drop_last_line();
 
+  /// Takes it away while it is still locked: another process finds none, or one of its own.
+  void remove();
+
   /// \name Appending
   /// After a failure, at once and for good, nothing is appended: a log ends where the first line is missing.
   ///@{
@@ -69,6 +72,7 @@ private:
   void cut_to(const Log_contents::Place& place, const char* what);
   void append(const std::string& lines);
   void lock() const;
+  bool is_at_its_path() const;
   void fail(const std::string& why);
 };
 

@@ -84,6 +84,12 @@ public:
       file_->end_pass(run_);
   }
 
+  /// Takes the file away. \pre finish()
+  void remove() {
+    if (file_)
+      file_->remove();
+  }
+
   /// Whether it had edits of other runs before: it is not this program's own. \pre it has begun
   bool is_of_others() const {
     const auto is_other = [this](const Log_contents::Pass& pass) { return pass.script != run_; };

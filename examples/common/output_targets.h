@@ -10,7 +10,11 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 /// \file
 /// Looked at before the work begins: no file of a run is written over another one of it, and each can be written.
@@ -51,13 +55,28 @@ inline const Named_file* same_file(const std::string& path, const std::vector<Na
   return nullptr;
 }
 
+/// The standard stream that comes from this regular file, or goes to it; nullptr: none. What the program says would be
+/// written over it, or it over that: a stream keeps a place of its own in a file.
+inline const char* standard_stream_at(const std::string& path) {
+  struct stat file {
+  }, stream{};
+  if (path.empty() || ::stat(path.c_str(), &file) != 0 || !S_ISREG(file.st_mode))
+    return nullptr;
+  for (const auto& [number, name] :
+       {std::pair(STDIN_FILENO, "input"), std::pair(STDOUT_FILENO, "output"), std::pair(STDERR_FILENO, "error")})
+    if (::fstat(number, &stream) == 0 && stream.st_ino == file.st_ino && stream.st_dev == file.st_dev)
+      return name;
+  return nullptr;
+}
+
 /// The files of a run.
 struct Run_files {
   std::vector<Named_file> outputs, inputs;
   /// Output and input that may be one: that is what one asks of an editor. Empty: none may.
   std::string replaced_by, replaced;
 
-  /// \throw Usage_error where an output is another output or an input; says which
+  /// \throw Usage_error where an output is another output, an input, or a file that a standard stream goes to; says
+  /// which
   void check_apart() const {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       const Named_file& output = outputs[i];
@@ -71,6 +90,9 @@ struct Run_files {
           others.push_back(input);
       if (const Named_file* const other = same_file(output.path, others))
         refuse(*other);
+      if (const char* const stream = standard_stream_at(output.path); stream != nullptr)
+        throw Usage_error("'" + output.path + "' (" + output.role + ") is the file of standard " + stream + "; give " +
+                          output.role + " another name");
     }
   }
 };

@@ -82,7 +82,7 @@ inline void Recording::take_reading(const std::string& line, const std::string& 
   int end = 0;
   if (std::sscanf(line.c_str(), "%la %la %la %la %la %la %la %la %n", &r.theta[0], &r.theta[1], &r.theta[2],
                   &r.torque[0], &r.torque[1], &r.torque[2], &button, &r.elapsed, &end) != 8 ||
-      line.c_str()[end] != '\0' || !(button == 0 || button == 1 || button == 2))
+      static_cast<std::size_t>(end) != line.size() || !(button == 0 || button == 1 || button == 2))
     throw Foreign_recording(path + ": line " + std::to_string(readings.size() + 2) + " is no line of a recording");
   r.button = static_cast<int>(button);
   readings.push_back(r);

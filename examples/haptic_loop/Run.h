@@ -8,7 +8,6 @@
 
 #include <haptic_sculpt/haptic_rendering/Tick_statistics.h>
 
-#include <atomic>
 #include <cstdint>
 #include <exception>
 
@@ -52,9 +51,9 @@ struct Run_result {
 };
 
 /// Reads the mesh, runs, and writes sculpted mesh, picture and rows. \param writer gets what people should know
-/// \param is_interrupted ends the run in order
+/// Signals end it in order once its log has been made again (end_in_order_by_signals()).
 /// \throw before the first tick what reading meshes and opening files throws; Unstable_coupling; Foreign_recording;
 /// Usage_error; Foreign_log, Script_error
-Run_result run_loop(const Plan& plan, examples::Result_writer& writer, const std::atomic<bool>& is_interrupted);
+Run_result run_loop(const Plan& plan, examples::Result_writer& writer);
 
 } // namespace haptic_sculpt::loop_program

@@ -85,6 +85,9 @@ int loop(const Arguments& arguments, Plan& plan) {
     settings = plan.replay->settings;
   } else {
     plan.path = read_path(arguments.path);
+    if (!arguments.seconds && !(plan.path->end() > 0))
+      throw Usage_error("the path ends at " + examples::decimal(plan.path->end()) +
+                        " s, before the first tick: give --seconds, or times above 0");
     if (const double seconds = arguments.seconds.value_or(plan.path->end()); plan.fault && plan.fault->time >= seconds)
       throw Usage_error("--fault comes at " + examples::decimal(plan.fault->time) + " s, after the end of the run at " +
                         examples::decimal(seconds) + " s");
@@ -98,7 +101,7 @@ int loop(const Arguments& arguments, Plan& plan) {
   plan.waits = !arguments.does_not_wait && !plan.replay;
   plan.trace = arguments.trace, plan.record = arguments.record;
   examples::Result_writer writer("haptic_loop");
-  const Run_result result = run_loop(plan, writer, examples::end_in_order_by_signals());
+  const Run_result result = run_loop(plan, writer);
   if (result.failure)
     writer.note("the run has ended after " + std::to_string(result.ticks) + " ticks: " +
                 examples::message_of(result.failure) + ". What was done until then is written");
@@ -134,8 +137,8 @@ int run(int argc, char** argv) {
   Settings& settings = plan.settings;
   CLI::App app(
       "Sculpts in a closed loop: a simulated device in a simulated hand that follows a path.\n"
-      "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 path cannot be read, "
-      "5 cannot write, 6 recording of another mesh, 7 stiffness not passive, or damping, virtual mass or "
+      "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 path or log cannot be read, "
+      "5 cannot write, 6 recording or log of another mesh, 7 stiffness not passive, or damping, virtual mass or "
       "controller too large, "
       "8 a fault ended the run.");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->capture_default_str();

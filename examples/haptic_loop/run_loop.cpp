@@ -8,6 +8,7 @@
 
 #include "../common/Run_log.h"
 #include "../common/numbers.h"
+#include "../common/process_state.h"
 #include "../common/sha256_of_file.h"
 #include "../common/told_loss.h"
 #include "../common/write_file.h"
@@ -48,11 +49,10 @@ Workspace_map map_of(const Settings& settings, const Eigen::Vector3d& lower, con
 /// One run.
 class Run {
 public:
-  Run(const Plan& plan, examples::Result_writer& writer, const std::atomic<bool>& is_interrupted)
+  Run(const Plan& plan, examples::Result_writer& writer)
       : plan_(plan)
       , settings_(plan.settings)
       , writer_(writer)
-      , is_interrupted_(is_interrupted)
       , tick_(1 / settings_.rate)
       , device_(settings_.device)
       , home_(home_pose(device_))
@@ -79,6 +79,7 @@ public:
     keep_vertex_attributes(scene.sculptor);
     if (const std::string told = log_->resume(scene); !told.empty())
       writer_.note(told);
+    examples::end_in_order_by_signals(); // until here they end it at once, and nothing is lost
     Haptic_parameters parameters;
     parameters.tick = tick_, parameters.delay = settings_.delay;
     parameters.coupling = {settings_.stiffness, settings_.damping};
@@ -123,7 +124,7 @@ private:
   const Plan& plan_;
   const Settings& settings_;
   examples::Result_writer& writer_;
-  const std::atomic<bool>& is_interrupted_;
+  const std::atomic<bool>& is_interrupted_ = examples::process::is_ended();
   double tick_;
   Device_parameters<double> device_;
   Outcome<Device_pose<double>> home_;
@@ -342,8 +343,8 @@ private:
 
 } // namespace
 
-Run_result run_loop(const Plan& plan, examples::Result_writer& writer, const std::atomic<bool>& is_interrupted) {
-  return Run(plan, writer, is_interrupted).run();
+Run_result run_loop(const Plan& plan, examples::Result_writer& writer) {
+  return Run(plan, writer).run();
 }
 
 } // namespace haptic_sculpt::loop_program

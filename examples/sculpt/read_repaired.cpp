@@ -44,6 +44,11 @@ std::string json_of(const Repair_report& report) {
 
 } // namespace
 
+void write_repair_report(const Arguments& arguments, examples::Result_writer& writer, const Sculpted_mesh& read) {
+  writer.write(arguments.repair.report,
+               [&](const std::string& path) { return examples::write_file(path, read.repair_report); });
+}
+
 Sculpted_mesh read_repaired(const Arguments& arguments, examples::Result_writer& writer, std::string& told) {
   Face_soup soup = read_face_soup(arguments.mesh);
   Repair_parameters parameters;
@@ -52,16 +57,19 @@ Sculpted_mesh read_repaired(const Arguments& arguments, examples::Result_writer&
     parameters.gap(*arguments.repair.gap);
   if (arguments.repair.largest_hole)
     parameters.largest_hole(*arguments.repair.largest_hole);
-  const Repair_report report = repair(soup, parameters);
-  writer.write(arguments.repair.report,
-               [&](const std::string& path) { return examples::write_file(path, json_of(report)); });
+  Repair_report report = repair(soup, parameters);
+  if (report.left.has_more_intersections &&
+      !(arguments.report.empty() && arguments.picture.empty() && arguments.repair.report.empty()))
+    report.left = validate_soup(report.attempt, parameters.delta_length, Validity_report::all_intersections);
   told = report.message(Validity_report::Reader::user);
+  Sculpted_mesh read;
+  read.repair_report = json_of(report);
   if (!report.is_repaired()) {
+    write_repair_report(arguments, writer, read);
     write_refusal(arguments, report.attempt, report.left);
     throw Read_error("cannot repair '" + arguments.mesh + "':\n" + told +
                      "doc/use/repair.md says what is refused, and what to do then");
   }
-  Sculpted_mesh read;
   read.left_out = std::move(soup.left_out);
   read.mesh = make_surface<Mesh>(soup, parameters.delta_length);
   read.is_changed = true;

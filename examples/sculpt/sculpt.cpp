@@ -24,9 +24,11 @@
 #include <haptic_sculpt/surface/orient_components.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <numeric>
+#include <system_error>
 #include <utility>
 
 namespace {
@@ -70,6 +72,8 @@ void check_files(const Arguments& a) {
   for (const std::string& path : {a.out, a.report, a.picture, a.comparison, a.repair.report}) // a log looks for itself
     if (!path.empty())
       examples::check_target(path);
+  if (std::error_code error; !a.log.empty() && !std::filesystem::exists(a.log, error)) // else it is looked at later
+    examples::check_target(a.log);
 }
 
 /// \param hash of the mesh \throw Foreign_log
@@ -241,6 +245,8 @@ int sculpt(const Arguments& arguments) {
     read = mesh_of(arguments, writer);
   Mesh& mesh = read->mesh;
   check_mesh_directives(script.commands, arguments, hash);
+  if (arguments.repair.is_asked)
+    write_repair_report(arguments, writer, *read);
   const drawing::Scene before = needs_before(arguments.shown) ? drawing::scene_of(mesh) : drawing::Scene();
 
   if (const std::string remarks = read->found.remarks(); !remarks.empty())

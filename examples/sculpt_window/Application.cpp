@@ -22,9 +22,9 @@ Application::~Application() {
 
 void Application::open_first(int width, int height) {
   view_size_ = {width, height};
-  if (!options_.record.empty())
-    record(options_.record);
   enter(window_program::open(options_.mesh, options_.log_of(options_.mesh)));
+  if (!options_.record.empty()) // the last to be refused
+    record(options_.record);
 }
 
 void Application::enter(Opened opened) {
@@ -152,7 +152,7 @@ void Application::on_key(const Key& key) {
 }
 
 void Application::on_drop(const std::string& path) {
-  note("open %s", path.c_str());
+  note_file("open", path);
   open(path);
 }
 

@@ -86,7 +86,10 @@ public:
   /// A file could not be written: the exit code says so.
   void fail_to_write(const std::string& what);
   /// Ends as soon as it can, without asking; a log keeps what is not saved.
-  void end() { is_done_ = true; }
+  void end() {
+    is_done_ = true;
+    thread_.break_off(); // what is yet to be saved is saved as it is then
+  }
 
 private:
   Options options_;
@@ -175,6 +178,7 @@ private:
   void print_status() const;
   void record(const std::string& path);
   void note(const char* format, ...);
+  void note_file(const char* what, const std::string& path); ///< as a comment where no script can name it
   void flush_record();
   void draw_state();
   void draw_brush();

@@ -104,7 +104,7 @@ void Application::obey(Order order) {
     break;
   case Order::let_go:
     choices_.question = Choices::Question::none, choices_.shows_help = false;
-    thread_.let_go();
+    thread_.break_off();
     break;
   case Order::response:
     choices_.slides = !choices_.slides;
@@ -213,6 +213,8 @@ bool Application::may_write(const std::string& path, Written what) {
   if (const auto* const other = examples::same_file(path, files))
     why = "'" + path + "' is " + other->role + (is_mesh && other->path == path_ ? ", which the log begins with" : "") +
           ": give another name";
+  else if (const char* const stream = examples::standard_stream_at(path); stream != nullptr)
+    why = "'" + path + "' is the file of standard " + stream + ": give another name";
   else if (is_mesh && !mesh_file_format(path))
     why = "'" + path + "' does not end in .off, .ply, .obj or .stl";
   else if (what == Written::picture && !examples::is_picture_name(path))
@@ -239,15 +241,24 @@ void Application::open(const std::string& path) {
     return say("a mesh is being opened; wait for it");
   if (!log_.empty() && examples::same_file(path, {{"open", path_}}))
     return say(path + " is open");
+  const std::string log = options_.log_of(path);
+  const std::vector<examples::Named_file> outputs = {{"the report", options_.report},
+                                                     {"the recording", recorded_to_},
+                                                     {"the picture at the end", options_.screenshot}};
+  for (const std::string& name : {path, log})
+    if (const auto* const other = examples::same_file(name, outputs))
+      return fail_to_open("'" + path + "' is not opened: " + (name == log ? "its log '" + log + "' is " : "it is ") +
+                          other->role);
   if (is_unsaved() && next_open_ != path) {
     next_open_ = path;
     unopened_.insert(path);
-    return say("there is unsaved work: save it, or drop the file once more to leave it (the log has it)");
+    return say(std::string("there is unsaved work: save it, or drop the file once more to leave it") +
+               (log_.empty() ? "" : " (the log has it)"));
   }
   next_open_.clear();
   unopened_.erase(path);
   say("opening " + path);
-  background_.open(path, options_.log_of(path));
+  background_.open(path, log);
 }
 
 void Application::fail_to_open(const std::string& why) {

@@ -11,9 +11,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdarg>
 #include <iostream>
 #include <thread>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace haptic_sculpt::window_program {
 namespace {
@@ -221,7 +225,11 @@ void Application::record(const std::string& path) {
   }
   if (path.empty() || !may_write(path, Written::recording))
     return;
-  record_ = std::fopen(path.c_str(), "w");
+  const int file =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666); // waits for no pipe
+  record_ = file < 0 ? nullptr : ::fdopen(file, "w");
+  if (record_ == nullptr && file >= 0)
+    ::close(file);
   if (record_ == nullptr)
     return fail_to_write("cannot write the recording '" + path + "': " + std::strerror(errno));
   std::fprintf(record_, "# sculpt_window of haptic_sculpt %s, a window of %d x %d\n", HAPTIC_SCULPT_VERSION,
@@ -245,6 +253,13 @@ void Application::note(const char* format, ...) {
   va_end(arguments);
   std::fputc('\n', record_);
   flush_record();
+}
+
+void Application::note_file(const char* what, const std::string& path) {
+  const bool can_be_named =
+      std::none_of(path.begin(), path.end(), [](unsigned char c) { return c < ' ' || c == '#'; }) && !path.empty() &&
+      path.front() != ' ' && path.back() != ' ';
+  can_be_named ? note("%s %s", what, path.c_str()) : note("# %s: a file whose name stands in no script", what);
 }
 
 void Application::flush_record() {

@@ -92,10 +92,9 @@ std::string destroy(Model* model, bool keeps_log) {
   std::string failure = model->log.failure();
   if (failure.empty() && model->log.has_overrun())
     failure = "the log '" + model->log_path + "' lacks what was done last: it could not be written as fast as that";
-  const std::string log = keeps_log || model->log.is_of_others() ? "" : model->log_path;
+  if (!keeps_log && !model->log.is_of_others())
+    model->log.remove();
   delete model;
-  if (!log.empty())
-    std::remove(log.c_str());
   return failure;
 }
 

@@ -51,7 +51,7 @@ private:
       return paint(scene, dabs);
     tool.edit_by([&](auto& edits) { return apply_brush(edits, dabs, share_left_free(scene)); });
     if (brush_.remeshes && ++dabs_ % dabs_a_remeshing == 0)
-      remesh(scene, tool, faces_under(scene, dabs), brush_.edge_length(scene.edge_length));
+      remesh(scene, tool, faces_under(scene, dabs), brush_.edge_length(scene.edge_length), scene.times_broken_off);
   }
 
   /// A dab in the middle of a brush of half strength masks or unmasks all of it.

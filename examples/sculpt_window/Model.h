@@ -8,6 +8,8 @@
 
 #include <haptic_sculpt/haptic_rendering/exchange/Loop_scene.h>
 
+#include <atomic>
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 namespace haptic_sculpt::window_program {
@@ -31,6 +33,9 @@ struct Model : Loop_scene<Mesh> {
   /// How much of a vertex brushes leave alone, from 0 to 1. Nothing of the mesh: it is not undone, saved or logged.
   Mask mask = mesh.add_property_map<Vertex_index, double>("v:mask_of_brushes", 0.0).first;
   double edge_length = 0; ///< mean, of the mesh as it came
+  /// By the window's thread, for what takes long: how often it was to be broken off; and that all ends.
+  std::atomic<unsigned> times_broken_off{0};
+  std::atomic<bool> ends{false};
 
   /// \throw what reading meshes and logs throws
   Model(const std::string& path, const std::string& log);

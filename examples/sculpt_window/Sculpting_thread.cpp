@@ -185,6 +185,12 @@ void Sculpting_thread::let_go() {
   parts_->ask(Parts::Command::Kind::let_go);
 }
 
+void Sculpting_thread::break_off() {
+  for (Model* const model : parts_->models)
+    ++model->times_broken_off;
+  let_go();
+}
+
 void Sculpting_thread::edit_edge(const Pointer& pointer, bool flips) {
   parts_->let_go();
   parts_->ask(std::make_shared<Edge_edit>(pointer, flips));
@@ -202,7 +208,7 @@ void Sculpting_thread::choose_response(bool slides) {
 
 void Sculpting_thread::remesh(const Pointer& pointer, const std::optional<Brush>& brush, double length) {
   parts_->let_go();
-  parts_->ask(std::make_shared<Remesh>(pointer, brush, length));
+  parts_->ask(std::make_shared<Remesh>(pointer, brush, length, parts_->models.back()->times_broken_off));
 }
 
 void Sculpting_thread::unmask_all() {
@@ -289,6 +295,8 @@ bool Sculpting_thread::is_idle() const {
 }
 
 std::vector<Model*> Sculpting_thread::end() {
+  for (Model* const model : parts_->models)
+    model->ends = true;
   parts_->loop.reset();
   return std::exchange(parts_->models, {});
 }

@@ -42,6 +42,7 @@ public:
   void enter(Model* model);
   void press(const Pointer& pointer, Tool tool, const Brush& brush);
   void let_go();
+  void break_off();                                   ///< lets go, and ends remeshing where it is
   void edit_edge(const Pointer& pointer, bool flips); ///< else collapses
   void take_back(bool undo);                          ///< else makes again
   void choose_response(bool slides);                  ///< else what is blocked stops

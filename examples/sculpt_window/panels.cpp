@@ -242,7 +242,7 @@ void Application::draw_question() {
     if (agreed || cancelled)
       choices_.question = Question::none;
     if (agreed) {
-      note("%s %s", saves ? "save" : "open", choices_.name.data());
+      note_file(saves ? "save" : "open", choices_.name.data());
       saves ? save(choices_.name.data()) : open(choices_.name.data());
     }
   }

@@ -58,15 +58,17 @@ inline auto share_left_free(const Scene& scene) {
 }
 
 /// Remeshes faces to edges of about a length; masked vertices stay. Waits for the disk where the log has no room.
-/// \throw Invalid_parameter where it would be more triangles than can be shown
-inline void remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, const std::vector<Face_index>& faces,
-                   double length) {
+/// \param times_broken_off Scene's, when it was asked for \return false: it was broken off \throw Invalid_parameter
+/// where it would be more triangles than can be shown
+inline bool remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, const std::vector<Face_index>& faces, double length,
+                   unsigned times_broken_off) {
   constexpr std::size_t most_faces = 5000000;
-  const auto may_go_on = [journal = scene.log.journal()](const Remeshing_progress&) {
+  bool goes_on = true;
+  const auto may_go_on = [&, journal = scene.log.journal()](const Remeshing_progress&) {
     const std::size_t room = 8 * Remeshing_parameters::operations_between_calls;
     while (journal != nullptr && journal->room() < room && !journal->has_overrun())
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return true;
+    return goes_on = !scene.ends && scene.times_broken_off == times_broken_off;
   };
   const auto is_masked =
       boost::make_function_property_map<Vertex_index>([&mask = scene.mask](Vertex_index v) { return mask[v] > 0; });
@@ -75,36 +77,36 @@ inline void remesh(Scene& scene, Loop_task<Scene>::Tool_type& tool, const std::v
                                CGAL::parameters::number_of_iterations(2).vertex_is_constrained_map(is_masked),
                                Remeshing_parameters().most_faces(most_faces).progress(may_go_on));
   });
+  return goes_on;
 }
 
 /// Remeshes what is under a brush, or all of the mesh.
 class Remesh : public Window_task {
 public:
   /// \param brush under it, where the mouse points; none: all \param length of edges; 0: as the brush needs them, of
-  /// all as they were when the mesh came
-  Remesh(const Pointer& pointer, const std::optional<Brush>& brush, double length)
-      : pointer_(pointer), brush_(brush), length_(length) {}
+  /// all as they were when the mesh came \param times_broken_off the scene's, now
+  Remesh(const Pointer& pointer, const std::optional<Brush>& brush, double length, unsigned times_broken_off)
+      : pointer_(pointer), brush_(brush), length_(length), times_broken_off_(times_broken_off) {}
 
 private:
   Pointer pointer_;
   std::optional<Brush> brush_;
   double length_;
+  unsigned times_broken_off_;
 
   bool work(Scene& scene, Tool_type& tool) override {
     tool.let_go();
-    if (!brush_) {
-      remesh(scene, tool, {scene.mesh.faces().begin(), scene.mesh.faces().end()},
-             length_ > 0 ? length_ : scene.edge_length);
-      return true;
-    }
+    if (!brush_)
+      return told(remesh(scene, tool, {scene.mesh.faces().begin(), scene.mesh.faces().end()},
+                         length_ > 0 ? length_ : scene.edge_length, times_broken_off_));
     const Hit hit = hit_of(scene, pointer_);
     if (!hit)
       return refuse("there is nothing to remesh here: point at the surface");
     const Dab_3<Kernel> dab{Brush_kind::smooth, hit->point, brush_->radius, 0};
-    remesh(scene, tool, faces_under(scene, with_mirrored(scene, dab, brush_->symmetry)),
-           length_ > 0 ? length_ : brush_->edge_length(scene.edge_length));
-    return true;
+    return told(remesh(scene, tool, faces_under(scene, with_mirrored(scene, dab, brush_->symmetry)),
+                       length_ > 0 ? length_ : brush_->edge_length(scene.edge_length), times_broken_off_));
   }
+  bool told(bool is_whole) { return is_whole || refuse("remeshing was broken off: undo takes back what was done"); }
 };
 
 /// Nothing is masked any more.

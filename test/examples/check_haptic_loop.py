@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 
 import program_runs
 from program_runs import FURTHER as LOOP, SOURCE, check, end, points
@@ -215,6 +216,9 @@ open(at("open.off"), "w").write("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
 run(at("open.off"), "--no-wait", code=3)
 open(at("path.csv"), "w").write("t,x,y,z,button\n0,0,0,x,0\n")
 check("line 2, column 7" in run(MESH, "--no-wait", "--path", at("path.csv"), code=4).stderr, "a bad path is known by line and column")
+open(at("path.csv"), "w").write("t,x,y,z,button\n0,0,0,0.1,0\n")
+check("--seconds" in run(MESH, "--no-wait", "--path", at("path.csv"), code=2).stderr, "a path without a tick")
+run(MESH, "--no-wait", "--path", at("path.csv"), "--seconds", 0.01)
 open(at("path.csv"), "w").write("t,x,y,z,button\n0,0,0,0.1,3\n")
 refused = run(MESH, "--no-wait", "--path", at("path.csv"), code=4).stderr
 check("line 2, column 11" in refused, f"which column the button is in: {refused}")
@@ -233,6 +237,18 @@ for name in ("kept.csv", "kept.rec"):
     open(at(name), "w").write("kept")
 run(MESH, "--log", at("part.log"), "--trace", at("kept.csv"), "--record", at("kept.rec"), "--no-wait", code=6)
 check(open(at("kept.csv")).read() == open(at("kept.rec")).read() == "kept", "what was there before stays")
+# A log that is removed or changed while it is written is not passed off as one.
+for which, spoil in (("removed", os.remove), ("changed", lambda path: os.truncate(path, 0))):
+    log = at(f"{which}.log")
+    process = subprocess.Popen([LOOP, MESH, "--seconds", "5", "--log", log], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True)
+    until = time.monotonic() + program_runs.PATIENCE
+    while not (os.path.exists(log) and b"# tick 0" in open(log, "rb").read()) and time.monotonic() < until:
+        time.sleep(0.01)
+    spoil(log)
+    words = process.communicate(timeout=program_runs.PATIENCE)[1]
+    check(process.returncode == 5 and "moved away, or changed" in words,
+          f"a log that is {which}: exit {process.returncode}: {words}")
 for option in (("--fault", "nan@0.1"), ("--seconds", "0.1"), ("--path", "other.csv"), ("--stiffness", "100")):
     run(MESH, "--replay", at("a.rec"), *option, code=2)
 end()

@@ -33,6 +33,13 @@ def bad_targets(folder, mesh):
         # Found before the work: the good target is not touched either.
         fails(5, ["nowhere"], run(mesh, "-o", kept, option, f"{folder}/nowhere/file"), f"missing folder of {option} beside a good result")
         check(open(kept).read() == "kept", f"the result is written though {option} cannot be")
+    for option in ("--report", "--log"):
+        with open(kept, "a") as table:
+            script = ["--script", "/dev/null"] if option == "--log" else []
+            done = subprocess.run([SCULPT, mesh, option, kept, *script],
+                                  stdout=table, stderr=subprocess.PIPE, text=True, timeout=PATIENCE)
+        fails(2, ["standard output", option], done, f"{option} where the table goes")
+        check(open(kept).read() == "kept", f"{option} where the table goes: {open(kept).read()}")
     with open("/dev/full", "w") as full:
         done = subprocess.run([SCULPT, mesh, "-o", f"{folder}/table.off"], stdout=full,
                               stderr=subprocess.PIPE, text=True, timeout=PATIENCE)

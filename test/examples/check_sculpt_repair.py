@@ -76,6 +76,16 @@ def refusals(folder):
     fails(2, ["--repair-gap"], run(mesh, "--repair", "--repair-gap", "-1"), "a gap below zero")
     fails(2, ["the mesh to be read"], run(mesh, "--repair", "--repair-report", mesh), "a report over the mesh")
     check(run(mesh, "--repair-report", f"{folder}/x.json").returncode == 2, "a report of no repair")
+    # A log or script of another mesh, or a log that cannot be: nothing is written.
+    kept, other = write(f"{folder}/kept.json", "kept"), f"{folder}/other.log"
+    box_mesh = write(f"{folder}/whole.off", off(vertices, faces))
+    run(box_mesh, "--script", "-", "--log", other, script="undo\n")
+    for code, log, script in ((6, other, "undo\n"), (6, "", "mesh " + 64 * "0" + "\n"),
+                              (5, f"{folder}/nowhere/x.log", "undo\n")):
+        logged = ["--log", log] if log else []
+        done = run(mesh, "--repair", "--repair-report", kept, "--script", "-", *logged, script=script)
+        fails(code, [], done, f"a repair beside {log or script}")
+        check(bytes_of(kept) == b"kept", f"the report of a repair beside {log or script}")
 
 
 def faults_are_all_told(folder):
@@ -114,6 +124,15 @@ def faults_are_all_told(folder):
     fails(3, ["(8 of at least 1000)"], run(mesh, "--report", out), "a stack of triangles")
     pairs = json.loads(bytes_of(out))["faults"]["intersecting_faces"]
     check(len(pairs) == 60 * 59 // 2, f"all triangles of the plane hold (3.5, 1), {len(pairs)} pairs")
+    # The same of what a repair came to.
+    flaps = [(x + 0.1 * i, y, z) for i in range(90) for x, y, z in ((0, 0, i % 7), (9, 9, 3), (9, -9, 3 + i % 5))]
+    mesh = write(f"{folder}/flaps.off", off(flaps, [[3 * i, 3 * i + 1, 3 * i + 2] for i in range(90)]))
+    done = run(mesh, "--repair", "--report", out, "--repair-report", f"{folder}/repair.json",
+               "--repair-largest-hole", 0)
+    told, repair = json.loads(bytes_of(out)), json.loads(bytes_of(f"{folder}/repair.json"))
+    pairs = told["faults"]["intersecting_faces"]
+    check(done.returncode == 3 and len(pairs) > 1000 and repair["left"]["intersecting_faces"] == len(pairs),
+          f"all faults of what could not be repaired: {len(pairs)} pairs, {repair['left']}, {done.stderr[:300]}")
 
 
 def orients(folder):

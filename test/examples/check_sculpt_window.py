@@ -351,6 +351,32 @@ for line in (f"save {precious}", f"save {at('precious.off.log')}", f"save {at('n
     check("another name" in err or ".off" in err, f"{line}: {err}")
     check(bytes_of(precious) == kept and open(at("script.txt")).read().startswith("settle"), f"{line}: an input was written over")
     check(json.load(open(at("drawn.json")))["version"] != "", f"{line}: the report is there")
+# Nor over one by a mesh that is opened later, whose log it would be; nor is one emptied by a run that is refused.
+report = at("small_box.off.log")
+write(at("small_box.off"), box(2))
+_, err = window(precious, "--samples", 0, "--size", 100, 100, "--report", report, code=3, what="a report over a log",
+                script=f"settle\nopen {at('small_box.off')}\nsettle\nquit\n")
+check("the report" in err and json.load(open(report))["version"] != "", f"a report over a log: {err}")
+write(at("kept.actions"), "# kept\n")
+window(at("nowhere.off"), "--record", at("kept.actions"), script="quit\n", code=3, what="no mesh to record")
+check(bytes_of(at("kept.actions")) == b"# kept\n", "a recording stays where the mesh is refused")
+os.mkfifo(at("pipe.actions"))
+window(precious, "--samples", 0, "--size", 100, 100, script=f"settle\nrecord {at('pipe.actions')}\nquit\n", code=5,
+       what="a recording into a pipe that nobody reads")
+# Remeshing that takes long is broken off by escape, and by a signal.
+finest = "settle\nmove 100 75\n" + 10 * "key [\n" + "key d\nwait 1\n"
+lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 200, 150, what="remeshing that is broken off",
+                  script=finest + "key escape\nsettle\nprint\nquit\n", patience=PATIENCE / 4)
+check(lines and "broken off" in lines[0]["refused"], f"remeshing that is broken off: {lines}")
+process = start(BALL, "--no-log", "--samples", 0, "--size", 200, 150, script=finest + "print\nwait 1000\n")
+process.stdout.readline()
+process.send_signal(signal.SIGTERM)
+try:
+    process.communicate(timeout=PATIENCE / 4)
+    check(process.returncode == 0, f"a signal ends remeshing: exit {process.returncode}")
+except subprocess.TimeoutExpired:
+    process.kill()
+    check(False, "a signal does not end remeshing")
 window(precious, "--no-log", "-o", precious, "--samples", 0, script="settle\nkey s\nsettle\nquit\n", what="without a log the mesh may be replaced")
 # A log beside the mesh that is of another mesh: nobody has asked for it.
 write(at("stale.off"), box(2))
@@ -434,7 +460,7 @@ is_there = os.path.exists(at("large_saved.off"))
 check(process.returncode == 0 and is_there, "a save that was asked for is made though the process is asked to end")
 # What is under way when the window is closed is unsaved work, too: the log stays, or one is asked.
 under_way = write(at("under_way.off"), box(30))
-process = start(under_way, "--samples", 0, script="settle\nprint\nremesh 0.05\nprint\nwait 100\n")
+process = start(under_way, "--samples", 0, script="settle\nprint\nremesh 0.05\nwait 0.5\nprint\nwait 100\n")
 process.stdout.readline(), process.stdout.readline()
 process.send_signal(signal.SIGTERM)
 process.communicate(timeout=PATIENCE)

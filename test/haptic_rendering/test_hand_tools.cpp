@@ -137,6 +137,13 @@ BOOST_AUTO_TEST_CASE(a_zoom_that_makes_no_scale_is_refused_where_it_is_asked_for
   b.go(Vector3d(5, 0, 0)); // a loop of pose and force that has just begun anew takes any place
   b.loop.restart();
   b.go(Vector3d::Zero());
+  b.loop.open_clutch();
+  b.loop.zoom(1e-162); // waits, as the next does: they are multiplied with each other first
+  BOOST_CHECK_THROW(b.loop.zoom(1e-162), Error);
+  b.loop.open_clutch(false);
+  BOOST_TEST((b.go(Vector3d::Zero()).fault == Loop_fault::none));
+  b.loop.zoom(1e162);
+  b.go(Vector3d::Zero());
   BOOST_CHECK_THROW(b.loop.zoom(1e306), Error); // a scale, and yet no place of the tool could be kept
   BOOST_TEST((b.go(Vector3d::Zero()).fault == Loop_fault::none));
 }

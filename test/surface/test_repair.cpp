@@ -4,6 +4,7 @@
 #include <haptic_sculpt/surface/read_surface.h>
 
 #include "surface/identical.h"
+#include "surface/open_edge.h"
 #include "surface/soup_of.h"
 
 #include <meshes/broken_meshes.h>
@@ -252,6 +253,13 @@ BOOST_AUTO_TEST_CASE(meshes_are_repaired_in_place) {
   const Mesh before = open;
   BOOST_TEST(!repair(open, Repair_parameters().largest_hole(0)).is_repaired());
   BOOST_TEST(identical(open, before));
+  // A hole of which the faces know nothing.
+  mesh = meshes::to_mesh(meshes::icosphere(1));
+  haptic_sculpt::test::open_edge(mesh, *mesh.halfedges().begin());
+  BOOST_TEST(!validate(mesh).is_valid());
+  BOOST_TEST(count_of(repair(mesh), Repair_kind::stitch_edges, "pairs of open edges stitched") == 1u);
+  BOOST_TEST(validate(mesh).is_valid());
+  BOOST_TEST(mesh.number_of_faces() == 80u);
 }
 
 // The same to the bit at any unit, up to the bounds of the package.

@@ -40,6 +40,10 @@ Json row(const std::string& name, const End_tally& tally) {
 
 Json run(const Options& options, Shard& shard, Promises& promises) {
   const auto& families = test::part_families();
+  if (std::none_of(families.begin(), families.end(), [&](const std::string& family) {
+        return (family + ", deformed").find(options.family) != std::string::npos;
+      }))
+    throw Wrong_use("no family has '" + options.family + "' in its name");
   Json rows = Json::array();
   End_tally parts, near_degenerate;
   for (std::size_t family = 0; family < families.size(); ++family)
@@ -115,6 +119,7 @@ int main(int argc, char** argv) {
   app.add_option("--drags", options.drags, "Drags in each family, as made and again once deformed")
       ->capture_default_str();
   app.add_option("--per-scene", options.drags_per_scene, "Drags in one scene, then another is drawn")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--ways", options.ways, "Random ways tried from each end")->capture_default_str();
   app.add_option("--family", options.family, "Only families whose names contain this");

@@ -116,6 +116,9 @@ public:
       if (mesh_file_format(entry.path()))
         files.push_back(entry.path());
     std::sort(files.begin(), files.end());
+    for (const std::string& name : options_.refuse)
+      if (std::none_of(files.begin(), files.end(), [&](const auto& file) { return file.filename().string() == name; }))
+        throw benchmark::Wrong_use("--refuse names '" + name + "', which is no mesh of the folder");
     for (const auto& file : files) {
       const std::string name = file.filename().string();
       const bool has_to_be_refused =

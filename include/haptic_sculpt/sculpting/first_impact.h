@@ -48,6 +48,18 @@ void check_point(const char* what, const Point_3& p) {
   throw_out_of_range(what, coordinates(p));
 }
 
+/// \throw Error
+template <class Mesh>
+void check_triangles_about(const Mesh& mesh, typename Mesh::Vertex_index v) {
+  for (const auto f : mesh.faces())
+    if (mesh.degree(f) != 3)
+      throw Error("face " + std::to_string(static_cast<std::size_t>(f)) + " has " + std::to_string(mesh.degree(f)) +
+                  " corners: divide it into triangles");
+  if (!mesh.is_isolated(v) && mesh.is_border(v))
+    throw Error("vertex " + std::to_string(static_cast<std::size_t>(v)) +
+                " is on a boundary of the mesh: fill the hole, or ask of another");
+}
+
 } // namespace internal
 
 /// What vertex `v` would touch first on its straight way to `target` while all else stands still: the impacts that come
@@ -56,9 +68,9 @@ void check_point(const char* what, const Point_3& p) {
 /// A mesh that is closed and embedded stays so up to `target` if and only if the result is empty; otherwise it stays so
 /// up to, and not at, the time of the impacts (doc/proofs/exact_sweeps.md, "Completeness"). On other meshes the answer
 /// is about the three sweeps only. A vertex without faces touches faces, and nothing touches it: it is no part of the
-/// surface. \throw Unknown_vertex, Out_of_range Cost: reads every face once; the sweeps cost valence times the
-/// candidates whose boxes meet the swept star's. \param traits decide the sweeps, a model of SweptCollisionTraits_3:
-/// with another than the default the answer is as right as its
+/// surface. \throw Unknown_vertex, Out_of_range; Error if v is on a boundary, or a face is no triangle Cost: reads
+/// every face once; the sweeps cost valence times the candidates whose boxes meet the swept star's. \param traits
+/// decide the sweeps, a model of SweptCollisionTraits_3: with another than the default the answer is as right as its
 template <class Mesh,
           class Traits = Swept_collision_traits_3<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel>>
 Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, typename Mesh::Vertex_index v,
@@ -67,6 +79,7 @@ Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, ty
   const internal::Rounding_to_nearest rounding;
   internal::check_vertex(mesh, v);
   internal::check_point("the target", target);
+  internal::check_triangles_about(mesh, v);
   const auto source = vertex_coordinates(mesh, v);
   const internal::Coordinates end = internal::coordinates(target);
   internal::Star<Mesh> star;

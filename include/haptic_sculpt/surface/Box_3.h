@@ -6,7 +6,8 @@
 
 namespace haptic_sculpt {
 
-/// A closed axis-parallel box of doubles. Its comparisons round nothing, so they are exact.
+/// A closed axis-parallel box of doubles. Its comparisons round nothing, so they are exact where
+/// subnormal numbers are not flushed.
 struct Box_3 {
   using Coordinates = std::array<double, 3>; ///< x, y, z
 

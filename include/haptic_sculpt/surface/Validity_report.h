@@ -33,8 +33,8 @@ struct Validity_report {
   /// The `delta` asked for: length of the smallest altitude allowed, in the unit of the coordinates.
   double delta = 0;
 
-  /// Half-edges whose pointers contradict each other, of edges without faces, and into a vertex that names none of
-  /// them. Where there are any, nothing else was looked at.
+  /// Half-edges whose pointers contradict each other, of edges without faces, into a vertex that names none of them,
+  /// and not on the face they name. Where there are any, nothing else was looked at.
   std::vector<Halfedge_index> inconsistent_halfedges;
   /// Vertices with a coordinate that is infinite or not a number.
   std::vector<Vertex_index> non_finite_vertices;
@@ -44,7 +44,7 @@ struct Validity_report {
   std::vector<Face_index> degenerate_faces;
   /// Triangles that are not degenerate but have an altitude below `delta`. Empty for `delta == 0`.
   std::vector<Face_index> low_faces;
-  /// Edges of one face only.
+  /// Edges of one face only (in a `Surface_mesh`: also where another edge between the same two vertices has one, too).
   std::vector<Vertex_pair> boundary_edges;
   /// Edges of three faces or more (in a `Surface_mesh`: several edges between the same two vertices).
   std::vector<Vertex_pair> non_manifold_edges;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
+
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -31,6 +33,7 @@ inline double rounded_to(Vertex_attribute::Type type, double x) {
                    high[] = {127, 255, 32767, 65535, 2147483647, 4294967295.0};
   if (type == Type::float64)
     return x;
+  const internal::Rounding_to_nearest rounding;
   if (type == Type::float32)
     return static_cast<float>(x);
   const double nearest = std::nearbyint(x);

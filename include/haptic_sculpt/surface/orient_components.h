@@ -44,7 +44,8 @@ inline std::size_t turn_components(Face_soup& soup) {
 /// outwards, but inwards, into the cavity, where a component lies in an odd number of others. Nothing else is changed:
 /// vertices, faces and properties stay.
 /// \return how many components were turned
-/// \throw Invalid_surface if validate() finds fault with it, for then in and out are not defined; nothing is changed
+/// \throw Invalid_surface if validate() finds fault with it, for then in and out are not defined, and Error if a corner
+/// is no index of a point; nothing is changed
 /// Complexity: that of validate().
 inline std::size_t orient_components(Face_soup& soup) {
   const internal::Rounding_to_nearest rounding;

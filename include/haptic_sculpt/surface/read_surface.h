@@ -170,7 +170,7 @@ Mesh read_surface(const std::filesystem::path& path, double delta = 0, std::vect
 /// The mesh of a valid list of faces, e.g. of one that repair() has repaired. Vertices and faces keep their numbers.
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param delta the delta rule's length, >= 0
-/// \throw Invalid_surface if `validate_soup()` finds fault with it
+/// \throw Invalid_surface if `validate_soup()` finds fault with it, Error if a corner is no index of a point
 template <class Mesh>
 Mesh make_surface(const Face_soup& soup, double delta = 0) {
   static_assert(internal::Is_mesh_of_doubles<Mesh>::value,

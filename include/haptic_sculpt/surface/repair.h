@@ -20,10 +20,7 @@ inline Validity_report check_repairable(const Face_soup& soup, const Repair_para
     throw Out_of_range("gap " + number(gap) +
                        " is out of range: give a length >= 0 and at most 2^1000, about 1.07e301");
   check_length_of_delta(parameters.delta_length);
-  for (std::size_t i = 0; i < soup.corners.size(); ++i)
-    if (soup.corners[i] >= soup.points.size())
-      throw Error("corner " + std::to_string(i) + " of the list of faces is point " + std::to_string(soup.corners[i]) +
-                  ", but there are only " + std::to_string(soup.points.size()) + " points; give indices from 0");
+  check_corners(soup);
   check_attributes(soup);
   Validity_report report;
   for (std::size_t v = 0; v < soup.points.size(); ++v)
@@ -92,6 +89,10 @@ Repair_report repair(Mesh& mesh, const Repair_parameters& parameters = {}) {
     copy.collect_garbage();
   }
   Repair_report report = internal::repaired(face_soup(mesh.has_garbage() ? copy : mesh), parameters, result);
+  // A list of faces does not know that they are open: the mesh that is made of it has them sewn.
+  if (const std::size_t seams = report.is_repaired() ? internal::open_seams(mesh).size() : 0; seams != 0)
+    report.steps.insert(report.steps.begin(),
+                        {Repair_kind::stitch_edges, {{"pairs of open edges stitched", seams / 2}}, 0, {}});
   if (report.is_repaired() && !report.steps.empty())
     mesh = mesh_of<Mesh>(result);
   return report;

@@ -27,8 +27,20 @@ inline void check_length_of_delta(double delta) {
     throw Error("delta is a length: it must be finite and not negative, not " + number(delta));
 }
 
+/// Those that name a face on whose boundary they are not. \pre all others are consistent
+template <class Mesh>
+void find_halfedges_beside_their_faces(const Mesh& mesh, std::vector<typename Mesh::Halfedge_index>& found) {
+  std::vector<bool> is_on_face(mesh.num_halfedges(), false);
+  for (const auto f : mesh.faces())
+    for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f)))
+      is_on_face[h] = true;
+  for (const auto h : mesh.halfedges())
+    if (mesh.face(h) != Mesh::null_face() && !is_on_face[h])
+      found.push_back(h);
+}
+
 /// The half-edges of a mesh whose pointers lead nowhere, to something removed, or contradict each other, those of edges
-/// without faces, and those that their target does not know.
+/// without faces, those that their target does not know, and those that name a face on whose boundary they are not.
 /// Needs no trust in any pointer: each index is checked before it is followed.
 template <class Mesh>
 std::vector<typename Mesh::Halfedge_index> inconsistent_halfedges(const Mesh& mesh) {
@@ -50,9 +62,46 @@ std::vector<typename Mesh::Halfedge_index> inconsistent_halfedges(const Mesh& me
   for (const auto v : mesh.vertices())
     if (const auto h = mesh.halfedge(v); h != Mesh::null_halfedge() && (!lives(h) || mesh.target(h) != v))
       found.push_back(h);
+  if (found.empty())
+    find_halfedges_beside_their_faces(mesh, found);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+/// Half-edges without a face that run in both directions between the same two vertices: a list of faces would take
+/// their edges for one, with two faces. \pre the half-edges are consistent
+template <class Mesh>
+std::vector<typename Mesh::Halfedge_index> open_seams(const Mesh& mesh) {
+  std::vector<typename Mesh::Halfedge_index> open, found;
+  for (const auto h : mesh.halfedges())
+    if (mesh.face(h) == Mesh::null_face())
+      open.push_back(h);
+  const auto is_before = [&](const auto g, const auto h) {
+    return std::pair(mesh.source(g), mesh.target(g)) < std::pair(mesh.source(h), mesh.target(h));
+  };
+  std::sort(open.begin(), open.end(), is_before);
+  for (const auto h : open)
+    if (std::binary_search(open.begin(), open.end(), mesh.opposite(h), is_before))
+      found.push_back(h);
+  return found;
+}
+
+/// Names them in a report of what a list of faces tells.
+template <class Mesh>
+void report_open_seams(const Mesh& mesh, Validity_report& report) {
+  const auto seams = open_seams(mesh);
+  for (const auto h : seams) {
+    const auto [v, w] = std::minmax({mesh.source(h), mesh.target(h)});
+    report.boundary_edges.emplace_back(Validity_report::Vertex_index(static_cast<std::size_t>(v)),
+                                       Validity_report::Vertex_index(static_cast<std::size_t>(w)));
+  }
+  if (seams.empty())
+    return;
+  std::sort(report.boundary_edges.begin(), report.boundary_edges.end());
+  report.boundary_edges.erase(std::unique(report.boundary_edges.begin(), report.boundary_edges.end()),
+                              report.boundary_edges.end());
+  report.inside_out_components.clear(); // of a surface that is valid
 }
 
 /// Pairs of vertices at one point, by sorting; -0 and 0 are one coordinate.
@@ -85,7 +134,7 @@ inline void find_coincident_vertices(const Face_soup& soup, Validity_report& rep
 /// \param most_intersections stop after this many pairs of intersecting faces, at least one
 /// \param face_name the index under which each face is reported; empty: its place in the soup
 /// \param vertex_exists false for points that belong to nothing (removed vertices); empty: all exist
-/// \pre every corner is the index of a point
+/// \throw Error as `validate(mesh)`, and if a corner is no index of a point
 template <class Concurrency_tag = CGAL::Sequential_tag>
 Validity_report validate_soup(const Face_soup& soup, double delta = 0,
                               std::size_t most_intersections = Validity_report::default_most_intersections,
@@ -93,6 +142,7 @@ Validity_report validate_soup(const Face_soup& soup, double delta = 0,
   const internal::Rounding_to_nearest rounding;
   using Index = Face_soup::Index;
   internal::check_length_of_delta(delta);
+  internal::check_corners(soup);
   if (face_name.empty()) {
     face_name.resize(soup.number_of_faces());
     std::iota(face_name.begin(), face_name.end(), Index(0));
@@ -200,8 +250,10 @@ Validity_report validate(const Mesh& mesh, double delta = 0,
   std::vector<bool> vertex_exists(soup.points.size(), false);
   for (const auto v : mesh.vertices())
     vertex_exists[v] = true;
-  return validate_soup<Concurrency_tag>(soup, delta, most_intersections, std::move(face_name),
-                                        std::move(vertex_exists));
+  Validity_report report =
+      validate_soup<Concurrency_tag>(soup, delta, most_intersections, std::move(face_name), std::move(vertex_exists));
+  internal::report_open_seams(mesh, report);
+  return report;
 }
 
 } // namespace haptic_sculpt

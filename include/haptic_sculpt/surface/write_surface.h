@@ -152,8 +152,7 @@ inline void prepare_ply(const Face_soup& soup, bool binary) {
     throw Write_error("vertices have " + std::to_string(soup.attributes.size()) + " attributes, of which a PLY file " +
                       "holds " + std::to_string(most_names - names.size()) + "; remove some");
   for (const Vertex_attribute& attribute : soup.attributes) {
-    const bool is_word = !attribute.name.empty() && std::all_of(attribute.name.begin(), attribute.name.end(),
-                                                                [](unsigned char c) { return c > ' ' && c != 0x7f; });
+    const bool is_word = is_single_word(attribute.name);
     const bool is_normal = attribute_in_words(attribute.name) == "normals"; // they are not read
     if (!is_word || is_normal || !names.insert(attribute.name).second)
       throw Write_error("PLY cannot name the attribute " + in_quotes(attribute.name) + " of vertices: it " +

@@ -8,6 +8,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cfenv>
 #include <cmath>
 #include <string>
 
@@ -23,6 +24,9 @@ BOOST_AUTO_TEST_CASE(paths_are_read_or_refused_by_line_and_column) {
   BOOST_TEST(path.at(0.99).button == 0);
   BOOST_TEST(path.at(1).button == 1);
   BOOST_TEST(path.at(7).velocity == Vector3d::Zero());
+  std::fesetround(FE_UPWARD); // a caller's
+  BOOST_TEST((Hand_path::parse("t,x,y,z,button\n0,0.1,1e-2,0.3,0\n", "p").at(0).position == Vector3d(0.1, 1e-2, 0.3)));
+  std::fesetround(FE_TONEAREST);
   const auto refused = [](const char* text, const char* where) {
     try {
       Hand_path::parse(text, "p");

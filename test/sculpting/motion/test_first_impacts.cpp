@@ -11,7 +11,9 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <set>
+#include <vector>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -194,6 +196,24 @@ BOOST_AUTO_TEST_CASE(simultaneous_firsts_agree_with_all_pairs_over_rationals) {
   }
   BOOST_TEST(wrong == 0u);
   BOOST_TEST(several > 50u);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_asked_of_open_meshes_and_polygons) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+  const auto face = *mesh.faces().begin();
+  const auto at_the_hole = mesh.target(mesh.halfedge(face));
+  CGAL::Euler::remove_face(mesh.halfedge(face), mesh);
+  const auto inside = *std::find_if(mesh.vertices().begin(), mesh.vertices().end(),
+                                    [&](const Vertex_index v) { return !mesh.is_border(v); });
+  BOOST_CHECK_THROW(first_impacts(mesh, at_the_hole, Point_3(0, 0, 0)), Error);
+  BOOST_TEST(first_impacts(mesh, inside, mesh.point(inside)).empty());
+  Mesh square;
+  std::vector<Vertex_index> corners;
+  for (const Point_3& p : {Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(1, 1, 0), Point_3(0, 1, 0)})
+    corners.push_back(square.add_vertex(p));
+  square.add_face(corners);
+  const Vertex_index beside = square.add_vertex(Point_3(0.25, 0.75, 1));
+  BOOST_CHECK_THROW(first_impacts(square, beside, Point_3(0.25, 0.75, -1)), Error); // through it
 }
 
 BOOST_AUTO_TEST_CASE(broad_phases_miss_nothing) {

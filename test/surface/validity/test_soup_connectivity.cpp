@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is wrong with how faces hang together.
-#include <haptic_sculpt/surface/validate.h>
+#include <haptic_sculpt/surface/orient_components.h>
+#include <haptic_sculpt/surface/read_surface.h>
 
 #include "surface/index_lists.h"
+#include "surface/open_edge.h"
 #include "surface/soup_of.h"
 
 #include <meshes/generated_meshes.h>
@@ -131,6 +133,31 @@ BOOST_AUTO_TEST_CASE(inconsistent_connectivity) {
   mesh.set_next(bare, mesh.opposite(bare));
   mesh.set_next(mesh.opposite(bare), bare);
   BOOST_TEST(validate(mesh).inconsistent_halfedges.size() == 2u);
+}
+
+// A list of the faces of such a mesh is that of a closed one.
+BOOST_AUTO_TEST_CASE(holes_of_two_edges) {
+  Mesh mesh = to_mesh(meshes::cube());
+  const auto h = mesh.halfedge(F(3));
+  const Pairs ends = {std::minmax<std::uint32_t>({mesh.source(h), mesh.target(h)})};
+  const auto own = haptic_sculpt::test::open_edge(mesh, h);
+  BOOST_TEST(mesh.is_valid());
+  BOOST_TEST(validate_soup(haptic_sculpt::face_soup(mesh)).is_valid());
+  const auto report = validate(mesh);
+  BOOST_TEST(pairs(report.boundary_edges) == ends);
+  BOOST_TEST(report.number_of_faults() == 1u);
+  // Its half-edges say that they are of a face whose boundary is elsewhere.
+  for (const auto open : {h, mesh.opposite(own)})
+    mesh.set_face(open, F(0));
+  BOOST_TEST(validate(mesh).inconsistent_halfedges.size() == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(corners_that_are_no_points) {
+  auto soup = soup_of(meshes::tetrahedron());
+  soup.corners[5] = 70000000;
+  BOOST_CHECK_THROW(validate_soup(soup), haptic_sculpt::Error);
+  BOOST_CHECK_THROW(haptic_sculpt::make_surface<Mesh>(soup), haptic_sculpt::Error);
+  BOOST_CHECK_THROW(haptic_sculpt::orient_components(soup), haptic_sculpt::Error);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -20,6 +20,7 @@ namespace haptic_sculpt {
 class Edit_journal {
 public:
   /// \param most_age in ticks \param entries_a_tick room, in the mean; a slide makes a move a leg, mostly one
+  /// \pre their product is a number that memory may have room for
   explicit Edit_journal(std::uint64_t most_age, std::size_t entries_a_tick = 36)
       : most_age_(most_age), queue_((most_age + 2) * entries_a_tick), waiting_(most_age + 2) {}
 

@@ -30,8 +30,8 @@ public:
   /// call Sculptor::forget_history() first.
   Loop_session(Loop& loop, Scene& scene, Command_queue<Scene>* queue, Feed* feed, Edit_journal* journal)
       : loop_(&loop), scene_(&scene), queue_(queue), feed_(feed), journal_(journal) {
+    tasks_.reserve(most_tasks); // may throw: then no tool keeps the journal of a session that never was
     loop.tool().keep_journal(journal);
-    tasks_.reserve(most_tasks);
   }
   /// What is under way is answered as by end().
   ~Loop_session() {

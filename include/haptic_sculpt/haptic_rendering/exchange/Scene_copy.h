@@ -81,7 +81,8 @@ public:
   ///@}
 
   /// The mesh, vertices in the order of their numbers, each face with the corner first that it had: a file of it is the
-  /// one that the mesh itself would be written to in that order (Write_parameters::vertex_order()). \pre is_whole()
+  /// one that the mesh itself, without attributes, would be written to in that order
+  /// (Write_parameters::vertex_order()). \pre is_whole()
   template <class Mesh>
   Mesh mesh() const {
     std::vector<std::uint32_t> order;

@@ -90,8 +90,9 @@ public:
     const internal::Rounding_to_nearest rounding;
     const Eigen::Vector3d handle = has_place_ ? interaction_.side().position() : map_.home();
     const Eigen::Vector3d place = has_place_ ? place_ : map_.origin();
-    map_.pinned(handle, place, map_.scale() * zoom_ * factor); // throws here, not in a tick
-    zoom_ *= factor, is_map_due_ = true;
+    const double zoom = zoom_ * factor;
+    map_.pinned(handle, place, map_.scale() * zoom); // throws here, not in a tick
+    zoom_ = zoom, is_map_due_ = true;
   }
   bool is_clutch_open() const { return is_clutch_open_; } ///< the tool does not follow the handle
   ///@}

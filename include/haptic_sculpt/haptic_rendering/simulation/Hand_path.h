@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/Error.h>
+#include <haptic_sculpt/Rounding_to_nearest.h>
 
 #include <Eigen/Core>
 
@@ -76,6 +77,7 @@ inline Hand_path Hand_path::parse(std::string_view text, const std::string& name
   const auto fail = [&](std::size_t line, std::size_t column, const std::string& what) {
     throw Hand_path_error(name + ": line " + std::to_string(line) + ", column " + std::to_string(column) + ": " + what);
   };
+  const internal::Rounding_to_nearest rounding; // decimals are read by it
   std::vector<Row> rows;
   std::size_t number = 0;
   while (!text.empty()) {

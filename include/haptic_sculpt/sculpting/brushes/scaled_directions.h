@@ -48,9 +48,10 @@ auto vertex_normal(const Mesh& mesh, typename Mesh::Vertex_index v) {
   const int exponent = internal::exponent_to_one(size);
   auto sum = mesh.point(v) - mesh.point(v);
   for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
-    sum = sum - CGAL::cross_product(
-                    internal::times_power_of_two(mesh.point(mesh.source(h)) - mesh.point(v), exponent),
-                    internal::times_power_of_two(mesh.point(mesh.target(mesh.next(h))) - mesh.point(v), exponent));
+    if (!mesh.is_border(h))
+      sum = sum - CGAL::cross_product(
+                      internal::times_power_of_two(mesh.point(mesh.source(h)) - mesh.point(v), exponent),
+                      internal::times_power_of_two(mesh.point(mesh.target(mesh.next(h))) - mesh.point(v), exponent));
   return internal::unit_vector(sum);
 }
 

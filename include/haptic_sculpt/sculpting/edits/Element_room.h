@@ -4,6 +4,9 @@
 #include <haptic_sculpt/sculpting/edits/Mesh_watch.h>
 #include <haptic_sculpt/sculpting/edits/Vertex_ids.h>
 
+#include <limits>
+#include <new>
+
 namespace haptic_sculpt::internal {
 
 /// Makes room in a mesh, and in all that is kept for each of its elements, for an edit that is about to begin: no array
@@ -44,8 +47,9 @@ public:
                              slots(mesh_->num_faces(), born.faces, free.faces)};
     if (needed.vertices > room_.vertices || needed.edges > room_.edges || needed.faces > room_.faces ||
         points() != points_)
-      reserve({std::max(needed.vertices, grown(mesh_->num_vertices())),
-               std::max(needed.edges, grown(mesh_->num_edges())), std::max(needed.faces, grown(mesh_->num_faces()))});
+      reserve({std::max(needed.vertices, std::min(grown(mesh_->num_vertices()), most)),
+               std::max(needed.edges, std::min(grown(mesh_->num_edges()), most / 2)),
+               std::max(needed.faces, std::min(grown(mesh_->num_faces()), most))});
     if (insertions > insertions_)
       reserve_insertions(std::max(insertions, usual_insertions));
     insertions_ -= insertions;
@@ -60,6 +64,7 @@ public:
 
 private:
   static constexpr std::size_t usual_insertions = 64; ///< asked for at once
+  static constexpr std::size_t most = std::numeric_limits<typename Mesh::size_type>::max(); ///< of half-edges, too
 
   Mesh* mesh_;
   Broad_phase* broad_phase_;
@@ -74,6 +79,8 @@ private:
 
   void reserve(const Elements& room) {
     using Size = typename Mesh::size_type;
+    if (room.vertices > most || room.edges > most / 2 || room.faces > most)
+      throw std::bad_alloc();
     mesh_->reserve(static_cast<Size>(room.vertices), static_cast<Size>(room.edges), static_cast<Size>(room.faces));
     corners_->reserve(room.faces);
     watch_->reserve(room.vertices);

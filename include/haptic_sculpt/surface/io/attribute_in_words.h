@@ -9,6 +9,11 @@
 
 namespace haptic_sculpt::internal {
 
+/// Whether a file of words can name a property so.
+inline bool is_single_word(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) { return c > ' ' && c != 0x7f; });
+}
+
 /// What is lost with a property of a PLY file, for people.
 inline std::string attribute_in_words(const std::string& name) {
   const auto is_one_of = [&](std::initializer_list<const char*> names) {

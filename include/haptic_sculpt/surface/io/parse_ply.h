@@ -209,7 +209,8 @@ inline Face_soup parse_ply(std::string_view bytes) {
       const auto has_this_name = [&](const Vertex_attribute& a) { return a.name == property.name; };
       const bool is_new = property.name != "x" && property.name != "y" && property.name != "z" &&
                           std::none_of(soup.attributes.begin(), soup.attributes.end(), has_this_name);
-      if (is_vertex && !property.length_type && is_new && attribute_in_words(property.name) != "normals") {
+      if (is_vertex && !property.length_type && is_new && is_single_word(property.name) &&
+          attribute_in_words(property.name) != "normals") {
         soup.attributes.push_back({property.name, property.type, {}});
         attributes.push_back(i);
       } else {

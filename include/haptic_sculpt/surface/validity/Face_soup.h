@@ -42,8 +42,12 @@ struct Face_soup {
     return corners.data() + first_corner[face + 1];
   }
 
-  /// Appends a point. Every coordinate of a file comes through here.
-  void add_point(double x, double y, double z) { points.emplace_back(x, y, z); }
+  /// Appends a point. Every coordinate of a file comes through here. \throw Read_error for 2^32 points and more
+  void add_point(double x, double y, double z) {
+    if (points.size() >= std::numeric_limits<Index>::max())
+      throw Read_error("there are 2^32 points or more");
+    points.emplace_back(x, y, z);
+  }
 
   /// Notes what is not read, once.
   void leave_out(const std::string& what) {
@@ -74,6 +78,14 @@ struct Face_soup {
 };
 
 namespace internal {
+
+/// \throw Error where a corner is no index of a point
+inline void check_corners(const Face_soup& soup) {
+  for (std::size_t i = 0; i < soup.corners.size(); ++i)
+    if (soup.corners[i] >= soup.points.size())
+      throw Error("corner " + std::to_string(i) + " of the list of faces is point " + std::to_string(soup.corners[i]) +
+                  ", but there are only " + std::to_string(soup.points.size()) + " points; give indices from 0");
+}
 
 /// \throw Error where an attribute has not one value for each point
 inline void check_attributes(const Face_soup& soup) {
