@@ -12,7 +12,7 @@ import time
 
 from box_mesh import box
 from program_runs import FURTHER as WINDOW, PATIENCE, bytes_of, check, end, points, run, write
-from virtual_display import Display, Hand
+from virtual_display import Display, Hand, environment_on
 
 display = Display()
 hand = Hand(display)
@@ -48,12 +48,10 @@ where @0.5,-0.5,1
 where @0.5,-0.5,1.5
 where @-0.5,-0.5,1
 """)
-environment = dict(os.environ, DISPLAY=display.name, LP_NUM_THREADS="1")
-environment.pop("WAYLAND_DISPLAY", None)
 SIZE = 800, 600
 hand.move(SIZE[0] - 5, SIZE[1] - 5)
 process = subprocess.Popen([WINDOW, mesh, "--log", log, "-o", saved, "--record", record, "--size", *map(str, SIZE), "--samples", "0", "--script", script],
-                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, cwd=folder)
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment_on(display.name), cwd=folder)
 atexit.register(process.kill)
 places = [json.loads(process.stdout.readline())["where"] for _ in range(5)]
 vertex, goal, second, above, third = places

@@ -15,6 +15,18 @@ import time
 SKIPPED = 77  # what CMake takes for skipped
 
 
+def environment_on(display):
+    """Of a program with a window on the display of this name; empty, or None: there is none."""
+    environment = dict(os.environ, LP_NUM_THREADS="1")
+    # Drivers of OpenGL leak, and are unloaded when that is looked at: nothing would tell them from others.
+    environment.setdefault("ASAN_OPTIONS", "detect_leaks=0")
+    environment.pop("DISPLAY", None)
+    environment.pop("WAYLAND_DISPLAY", None)
+    if display:
+        environment["DISPLAY"] = display
+    return environment
+
+
 class Display:
     """Ends the test as skipped where there is no Xvfb; ends with the test."""
 

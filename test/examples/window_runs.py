@@ -11,7 +11,7 @@ import tempfile
 import zlib
 
 from program_runs import FURTHER as WINDOW, PATIENCE, bytes_of, check, run, write
-from virtual_display import Display
+from virtual_display import Display, environment_on
 
 folder = tempfile.mkdtemp()
 at = lambda name: os.path.join(folder, name)
@@ -19,16 +19,9 @@ display = Display()
 
 
 def start(*arguments, script="", display=display.name, disk=None):
-    environment = dict(os.environ, LP_NUM_THREADS="1")
-    # Drivers of OpenGL leak, and are unloaded when that is looked at: nothing would tell them from others.
-    environment.setdefault("ASAN_OPTIONS", "detect_leaks=0")
-    environment.pop("DISPLAY", None)
-    environment.pop("WAYLAND_DISPLAY", None)
-    if display:
-        environment["DISPLAY"] = display
     path = write(at("script.txt"), script)
     return subprocess.Popen([WINDOW, *map(str, arguments), "--script", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env=environment, cwd=folder, preexec_fn=disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk))))
+                            env=environment_on(display), cwd=folder, preexec_fn=disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk))))
 
 
 def window(*arguments, script="", code=0, what="window", display=display.name, disk=None, patience=PATIENCE):
