@@ -113,7 +113,7 @@ private:
       return say(error.what()), failed;
     }
   }
-  /// It is in any range of CLI11.
+  /// A range of CLI11 lets it pass: it is neither below nor above.
   void refuse_nan() const {
     for (const CLI::Option* option : app_.get_options())
       for (const std::string& value : option->results())

@@ -75,8 +75,7 @@ struct Run_files {
   /// Output and input that may be one: that is what one asks of an editor. Empty: none may.
   std::string replaced_by, replaced;
 
-  /// \throw Usage_error where an output is another output, an input, or a file that a standard stream goes to; says
-  /// which
+  /// \throw Usage_error where an output is another output, an input, or the file of a standard stream; says which
   void check_apart() const {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       const Named_file& output = outputs[i];

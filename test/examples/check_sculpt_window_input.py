@@ -50,8 +50,10 @@ where @-0.5,-0.5,1
 """)
 SIZE = 800, 600
 hand.move(SIZE[0] - 5, SIZE[1] - 5)
-process = subprocess.Popen([WINDOW, mesh, "--log", log, "-o", saved, "--record", record, "--size", *map(str, SIZE), "--samples", "0", "--script", script],
-                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment_on(display.name), cwd=folder)
+process = subprocess.Popen([WINDOW, mesh, "--log", log, "-o", saved, "--record", record, "--size", *map(str, SIZE),
+                            "--samples", "0", "--script", script],
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                           env=environment_on(display.name), cwd=folder)
 atexit.register(process.kill)
 places = [json.loads(process.stdout.readline())["where"] for _ in range(5)]
 vertex, goal, second, above, third = places

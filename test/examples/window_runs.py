@@ -20,8 +20,10 @@ display = Display()
 
 def start(*arguments, script="", display=display.name, disk=None):
     path = write(at("script.txt"), script)
-    return subprocess.Popen([WINDOW, *map(str, arguments), "--script", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env=environment_on(display), cwd=folder, preexec_fn=disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk))))
+    limit = disk and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (disk, disk)))
+    return subprocess.Popen([WINDOW, *map(str, arguments), "--script", path], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True, env=environment_on(display), cwd=folder,
+                            preexec_fn=limit)
 
 
 def window(*arguments, script="", code=0, what="window", display=display.name, disk=None, patience=PATIENCE):

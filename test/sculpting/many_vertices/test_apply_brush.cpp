@@ -78,6 +78,14 @@ double length_between(const Point_3& p, const Point_3& q) {
 
 } // namespace
 
+BOOST_AUTO_TEST_CASE(the_gap_of_a_boundary_is_no_face_of_a_normal) {
+  Mesh mesh;
+  const auto a = mesh.add_vertex({0, 0, 0}), b = mesh.add_vertex({3, 0, 0}), c = mesh.add_vertex({0, 4, 0});
+  mesh.add_face(a, b, c);
+  for (const auto v : {a, b, c})
+    BOOST_TEST((vertex_normal(mesh, v) == Mesh::Point(0, 0, 1) - Mesh::Point(0, 0, 0)));
+}
+
 BOOST_AUTO_TEST_CASE(a_dab_goes_where_its_formula_says_and_no_farther_from_there) {
   std::mt19937_64 random(seed_from_environment(3201));
   const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };

@@ -206,7 +206,9 @@ BOOST_AUTO_TEST_CASE(what_is_asked_of_open_meshes_and_polygons) {
   const auto inside = *std::find_if(mesh.vertices().begin(), mesh.vertices().end(),
                                     [&](const Vertex_index v) { return !mesh.is_border(v); });
   BOOST_CHECK_THROW(first_impacts(mesh, at_the_hole, Point_3(0, 0, 0)), Error);
-  BOOST_TEST(first_impacts(mesh, inside, mesh.point(inside)).empty());
+  const auto p = mesh.point(inside);
+  BOOST_TEST(first_impacts(mesh, inside, Point_3(2 * p.x(), 2 * p.y(), 2 * p.z())).empty());
+  BOOST_TEST(!first_impacts(mesh, inside, Point_3(-2 * p.x(), -2 * p.y(), -2 * p.z())).empty());
   Mesh square;
   std::vector<Vertex_index> corners;
   for (const Point_3& p : {Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(1, 1, 0), Point_3(0, 1, 0)})
