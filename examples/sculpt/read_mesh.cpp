@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "read_mesh.h"
 
-#include "divide_polygon.h"
 #include "refusal.h"
 
+#include <haptic_sculpt/surface/divide_polygon.h>
 #include <haptic_sculpt/surface/read_surface.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 """check_shards.py ROOT PROGRAM ...: the merged report of three shards is that of the run without shards, but for times.
 
 And the merge refuses what is not one whole run: a shard left out, given twice, or of another seed. A program that is given a mesh
-says so where it cannot be read."""
+says so where it cannot be read. Whole numbers are decimal, and what is none is refused."""
 import json
 import math
 import pathlib
@@ -18,7 +18,7 @@ import merge_shards
 SHARDS = 3
 OPTIONS = {"robustness": "--drags 40 --edits 40 --batch 20 --edit-batch 20 --extreme 20", "drag_speed_error": "--drags 6",
            "edit_performance": "--samples 20 --largest 6000 --largest-valence 16", "certify_ends": "--drags 3 --per-scene 1 --ways 20",
-           "device_speed_error": "--count 64", "axis_speed_error": "--queries 30", "haptic_passivity": "--parts rate",
+           "device_speed_error": "--count 64", "axis_speed_error": "--queries 030", "haptic_passivity": "--parts rate",
            "brush_dabs": "--level 3 --dabs 4 --vertices 40", "threads": "--level 3 --moves 2 --threads 1,2", "validation": "--largest 1000",
            "response_quality": "--drags 3", "sweep_speed_error": "--queries 10", "many_vertices_speed_error": "--rounds 1 --mesh MESH",
            "guard_for_cgal": "--quick --drags-a-vertex 2 --iterations 1 --no-large", "simplification": "--level 2",
@@ -104,6 +104,13 @@ for program in sys.argv[2:]:
         shards[1].write_text(json.dumps(other))
         if "seed" in reports[0] and merge_of(shards, folder)[1] != 2:
             faults.append(f"{name}: a shard of another seed is merged")
+        if name == "axis_speed_error" and reports[0]["queries_per_population"] != 30:
+            faults.append(f"{name}: --queries 030 is {reports[0]['queries_per_population']}")
+        wrong_numbers = [("--seed", "-1"), ("--seed", "0x10")] if "seed" in reports[0] else []
+        for option, number in wrong_numbers + [("--queries", "0")] * (name == "axis_speed_error"):
+            refused = subprocess.run([program, option, number], capture_output=True, text=True, timeout=100)
+            if refused.returncode != 2 or option not in refused.stderr or len(refused.stderr) > 300:
+                faults.append(f"{name}: {option} {number}: exit {refused.returncode}, {refused.stderr}")
         if name in MESH_OPTION:
             command = [program, MESH_OPTION[name], str(folder / "lost.off")]
             lost = subprocess.run(command, capture_output=True, text=True)

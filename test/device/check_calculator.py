@@ -55,6 +55,7 @@ expect_errors(['{"params":{},"op":"forward","form":' + "[" * 500000 + "]" * 5000
 expect_errors(["[" * 50000000, " " * (2**20 - len(good_line) + 1) + good_line, '"' + "a" * 2**21], "line_too_long", None if "sanitize" in program else 3 * 2**30)
 expect_errors(["[" + "[]," * 300000 + "[]]", "[" + "1," * 1000 + "1]", '{"x":[' + "1," * 999 + "1]}"], "too_many_values")
 expect_errors(['"' + "a" * 1000000, "\x00\x01\x1b[31m", good_line + "\x00 }{"], "malformed_json")
+expect(answers([good_line, '{"op":,}'])[1].get("message", "").startswith("line 2, column 7"), "the line of the input")
 just, deep, many = answers([" " * (2**20 - len(good_line)) + good_line, nested(32), good_line[:-1] + ', "x": [' + "1," * 900 + "1]}"])
 expect(many.get("ok") is True and many.get("unknown_keys") == ["x"], "many values", many)
 expect(just.get("ok") is True and "unknown_keys" not in just, "a line of the greatest length", just)
@@ -124,6 +125,7 @@ with tempfile.TemporaryDirectory() as folder:
         expect(len(open(samples).read().splitlines()) > 100, "samples are written, and stay where a device is refused")
     expect(workspace(samples, f"{folder}/none.json").returncode == 3, "a device that is not there")
     expect(workspace("/dev/full", device).returncode == 5, "samples that cannot be written")
+    expect(workspace(samples, samples).returncode == 2, "one file twice")
     with open(device, "w") as file:
         file.write(good)
     os.symlink(device, f"{folder}/link.txt")

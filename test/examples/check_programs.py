@@ -207,6 +207,12 @@ def targets(folder, mesh):
         fails(2, parts + ["one file"], loop(mesh, "--no-wait", *options), f"haptic_loop {options}")
     fails(2, [".png"], loop(mesh, "--no-wait", "--picture", mesh), "a picture over the mesh")
     check(bytes_of(mesh) == before and open(script).read() == DRAGS, "an input was written over")
+    for program in (SCULPT, LOOP):  # in a working folder that is no longer there
+        gone = plain("gone")
+        os.mkdir(gone)
+        done = subprocess.run([program, mesh, "-o", "o.off", "--report", "r.json"], cwd=gone, capture_output=True,
+                              text=True, timeout=PATIENCE, preexec_fn=lambda: os.rmdir(gone))
+        fails(5, ["o.off", "has been removed"], done, "a folder that has been removed")
     kept = write(plain("kept.csv"), "kept")
     fails(3, [], loop(write(plain("open.off"), TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", "")), "--no-wait", "--trace", kept, "--record", plain("r")), "a mesh that is refused")
     check(open(kept).read() == "kept" and not os.path.exists(plain("r")), "a run that was refused spoils an old trace")
@@ -267,9 +273,11 @@ def recordings(folder, mesh):
     for key, value in (("rate", -1.0), ("rate", 5), ("work", 0), ("work", -1), ("work", 1.5), ("map", [1, 2]), ("map", [0, 0, 0, 0]), ("delay", 99), ("stiffness", -1),
                        ("damping", -1), ("damping", 1e6), ("reach", -1), ("reach", 0), ("reach", 5e-324),
                        ("reach", 1.0000001), ("work", 2 * 10**15), ("snap", [0.1, 0.1, 0]), ("map", [1e308, 0, 0, 0]),
-                       ("virtual_mass", 11), ("compensated_inertia", 0.5), ("controller", -1)):
+                       ("virtual_mass", 11), ("compensated_inertia", 0.5), ("controller", -1), ("rate", "x"),
+                       ("delay", []), ("reach", None), ("work", "x"), ("map", [None]), ("map", {}), ("snap", ["x", 0]),
+                       ("virtual_mass", "x"), ("controller", "x"), ("compensated_inertia", "x"), ("device", 1)):
         bad = write(f"{folder}/bad.rec", json.dumps({**json.loads(head), key: value}) + "\n" + rest)
-        fails(6, [key], loop(mesh, "--replay", bad), f"a recording with {key} = {value}")
+        fails(6, [key, "bad.rec"], loop(mesh, "--replay", bad), f"a recording with {key} = {value}")
     check(loop(mesh, "--replay", recording).returncode == 0, "the recording itself")
     line = rest.split("\n")[2].split()
     for change in ([*line, "more"], [*line[:6], "99999999999999999999999", line[7]], [*line[:6], "7", line[7]], line[:7]):
@@ -302,6 +310,15 @@ def words(folder, mesh):
     for never in (["--fault", "nan@inf"], ["--fault", "nan@1e300"], ["--fault", "nan@1", "--seconds", "1"]):
         fails(2, ["--fault"], loop(mesh, *never), f"a fault that never comes: {never}")
     fails(2, ["--reach"], loop(mesh, "--reach", "0"), "no reach")
+    for number in ("-1", "+400", "0x400", "18446744073709551616", "4e2"):
+        fails(2, ["--work", number], loop(mesh, "--work", number), "what is no whole number")
+        fails(2, ["--repair-largest-hole", number], run(mesh, "--repair", "--repair-largest-hole", number),
+              "what is no whole number")
+    for number in ("0400", "0900"):  # decimal all the same
+        done = loop(BALL, "--no-wait", "--seconds", "0.01", "--work", number, "--report", f"{folder}/work.json")
+        check(done.returncode == 0, f"--work {number}: {done.stderr}")
+        check(json.load(open(f"{folder}/work.json"))["settings"]["work"] == int(number), f"--work {number}")
+    check(run(mesh, "--repair", "--repair-largest-hole", "09").returncode == 0, "--repair-largest-hole 09")
     with open("/dev/full", "w") as full:
         for program in (SCULPT, LOOP):
             for option in ("--help", "--version") if program == SCULPT else ("--help",):

@@ -514,6 +514,11 @@ def queries(folder):
     fails(2, ["line 2", "column 1"], ask(vertex_face + "VX 1\n"), "unknown kind")
     fails(2, ["line 1", "column 6"], ask(vertex_face.replace("0.25 0.25 1", "0.25x 0.25 1").replace("VF 0.25x", "VF 0 zz")), "bad number")
     fails(2, ["line 1", "finite"], ask(vertex_face.replace("-1", "inf")), "infinite coordinate")
+    fails(2, ["line 1", "column 4", r"'\x1b[31m'"], ask("VF \x1b[31m\n"), "a word that a terminal would obey")
+    check(len(ask("VF " + "x" * 60000).stderr) < 200, "a long word is not quoted whole")
+    fails(2, ["line 2", "longer than 65536 bytes"], ask(vertex_face + "\0" * 100000), "a line that does not end")
+    last = vertex_face.strip()
+    check(ask(vertex_face + "# " + "x" * 60000 + "\n\n" + last).stdout == "1 1/2\n" * 2, "the last line without an end")
     fails(2, ["line 1"], ask("VF 1 2 3\n"), "short line")
     fails(2, ["none.txt"], run(f"{folder}/none.txt", program=QUERIES), "missing queries")
 

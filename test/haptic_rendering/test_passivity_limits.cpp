@@ -273,4 +273,20 @@ BOOST_AUTO_TEST_CASE(limits_permit_what_is_both_passive_and_calm) {
   BOOST_TEST(Pose_loop_parameters::without_force().largest_controller() == 0);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_set_by_default_is_permitted_whatever_the_device_weighs) {
+  Pose_loop_parameters pose(2);
+  pose.device.mass = 1e9;
+  BOOST_TEST(pose.largest_controller() == Passivity_controller::largest_damping);
+  Device_description<double> description = device(Device_form::ditetrahedral).description();
+  description.platform_mass = 400.5;
+  const Device_parameters<double> heavy(description);
+  const Vector3d home = home_pose(heavy)->position, box(0.01, 0.01, 0.01);
+  const Workspace_map map(1, Vector3d(0, 0, 0), Vector3d(0, 0, 0), home);
+  const Passivity_limits limits = passivity_limits(heavy, Force_limits(), map, Vector3d(-box), box, 0, 1e-3, 0);
+  BOOST_TEST(limits.default_controller() > 0);
+  BOOST_CHECK_NO_THROW(Passivity_controller(limits.default_controller(), 1e-3));
+  // Exact places are written as -0, too.
+  BOOST_TEST(calm_stiffness(-0.0, 1) == std::numeric_limits<double>::infinity());
+}
+
 } // namespace

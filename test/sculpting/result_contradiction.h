@@ -32,6 +32,8 @@ const char* contradiction(const Drag_result<Mesh>& r, const Point& source, const
   }
   if (r.end == Drag_end::no_progress && r.position != source)
     return "no progress, but another place";
+  if (r.end == Drag_end::no_progress && !r.contacts.empty())
+    return "no progress, but contacts that hold it";
   if (r.end == Drag_end::leg_limit && r.legs == 0)
     return "the limit of legs, without legs";
   if (r.end == Drag_end::held && r.contacts.empty())

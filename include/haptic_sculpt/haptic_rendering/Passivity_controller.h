@@ -14,9 +14,11 @@ namespace haptic_sculpt {
 /// A net, not a licence: what it can take in a tick is bounded, because too strong a damper is unstable itself.
 class Passivity_controller {
 public:
+  static constexpr double largest_damping = 1e5; ///< that one may have, N s/m: beyond it a number is a wrong unit
+
   /// \param most_damping of the damper, N s/m; 0: never there \param tick s \throw Error naming what cannot be used
   Passivity_controller(double most_damping, double tick) : most_damping_(most_damping), tick_(tick) {
-    internal::require_number("the most damping of a Passivity_controller", "N s/m", most_damping, 0, 1e5);
+    internal::require_number("the most damping of a Passivity_controller", "N s/m", most_damping, 0, largest_damping);
     internal::require_tick("the tick of a Passivity_controller", tick);
   }
 

@@ -6,6 +6,7 @@
 #include <haptic_sculpt/device/simulation/Torque_delay.h>
 #include <haptic_sculpt/haptic_rendering/Force_limit.h>
 #include <haptic_sculpt/haptic_rendering/Acceleration_estimate.h>
+#include <haptic_sculpt/haptic_rendering/Passivity_controller.h>
 #include <haptic_sculpt/haptic_rendering/Virtual_coupling.h>
 #include <haptic_sculpt/haptic_rendering/critical_gains.h>
 #include <haptic_sculpt/haptic_rendering/reach_position.h>
@@ -34,7 +35,8 @@ constexpr double largest_restlessness = 0.1;
 /// count. Infinite for exact places.
 /// \param count way of the handle in one of them, m \param damping b, N s/m
 inline double calm_stiffness(double count, double damping) {
-  return largest_restlessness / (std::sqrt(3.0) * count) - Velocity_estimate::change_of_way(std::abs(damping));
+  return largest_restlessness / (std::sqrt(3.0) * std::abs(count)) -
+         Velocity_estimate::change_of_way(std::abs(damping));
 }
 
 /// Where the device gives least friction, or has least mass, at the handle, for what is rendered there.
@@ -233,7 +235,8 @@ inline Passivity_limits passivity_limits(const Device_parameters<double>& parame
   // Beyond the friction it is not passive, whatever the stiffness, and a stiff hand may swing with it.
   found.largest_damping = std::fmin(found.friction, found.apparent_mass * largest_damping_rate(tick, delay));
   found.largest_controller =
-      found.apparent_mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity());
+      std::fmin(found.apparent_mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity()),
+                Passivity_controller::largest_damping);
   found.damping = damping, found.tick = tick, found.delay = delay, found.cutoff = cutoff, found.map = map;
   found.full_condition = limits.full_condition, found.no_condition = limits.no_condition;
   return found;

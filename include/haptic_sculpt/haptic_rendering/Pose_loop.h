@@ -43,7 +43,10 @@ struct Pose_loop_parameters {
   }
   /// The damping of a passivity controller that may be asked for, N s/m. 0 without force.
   double largest_controller() const {
-    return has_force() ? device.mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity()) : 0;
+    return has_force()
+               ? std::fmin(device.mass * largest_damping_rate(tick, delay, std::numeric_limits<double>::infinity()),
+                           Passivity_controller::largest_damping)
+               : 0;
   }
 
   /// The virtual mass that may be asked for, kg: a share of that of the handle. 0 without force.

@@ -32,9 +32,9 @@ inline double step_through_workspace(const Device_parameters<double>& parameters
 /// poses.
 ///
 /// Newton's method on the position in steps of at most a millimetre (of arms longer than 1 m, a thousandth of them), to
-/// 1e-12 m. Failures: those of the kinematics on the way; `not_finite` for such a position; `unreachable` where the way
-/// leaves the joint limits or cond(J) exceeds `most_condition`, or no step comes nearer; shortfall the distance left,
-/// m.
+/// 1e-12 m. Failures: those of the kinematics on the way; `not_finite` for such a position, or one so far that the
+/// steps overflow; `unreachable` where the way leaves the joint limits or cond(J) exceeds `most_condition`, or no step
+/// comes nearer; shortfall the distance left, m.
 inline Outcome<Device_pose<double>> reach_position(const Device_parameters<double>& parameters,
                                                    const Device_pose<double>& start,
                                                    const Device_vector<double>& position, double most_condition = 50) {
@@ -43,25 +43,24 @@ inline Outcome<Device_pose<double>> reach_position(const Device_parameters<doubl
   const double longest_step = internal::step_through_workspace(parameters);
   Device_pose<double> pose = start;
   const Device_vector<double> way = position - start.position;
-  const double length = way.stableNorm();
-  if (!std::isfinite(length))
-    return Result(Device_status::not_finite, length);
   // No integer: of a place far off there are more than these hold, and few are taken.
-  const double steps = 1 + std::floor(length / longest_step);
+  const double steps = 1 + std::floor(way.stableNorm() / longest_step);
+  if (!way.allFinite() || !std::isfinite(steps)) // Eigen's norms may pass over what is no number
+    return Result(Device_status::not_finite, 0.0);
   for (double k = 1; k <= steps; ++k) {
     const Device_vector<double> aim = start.position + way * (k / steps);
     for (int iteration = 0; iteration < 20 && (aim - pose.position).norm() > precision; ++iteration) {
       const auto map = jacobian(parameters, pose);
       if (!map || !(translation_conditioning(*map).condition <= most_condition))
-        return Result(Device_status::unreachable, (position - pose.position).norm());
+        return Result(Device_status::unreachable, (position - pose.position).stableNorm());
       const Device_vector<double> turn = map->linear.partialPivLu().solve(aim - pose.position);
       const auto next = forward_kinematics(parameters, Device_vector<double>(pose.theta + turn), pose);
       if (!next)
-        return Result(next.status(), (position - pose.position).norm());
+        return Result(next.status(), (position - pose.position).stableNorm());
       pose = *next;
     }
     if ((aim - pose.position).norm() > precision || !within_joint_limits(parameters, pose.theta))
-      return Result(Device_status::unreachable, (position - pose.position).norm());
+      return Result(Device_status::unreachable, (position - pose.position).stableNorm());
   }
   return pose;
 }

@@ -77,7 +77,7 @@ private:
     sculptor_->set_hand(this);
   }
 
-  /// Another Grab takes the hand.
+  /// Another Grab takes the hand, or a drag has thrown.
   void note_place() noexcept {
     if (const Vertex_index v = vertex(); v.is_valid())
       place_ = sculptor_->mesh().point(v);
@@ -91,9 +91,14 @@ private:
       internal::check_point("the target", target);
       return Drag_result<Mesh>::stale_at(place_);
     }
-    Drag_result<Mesh> result = sculptor_->guarded_.drag(v, target, path, parameters);
-    place_ = result.position;
-    return result;
+    try {
+      Drag_result<Mesh> result = sculptor_->guarded_.drag(v, target, path, parameters);
+      place_ = result.position;
+      return result;
+    } catch (...) { // a visitor's, for instance, after the vertex has moved
+      note_place();
+      throw;
+    }
   }
 
   void take_over(Grab& other) noexcept {

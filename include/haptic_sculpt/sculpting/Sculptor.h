@@ -106,7 +106,7 @@ public:
   /// is. A step of the history. Returns whether it is at the target. \param drag unset: parameters().drag; of no effect
   /// are its response and clearance \throw Unknown_vertex, Out_of_range, Mesh_changed. Cost: that of a drag.
   bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& drag = std::nullopt) {
-    return guarded_.move_if_free(v, target, drag);
+    return guarded_.move_if_free(v, target, drag, parameters().delta_length);
   }
 
   /// What v would touch first on its straight way to `target`, as the free function first_impact() tells, at the cost

@@ -136,14 +136,9 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     const Point before = mesh.point(kept);
     const auto go_back = [&] {
       // It was free a moment ago: neither delta nor a bound on work has a say.
-      struct Without_delta {
-        double& delta;
-        const double kept = std::exchange(delta, 0.0);
-        ~Without_delta() { delta = kept; }
-      } const without_delta{guarded.parameters.delta_length};
       Drag_parameters unbounded = sculptor.parameters().drag;
       unbounded.work_limit_pairs.reset();
-      sculptor.move_if_free(kept, before, unbounded);
+      guarded.move_if_free(kept, before, unbounded, 0);
     };
     const Vertex_index dying = mesh.source(h);
     try {

@@ -61,7 +61,7 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
     if (vertex_coordinates(sculptor.mesh(), v.vertex) == v.target)
       ++report.reached;
     else
-      *left_behind++ = v.vertex;
+      ask(Sculptor_access::guarded(sculptor), [&] { *left_behind++ = v.vertex; });
   report.out_of_work = report.out_of_work && report.left() > 0; // drags may have done what an axis move was not to
   return report;
 }
@@ -76,7 +76,7 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
 /// \param vertices a range of vertices; one that is given again counts once
 /// \param target_map a model of `ReadablePropertyMap` from vertices to points
 /// \param left_behind an output iterator, told the vertices that are not at their targets at the end, in the order
-/// given
+/// given; it may look, and not edit
 ///
 /// All targets are read and checked before the first vertex moves. The whole is one stroke, one step of the history;
 /// none, where nothing has moved. Its own response is used, that of the Sculptor is as before afterwards.

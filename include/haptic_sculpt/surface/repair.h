@@ -33,7 +33,6 @@ inline Validity_report check_repairable(const Face_soup& soup, const Repair_para
 
 /// What repair() does, without a change where there is nothing to do. \param result receives the repaired soup
 inline Repair_report repaired(const Face_soup& soup, const Repair_parameters& parameters, Face_soup& result) {
-  const Rounding_to_nearest rounding;
   Repair_report report;
   report.left = check_repairable(soup, parameters);
   if (!report.left.is_valid()) {
@@ -61,11 +60,12 @@ inline Repair_report repaired(const Face_soup& soup, const Repair_parameters& pa
 /// Complexity: O(n log^3 n) and what CGAL's functions take where there are faults; a hole of h <= 500 edges up to
 /// O(h^3).
 inline Repair_report repair(Face_soup& soup, const Repair_parameters& parameters = {}) {
+  const internal::Rounding_to_nearest rounding;
   Face_soup result;
   Repair_report report = internal::repaired(soup, parameters, result);
   if (report.is_repaired() && !report.steps.empty()) {
+    internal::copy_attributes(soup, result); // which may throw
     result.left_out = std::move(soup.left_out);
-    internal::copy_attributes(soup, result);
     soup = std::move(result);
   }
   return report;
@@ -79,6 +79,7 @@ template <class Mesh>
 Repair_report repair(Mesh& mesh, const Repair_parameters& parameters = {}) {
   static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
                 "repair(mesh): it must be a CGAL::Surface_mesh whose points have double coordinates");
+  const internal::Rounding_to_nearest rounding;
   if (!internal::inconsistent_halfedges(mesh).empty())
     throw Error("cannot repair: the half-edges of the mesh contradict each other; give its points and faces as a "
                 "Face_soup");

@@ -127,6 +127,31 @@ BOOST_AUTO_TEST_CASE(a_hand_gives_what_its_springs_and_masses_lose_and_its_dampe
   BOOST_TEST(!Simulated_hand::named("Finger"));
 }
 
+// A tick is several steps, and the torque may change within it.
+BOOST_AUTO_TEST_CASE(a_device_stays_where_it_is_in_a_tick_in_which_it_cannot_move_on) {
+  const Hand_path path({{0, {0.004, 0.002, 0.136}, 0}});
+  std::size_t failed = 0;
+  for (const Device_form form : {Device_form::ditetrahedral, Device_form::general})
+    for (const double delay : {0.0, 0.3, 0.8})
+      for (const double torque : {1.0, -1.0}) {
+        const Device_parameters<double> parameters = device(form, 0.005);
+        Simulated_device simulated(parameters, *home_pose(parameters), Simulated_hand::finger(), path, 0.005, delay);
+        for (int k = 0; k < 50; ++k) {
+          const Device_state<double> before = simulated.state();
+          const double port = simulated.port(), dissipated = simulated.dissipated();
+          const Vector3d all(torque, torque, torque);
+          if (simulated.write(all, all) == Device_status::success)
+            continue;
+          ++failed;
+          BOOST_TEST((simulated.state().pose.theta == before.pose.theta));
+          BOOST_TEST((simulated.state().rate == before.rate));
+          BOOST_TEST(simulated.port() == port);
+          BOOST_TEST(simulated.dissipated() == dissipated);
+        }
+      }
+  BOOST_TEST(failed > 0u);
+}
+
 BOOST_AUTO_TEST_CASE(a_path_ends_with_its_last_row_and_a_delay_is_the_one_that_was_given) {
   BOOST_TEST(Hand_path({{0, {0, 0, 0}, 0}, {2.5, {1, 0, 0}, 0}}).end() == 2.5);
   BOOST_TEST(Torque_delay<double>(1.7).ticks() == 1.7);

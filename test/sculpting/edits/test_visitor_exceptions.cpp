@@ -200,3 +200,18 @@ BOOST_AUTO_TEST_CASE(an_undo_that_a_visitor_breaks_off_leaves_no_crossing) {
     BOOST_TEST(mesh.point(high).z() == heights[is_back][1]);
   }
 }
+
+BOOST_AUTO_TEST_CASE(a_grab_knows_where_its_vertex_is_when_a_visitor_has_thrown) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.05));
+  Throwing_sculptor sculptor(mesh);
+  const Vertex_index v(20);
+  auto grab = sculptor.grab(v);
+  const Mesh::Point home = mesh.point(v), place = home + meshes::Kernel::Vector_3(0.01, 0, 0);
+  sculptor.visitor().calls_left = 1;
+  BOOST_CHECK_THROW(grab.drag_to(place), Thrown);
+  BOOST_REQUIRE((mesh.point(v) == place)); // the move stands
+  BOOST_REQUIRE(static_cast<bool>(sculptor.remove(v)));
+  const auto stale = grab.drag_to(home);
+  BOOST_TEST((stale.end == Drag_end::stale));
+  BOOST_TEST((stale.position == place));
+}

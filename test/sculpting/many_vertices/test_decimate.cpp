@@ -303,6 +303,28 @@ BOOST_AUTO_TEST_CASE(what_was_drawn_goes_back_where_a_visitor_keeps_the_collapse
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_visitor_sees_the_parameters_that_were_set) {
+  struct Watching_visitor : haptic_sculpt::Default_edit_visitor {
+    const haptic_sculpt::Sculptor_parameters* parameters = nullptr;
+    std::size_t moves = 0, others = 0;
+    void vertex_moved(Mesh::Vertex_index) { ++moves, others += parameters->delta_length != 0x1p-10; }
+  };
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
+  Sculptor<Mesh, haptic_sculpt::Box_tree_broad_phase<Mesh>, Watching_visitor> sculptor(mesh);
+  sculptor.set_delta(0x1p-10);
+  sculptor.visitor().parameters = &sculptor.parameters();
+  // Places beside the surface: many a draw is for nothing, and goes back.
+  const auto placement = [](const auto& profile) {
+    return boost::optional<meshes::Point_3>(CGAL::midpoint(profile.p0(), profile.p1()) +
+                                            meshes::Kernel::Vector_3(0.2, 0, 0));
+  };
+  const auto stop = [](const auto&, const auto&, std::size_t, std::size_t edges) { return edges < 100; };
+  const auto report = haptic_sculpt::decimate(sculptor, stop, CGAL::parameters::get_placement(placement));
+  BOOST_TEST(report.refused > 0u);
+  BOOST_TEST(sculptor.visitor().moves > 0u);
+  BOOST_TEST(sculptor.visitor().others == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
   for (const std::string asked : {"stop", "cost", "placement", "constraint"})
     BOOST_TEST_CONTEXT(asked) {

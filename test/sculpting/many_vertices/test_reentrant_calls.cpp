@@ -9,6 +9,7 @@
 #include <haptic_sculpt/sculpting/move_rigidly.h>
 #include <haptic_sculpt/sculpting/move_vertices.h>
 
+#include <boost/iterator/function_output_iterator.hpp>
 #include <boost/property_map/function_property_map.hpp>
 
 #include <functional>
@@ -102,6 +103,12 @@ std::vector<Named_call> calls() {
            return a(), s.mesh().point(v) + Vector_3(0.1, 0, 0);
          };
          move_vertices(s, s.mesh().vertices(), boost::make_function_property_map<Vertex_index>(target));
+       }},
+      {"those it left behind",
+       [=](auto& s, const Asked& a) {
+         const auto left_behind = boost::make_function_output_iterator([a](Vertex_index) { a(); });
+         move_vertices(s, s.mesh().vertices(), boost::static_property_map<Point_3, Vertex_index>({0, 0, 0}),
+                       Move_parameters(), left_behind);
        }},
       {"move_rigidly",
        [=](auto& s, const Asked& a) {

@@ -98,6 +98,43 @@ BOOST_AUTO_TEST_CASE(the_largest_and_the_smallest) {
   }
 }
 
+// Edges on the border of a range stay, and constrained ones that are protected, however long they are. Splits beside
+// them end, and leave no slivers.
+BOOST_AUTO_TEST_CASE(beside_edges_that_stay_splits_end) {
+  const auto smallest_angle = [](const Mesh& mesh) {
+    double smallest = 180;
+    for (const auto h : mesh.halfedges())
+      smallest = std::fmin(smallest, CGAL::approximate_angle(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
+                                                             mesh.point(mesh.target(mesh.next(h)))));
+    return smallest;
+  };
+  const Mesh ball = meshes::to_mesh(meshes::bumpy_sphere(2, 0.2, 0.1));
+  const double smallest_at_first = smallest_angle(ball);
+  std::size_t splits = 0;
+  for (std::size_t k = 0; k < 60; ++k) {
+    BOOST_TEST_INFO_SCOPE("run " << k);
+    Mesh mesh = ball;
+    Sculptor<Mesh> sculptor(mesh);
+    const bool protects = k % 2 == 0;
+    const double length = (protects ? 3 : 1) * (k % 3 == 0 ? 0.02 : k % 3 == 1 ? 0.05 : 0.09);
+    const Point_3 centre = mesh.point(Vertex_index(static_cast<unsigned>(7 * k % mesh.num_vertices())));
+    std::vector<Face_index> range;
+    for (const Face_index f : mesh.faces())
+      if (protects || CGAL::squared_distance(mesh.point(mesh.target(mesh.halfedge(f))), centre) < 0.1)
+        range.push_back(f);
+    const auto marks = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+    for (const auto e : mesh.edges())
+      marks[e] = protects && static_cast<std::size_t>(e) % 11 == k % 11;
+    const auto np = CGAL::parameters::number_of_iterations(3).edge_is_constrained_map(marks).protect_constraints(true);
+    const auto report = isotropic_remeshing(range, sculptor, length, np, Remeshing_parameters().most_faces(100000));
+    splits += report.splits.done;
+    BOOST_TEST(report.splits.refused == 0u);
+    BOOST_TEST(smallest_angle(mesh) >= std::fmin(5, smallest_at_first / 2));
+    BOOST_TEST(validate(mesh).is_valid());
+  }
+  BOOST_TEST(splits > 1000u);
+}
+
 BOOST_AUTO_TEST_CASE(a_number_of_faces_bounds_the_work) {
   const Mesh cube = meshes::to_mesh(meshes::box(1));
   Mesh mesh = cube;

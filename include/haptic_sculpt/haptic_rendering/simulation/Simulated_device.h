@@ -50,6 +50,8 @@ public:
     const double limit = parameters_.torque_limit();
     held_.command(torque.cwiseMax(-limit).cwiseMin(limit));
     interaction_.command(interaction);
+    const Coupled_state<double, states> state = state_;
+    const double port = port_;
     // The tick is split where the torque changes, so that every step integrates what is smooth.
     const double fraction = held_.fraction();
     Device_status status = Device_status::success;
@@ -58,6 +60,8 @@ public:
     if (status == Device_status::success)
       status = live(fraction * tick_, (1 - fraction) * tick_, fraction > 0.5 || fraction == 0 ? 2 : 1, held_.after(),
                     interaction_.after());
+    if (status != Device_status::success)
+      state_ = state, port_ = port;
     ++ticks_;
     return status;
   }

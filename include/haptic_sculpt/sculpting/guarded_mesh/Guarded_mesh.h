@@ -117,7 +117,7 @@ public:
     return result;
   }
 
-  bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& given) {
+  bool move_if_free(Vertex_index v, const Point& target, const std::optional<Drag_parameters>& given, double delta) {
     const Rounding_to_nearest rounding;
     check_may_change();
     check_point("the target", target);
@@ -127,7 +127,7 @@ public:
     const Coordinates s = vertex_coordinates(*mesh_, v), t = coordinates(target);
     if (s == t)
       return true;
-    const bool is_free = hand_.is_free(s, t, drag, parameters.delta_length);
+    const bool is_free = hand_.is_free(s, t, drag, delta);
     hand_.check_candidates();
     if (is_free)
       put(v, s, t);

@@ -11,7 +11,8 @@ namespace haptic_sculpt::internal {
 
 /// The one place where a result is made to say one thing: what follows from where a drag began, where it ended and
 /// where it was to end is derived from these, whatever the response has written. \pre contacts, legs, stop errors and
-/// `end` are as the response tells, `end` for the case that the target was not reached
+/// `end` are as the response tells, `end` for the case that the target was not reached: a response says `held` or
+/// `stuck`, not `no_progress`
 ///
 /// Coordinates are compared as numbers: +0 and -0 are one place.
 template <class Mesh>
@@ -31,11 +32,10 @@ void settle_result(const Coordinates& source, const Coordinates& target, const C
     result.stop_error = result.stop_error_along_path = 0;
     return;
   }
-  if (end == source &&
-      (result.end == Drag_end::leg_limit || (result.end == Drag_end::stuck && result.contacts.empty())))
-    result.end = Drag_end::no_progress;
-  else if (end != source && result.end == Drag_end::no_progress)
+  if (end == source && result.end == Drag_end::leg_limit)
     result.end = Drag_end::stuck;
+  if (end == source && result.end == Drag_end::stuck && result.contacts.empty())
+    result.end = Drag_end::no_progress;
 }
 
 /// The responses to a blocked way behind one call, with the contacts they carry along.
@@ -61,7 +61,7 @@ public:
       end = slide_.move(guard, source, target, rules, result);
     else if (response == Response::stop) {
       end = guard.leg(source, target, rules, result);
-      result.end = guard.is_spent() ? Drag_end::work_limit : end == source ? Drag_end::no_progress : Drag_end::held;
+      result.end = guard.is_spent() ? Drag_end::work_limit : Drag_end::held;
     } else {
       make_other(response);
       held_.contacts.clear(), held_.stop_error = held_.stop_error_along_path = 0;

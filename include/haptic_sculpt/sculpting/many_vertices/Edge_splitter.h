@@ -3,11 +3,14 @@
 
 #include <haptic_sculpt/sculpting/many_vertices/Remeshing_state.h>
 
-#include <unordered_set>
-
 namespace haptic_sculpt::internal {
 
-/// Splits the long edges of a remeshing at their midpoints, the longest first.
+/// Splits the long edges of a remeshing at their midpoints, the longest first, and none that has a longer one beside it
+/// in a face.
+///
+/// So each face is halved at its longest edge. None of the four edges that take its place is longer than sqrt(3)/2 of
+/// it: splitting ends. No angle gets smaller than half of the smallest (Rosenberg and Stenger, Mathematics of
+/// Computation 29 (1975) 390-395). Else vertices would come ever nearer to a long edge that has to stay.
 template <class State>
 class Edge_splitter {
 public:
@@ -28,7 +31,7 @@ public:
     for (const Edge_index e : mesh_.edges())
       offer(e);
     for (Entry entry = queue.pop(); entry.edge.is_valid(); entry = queue.pop()) {
-      if (is_beside_longer_that_stays(entry))
+      if (is_beside_longer(entry))
         continue;
       if (!state_.goes_on())
         return;
@@ -43,18 +46,16 @@ private:
 
   State& state_;
   const Mesh& mesh_;
-  std::unordered_set<Edge_index> unsplit_; ///< those that were refused
 
   bool may_split(Edge_index e) const {
-    return state_.marks.is_inside(e) && !(state_.named.protect_constraints && state_.marks.is_constrained(e)) &&
-           unsplit_.count(e) == 0;
+    return state_.marks.is_inside(e) && !(state_.named.protect_constraints && state_.marks.is_constrained(e));
   }
 
-  /// Whether a longer edge of one of its faces may not be split: then splits beside it would go on for ever.
-  bool is_beside_longer_that_stays(const Entry& entry) const {
+  /// Whether one of its faces has a longer edge. It stays: if it could be split, its turn came before.
+  bool is_beside_longer(const Entry& entry) const {
     for (const Halfedge_index h : {mesh_.halfedge(entry.edge), mesh_.opposite(mesh_.halfedge(entry.edge))})
       for (const Halfedge_index g : {mesh_.next(h), mesh_.prev(h)})
-        if (state_.length(mesh_.edge(g)) > entry.length && !may_split(mesh_.edge(g)))
+        if (state_.length(mesh_.edge(g)) > entry.length)
           return true;
     return false;
   }
@@ -70,10 +71,8 @@ private:
       if (const auto edit = state_.sculptor.insert_on_edge(
               e, CGAL::midpoint(mesh_.point(marks.ends[0]), mesh_.point(marks.ends[1]))))
         v = *edit.vertex;
-    if (!State::counted(v.is_valid(), state_.report.splits)) {
-      unsplit_.insert(e);
+    if (!State::counted(v.is_valid(), state_.report.splits))
       return v;
-    }
     state_.marks.split(v, marks);
     state_.project.created(v, marks.ends[0]);
     hand_on_samples(v, old_faces);

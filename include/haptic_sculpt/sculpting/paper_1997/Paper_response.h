@@ -89,7 +89,7 @@ private:
       }
       touched_ = touched_at(ground.stop());
       if (touched_.number == 0 || (!moved && stands)) // (d), (e): it sticks; or two features send it to each other
-        return place_ == source ? Drag_end::no_progress : Drag_end::held;
+        return Drag_end::held;
       stands = !moved;
     }
     return Drag_end::leg_limit;

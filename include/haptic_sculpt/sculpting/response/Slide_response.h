@@ -91,7 +91,7 @@ public:
       return stop_instead(guard, source, target, rules, result);
     make_shorter(target, is_free);
     walk_.forget([](const auto& facet) { return facet.is_over(Slide_lengths::clearances_of_lift); });
-    report(end, source, result);
+    report(end, result);
     walk_.forget([](const auto& facet) { return facet.is_wall(); });
     return walk_.x;
   }
@@ -154,15 +154,14 @@ private:
         break;
   }
 
-  void report(Walk_end end, const Vector& source, Drag_result<Mesh>& result) const {
+  void report(Walk_end end, Drag_result<Mesh>& result) const {
     result.legs = walk_.legs();
     const bool has_contacts = !walk_.facets.empty();
-    result.end = end == Walk_end::reached                      ? Drag_end::reached
-                 : end == Walk_end::spent                      ? Drag_end::work_limit
-                 : end == Walk_end::limit                      ? Drag_end::leg_limit
-                 : end == Walk_end::settled && has_contacts    ? Drag_end::held
-                 : walk_.x == source                           ? Drag_end::no_progress
-                                                               : Drag_end::stuck;
+    result.end = end == Walk_end::reached                   ? Drag_end::reached
+                 : end == Walk_end::spent                   ? Drag_end::work_limit
+                 : end == Walk_end::limit                   ? Drag_end::leg_limit
+                 : end == Walk_end::settled && has_contacts ? Drag_end::held
+                                                            : Drag_end::stuck;
     result.stop_error = result.stop_error_along_path = 0;
     if (end == Walk_end::reached)
       return;

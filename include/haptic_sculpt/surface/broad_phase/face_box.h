@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Box_3.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
@@ -30,6 +31,7 @@ namespace internal {
 /// The smallest box around all vertices of a mesh. Cost: linear.
 template <class Mesh>
 Box_3 mesh_box(const Mesh& mesh) {
+  const Rounding_to_nearest rounding; // a caller's mode may take what is subnormal for 0
   Box_3 box;
   for (const auto v : mesh.vertices())
     box.include(vertex_coordinates(mesh, v));

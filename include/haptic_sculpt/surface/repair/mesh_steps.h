@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/surface/divide_polygon.h>
 #include <haptic_sculpt/surface/repair/Repair_parameters.h>
 #include <haptic_sculpt/surface/repair/Trail.h>
 #include <haptic_sculpt/surface/repair/Work_mesh.h>
 #include <haptic_sculpt/surface/repair/soup_steps.h>
 #include <haptic_sculpt/surface/validate.h>
+#include <haptic_sculpt/surface/vertex_coordinates.h>
 
 #include <CGAL/Polygon_mesh_processing/border.h>
-#include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <vector>
@@ -58,18 +60,54 @@ inline Work_mesh work_mesh(const Polygon_soup& soup) {
   return mesh;
 }
 
-/// A polygon whose normal overflows stays: CGAL projects along it, and GMP ends the process on what is no number.
+/// Divides a face by edges between its corners: corners of one triangle only are cut off, one after the other.
+/// \return whether it could. Cost: that of divided_polygon()
+inline bool divide_face(Work_mesh& mesh, Work_mesh::Face_index f) {
+  struct Corner {
+    Work_mesh::Halfedge_index into;    ///< of what is left of the face
+    std::size_t number = 0, which = 0; ///< of the triangles at it that are left; their indices, by exclusive or
+  };
+  std::vector<Corner> corners;
+  std::vector<std::array<double, 3>> places;
+  for (const auto h : CGAL::halfedges_around_face(mesh.halfedge(f), mesh)) {
+    corners.push_back({h});
+    places.push_back(vertex_coordinates(mesh, target(h, mesh)));
+  }
+  const auto triangles = divided_polygon(places);
+  if (!triangles)
+    return false;
+  for (std::size_t t = 0; t < triangles->size(); ++t)
+    for (const std::size_t corner : (*triangles)[t])
+      ++corners[corner].number, corners[corner].which ^= t;
+  std::vector<std::size_t> tips;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (corners[i].number == 1)
+      tips.push_back(i);
+  for (std::size_t left = triangles->size(); left > 1; --left) {
+    const std::size_t tip = tips.back(), t = corners[tip].which;
+    const Corners_of_triangle& triangle = (*triangles)[t];
+    tips.pop_back();
+    const auto at = static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), tip) - triangle.begin());
+    Corner &before = corners[triangle[(at + 2) % 3]], &after = corners[triangle[(at + 1) % 3]];
+    after.into = CGAL::Euler::split_face(before.into, after.into, mesh);
+    for (const std::size_t corner : triangle) {
+      corners[corner].which ^= t;
+      if (--corners[corner].number == 1)
+        tips.push_back(corner);
+    }
+  }
+  return true;
+}
+
+/// A polygon that is simple along no axis stays.
 inline Repair_step divide_faces(Work_mesh& mesh) {
-  namespace PMP = CGAL::Polygon_mesh_processing;
   std::vector<Work_mesh::Face_index> polygons;
   for (const auto f : mesh.faces())
     if (!CGAL::is_triangle(mesh.halfedge(f), mesh))
       polygons.push_back(f);
   std::size_t divided = 0;
-  for (const auto f : polygons) {
-    const auto n = PMP::compute_face_normal(f, mesh);
-    divided += std::isfinite(n.x()) && std::isfinite(n.y()) && std::isfinite(n.z()) && PMP::triangulate_face(f, mesh);
-  }
+  for (const auto f : polygons)
+    divided += divide_face(mesh, f);
   return {Repair_kind::divide_faces,
           {{"faces divided into triangles", divided}, {"polygons left", polygons.size() - divided}}, 0, {}};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/Rounding_to_nearest.h>
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
@@ -14,12 +16,12 @@
 #include <utility>
 #include <vector>
 
-namespace haptic_sculpt::sculpt_program {
+namespace haptic_sculpt {
 
 /// Corners of a polygon, by their place in it.
 using Corners_of_triangle = std::array<std::size_t, 3>;
 
-namespace polygons {
+namespace internal::polygons {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Seen_polygon = std::vector<Kernel::Point_2>;
@@ -85,13 +87,17 @@ inline std::vector<Corners_of_triangle> triangles_inside(const Seen_polygon& pol
   return triangles;
 }
 
-} // namespace polygons
+} // namespace internal::polygons
 
 /// Divides a polygon in space into triangles between its corners, in its orientation. It is looked at along one of the
-/// axes, which rounds nothing, and proven to be simple as it is seen then.
-/// \param corners three at least \return nothing where it is simple along none of the axes. Cost: n log n in general
+/// axes, which rounds nothing, and proven to be simple as it is seen then. (CGAL's `triangulate_face()` projects along
+/// a normal that is rounded, and on some polygons that cross themselves it never ends.)
+/// \param corners three at least, finite
+/// \return n - 2 triangles; nothing where it is simple along none of the axes. Cost: n log n in general
 inline std::optional<std::vector<Corners_of_triangle>>
 divided_polygon(const std::vector<std::array<double, 3>>& corners) {
+  namespace polygons = internal::polygons;
+  const internal::Rounding_to_nearest rounding;
   for (const int axis : polygons::axes_by_area(corners)) {
     polygons::Seen_polygon seen;
     for (const auto& p : corners)
@@ -107,4 +113,4 @@ divided_polygon(const std::vector<std::array<double, 3>>& corners) {
   return std::nullopt;
 }
 
-} // namespace haptic_sculpt::sculpt_program
+} // namespace haptic_sculpt
