@@ -123,11 +123,11 @@ int print_figures(int argument_count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? examples::done : examples::usage;
   }
-  if (!file.empty())
-    check_target(file);
   std::error_code is_missing;
   if (std::filesystem::equivalent(file, device, is_missing))
-    throw Write_error("the samples would replace the device: both are '" + device + "'");
+    throw examples::Usage_error("the samples would replace the device: both are '" + device + "'");
+  if (!file.empty())
+    check_target(file);
   std::ostringstream samples;
   device.empty() ? figures_of_designs(samples) : figures_of_file(device, samples);
   if (!file.empty())
@@ -143,6 +143,8 @@ int main(int argument_count, char** arguments) {
   return examples::run_program(
       "device_workspace", [&] { return print_figures(argument_count, arguments); },
       [](const std::exception& error) {
+        if (dynamic_cast<const examples::Usage_error*>(&error) != nullptr)
+          return examples::usage;
         if (dynamic_cast<const Write_error*>(&error) != nullptr)
           return examples::cannot_write;
         const bool is_of_device = dynamic_cast<const Error*>(&error) != nullptr ||

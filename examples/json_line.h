@@ -32,6 +32,7 @@ public:
 
   /// The next line, without its end, good until the next call; false at the end of the stream.
   bool next() {
+    ++number_;
     in_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     std::size_t count = static_cast<std::size_t>(in_.gcount());
     too_long_ = in_.fail() && count > 0;
@@ -46,6 +47,7 @@ public:
     return true;
   }
   const std::string_view& line() const { return line_; }
+  std::size_t number() const { return number_; } ///< of the line, from 1
   /// The line has more bytes than `longest_line`: `line()` is its beginning, the rest has been skipped.
   bool is_too_long() const { return too_long_; }
 
@@ -53,6 +55,7 @@ private:
   std::istream& in_;
   std::vector<char> buffer_;
   std::string_view line_;
+  std::size_t number_ = 0;
   bool too_long_ = false;
 };
 

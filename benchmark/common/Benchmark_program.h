@@ -4,6 +4,7 @@
 #include "Promises.h"
 #include "Shard.h"
 
+#include "../../examples/common/numbers.h"
 #include "../../examples/common/parse_arguments.h"
 
 #include <haptic_sculpt/surface/io/replace_file.h>
@@ -39,6 +40,14 @@ auto read_given(const Read& read) {
     throw Wrong_use(error.what());
   }
 }
+
+/// As CLI::PositiveNumber, which says of a number that it is not in a range of 300 digits.
+inline const CLI::Validator positive_number(
+    [](const std::string& text) -> std::string {
+      const double number = examples::number_of(text).value_or(0);
+      return number > 0 && std::isfinite(number) ? "" : "'" + text + "' is not a finite number > 0";
+    },
+    "POSITIVE");
 
 /// That files can be put into a folder, which may have to be made. \throw Write_error
 inline void check_folder(const std::string& folder) {

@@ -95,9 +95,8 @@ int main(int argument_count, char** arguments) {
   app.add_option("--seed", effort.seed, "of the random vertices and directions");
   app.add_option("--sizes", sizes, "numbers of triangles")->delimiter(',');
   app.add_option("--valences", valences, "of the apex of a fan; none below 3")->delimiter(',');
-  app.add_option("--drags", effort.drags, "timed operations a workload")->check(CLI::PositiveNumber);
-  app.add_option("--peer-drags", effort.peer_drags, "the same, at most, for other structures")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--drags", effort.drags, "timed operations a workload")->check(positive_number);
+  app.add_option("--peer-drags", effort.peer_drags, "the same, at most, for other structures")->check(positive_number);
   app.add_option("--largest-peer", largest_peer, "other structures, and the phases, get no larger mesh");
   app.add_option("--core", core, "the core to stay on; -1: any");
   app.add_option("--parts", parts,

@@ -206,16 +206,16 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--speed", options.speed, "Of the hand, mm/s; the object has a radius of 30 mm")
       ->capture_default_str();
-  app.add_option("--rate", options.rate, "Drags a second")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--rate", options.rate, "Drags a second")->check(benchmark::positive_number)->capture_default_str();
   app.add_option("--depth", options.depth, "How deep the hand is under the surface, mm")->capture_default_str();
   app.add_option("--drags", options.drags, "Of each kind")->capture_default_str();
   app.add_option("--ticks-per-grab", options.ticks_per_grab, "Drags until the hand lets go, and the mesh is as it was")
-      ->check(CLI::PositiveNumber)
+      ->check(benchmark::positive_number)
       ->capture_default_str();
   app.add_option("--work", options.work, "The bound; 0: none")->capture_default_str();
   app.add_option("--seed", options.seed, "Where the hand begins")->capture_default_str();
   app.add_option("--runs", options.runs, "Of the same drags; each has its least time")
-      ->check(CLI::PositiveNumber)
+      ->check(benchmark::positive_number)
       ->capture_default_str();
   benchmark::Benchmark_program program("hand_drags", app, "kind of drags");
   return program.run(argc, argv, [&](benchmark::Promises&) {

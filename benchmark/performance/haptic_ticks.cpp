@@ -209,7 +209,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--ticks", options.ticks)->capture_default_str();
   app.add_option("--speed", options.speed, "Of the hand, mm/s")->capture_default_str();
-  app.add_option("--rate", options.rate, "Ticks a second")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--rate", options.rate, "Ticks a second")->check(benchmark::positive_number)->capture_default_str();
   app.add_option("--depth", options.depth,
                  "How deep the hand is under the mean surface, mm; less than 0: above it, which tells what the machine "
                  "itself takes")
@@ -225,7 +225,7 @@ int main(int argc, char** argv) {
   app.add_option("--work-of-a-face", options.work_of_a_face, "Pairs more for each face about the vertex in hand")
       ->capture_default_str();
   app.add_option("--runs", options.runs, "Make the same run so often, and take the least time of each tick")
-      ->check(CLI::PositiveNumber)
+      ->check(benchmark::positive_number)
       ->capture_default_str();
   app.add_flag("--no-allocations", options.refuses_allocations, "End with an error where a tick has allocated");
   benchmark::Benchmark_program program("haptic_ticks", app, "run; there is one, of one hand");

@@ -188,7 +188,7 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   std::size_t count = 5000;
   app.add_option("--seed", seed, "Seed of the populations")->capture_default_str();
-  app.add_option("--queries", count, "Queries of each population")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--queries", count, "Queries of each population")->capture_default_str()->check(positive_number);
   Benchmark_program program("axis_speed_error", app, "population");
   return program.run(argc, argv, [&](Promises& promises) -> Json {
     const Query_timer timer;

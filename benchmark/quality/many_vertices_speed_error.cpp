@@ -304,7 +304,7 @@ int main(int argc, char** argv) {
   app.add_option("--level", level, "Fineness: 20 * 4^level triangles; below 2 they meet")
       ->check(CLI::Range(2, 8))
       ->capture_default_str();
-  app.add_option("--rounds", rounds, "Each with another seed")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--rounds", rounds, "Each with another seed")->check(positive_number)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
   Benchmark_program program("many_vertices_speed_error", app, "motion");
   return program.run(argc, argv, [&](Promises& promises) -> Json {

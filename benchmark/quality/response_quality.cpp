@@ -254,7 +254,7 @@ int main(int argc, char** argv) {
   app.add_option("--sculpt", options.sculpt, "Sliding drags on each mesh of the folder, with edits in between")
       ->capture_default_str();
   app.add_option("--check-every", options.check_every, "Drags of --sculpt between two checks of a local minimum")
-      ->check(CLI::PositiveNumber)
+      ->check(benchmark::positive_number)
       ->capture_default_str();
   app.add_option("--largest", options.largest, "Leaves out meshes with more faces")->capture_default_str();
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Answers sweep queries from a file, exactly: one line in, one line out, so that any other implementation can be
 // checked.
+#include "../../examples/common/printable.h"
+
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/collision.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CLI/CLI.hpp>
 
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
@@ -17,6 +20,10 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point_3 = Kernel::Point_3;
 using Traits = haptic_sculpt::Swept_collision_traits_3<Kernel>;
+using haptic_sculpt::examples::printable;
+
+/// A longer line is refused, in bytes; sixteen coordinates in all their digits are a quarter of it.
+constexpr std::size_t longest_line = 1 << 16;
 
 struct Malformed_line : haptic_sculpt::Error {
   Malformed_line(std::size_t line, std::size_t column, const std::string& what)
@@ -47,9 +54,9 @@ public:
     char* end = nullptr;
     const double value = std::strtod(number.c_str(), &end);
     if (end != number.c_str() + number.size())
-      fail("'" + number + "' is not a number");
+      fail("'" + printable(number) + "' is not a number");
     if (!std::isfinite(value))
-      fail("'" + number + "' is not finite; sweeps are defined for finite coordinates only");
+      fail("'" + printable(number) + "' is not finite; sweeps are defined for finite coordinates only");
     return value;
   }
 
@@ -62,7 +69,7 @@ public:
     if (at_end())
       return;
     const std::string rest = word("");
-    fail("'" + rest + "' follows the " + std::to_string(coordinates) + " coordinates");
+    fail("'" + printable(rest) + "' follows the " + std::to_string(coordinates) + " coordinates");
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw Malformed_line(line_, begin_ + 1, what); }
@@ -76,10 +83,10 @@ private:
 bool axis_answer(Line_reader& reader) {
   const std::string kind = reader.word("VF or EE");
   if (kind != "VF" && kind != "EE")
-    reader.fail("'" + kind + "' is not VF or EE");
+    reader.fail("'" + printable(kind) + "' is not VF or EE");
   const std::string axis = reader.word("the axis");
   if (axis != "0" && axis != "1" && axis != "2")
-    reader.fail("'" + axis + "' is not an axis: 0, 1 or 2");
+    reader.fail("'" + printable(axis) + "' is not an axis: 0, 1 or 2");
   std::array<Point_3, 4> p;
   for (Point_3& point : p)
     point = reader.point(16);
@@ -93,6 +100,17 @@ bool axis_answer(Line_reader& reader) {
                       : traits.edge_edge_axis_sweep_3_object()(k, p[0], p[1], p[2], p[3], ends);
 }
 
+/// The next line, without its end. \return false at the end of the input \throw Malformed_line
+bool next_line(std::istream& input, std::string& text, std::size_t line) {
+  static std::array<char, longest_line + 1> buffer; // and a terminating 0
+  input.getline(buffer.data(), buffer.size());
+  const auto count = static_cast<std::size_t>(input.gcount());
+  if (input.fail() && count == longest_line)
+    throw Malformed_line(line, longest_line, "the line is longer than " + std::to_string(longest_line) + " bytes");
+  text.assign(buffer.data(), input.good() ? count - 1 : count); // the line's end was counted
+  return !input.fail();
+}
+
 /// What is printed for a line.
 std::string answer(const std::string& text, std::size_t line, const Traits& traits) {
   Line_reader reader(text, line);
@@ -100,7 +118,7 @@ std::string answer(const std::string& text, std::size_t line, const Traits& trai
   if (kind == "AX")
     return axis_answer(reader) ? "1" : "0";
   if (kind != "VF" && kind != "EE" && kind != "FV")
-    reader.fail("'" + kind + "' is not VF, EE, FV or AX");
+    reader.fail("'" + printable(kind) + "' is not VF, EE, FV or AX");
   std::array<Point_3, 5> p;
   for (Point_3& point : p)
     point = reader.point(15);
@@ -149,7 +167,7 @@ int main(int argc, char** argv) {
   const Traits traits;
   std::string text;
   try {
-    for (std::size_t line = 1; std::getline(input, text); ++line) {
+    for (std::size_t line = 1; next_line(input, text, line); ++line) {
       const std::size_t first = text.find_first_not_of(" \t\r");
       if (first == std::string::npos || text[first] == '#')
         continue;

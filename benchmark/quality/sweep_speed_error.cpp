@@ -226,7 +226,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> chosen;
   std::string folder;
   app.add_option("--seed", seed, "Seed of the populations")->capture_default_str();
-  app.add_option("--queries", count, "Queries of each population")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--queries", count, "Queries of each population")->capture_default_str()->check(positive_number);
   std::vector<std::string> names;
   for (const auto& population : sweep_populations())
     names.push_back(population.name);

@@ -3,18 +3,31 @@
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <system_error>
 
 namespace haptic_sculpt::examples {
 
-/// A check of an option that is a whole number >= 0: CLI alone takes a negative one, too, and makes it a large one.
-inline std::string why_no_whole_number(const std::string& text) {
-  const bool is_one = text.find_first_not_of("0123456789") == std::string::npos && text.size() < 20;
-  return is_one ? "" : "'" + text + "' is not a whole number from 0 to 10^19";
+/// Writes a whole number as CLI reads it rightly: CLI alone takes 010 for 8, -1 for 2^64 - 1, and what is too large for
+/// the largest. \return why it is none; empty if it is one
+template <class Number>
+std::string normalise_whole_number(std::string& text) {
+  Number number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end)
+    return "'" + text + "' is not a whole number from " + std::to_string(std::numeric_limits<Number>::min()) + " to " +
+           std::to_string(std::numeric_limits<Number>::max());
+  text = std::to_string(number);
+  return "";
 }
 
-/// Reads the command line. An empty argument is refused: it is mostly a variable that was not set, and would pass for
-/// 0, or for an option that was not given. \throw CLI::ParseError
+/// Reads the command line. Whole numbers are decimal, whatever zeros they begin with. An empty argument is refused: it
+/// is mostly a variable that was not set, and would pass for 0, or for an option that was not given.
+/// \throw CLI::ParseError
 inline void parse_arguments(CLI::App& app, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i], before = i > 1 ? argv[i - 1] : "";
@@ -23,6 +36,13 @@ inline void parse_arguments(CLI::App& app, int argc, char** argv) {
       throw CLI::ValidationError(before.rfind('-', 0) == 0 ? before : "argument " + std::to_string(i), "is empty");
     if (is_option && argument.find('=') == argument.size() - 1)
       throw CLI::ValidationError(argument.substr(0, argument.size() - 1), "is empty");
+  }
+  for (CLI::Option* const option : app.get_options()) {
+    const std::string type = option->get_type_name(); // its checks come after it
+    if (type.rfind("UINT", 0) == 0)
+      option->transform(CLI::Validator(normalise_whole_number<std::uint64_t>, ""));
+    else if (type.rfind("INT", 0) == 0)
+      option->transform(CLI::Validator(normalise_whole_number<std::int64_t>, ""));
   }
   app.parse(argc, argv);
 }

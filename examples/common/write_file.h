@@ -37,15 +37,19 @@ inline std::string keep_owner_and_permissions(int new_file, const struct stat& o
   return note;
 }
 
-/// why_not_replaceable(), and folders in which only the owner of a file may replace it.
+/// why_not_replaceable(), and folders that have been removed, or in which only the owner of a file may replace it.
 inline std::string why_not_writable(const std::filesystem::path& target) {
   if (std::string why = why_not_replaceable(target); !why.empty())
     return why;
   struct stat file {};
   struct stat folder {};
   const std::filesystem::path around = target.has_parent_path() ? target.parent_path() : ".";
-  if (::stat(target.c_str(), &file) == 0 && ::stat(around.c_str(), &folder) == 0 && (folder.st_mode & S_ISVTX) != 0 &&
-      ::geteuid() != 0 && ::geteuid() != file.st_uid && ::geteuid() != folder.st_uid)
+  if (::stat(around.c_str(), &folder) != 0)
+    return {};
+  if (folder.st_nlink == 0)
+    return "its folder has been removed"; // and is there for those only who are still in it
+  if (::stat(target.c_str(), &file) == 0 && (folder.st_mode & S_ISVTX) != 0 && ::geteuid() != 0 &&
+      ::geteuid() != file.st_uid && ::geteuid() != folder.st_uid)
     return "in this folder only its owner (user " + std::to_string(file.st_uid) + ") may replace the file";
   return {};
 }

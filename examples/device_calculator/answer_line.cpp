@@ -71,7 +71,7 @@ json examples::answer_line(const Line_reader& reader) {
   } catch (const No_answer& error) {
     return failure(error.code(), error.what());
   } catch (const json::exception& error) {
-    return failure("malformed_json", examples::in_words(error));
+    return failure("malformed_json", examples::in_words(error, reader.number()));
   }
   json found = answer_or_failure(request);
   json unknown = unknown_keys(request);

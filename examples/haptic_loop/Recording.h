@@ -73,7 +73,11 @@ inline void Recording::take_head(const std::string& line, const std::string& pat
       !head.value("mesh", nlohmann::json(0)).is_string())
     throw Foreign_recording("'" + path + "' is no recording of haptic_loop");
   mesh = head["mesh"];
-  settings = settings_of(head);
+  try {
+    settings = settings_of(head);
+  } catch (const Foreign_recording& error) {
+    throw Foreign_recording("the recording '" + path + "': " + error.what());
+  }
 }
 
 inline void Recording::take_reading(const std::string& line, const std::string& path) {

@@ -31,7 +31,7 @@ struct Plan {
 /// What came of it.
 struct Run_result {
   std::uint64_t ticks = 0, missed = 0, missed_by_cpu = 0, allocations = 0;
-  std::uint64_t missed_by_wakeup = 0; ///< begun more than a tick after their time
+  std::uint64_t missed_by_wakeup = 0; ///< begun more than a tick after their time, or left out in a pause
   Tick_statistics cpu, wall, wakeup;
   double largest_force = 0,
          largest_free_force = 0; ///< N; free: nothing is touched, and the slew limit has had its time

@@ -28,6 +28,14 @@ json json_file(const std::string& path) {
   }
 }
 
+/// \throw Bad_request
+std::vector<double> json_numbers(const json& object, const char* key) {
+  const json list = object.value(key, json());
+  if (!list.is_array() || !std::all_of(list.begin(), list.end(), [](const json& x) { return x.is_number(); }))
+    throw Bad_request(std::string("`") + key + "` must be given, as an array of numbers");
+  return list.get<std::vector<double>>();
+}
+
 } // namespace
 
 Device_description<double> default_device() {
@@ -144,35 +152,37 @@ json json_of(const Settings& s) {
 }
 
 Settings settings_of(const json& j) {
+  const auto number = [&](const char* key) { return json_number(j, key); };
+  const auto number_or_0 = [&](const char* key) { return j.contains(key) ? number(key) : 0; }; // older ones have none
+  Settings s;
   try {
-    Settings s;
-    s.rate = j.at("rate"), s.delay = j.at("delay"), s.stiffness = j.at("stiffness"), s.damping = j.at("damping");
-    s.reach = j.at("reach"), s.map = j.at("map").get<std::vector<double>>();
-    s.work = j.at("work").is_number_unsigned() ? j.at("work").get<std::size_t>() : 0; // 0 is refused below
-    s.virtual_mass = j.value("virtual_mass", 0.0); // older recordings have none
-    if (j.value("compensated_inertia", 0.0) != 0)
+    s.rate = number("rate"), s.delay = number("delay"), s.stiffness = number("stiffness");
+    s.damping = number("damping"), s.reach = number("reach"), s.map = json_numbers(j, "map");
+    number("work");
+    s.work = j["work"].is_number_unsigned() ? j["work"].get<std::size_t>() : 0; // 0 is refused below
+    s.virtual_mass = number_or_0("virtual_mass");
+    if (number_or_0("compensated_inertia") != 0)
       throw Foreign_recording("`compensated_inertia` is no setting any more; record anew without it");
-    if (const json snap = j.value("snap", json()); !snap.is_null()) { // older recordings have none
-      if (snap.size() != 2)
-        throw Foreign_recording("`snap` must be a length and a force");
-      s.snap = {snap.at(0), snap.at(1)};
+    if (!j.value("snap", json()).is_null()) { // older recordings have none
+      const Eigen::VectorXd snap = json_vector(j, "snap", 2, 2);
+      s.snap = {snap[0], snap[1]};
     }
-    const json controller = j.value("controller", json(0.0));
-    s.controller = controller.is_null() ? std::nullopt : std::optional<double>(controller.get<double>());
-    s.device = device_from_json(j.at("device"));
+    if (!j.value("controller", json(0)).is_null())
+      s.controller = number_or_0("controller");
     if (const auto bad = bad_setting(s)) {
       std::string key = bad->option;
       std::replace(key.begin(), key.end(), '-', '_');
       throw Foreign_recording("`" + key + "` " + bad->demand);
     }
-    return s;
-  } catch (const json::exception& error) {
-    throw Foreign_recording(std::string("the recording's settings cannot be read: ") + examples::in_words(error));
-  } catch (const Foreign_recording& error) {
-    throw Foreign_recording(std::string("the recording's settings cannot be used: ") + error.what());
   } catch (const Error& error) {
-    throw Foreign_recording(std::string("the recording's device cannot be used: ") + error.what());
+    throw Foreign_recording(std::string("its settings cannot be used: ") + error.what());
   }
+  try {
+    s.device = device_from_json(j.value("device", json()));
+  } catch (const Error& error) {
+    throw Foreign_recording(std::string("its device cannot be used: ") + error.what());
+  }
+  return s;
 }
 
 std::optional<Bad_setting> bad_setting(const Settings& s) {

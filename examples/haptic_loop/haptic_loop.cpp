@@ -163,9 +163,7 @@ int run(int argc, char** argv) {
          "LENGTH [FORCE]: a hand that holds nothing is drawn to the nearest vertex within LENGTH, m, by at most "
          "FORCE, N (0.2); counts as a stiffness of 2 FORCE / LENGTH")
       ->expected(1, 2);
-  app.add_option("--work", settings.work, "Pairs that a drag may decide")
-      ->check(examples::why_no_whole_number)
-      ->capture_default_str();
+  app.add_option("--work", settings.work, "Pairs that a drag may decide")->capture_default_str();
   app.add_option("--device", arguments.device, "Device, JSON");
   app.add_option("--hand", arguments.hand, "Hand, JSON");
   app.add_option("--path", arguments.path, "Where the hand wants to be: t,x,y,z,button")->capture_default_str();

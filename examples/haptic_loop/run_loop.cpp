@@ -91,7 +91,6 @@ public:
     const Device_pose<double> start = start_pose();
     check(parameters, limits);
     Loop loop(scene.sculptor, device_, start, scene.map, parameters, limits);
-    const double most_lost = 0.1; // by a kill, s
     log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
     trace_.open(plan_.trace, is_interrupted_), record_.open(plan_.record, is_interrupted_); // the last to be refused
     Session session(loop, scene, nullptr, nullptr, log_->journal());
@@ -125,6 +124,8 @@ private:
   const Settings& settings_;
   examples::Result_writer& writer_;
   const std::atomic<bool>& is_interrupted_ = examples::process::is_ended();
+  static constexpr double most_lost = 0.1;           ///< by a kill, s
+  static constexpr double most_late = most_lost / 2; ///< what is made up for, s: no more than the log can take
   double tick_;
   Device_parameters<double> device_;
   Outcome<Device_pose<double>> home_;
@@ -188,12 +189,14 @@ private:
   }
 
   void replay(Loop& loop) {
+    double passed = 0; // ticks, those included in which nobody came
     for (const Joint_reading& reading : plan_.replay->readings) {
       if (is_interrupted_)
         return;
       log_->let_catch_up(session_->ticks());
       port_ = loop.observer().port(), dissipated_ = loop.observer().dissipated();
-      if (!tick(loop, reading, result_.ticks * tick_))
+      passed += std::round(reading.elapsed / tick_);
+      if (!tick(loop, reading, passed * tick_))
         return;
     }
   }
@@ -205,7 +208,7 @@ private:
     Haptic_tick last;
     while (device.time() < seconds && !is_interrupted_) {
       if (plan_.waits)
-        wait(due += static_cast<std::uint64_t>(1e9 * tick_));
+        due = wait(due + static_cast<std::uint64_t>(1e9 * tick_));
       else
         log_->let_catch_up(session_->ticks());
       if (faults_.is_log() && faults_.is_due(device.time()))
@@ -285,13 +288,21 @@ private:
       samples_.events.push_back({tool.proxy, words[static_cast<int>(tool.event)]});
   }
 
-  void wait(std::uint64_t due) {
+  /// After a long pause the clock begins anew: the ticks of the pause, made up for at once, would be more than the log
+  /// can take. \return when the tick has its time
+  std::uint64_t wait(std::uint64_t due) {
     const timespec until{static_cast<std::time_t>(due / 1000000000u), static_cast<long>(due % 1000000000u)};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR && !is_interrupted_)
       ;
     const std::uint64_t now = nanoseconds(CLOCK_MONOTONIC);
-    result_.wakeup.add(now > due ? now - due : 0);
-    result_.missed_by_wakeup += now > due + static_cast<std::uint64_t>(1e9 * tick_);
+    const std::uint64_t late = now > due ? now - due : 0, one_tick = static_cast<std::uint64_t>(1e9 * tick_);
+    result_.wakeup.add(late);
+    if (static_cast<double>(late) > 1e9 * most_late) {
+      result_.missed_by_wakeup += late / one_tick;
+      return now;
+    }
+    result_.missed_by_wakeup += late > one_tick;
+    return due;
   }
 
   void finish(const Loop& loop, const Scene& scene) {
@@ -322,6 +333,9 @@ private:
         parameters.vertices_order.emplace_back(static_cast<Mesh::size_type>(v));
     result_.is_valid = validate(scene.mesh).is_valid();
     log_->finish();
+    if (log_->has_overrun())
+      writer_.note("the log '" + plan_.log + "' lacks the last edits of this run" +
+                   (plan_.out.empty() ? "" : ", which '" + plan_.out + "' has"));
     writer_.write(plan_.out,
                   [&](const std::string& path) { return examples::write_mesh(path, scene.mesh, parameters); });
     writer_.write(plan_.picture, [&](const std::string& path) {

@@ -109,7 +109,6 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
       ->needs("--repair");
   app.add_option("--repair-largest-hole", arguments.repair.largest_hole,
                  "Holes with more edges than this are not closed, and the mesh is refused; by default all are closed")
-      ->check(examples::why_no_whole_number)
       ->needs("--repair");
   try {
     examples::parse_arguments(app, argc, argv);

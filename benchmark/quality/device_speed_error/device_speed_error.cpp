@@ -44,7 +44,7 @@ int main(int argument_count, char** arguments) {
   unsigned seed = 1;
   int count = 4096;
   app.add_option("--seed", seed, "of the random configurations");
-  app.add_option("--count", count, "configurations")->check(CLI::PositiveNumber);
+  app.add_option("--count", count, "configurations")->check(positive_number);
   Benchmark_program program("device_speed_error", app, "number type, or all models, and population");
   return program.run(argument_count, arguments, [&](Promises&) {
     json rows = json::array(), models = json::array();

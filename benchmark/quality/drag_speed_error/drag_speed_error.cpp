@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   std::size_t drags = 2000;
   std::vector<std::string> chosen;
   app.add_option("--seed", seed, "Seed of the scripts")->capture_default_str();
-  app.add_option("--drags", drags, "Drags of each script")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--drags", drags, "Drags of each script")->capture_default_str()->check(positive_number);
   app.add_option("--response", response, "What a blocked drag does")
       ->capture_default_str()
       ->check(CLI::IsMember({"stop", "slide"}));

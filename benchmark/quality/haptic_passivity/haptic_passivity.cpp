@@ -56,36 +56,38 @@ int main(int argc, char** argv) {
                "what each limit of forces adds; false alarms; the weight that is left in the hand; where stability "
                "ends.");
   app.add_option("--runs", options.runs, "Of random pose, stiffness <= k_p, damping, delay, tick and hand")
-      ->check(CLI::PositiveNumber)
+      ->check(haptic_sculpt::benchmark::positive_number)
       ->capture_default_str();
   app.add_option("--first", options.first, "Number of the first of them: shares of one large set add up to it")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 1000000000))
       ->capture_default_str();
   app.add_option("--knock-runs", options.knock_runs, "Of a hand that comes down fast, or a handle that is thrown")
-      ->check(CLI::PositiveNumber)
+      ->check(haptic_sculpt::benchmark::positive_number)
       ->capture_default_str();
-  app.add_option("--seconds", options.seconds, "Of contact in each")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--seconds", options.seconds, "Of contact in each")
+      ->check(haptic_sculpt::benchmark::positive_number)
+      ->capture_default_str();
   app.add_option("--effect-runs", options.effect_runs, "For each effect")
-      ->check(CLI::PositiveNumber)
+      ->check(haptic_sculpt::benchmark::positive_number)
       ->capture_default_str();
   app.add_option("--effect-seconds", options.effect_seconds, "Of contact in each")
-      ->check(CLI::PositiveNumber)
+      ->check(haptic_sculpt::benchmark::positive_number)
       ->capture_default_str();
   app.add_option("--alarm-runs", options.alarm_runs, "With encoders")
-      ->check(CLI::PositiveNumber)
+      ->check(haptic_sculpt::benchmark::positive_number)
       ->capture_default_str();
   app.add_option("--alarm-seconds", options.alarm_seconds, "Of contact in each")
-      ->check(CLI::PositiveNumber)
+      ->check(haptic_sculpt::benchmark::positive_number)
       ->capture_default_str();
   app.add_option("--damping-hands", options.damping_hands,
                  "In which the largest damping is tried, the stiffest first, for each tick and delay")
       ->check(CLI::Range(1, 15))
       ->capture_default_str();
   app.add_option("--prescribed", options.prescribed, "Poses of the prescribed motion, for each delay")
-      ->check(CLI::PositiveNumber)
+      ->check(haptic_sculpt::benchmark::positive_number)
       ->capture_default_str();
   app.add_option("--poses", options.poses, "At which the weight left is looked at")
-      ->check(CLI::PositiveNumber)
+      ->check(haptic_sculpt::benchmark::positive_number)
       ->capture_default_str();
   app.add_option("--parts", options.parts, "What to measure")
       ->delimiter(',')

@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
   app.add_option("--drags", options.drags, "Drags in each family, as made and again once deformed")
       ->capture_default_str();
   app.add_option("--per-scene", options.drags_per_scene, "Drags in one scene, then another is drawn")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number)
       ->capture_default_str();
   app.add_option("--ways", options.ways, "Random ways tried from each end")->capture_default_str();
   app.add_option("--family", options.family, "Only families whose names contain this");

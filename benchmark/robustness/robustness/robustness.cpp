@@ -40,10 +40,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--batch", options.batch, "Drags of a batch; each has a fresh copy of the mesh")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(benchmark::positive_number);
   app.add_option("--edit-batch", options.edit_batch, "Mixed edits of a batch")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(benchmark::positive_number);
   app.add_option("--extreme", options.extreme,
                  "Drags in all, on some small meshes, with targets, clearances and deltas anywhere among the doubles")
       ->capture_default_str();
