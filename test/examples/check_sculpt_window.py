@@ -364,7 +364,7 @@ os.mkfifo(at("pipe.actions"))
 window(precious, "--samples", 0, "--size", 100, 100, script=f"settle\nrecord {at('pipe.actions')}\nquit\n", code=5,
        what="a recording into a pipe that nobody reads")
 # Remeshing that takes long is broken off by escape, and by a signal.
-finest = "settle\nmove 100 75\n" + 10 * "key [\n" + "key d\nwait 1\n"
+finest = "settle\nremesh 0.004\nwait 1\n"
 lines, _ = window(BALL, "--no-log", "--samples", 0, "--size", 200, 150, what="remeshing that is broken off",
                   script=finest + "key escape\nsettle\nprint\nquit\n", patience=PATIENCE / 4)
 check(lines and "broken off" in lines[0]["refused"], f"remeshing that is broken off: {lines}")

@@ -29,6 +29,17 @@ Face_soup soup_of(const meshes::Triangle_list& list, double unit) {
   return soup;
 }
 
+/// A face of 4 to 7 corners of its own, at small whole numbers: many are on a line, or sides cross.
+void add_polygon(Face_soup& soup, double unit, fuzz::Choices& choices) {
+  for (std::size_t corners = 4 + choices.below(4); corners > 0; --corners) {
+    const auto whole = [&] { return (static_cast<double>(choices.below(13)) - 6) * unit; };
+    const double x = whole(), y = whole(), z = whole();
+    soup.corners.push_back(static_cast<Face_soup::Index>(soup.points.size()));
+    soup.points.emplace_back(x, y, z);
+  }
+  soup.close_face();
+}
+
 /// The corners of the faces, to be changed.
 std::vector<std::vector<Face_soup::Index>> faces_of(const Face_soup& soup) {
   std::vector<std::vector<Face_soup::Index>> faces;
@@ -109,6 +120,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   Face_soup soup = soup_of(list, unit);
   damage(soup, unit, choices);
+  if (choices.below(4) == 0)
+    add_polygon(soup, unit, choices);
   Repair_parameters parameters;
   if (choices.below(4) == 0)
     parameters.gap(std::abs(choices.number()) * unit);

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -260,16 +259,18 @@ BOOST_AUTO_TEST_CASE(a_vertex_of_any_valence_follows_the_hand_and_one_that_is_cu
 }
 
 BOOST_AUTO_TEST_CASE(the_box_of_a_scene_of_subnormal_size_is_right_for_callers_who_flush_them) {
-  const haptic_sculpt::test::Callers_mode mode(FE_TONEAREST, true);
-  bool is_right = false;
-  const Loop_scene<Mesh> scene(
-      meshes::to_mesh(meshes::cube(0x1p-1060)), [&](const Vector3d& lower, const Vector3d& upper) {
-        const Vector3d zero(0, 0, 0), size(0x1p-1060, 0x1p-1060, 0x1p-1060); // by their bytes: numbers would be 0 here
-        is_right = std::memcmp(lower.data(), zero.data(), sizeof zero) == 0 &&
-                   std::memcmp(upper.data(), size.data(), sizeof size) == 0;
-        return map_of_tests;
-      });
-  BOOST_TEST(is_right);
+  const Vector3d zero(0, 0, 0), size(0x1p-1060, 0x1p-1060, 0x1p-1060);
+  Vector3d least, greatest;
+  const auto map_of_box = [&](const Vector3d& lower, const Vector3d& upper) {
+    least = lower, greatest = upper;
+    return map_of_tests;
+  };
+  Mesh cube = meshes::to_mesh(meshes::cube(0x1p-1060));
+  {
+    const haptic_sculpt::test::Callers_mode mode(FE_TONEAREST, true);
+    const Loop_scene<Mesh> scene(std::move(cube), map_of_box);
+  }
+  BOOST_TEST((least == zero && greatest == size));
 }
 
 BOOST_AUTO_TEST_CASE(a_viewer_is_passed_which_ticks_were_starved) {
