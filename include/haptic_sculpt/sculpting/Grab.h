@@ -79,7 +79,7 @@ private:
 
   /// Another Grab takes the hand, or a drag has thrown.
   void note_place() noexcept {
-    if (const Vertex_index v = vertex(); v.is_valid())
+    if (const Vertex_index v = vertex(); v.is_valid() && sculptor_->mesh().has_valid_index(v)) // it may be cleared
       place_ = sculptor_->mesh().point(v);
   }
 

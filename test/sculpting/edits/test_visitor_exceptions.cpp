@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a visitor throws: the edit is not made, or stands, and a step of undo is made whole or not at all.
+#include "sculpting/Mesh_snapshot.h"
 #include "sculpting/edits/random_edits.h"
 
 #include <boost/test/unit_test.hpp>
@@ -214,4 +215,12 @@ BOOST_AUTO_TEST_CASE(a_grab_knows_where_its_vertex_is_when_a_visitor_has_thrown)
   const auto stale = grab.drag_to(home);
   BOOST_TEST((stale.end == Drag_end::stale));
   BOOST_TEST((stale.position == place));
+}
+
+BOOST_AUTO_TEST_CASE(a_grab_in_a_mesh_that_was_cleared_is_refused) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.05));
+  Throwing_sculptor sculptor(mesh);
+  auto grab = sculptor.grab(Vertex_index(20));
+  mesh.clear();
+  BOOST_CHECK_THROW(grab.drag_to({0, 0, 0}), Unknown_vertex);
 }
