@@ -3,6 +3,7 @@
 #include "Run.h"
 #include "Real_time.h"
 #include "Row_file.h"
+#include "Tick_clock.h"
 #include "Trace.h"
 #include "write_run_picture.h"
 
@@ -19,19 +20,10 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include <cerrno>
-#include <ctime>
-
 namespace haptic_sculpt::loop_program {
 namespace {
 
 using Mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
-
-std::uint64_t nanoseconds(clockid_t clock) {
-  timespec now;
-  clock_gettime(clock, &now);
-  return static_cast<std::uint64_t>(now.tv_sec) * 1000000000u + static_cast<std::uint64_t>(now.tv_nsec);
-}
 
 using Scene = Loop_scene<Mesh>;
 using Loop = Haptic_loop<Scene::Sculptor_type>;
@@ -204,11 +196,11 @@ private:
   void simulate(Loop& loop, const Device_pose<double>& start) {
     const double seconds = plan_.seconds > 0 ? plan_.seconds : plan_.path->end();
     Simulated_device device(device_, start, settings_.hand, *plan_.path, tick_, settings_.delay);
-    std::uint64_t due = nanoseconds(CLOCK_MONOTONIC);
+    Tick_clock clock(tick_, most_late);
     Haptic_tick last;
     while (device.time() < seconds && !is_interrupted_) {
       if (plan_.waits)
-        due = wait(due + static_cast<std::uint64_t>(1e9 * tick_));
+        clock.wait(is_interrupted_, result_.wakeup, result_.missed_by_wakeup);
       else
         log_->let_catch_up(session_->ticks());
       if (faults_.is_log() && faults_.is_due(device.time()))
@@ -286,23 +278,6 @@ private:
     constexpr const char* words[] = {"", "grabbed", "created", "created", "released", "removed", "refused"};
     if (tool.event != Tool_event::none)
       samples_.events.push_back({tool.proxy, words[static_cast<int>(tool.event)]});
-  }
-
-  /// After a long pause the clock begins anew: the ticks of the pause, made up for at once, would be more than the log
-  /// can take. \return when the tick has its time
-  std::uint64_t wait(std::uint64_t due) {
-    const timespec until{static_cast<std::time_t>(due / 1000000000u), static_cast<long>(due % 1000000000u)};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR && !is_interrupted_)
-      ;
-    const std::uint64_t now = nanoseconds(CLOCK_MONOTONIC);
-    const std::uint64_t late = now > due ? now - due : 0, one_tick = static_cast<std::uint64_t>(1e9 * tick_);
-    result_.wakeup.add(late);
-    if (static_cast<double>(late) > 1e9 * most_late) {
-      result_.missed_by_wakeup += late / one_tick;
-      return now;
-    }
-    result_.missed_by_wakeup += late > one_tick;
-    return due;
   }
 
   void finish(const Loop& loop, const Scene& scene) {

@@ -2,6 +2,8 @@
 // The life of a Grab.
 #include "sculpting/Random_scene.h"
 
+#include <haptic_sculpt/sculpting/paper_1997.h>
+
 #include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <boost/test/unit_test.hpp>
@@ -9,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -122,4 +125,23 @@ BOOST_AUTO_TEST_CASE(a_delta_that_is_refused_lets_go_of_nothing) {
     BOOST_TEST((ends[0] == ends[1]));
   }
   BOOST_TEST(blocked > 100u);
+}
+
+// Whether it has moved or not: `no_progress` is where no contact explains it.
+BOOST_AUTO_TEST_CASE(a_vertex_that_contacts_hold_is_held_however_often_it_is_drawn) {
+  for (const Response response : {Response::slide, Response::stop, Response::paper()}) {
+    Mesh mesh = meshes::to_mesh(meshes::row_of_spheres(2));
+    Sculptor<Mesh> sculptor(mesh, parameters::response(response));
+    Vertex_index v(0);
+    for (const Vertex_index w : mesh.vertices()) // of the first, that nearest to the second
+      if (static_cast<std::size_t>(w) < mesh.number_of_vertices() / 2 && mesh.point(w).x() > mesh.point(v).x())
+        v = w;
+    auto grab = sculptor.grab(v);
+    const Point_3 target = mesh.point(v) + meshes::Kernel::Vector_3(1, 0, 0);
+    for (int k = 0; k < 4; ++k) {
+      const auto result = grab.drag_to(target);
+      BOOST_TEST(!result.contacts.empty());
+      BOOST_TEST(std::string(name_of(result.end)) == "held");
+    }
+  }
 }

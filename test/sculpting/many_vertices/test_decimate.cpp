@@ -13,10 +13,8 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
-#include <boost/property_map/function_property_map.hpp>
 #include <boost/test/unit_test.hpp>
 
-#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -252,119 +250,6 @@ BOOST_AUTO_TEST_CASE(placements_and_meshes_out_of_range_are_refused_by_name) {
       usual = mesh;
     BOOST_TEST(reading_and_writing::identical(mesh, usual));
   }
-}
-
-// Where the draw mends altitudes that a delta would not let be so low again.
-BOOST_AUTO_TEST_CASE(what_was_drawn_for_nothing_goes_back_whatever_delta_is) {
-  Mesh mesh;
-  const auto a = mesh.add_vertex({-1, -1, 0}), b = mesh.add_vertex({1, -1, 0}), c = mesh.add_vertex({0, 1, 0}),
-             top = mesh.add_vertex({0, 0, 1});
-  mesh.add_face(a, c, b), mesh.add_face(a, b, top), mesh.add_face(b, c, top), mesh.add_face(c, a, top);
-  Sculptor<Mesh> sculptor(mesh);
-  BOOST_REQUIRE(sculptor.drag(top, {0, -0.9, 0.1}).reached);
-  BOOST_REQUIRE(sculptor.drag(top, {0, 0, 1}).reached);
-  sculptor.set_delta(0.5);
-  BOOST_REQUIRE(static_cast<bool>(sculptor.undo()));
-  const Mesh before = mesh;
-  const auto cost = [](const auto& profile, const auto&) {
-    return boost::optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
-  };
-  const auto placement = [](const auto&) { return boost::optional<meshes::Point_3>(meshes::Point_3(0, 0, 2)); };
-  const auto report =
-      haptic_sculpt::decimate(sculptor, [](const auto&, const auto&, std::size_t, std::size_t) { return false; },
-                              CGAL::parameters::get_cost(cost).get_placement(placement));
-  BOOST_TEST(report.collapsed == 0u);
-  BOOST_TEST(report.refused > 0u);
-  BOOST_TEST(reading_and_writing::identical(mesh, before));
-  BOOST_TEST(sculptor.history().number_of_undo_steps() == 1u);
-  BOOST_TEST(sculptor.history().number_of_redo_steps() == 1u);
-  BOOST_TEST(sculptor.parameters().delta_length > 0);
-}
-
-BOOST_AUTO_TEST_CASE(what_was_drawn_goes_back_where_a_visitor_keeps_the_collapse_from_being_made) {
-  struct Throwing_visitor : haptic_sculpt::Default_edit_visitor {
-    bool throws_at_draws = false;
-    void vertex_moved(Mesh::Vertex_index) {
-      if (throws_at_draws)
-        throw haptic_sculpt::Error("the visitor throws");
-    }
-    void edge_dies(Mesh::Edge_index) { throw haptic_sculpt::Error("the visitor throws"); }
-  };
-  for (const bool throws_at_draws : {false, true}) {
-    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
-    const Mesh before = mesh;
-    Throwing_visitor visitor;
-    visitor.throws_at_draws = throws_at_draws;
-    Sculptor<Mesh, haptic_sculpt::Box_tree_broad_phase<Mesh>, Throwing_visitor> sculptor(mesh, {}, visitor);
-    const auto never = [](const auto&, const auto&, std::size_t, std::size_t) { return false; };
-    BOOST_CHECK_THROW(haptic_sculpt::decimate(sculptor, never), haptic_sculpt::Error);
-    BOOST_TEST(reading_and_writing::identical(mesh, before));
-    BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(a_visitor_sees_the_parameters_that_were_set) {
-  struct Watching_visitor : haptic_sculpt::Default_edit_visitor {
-    const haptic_sculpt::Sculptor_parameters* parameters = nullptr;
-    std::size_t moves = 0, others = 0;
-    void vertex_moved(Mesh::Vertex_index) { ++moves, others += parameters->delta_length != 0x1p-10; }
-  };
-  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
-  Sculptor<Mesh, haptic_sculpt::Box_tree_broad_phase<Mesh>, Watching_visitor> sculptor(mesh);
-  sculptor.set_delta(0x1p-10);
-  sculptor.visitor().parameters = &sculptor.parameters();
-  // Places beside the surface: many a draw is for nothing, and goes back.
-  const auto placement = [](const auto& profile) {
-    return boost::optional<meshes::Point_3>(CGAL::midpoint(profile.p0(), profile.p1()) +
-                                            meshes::Kernel::Vector_3(0.2, 0, 0));
-  };
-  const auto stop = [](const auto&, const auto&, std::size_t, std::size_t edges) { return edges < 100; };
-  const auto report = haptic_sculpt::decimate(sculptor, stop, CGAL::parameters::get_placement(placement));
-  BOOST_TEST(report.refused > 0u);
-  BOOST_TEST(sculptor.visitor().moves > 0u);
-  BOOST_TEST(sculptor.visitor().others == 0u);
-}
-
-BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
-  for (const std::string asked : {"stop", "cost", "placement", "constraint"})
-    BOOST_TEST_CONTEXT(asked) {
-      Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3));
-      const Mesh before = mesh;
-      Sculptor<Mesh> sculptor(mesh);
-      std::size_t calls = 0;
-      const auto edit = [&](const char* here) {
-        if (asked == here && ++calls == 40)
-          sculptor.undo();
-      };
-      using Profile = SMS::Edge_profile<const Mesh, boost::property_map<Mesh, CGAL::vertex_point_t>::const_type,
-                                        meshes::Kernel>;
-      const auto stop = [&](double, const Profile&, std::size_t, std::size_t edges) {
-        edit("stop");
-        return edges < 100;
-      };
-      const auto cost = [&](const Profile& profile, const boost::optional<meshes::Point_3>&) {
-        edit("cost");
-        return boost::optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
-      };
-      const auto placement = [&](const Profile& profile) {
-        edit("placement");
-        return boost::optional<meshes::Point_3>(CGAL::midpoint(profile.p0(), profile.p1()));
-      };
-      const std::function<bool(Mesh::Edge_index)> constraint = [&](Mesh::Edge_index) {
-        edit("constraint");
-        return false;
-      };
-      BOOST_CHECK_THROW(
-          haptic_sculpt::decimate(sculptor, stop,
-                                  CGAL::parameters::get_cost(cost).get_placement(placement).edge_is_constrained_map(
-                                      boost::make_function_property_map<Mesh::Edge_index>(constraint))),
-          haptic_sculpt::Reentrant_call);
-      BOOST_TEST(haptic_sculpt::validate(mesh).is_valid());
-      sculptor.check_unchanged();
-      sculptor.undo(); // what was done by then is one step, or none
-      BOOST_TEST(mesh.number_of_faces() == before.number_of_faces());
-      BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
-    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

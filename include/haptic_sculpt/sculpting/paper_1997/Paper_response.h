@@ -27,7 +27,7 @@ public:
       forget();
     place_ = source;
     path_ = Slide_path(source);
-    const Drag_end why = walk(ground, source, target, clearances);
+    const Drag_end why = walk(ground, target, clearances);
     if (is_farther(target, place_, source)) {
       place_ = source;
       path_ = Slide_path(source);
@@ -66,8 +66,7 @@ private:
   Touched touched_;
   mutable std::vector<Face> faces_; ///< at a vertex; kept to allocate no more
 
-  Drag_end walk(Walk_ground& ground, const Coordinates& source, const Coordinates& target,
-                const Clearance_rule& clearances) {
+  Drag_end walk(Walk_ground& ground, const Coordinates& target, const Clearance_rule& clearances) {
     bool stands = false; // did not move in the turn before
     for (int legs = 0; legs < most_legs; ++legs) {
       const std::optional<Aim> aim = next_aim(ground, target, clearances);
