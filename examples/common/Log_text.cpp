@@ -15,12 +15,16 @@ using Kind = Command::Kind;
 
 constexpr std::string_view version_word = "# haptic_sculpt log ", current_version = "1", pass_word = "# script ",
                            tick_word = "# tick ", after_word = " after line ", done_word = " done",
-                           line_word = " # line ", checksum_word = " # ";
+                           line_word = " # line ", refused_word = " # refused", checksum_word = " # ";
 const std::string end_word = "end";
 constexpr std::size_t checksum_size = 16; // digits: 64 bits
 
 bool begins_with(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
+}
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
 std::string hexadecimal(double x) {
@@ -212,10 +216,11 @@ private:
   }
 
   void read_command(std::string_view text, std::size_t script_line) {
+    const bool is_refused = ends_with(text, refused_word);
     auto command = lines_.take(std::string(text), number_, name_);
     if (!command)
       return;
-    command->is_logged = true;
+    command->is_logged = true, command->is_refused = is_refused;
     command->script_line = script_line;
     if (contents_.commands.empty() && (command->kind != Kind::mesh || command->word != mesh_))
       throw Foreign_log("the log '" + name_ + "' does not begin with the hash of this mesh, " + mesh_ +
@@ -265,6 +270,8 @@ std::string Log_writer::command(const Command& command, std::size_t script_line)
       lines += line(std::to_string(vertex) + ' ' + hexadecimal(coordinate));
     last = end_word;
   }
+  if (command.is_refused)
+    last += refused_word;
   return lines + line(last + std::string(line_word) + std::to_string(script_line));
 }
 

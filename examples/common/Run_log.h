@@ -70,17 +70,21 @@ public:
       writer_->stall();
   }
 
-  /// Writes what is left. \pre the session has ended
+  /// Writes what is left, if the disk answers. \pre the session has ended
   void finish() {
     if (!writer_)
       return;
     writer_->finish();
     ticks_ = writer_->ticks();
     writer_.reset();
+    for (Edit left; journal_->take(left);)
+      unwritten_ += left.kind != Edit_kind::none;
   }
+  /// Edits that were not lost as long as the run went on, and are now. \pre finish()
+  std::uint64_t unwritten() const { return unwritten_; }
   /// All results are written. What is in the log is all that was done.
   void end() {
-    if (file_ && !has_overrun())
+    if (file_ && lost() == 0 && !has_overrun())
       file_->end_pass(run_);
   }
 
@@ -98,7 +102,7 @@ public:
   }
 
   std::uint64_t ticks() const { return ticks_; }
-  std::uint64_t lost() const { return journal_ ? journal_->lost() : 0; }
+  std::uint64_t lost() const { return (journal_ ? journal_->lost() : 0) + unwritten_; }
   /// Whether it does not hold all: to be asked by any thread.
   bool has_failed() const { return file_ && file_->has_failed(); }
   std::string failure() const { return file_ ? file_->failure() : ""; }
@@ -108,7 +112,7 @@ private:
   std::optional<Edit_journal> journal_;
   std::optional<Journal_writer> writer_; ///< last: it uses the others
   std::string run_;
-  std::uint64_t ticks_ = 0;
+  std::uint64_t ticks_ = 0, unwritten_ = 0;
 };
 
 } // namespace haptic_sculpt::examples

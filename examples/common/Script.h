@@ -26,6 +26,7 @@ struct Command {
   /// Of what is logged: the line of the script that it came from; 0 where the log does not say.
   std::size_t script_line = 0;
   bool is_restored = false; ///< a setting that a script had when it broke off, and that others have changed
+  bool is_refused = false;  ///< a setting that was not taken, as its log says: what was in force stays so
   Kind kind = Kind::release;
   Edit edit; ///< of a move, which none is by value: the vertex, and the way as `point`
   /// Of `edit.vertices` those that are yet to be found: the vertex nearest to a point when the line's turn comes.

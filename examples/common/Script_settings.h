@@ -15,7 +15,7 @@ struct Settings {
   std::optional<double> clearance; ///< unset: the default
   double delta = 0;
 
-  /// Of commands other than settings: nothing.
+  /// Of commands other than settings, and of those that were refused: nothing.
   void follow(const Command& command);
   /// As directives.
   std::vector<Command> directives() const;
@@ -24,6 +24,8 @@ struct Settings {
 };
 
 inline void Settings::follow(const Command& command) {
+  if (command.is_refused)
+    return;
   if (command.kind == Command::Kind::response)
     response = command.word;
   else if (command.kind == Command::Kind::clearance)

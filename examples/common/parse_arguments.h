@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "numbers.h"
+
 #include <CLI/CLI.hpp>
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <system_error>
@@ -22,6 +27,17 @@ std::string normalise_whole_number(std::string& text) {
     return "'" + text + "' is not a whole number from " + std::to_string(std::numeric_limits<Number>::min()) + " to " +
            std::to_string(std::numeric_limits<Number>::max());
   text = std::to_string(number);
+  return "";
+}
+
+/// Writes a number as CLI reads it rightly: CLI rounds it twice, at first to a long double.
+inline std::string normalise_number(std::string& text) {
+  const auto number = number_of(text);
+  if (number && std::isfinite(*number) && static_cast<double>(std::strtold(text.c_str(), nullptr)) != *number) {
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%.17g", *number);
+    text = digits;
+  }
   return "";
 }
 
@@ -43,6 +59,8 @@ inline void parse_arguments(CLI::App& app, int argc, char** argv) {
       option->transform(CLI::Validator(normalise_whole_number<std::uint64_t>, ""));
     else if (type.rfind("INT", 0) == 0)
       option->transform(CLI::Validator(normalise_whole_number<std::int64_t>, ""));
+    else if (type.rfind("FLOAT", 0) == 0 || type.rfind("X Y Z", 0) == 0)
+      option->transform(CLI::Validator(normalise_number, ""));
   }
   app.parse(argc, argv);
 }

@@ -9,6 +9,7 @@
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace haptic_sculpt::loop_program {
@@ -86,7 +87,8 @@ inline void Recording::take_reading(const std::string& line, const std::string& 
   int end = 0;
   if (std::sscanf(line.c_str(), "%la %la %la %la %la %la %la %la %n", &r.theta[0], &r.theta[1], &r.theta[2],
                   &r.torque[0], &r.torque[1], &r.torque[2], &button, &r.elapsed, &end) != 8 ||
-      static_cast<std::size_t>(end) != line.size() || !(button == 0 || button == 1 || button == 2))
+      static_cast<std::size_t>(end) != line.size() || !(button == 0 || button == 1 || button == 2) ||
+      !std::isfinite(r.elapsed)) // the device's clock, which no fault makes another
     throw Foreign_recording(path + ": line " + std::to_string(readings.size() + 2) + " is no line of a recording");
   r.button = static_cast<int>(button);
   readings.push_back(r);

@@ -12,6 +12,7 @@
 
 #include <haptic_sculpt/haptic_rendering/check_coupling.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -88,9 +89,13 @@ int loop(const Arguments& arguments, Plan& plan) {
     if (!arguments.seconds && !(plan.path->end() > 0))
       throw Usage_error("the path ends at " + examples::decimal(plan.path->end()) +
                         " s, before the first tick: give --seconds, or times above 0");
-    if (const double seconds = arguments.seconds.value_or(plan.path->end()); plan.fault && plan.fault->time >= seconds)
-      throw Usage_error("--fault comes at " + examples::decimal(plan.fault->time) + " s, after the end of the run at " +
-                        examples::decimal(seconds) + " s");
+    const double seconds = arguments.seconds.value_or(plan.path->end());
+    const double last_tick = (std::ceil(seconds * settings.rate) - 1) / settings.rate;
+    if (plan.fault && plan.fault->time > last_tick)
+      throw Usage_error("--fault comes at " + examples::decimal(plan.fault->time) + " s, after the last tick, at " +
+                        examples::decimal(last_tick) + " s");
+    if (plan.fault && plan.fault->kind == Loop_fault::stall && plan.fault->time == 0)
+      throw Usage_error("--fault stall@0 comes before the first tick, and nobody would wait for it: give a later time");
   }
   plan.mesh = arguments.mesh, plan.out = arguments.out, plan.log = arguments.log;
   if (arguments.is_real_time && (arguments.does_not_wait || !arguments.replay.empty()))

@@ -7,10 +7,10 @@
 #include "Trace.h"
 #include "write_run_picture.h"
 
+#include "../common/Mesh_file.h"
 #include "../common/Run_log.h"
 #include "../common/numbers.h"
 #include "../common/process_state.h"
-#include "../common/sha256_of_file.h"
 #include "../common/told_loss.h"
 #include "../common/write_file.h"
 #include "../drawing/surface_mesh_arrays.h"
@@ -53,7 +53,8 @@ public:
   Run_result run() {
     if (!home_)
       throw Usage_error("the device has no pose in the middle of its joint limits");
-    const std::string hash = examples::sha256_of_file(plan_.mesh);
+    const examples::Mesh_file file(plan_.mesh);
+    const std::string hash = file.hash();
     if (plan_.replay && plan_.replay->mesh != hash)
       throw Foreign_recording("the recording is of a mesh with the SHA-256 " + plan_.replay->mesh + ", but that of '" +
                               plan_.mesh + "' is " + hash);
@@ -62,7 +63,7 @@ public:
       throw Usage_error("a recording is of a run that begins with the mesh itself; give a log that has no edits, or is "
                         "not there yet");
     std::vector<std::string> left_out;
-    Mesh mesh = read_surface<Mesh>(plan_.mesh, 0, &left_out);
+    Mesh mesh = file.surface<Mesh>(&left_out);
     Scene scene(std::move(mesh), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
       return map_of(settings_, lower, upper, device_, *home_);
     });
@@ -308,9 +309,12 @@ private:
         parameters.vertices_order.emplace_back(static_cast<Mesh::size_type>(v));
     result_.is_valid = validate(scene.mesh).is_valid();
     log_->finish();
-    if (log_->has_overrun())
-      writer_.note("the log '" + plan_.log + "' lacks the last edits of this run" +
-                   (plan_.out.empty() ? "" : ", which '" + plan_.out + "' has"));
+    const std::string lacking = "the log '" + plan_.log + "' lacks the last edits of this run" +
+                                (plan_.out.empty() ? "" : ", which '" + plan_.out + "' has");
+    if (log_->has_overrun()) // which is a fault
+      writer_.note(lacking);
+    else if (log_->unwritten() > 0) // the run has ended before that
+      writer_.fail(lacking);
     writer_.write(plan_.out,
                   [&](const std::string& path) { return examples::write_mesh(path, scene.mesh, parameters); });
     writer_.write(plan_.picture, [&](const std::string& path) {

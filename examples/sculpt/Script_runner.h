@@ -35,15 +35,7 @@ public:
           carry_out_move(command, i != 0 && script[i - 1].edit.kind == Edit_kind::move, after);
         } else {
           carry_out(command);
-          const Command held = as_it_holds(command);
-          const bool is_in_force = held.length == command.length && held.word == command.word;
-          if (!is_in_force && command.is_restored)
-            throw examples::Usage_error(
-                "the script had this when it broke off, and the mesh, changed since, does not take it. "
-                "Undo what was done since, or carry out the lines that are left as another script");
-          after(command);
-          if (!is_in_force)
-            after(held); // who reads the log has to know what is in force
+          tell(command, after);
         }
       } catch (const std::exception&) { // told with what was done so far, which is not lost
         result_.failure = std::current_exception();
@@ -90,16 +82,28 @@ private:
     return command;
   }
 
-  /// Of a setting that was refused, the one that is in force; else the command.
-  Command as_it_holds(Command command) const {
+  /// Whoever reads the log has to know of a setting that is not in force.
+  void tell(const Command& command, const After_command& after) const {
+    if (is_in_force(command))
+      return after(command);
+    if (command.is_restored)
+      throw examples::Usage_error(
+          "the script had this when it broke off, and the mesh, changed since, does not take it. "
+          "Undo what was done since, or carry out the lines that are left as another script");
+    Command refused = command;
+    refused.is_refused = true;
+    after(refused);
+  }
+
+  /// \return true of what is no setting that may be refused
+  bool is_in_force(const Command& command) const {
     const Sculptor_parameters& held = sculptor_.parameters();
     if (command.kind == Kind::delta)
-      command.length = held.delta_length;
-    if (command.kind == Kind::clearance) {
-      command.word = held.drag.clearance_length ? "" : "default";
-      command.length = held.drag.clearance_length.value_or(0);
-    }
-    return command;
+      return command.length == held.delta_length;
+    if (command.kind == Kind::clearance)
+      return held.drag.clearance_length ? command.word.empty() && command.length == *held.drag.clearance_length
+                                        : command.word == "default";
+    return true;
   }
 
   void carry_out(const Command& command) {

@@ -95,10 +95,9 @@ inline void color_by_displacement(drawing::Scene& scene, const Run_result& resul
   add_scale(scene, 1, "moved by " + short_number(largest));
 }
 
-/// The least altitude of the triangles at each vertex, by its logarithm: the lower the darker.
-inline void color_by_altitude(drawing::Scene& scene) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> altitude(scene.points.size(), none);
+/// The least altitude of the triangles at each vertex; infinite where it has none.
+inline std::vector<double> altitudes_of(const drawing::Scene& scene) {
+  std::vector<double> altitude(scene.points.size(), std::numeric_limits<double>::infinity());
   for (const auto& t : scene.triangles)
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d &a = scene.points[t[i]], &b = scene.points[t[(i + 1) % 3]],
@@ -108,16 +107,27 @@ inline void color_by_altitude(drawing::Scene& scene) {
       for (const int v : t)
         altitude[v] = base > 0 ? std::fmin(altitude[v], height) : 0;
     }
+  return altitude;
+}
+
+/// By the logarithm of the altitude, on one scale for all: the lower the darker.
+inline void color_by_altitude(std::vector<drawing::Scene>& scenes) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<std::vector<double>> altitudes;
   double least = none, most = 0;
-  for (const double h : altitude)
-    if (h < none)
-      least = std::fmin(least, std::fmax(h, std::numeric_limits<double>::min())), most = std::fmax(most, h);
+  for (const drawing::Scene& scene : scenes) {
+    altitudes.push_back(altitudes_of(scene));
+    for (const double h : altitudes.back())
+      if (h < none)
+        least = std::fmin(least, std::fmax(h, std::numeric_limits<double>::min())), most = std::fmax(most, h);
+  }
   const double span = std::log(most) - std::log(least);
-  for (const double h : altitude)
-    scene.point_colors.push_back(
-        shade(h < none && span > 0 ? (std::log(most) - std::log(std::fmax(h, least))) / span : 0));
-  add_scale(scene, 0, "altitude " + short_number(most));
-  add_scale(scene, 1, "altitude " + short_number(least));
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    for (const double h : altitudes[i])
+      scenes[i].point_colors.push_back(
+          shade(h < none && span > 0 ? (std::log(most) - std::log(std::fmax(h, least))) / span : 0));
+  add_scale(scenes.back(), 0, "altitude " + short_number(most));
+  add_scale(scenes.back(), 1, "altitude " + short_number(least));
 }
 
 /// \pre `at` is empty, a number, "edit" or @X,Y,Z \throw drawing::Picture_error
@@ -170,11 +180,9 @@ inline std::string write_picture_of(const Mesh& mesh, const Run_result& result, 
     rank[std::size_t(v)] = vertices++;
   if (shown.color == "displacement")
     pictures::color_by_displacement(after, result, before, rank);
-  else if (shown.color == "altitude")
-    pictures::color_by_altitude(after);
-  if (shown.before && shown.color == "altitude")
-    pictures::color_by_altitude(scenes.back());
   scenes.push_back(std::move(after));
+  if (shown.color == "altitude")
+    pictures::color_by_altitude(scenes);
   return drawing::write_pictures(scenes, path, view);
 }
 

@@ -4,7 +4,6 @@
 #include "refusal.h"
 
 #include <haptic_sculpt/surface/divide_polygon.h>
-#include <haptic_sculpt/surface/read_surface.h>
 
 #include <algorithm>
 #include <array>
@@ -61,10 +60,10 @@ Face_soup triangulated(const Face_soup& soup, const Arguments& arguments) {
 
 } // namespace
 
-Sculpted_mesh read_mesh(const Arguments& arguments) {
+Sculpted_mesh read_mesh(const examples::Mesh_file& file, const Arguments& arguments) {
   const std::string& path = arguments.mesh;
   const double delta = arguments.delta.value_or(0);
-  Face_soup soup = read_face_soup(path);
+  Face_soup soup = file.soup();
   Sculpted_mesh read;
   read.left_out = std::move(soup.left_out);
   const auto refuse = [&](const std::string& subject, Validity_report report) {

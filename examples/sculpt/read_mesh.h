@@ -4,6 +4,7 @@
 #include "Arguments.h"
 #include "Run_result.h"
 
+#include "../common/Mesh_file.h"
 #include "../common/Result_writer.h"
 
 #include <haptic_sculpt/surface/Validity_report.h>
@@ -26,7 +27,7 @@ struct Sculpted_mesh {
 /// triangles: a face's vertices stay, no vertex is added, and a polygon that folds over itself is refused. Where it is
 /// refused, write_refusal() is called first.
 /// \throw Read_error, Out_of_range; Invalid_surface for faults, before or after it was divided
-Sculpted_mesh read_mesh(const Arguments& arguments);
+Sculpted_mesh read_mesh(const examples::Mesh_file& file, const Arguments& arguments);
 
 /// Writes the one that was asked for, if any. \pre the mesh was repaired
 void write_repair_report(const Arguments& arguments, examples::Result_writer& writer, const Sculpted_mesh& read);
@@ -34,6 +35,7 @@ void write_repair_report(const Arguments& arguments, examples::Result_writer& wr
 /// Reads what a file holds and repairs it; writes the report that was asked for where it cannot be.
 /// \param told receives the steps, in words
 /// \throw Read_error, Out_of_range; Read_error also for what cannot be repaired, with what is left
-Sculpted_mesh read_repaired(const Arguments& arguments, examples::Result_writer& writer, std::string& told);
+Sculpted_mesh read_repaired(const examples::Mesh_file& file, const Arguments& arguments,
+                            examples::Result_writer& writer, std::string& told);
 
 } // namespace haptic_sculpt::sculpt_program

@@ -49,8 +49,9 @@ void write_repair_report(const Arguments& arguments, examples::Result_writer& wr
                [&](const std::string& path) { return examples::write_file(path, read.repair_report); });
 }
 
-Sculpted_mesh read_repaired(const Arguments& arguments, examples::Result_writer& writer, std::string& told) {
-  Face_soup soup = read_face_soup(arguments.mesh);
+Sculpted_mesh read_repaired(const examples::Mesh_file& file, const Arguments& arguments,
+                            examples::Result_writer& writer, std::string& told) {
+  Face_soup soup = file.soup();
   Repair_parameters parameters;
   parameters.delta(arguments.delta.value_or(0));
   if (arguments.repair.gap)

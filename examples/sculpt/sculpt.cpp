@@ -7,7 +7,6 @@
 #include "../common/numbers.h"
 #include "../common/output_targets.h"
 #include "../common/printable.h"
-#include "../common/sha256_of_file.h"
 #include "../common/told_loss.h"
 #include "../common/write_file.h"
 #include "Progress.h"
@@ -121,13 +120,13 @@ struct Delta_of_no_use : Error {
 };
 
 /// As it is sculpted. \throw Delta_of_no_use; what reading meshes throws
-Sculpted_mesh mesh_of(const Arguments& arguments, Result_writer& writer) {
+Sculpted_mesh mesh_of(const examples::Mesh_file& file, const Arguments& arguments, Result_writer& writer) {
   const double delta = arguments.delta.value_or(0);
   if (arguments.repair.is_asked) {
     std::string told;
     Sculpted_mesh read = [&] {
       const Progress progress("repairing '" + arguments.mesh + "'");
-      return read_repaired(arguments, writer, told);
+      return read_repaired(file, arguments, writer, told);
     }();
     std::cout << told;
     return read;
@@ -135,7 +134,7 @@ Sculpted_mesh mesh_of(const Arguments& arguments, Result_writer& writer) {
   try {
     Sculpted_mesh read = [&] {
       const Progress progress("reading and validating '" + arguments.mesh + "'");
-      return read_mesh(arguments);
+      return read_mesh(file, arguments);
     }();
     if (arguments.orient && !read.found.inside_out_components.empty()) {
       std::cout << "components turned over: " << orient_components(read.mesh) << '\n';
@@ -230,11 +229,11 @@ int sculpt(const Arguments& arguments) {
   check_files(arguments);
   Result_writer writer("sculpt");
   // A log is of what is sculpted: of the file, unless an option makes another surface of it, which is looked at first.
+  const examples::Mesh_file file(arguments.mesh);
   std::optional<Sculpted_mesh> read;
   if (arguments.repair.is_asked || arguments.triangulate || arguments.orient)
-    read = mesh_of(arguments, writer);
-  const std::string hash =
-      read && read->is_changed ? sha256_of_surface(read->mesh) : sha256_of_file(arguments.mesh);
+    read = mesh_of(file, arguments, writer);
+  const std::string hash = read && read->is_changed ? sha256_of_surface(read->mesh) : file.hash();
   std::optional<Log_file> log;
   if (!arguments.log.empty())
     log.emplace(arguments.log, hash);
@@ -242,7 +241,7 @@ int sculpt(const Arguments& arguments) {
     log->drop_last_line();
   const Plan plan = plan_of(script, log ? &*log : nullptr, arguments);
   if (!read)
-    read = mesh_of(arguments, writer);
+    read = mesh_of(file, arguments, writer);
   Mesh& mesh = read->mesh;
   check_mesh_directives(script.commands, arguments, hash);
   if (arguments.repair.is_asked)

@@ -246,8 +246,11 @@ private:
   void scroll() {
     Action& action = add(Kind::scroll);
     action.numbers[0] = line_.number("a number of notches");
-    if (const auto more = line_.next())
+    if (const auto more = line_.next()) {
       action.word = modifier(*more);
+      if (action.word == "alt")
+        line_.fail("a wheel is turned with 'ctrl' or 'shift'");
+    }
   }
   void key() {
     Action& action = add(Kind::key);
@@ -273,9 +276,11 @@ private:
   }
   void remesh() {
     Action& action = add(Kind::remesh);
-    action.numbers[0] = line_.number_or(0, "a length");
-    if (!(action.numbers[0] >= 0))
-      line_.fail("the length must be more than 0");
+    if (const auto word = line_.next()) { // else 0: the length that is kept
+      action.numbers[0] = line_.number("a length", *word);
+      if (!(action.numbers[0] > 0))
+        line_.fail("the length must be more than 0");
+    }
   }
 };
 

@@ -249,6 +249,8 @@ void Application::step() {
   if (status_.log_has_failed && !before.log_has_failed)
     say("what is done from here on is not in the log, which cannot be written: save the mesh");
   take_reports();
+  if (!to_open_.empty() && is_at_rest())
+    open(std::exchange(to_open_, {}));
   if (is_leaving_ && thread_.is_idle()) {
     is_leaving_ = false;
     if (is_unsaved())

@@ -117,6 +117,7 @@ private:
   std::vector<Model*> left_;
 
   std::array<int, 2> view_size_{};
+  std::string to_open_;   ///< as soon as nothing is under way
   std::string next_open_; ///< asked for once while there was unsaved work
   std::set<std::string> unopened_; ///< what was refused for that, and not opened since
   bool has_failed_to_open_ = false;
@@ -145,7 +146,10 @@ private:
   std::string recorded_to_;
   Clock::time_point last_recorded_{};
 
-  bool is_unsaved() const { return !kept_.empty() && kept_.back().is_unsaved(status_.edits); }
+  /// Whether status_ is of the mesh that is shown; else the loop has yet to enter it, and nothing was done to it.
+  bool has_status() const { return status_.scene == scene_; }
+  bool is_unsaved() const { return !kept_.empty() && kept_.back().is_unsaved(has_status() ? status_.edits : 0); }
+  bool is_at_rest() const;
   Pointer pointer_here() const;
   void point();
   void enter(Opened opened);

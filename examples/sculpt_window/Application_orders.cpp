@@ -39,7 +39,9 @@ void Application::remesh(bool all, double length) {
 }
 
 void Application::scale_tool(double factor) {
-  (choices_.tool == Tool::probe ? choices_.depth : choices_.brush.radius) *= factor;
+  double& length = choices_.tool == Tool::probe ? choices_.depth : choices_.brush.radius;
+  if (const double scaled = factor * length; std::isnormal(scaled)) // else it could not be scaled back
+    length = scaled;
 }
 
 void Application::look(const Eigen::Vector3d& direction) {
@@ -236,9 +238,17 @@ void Application::save(const std::string& path, bool quits) {
   thread_.copy();
 }
 
+/// Nothing is under way that could still change the mesh, or has its log.
+bool Application::is_at_rest() const {
+  return thread_.is_idle() && kept_.size() <= 1 && to_save_.empty() && !background_.is_opening() &&
+         !background_.is_saving();
+}
+
 void Application::open(const std::string& path) {
-  if (background_.is_opening())
-    return say("a mesh is being opened; wait for it");
+  if (!is_at_rest()) {
+    to_open_ = path;
+    return say(path + " is opened as soon as what is under way has ended");
+  }
   if (!log_.empty() && examples::same_file(path, {{"open", path_}}))
     return say(path + " is open");
   const std::string log = options_.log_of(path);

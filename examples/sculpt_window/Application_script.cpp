@@ -41,8 +41,7 @@ Eigen::Vector2d Application::pixel_of(const Spot& spot) const {
 }
 
 bool Application::is_settled() const {
-  return thread_.is_idle() && status_.dirty_faces == 0 && to_save_.empty() && !background_.is_opening() &&
-         !background_.is_saving();
+  return is_at_rest() && status_.dirty_faces == 0;
 }
 
 /// A drag that has not come to its end in a tick goes on in the next.
@@ -156,7 +155,7 @@ bool Application::act(const Action& action) {
     save(action.word);
     return true;
   case Kind::open:
-    if (background_.is_opening())
+    if (!is_at_rest())
       return false;
     open(action.word);
     return true;
@@ -164,8 +163,9 @@ bool Application::act(const Action& action) {
     record(action.word);
     return true;
   case Kind::print:
-    print_status();
-    return true;
+    if (has_status())
+      print_status();
+    return has_status();
   case Kind::where: {
     const Eigen::Vector2d at = pixel_of(action.spot);
     std::cout << Json{{"where", {at.x(), at.y()}}}.dump() << std::endl;
@@ -175,7 +175,7 @@ bool Application::act(const Action& action) {
     on_close();
     return true;
   case Kind::quit: // after what is asked for: files that are written and read, and the last picture
-    if (!to_save_.empty() || background_.is_saving() || background_.is_opening())
+    if (!to_save_.empty() || background_.is_saving() || background_.is_opening() || !has_status())
       return false;
     is_done_ = options_.screenshot.empty();
     script_.resize(next_action_ + 1);

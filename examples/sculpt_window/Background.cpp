@@ -59,7 +59,7 @@ std::string with_advice(const char* what, const std::string& path, const std::st
 
 std::unique_ptr<Model> model_of(const std::string& path, const std::string& log) {
   try {
-    return std::make_unique<Model>(path, log);
+    return std::make_unique<Model>(examples::Mesh_file(path), log);
   } catch (const examples::Foreign_log& error) {
     throw examples::Foreign_log(with_advice(error.what(), path, log));
   } catch (const Write_error& error) {

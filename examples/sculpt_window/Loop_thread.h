@@ -28,7 +28,7 @@ public:
   /// For tasks: what the mouse says in the tick under way.
   const Mouse_reading& reading() const { return reading_; }
 
-  explicit Loop_thread(Model* first) : model_(first), thread_([this] { run(); }) {}
+  explicit Loop_thread(Model* first) : model_(first), status_(status_of_first(*first)), thread_([this] { run(); }) {}
   /// Lets go, and ends.
   ~Loop_thread() {
     ends_ = true;
@@ -48,6 +48,18 @@ private:
   Mouse_reading reading_;
   Tick_statistics work_, lateness_;
   std::thread thread_; ///< last: it uses the others
+
+  Status status_of_first(const Model& model) {
+    Status status;
+    count(model, status);
+    status.scene = 1;
+    latest.put(status); // the window may ask before the first tick
+    return status;
+  }
+  static void count(const Model& model, Status& status) {
+    status.vertices = model.mesh.number_of_vertices(), status.faces = model.mesh.number_of_faces();
+    status.vertex_slots = model.mesh.num_vertices(), status.face_slots = model.mesh.num_faces();
+  }
 
   /// A mouse may jump, and dissipates nothing: it has no force.
   static Pose_loop_parameters parameters() {
@@ -111,6 +123,7 @@ private:
       reading_ = newest;                      // else what is held is yet to be let go of, and stays where it is
     reading_.pose.elapsed = 1e-9 * tick_time; // a mouse has no clock of its own, and has said nothing yet at first
     const Pose_tick& made = session.tick(reading_.pose);
+    status_.scene += model_ != &session.scene();
     model_ = &session.scene();
     model_->end_tick(loop.tool().vertex());
     tell(made, loop.tool());
@@ -142,8 +155,7 @@ private:
       }
     const auto history = model.sculptor.history();
     status_.undo_steps = history.number_of_undo_steps(), status_.redo_steps = history.number_of_redo_steps();
-    status_.vertices = model.mesh.number_of_vertices(), status_.faces = model.mesh.number_of_faces();
-    status_.vertex_slots = model.mesh.num_vertices(), status_.face_slots = model.mesh.num_faces();
+    count(model, status_);
     status_.edits = model_->edits;
     status_.log_has_failed = model_->log.has_failed() || model_->log.has_overrun();
     status_.dirty_faces = model_->sculptor.visitor().changed.size();

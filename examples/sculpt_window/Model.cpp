@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Model.h"
 
-#include "../common/sha256_of_file.h"
-
-#include <haptic_sculpt/surface/read_surface.h>
-
 namespace haptic_sculpt::window_program {
 
 namespace {
@@ -22,16 +18,16 @@ double mean_edge_length(const Mesh& mesh) {
 
 } // namespace
 
-Model::Model(const std::string& path_given, const std::string& log_given)
+Model::Model(const examples::Mesh_file& file, const std::string& log_given)
     : Loop_scene<Mesh>(
-          read_surface<Mesh>(path_given),
+          file.surface<Mesh>(),
           [](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
             return Mouse::map_for((upper - lower).stableNorm());
           },
           window_program::edits, moves, parameters::known_valid(true))
-    , path(path_given)
+    , path(file.path())
     , log_path(log_given)
-    , log(log_given, log_given.empty() ? "" : examples::sha256_of_file(path_given))
+    , log(log_given, log_given.empty() ? "" : file.hash())
     , edge_length(mean_edge_length(mesh))
     , unit_(std::ldexp(1, std::min(1000, -std::ilogb(extent())))) {
   keep_vertex_attributes(sculptor);

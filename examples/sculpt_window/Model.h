@@ -3,6 +3,7 @@
 
 #include "Mouse.h"
 
+#include "../common/Mesh_file.h"
 #include "../common/Run_log.h"
 #include "../drawing/surface_mesh_arrays.h"
 
@@ -38,7 +39,7 @@ struct Model : Loop_scene<Mesh> {
   std::atomic<bool> ends{false};
 
   /// \throw what reading meshes and logs throws
-  Model(const std::string& path, const std::string& log);
+  Model(const examples::Mesh_file& file, const std::string& log);
 
   /// Lit by the faces about each corner that differ by less than a crease.
   Seen_face face(std::uint32_t index) const;

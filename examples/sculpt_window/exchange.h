@@ -117,6 +117,7 @@ struct Status {
   std::array<Contact_view, most_contacts> contact{};
   Pointed pointed; ///< while nothing is held; else where a brush or an object is
 
+  std::uint32_t scene = 0; ///< the number of the mesh that all this is of, from 1
   std::size_t vertices = 0, faces = 0;
   std::size_t vertex_slots = 0, face_slots = 0; ///< removed ones included
   std::size_t undo_steps = 0, redo_steps = 0;

@@ -176,4 +176,148 @@ BOOST_AUTO_TEST_CASE(what_is_undecided_is_decided_by_all_modes) {
   BOOST_TEST((straight > 5000 && decided > 500 && none > 1000));
 }
 
+namespace {
+
+/// Derivative of the closure by differences.
+Device_matrix<double> slopes(const internal::Platform_closure<double>& closure, const Vector& phi) {
+  Device_matrix<double> g;
+  for (int j = 0; j < 3; ++j) {
+    const Vector step = 1e-5 * Vector::Unit(j);
+    g.col(j) = (closure.residual(Link_angles<double>::from(phi + step)) -
+                closure.residual(Link_angles<double>::from(phi - step))) /
+               2e-5;
+  }
+  return g;
+}
+
+Vector by_newton(const internal::Platform_closure<double>& closure, Vector phi) {
+  for (int iteration = 0; iteration < 5; ++iteration)
+    phi -= slopes(closure, phi).partialPivLu().solve(closure.residual(Link_angles<double>::from(phi)));
+  return phi;
+}
+
+/// The difference of angles, the short way round.
+Vector way_between(const Vector& from, const Vector& to) {
+  constexpr double turn = 6.283185307179586;
+  return (to - from).unaryExpr([](double x) { return std::remainder(x, turn); });
+}
+
+double distance_of(const Vector& a, const Vector& b) {
+  return way_between(a, b).cwiseAbs().maxCoeff();
+}
+
+/// The least part of a way at which the sheet has changed.
+double part_to_the_fold(const internal::Platform_closure<double>& closure, const Vector& start, const Vector& way) {
+  const bool home = is_on_home_sheet(closure, start);
+  double low = 0, high = 1;
+  for (int k = 1; k <= 200 && high == 1; ++k)
+    if (is_on_home_sheet(closure, start + k / 200.0 * way) != home)
+      low = (k - 1) / 200.0, high = k / 200.0;
+  for (int k = 0; k < 40; ++k) {
+    const double middle = (low + high) / 2;
+    (is_on_home_sheet(closure, start + middle * way) == home ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Whether two modes are about a fold: elbows are moved so that the one goes straight towards the other, as far as the
+/// singular pose between them, and the other has to come to meet it.
+bool merge(const internal::Platform_closure<double>& closure, const Vector& one, const Vector& other) {
+  const Vector way = way_between(one, other);
+  const double fold = part_to_the_fold(closure, one, way);
+  Vector goes = one, comes = other;
+  for (int k = 1; k < 100; ++k) {
+    goes = one + fold * (1 - std::pow(1 - k / 100.0, 2)) * way;
+    internal::Platform_closure<double> moved = closure;
+    moved.separation_squared += closure.residual(Link_angles<double>::from(goes));
+    comes = by_newton(moved, comes);
+  }
+  return distance_of(goes, comes) < 0.1 * distance_of(one, other);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(of_a_far_seed_the_nearest_mode_is_found_but_for_a_twin_about_a_fold) {
+  BOOST_TEST_MESSAGE("seed " << seed + 5);
+  Random random(seed + 5);
+  int nearest = 0, twins = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Device_parameters<double> parameters(k % 2 ? random_design(random, Device_form::general)
+                                                     : named_design<double>(Named_design::D1, Device_form::general));
+    const Vector theta = random_angles(random, 0.3, 1.8), phi = random_vector(random, 3.14);
+    const auto modes = assembly_modes(parameters, theta);
+    const auto found = forward_by_all_modes<double>(parameters, theta, phi);
+    BOOST_REQUIRE(static_cast<bool>(modes));
+    BOOST_REQUIRE(static_cast<bool>(found) == (modes->count > 0));
+    if (!found)
+      continue;
+    Vector best = modes->modes[0].angles();
+    for (int m = 1; m < modes->count; ++m)
+      if (distance_of(modes->modes[m].angles(), phi) < distance_of(best, phi))
+        best = modes->modes[m].angles();
+    if (distance_of(found->phi(), best) < 1e-6) {
+      ++nearest;
+      continue;
+    }
+    ++twins;
+    Device_pose<double> pose;
+    internal::place_elbows(parameters, theta, pose);
+    const internal::Platform_closure<double> closure(parameters, pose.elbows);
+    BOOST_TEST((is_on_home_sheet(closure, found->phi()) && !is_on_home_sheet(closure, best)));
+    BOOST_TEST(distance_of(found->phi(), best) < distance_of(best, phi));
+    BOOST_TEST(merge(closure, best, found->phi()));
+  }
+  BOOST_TEST_MESSAGE(nearest << " nearest modes, " << twins << " twins");
+  BOOST_TEST((twins > 20 && twins * 20 < nearest));
+}
+
+BOOST_AUTO_TEST_CASE(about_a_fold_the_home_sheet_is_taken_unless_the_seed_is_closer_than_the_twin) {
+  BOOST_TEST_MESSAGE("seed " << seed + 6);
+  Random random(seed + 6);
+  int tried[3] = {};
+  for (int k = 0; k < 600; ++k) {
+    const double half = std::pow(10.0, -2 - 2 * (k % 3)); // of the way between the two, rad
+    const Device_parameters<double> parameters(random_design(random, Device_form::general));
+    Device_pose<double> pose;
+    internal::place_elbows(parameters, random_angles(random, 0.3, 1.8), pose);
+    internal::Platform_closure<double> closure(parameters, pose.elbows);
+    const Vector start = random_vector(random, 3), way = random_vector(random, 3);
+    const double part = part_to_the_fold(closure, start, way);
+    if (part > 0.99)
+      continue;
+    const Vector fold = start + part * way;
+    const Device_matrix<double> g = slopes(closure, fold).transpose();
+    Vector null = g.col(0).cross(g.col(1));
+    for (int j = 0; j < 2; ++j)
+      if (const Vector other = g.col(j).cross(g.col(2)); other.norm() > null.norm())
+        null = other;
+    null /= null.cwiseAbs().maxCoeff();
+    // Such elbows that there is a mode at one side of the fold.
+    const Vector one = fold + half * null;
+    closure.separation_squared += closure.residual(Link_angles<double>::from(one));
+    const Vector other = by_newton(closure, fold - half * null);
+    const bool one_at_home = is_on_home_sheet(closure, one);
+    if (!(distance_of(other, fold - half * null) < 0.2 * half) ||
+        is_on_home_sheet(closure, other) == one_at_home) // no plain fold, or further ones beside it
+      continue;
+    const auto modes = internal::assembly_modes(closure);
+    BOOST_REQUIRE(static_cast<bool>(modes));
+    int near = 0;
+    for (int m = 0; m < modes->count; ++m)
+      near += distance_of(modes->modes[m].angles(), fold) < 30 * half;
+    if (near != 2)
+      continue;
+    ++tried[k % 3];
+    const Vector home = one_at_home ? one : other, away = one_at_home ? other : one, outward = away - home;
+    for (const double distance : {0.2, 5.0}) {
+      Link_angles<double> x;
+      BOOST_REQUIRE(internal::nearest_mode(closure, *modes, Link_angles<double>::from(away + distance * outward), x));
+      BOOST_TEST(distance_of(x.angles(), distance < 1 ? away : home) < 0.1 * half);
+    }
+  }
+  BOOST_TEST_MESSAGE(tried[0] << ", " << tried[1] << " and " << tried[2] << " folds");
+  for (const int folds : tried)
+    BOOST_TEST(folds > 100);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 BOOST_AUTO_TEST_SUITE(device_kinematics)
@@ -42,6 +44,42 @@ BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_finds_what_a_denser_search_find
   const auto far = general_inverse(parameters, Vector(0, 0, 0.4), *start);
   BOOST_TEST((far.status() == Device_status::unreachable));
   BOOST_TEST(far.shortfall() > 0.2);
+}
+
+BOOST_AUTO_TEST_CASE(inverse_of_the_mirror_case_names_what_has_no_answer) {
+  const Device_parameters<double> parameters(named_design<double>(Named_design::D3, Device_form::general));
+  BOOST_REQUIRE(parameters.is_mirror());
+  const auto status = [&](double x, double y, double z) {
+    return mirror_inverse(parameters, Vector(x, y, z)).status();
+  };
+  for (const double bad : {1e160, -1e200, 1e308, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    BOOST_TEST((status(bad, 0, 0) == Device_status::not_finite));
+    BOOST_TEST((status(0, bad, 0) == Device_status::not_finite));
+    BOOST_TEST((status(bad, bad, bad) == Device_status::not_finite));
+  }
+  BOOST_TEST((status(0, 0, 0) == Device_status::singular));
+  BOOST_TEST((status(0, 0, 1e150) == Device_status::unreachable));
+  // Across leg 0: its elbow stays in the plane y = 0, and the plane that halves the way is y = 0.025.
+  BOOST_TEST((status(0, 0.05, 0) == Device_status::unreachable));
+}
+
+BOOST_AUTO_TEST_CASE(inverse_of_the_mirror_case_bears_the_rounding_of_straight_legs) {
+  constexpr double upright = 1.5707963267948966;
+  for (int k = 1; k < 2000; ++k) {
+    Device_description<double> d = named_design<double>(Named_design::D3, Device_form::general);
+    d.base_radius = d.platform_radius = 0.03 + 1e-5 * k;
+    d.primary_length = d.secondary_length = 0.05 + 3e-5 * k;
+    d.platform_inertia = Device_description<double>::disc_inertia(d.platform_mass, d.platform_radius);
+    const Device_parameters<double> parameters(d);
+    const auto pose = general_forward(parameters, Vector(upright, upright, upright));
+    BOOST_REQUIRE(static_cast<bool>(pose));
+    const auto inverse = mirror_inverse(parameters, pose->position);
+    BOOST_REQUIRE(static_cast<bool>(inverse));
+    BOOST_TEST((inverse->minus.array() - upright).abs().maxCoeff() < 1e-7);
+    BOOST_TEST((inverse->plus.array() - upright).abs().maxCoeff() < 1e-7);
+    const auto higher = mirror_inverse(parameters, Vector((1 + 1e-14) * pose->position));
+    BOOST_TEST((higher.status() == Device_status::unreachable && higher.shortfall() < 2e-14));
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

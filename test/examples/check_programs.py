@@ -307,7 +307,8 @@ def words(folder, mesh):
     fails(2, ["empty"], run(""), "a mesh without a name")
     fails(2, ["--seconds"], loop(mesh, "--seconds", "0"), "no time")
     fails(2, ["--log"], loop(mesh, "--fault", "log@0.01"), "a fault of no log")
-    for never in (["--fault", "nan@inf"], ["--fault", "nan@1e300"], ["--fault", "nan@1", "--seconds", "1"]):
+    for never in (["--fault", "nan@inf"], ["--fault", "nan@1e300"], ["--fault", "nan@1", "--seconds", "1"],
+                  ["--fault", "stall@0"], ["--fault", "stall@0.0999999", "--seconds", "0.1"]):
         fails(2, ["--fault"], loop(mesh, *never), f"a fault that never comes: {never}")
     fails(2, ["--reach"], loop(mesh, "--reach", "0"), "no reach")
     for number in ("-1", "+400", "0x400", "18446744073709551616", "4e2"):

@@ -471,6 +471,22 @@ script = f"settle\nremesh 0.05\nopen {second}\nopen {second}\nwait 0.5\nsettle\n
 window(under_way, "--samples", 0, script=script, what="another mesh, opened while one is remeshed")
 check(os.path.exists(under_way + ".log"), "the log of a mesh that was left while it was remeshed stays")
 os.remove(under_way + ".log")
+script = f"settle\nremesh 1\nopen {second}\nsettle\nquit\n"
+_, err = window(under_way, "--samples", 0, "--no-log", script=script, code=3, what="another mesh, while unsaved work is under way")
+check("second.off' was not opened" in err, f"what is under way is unsaved work: {err}")
+# Of a mesh just opened nothing is unsaved, whatever was done to the one before; its counts are its own from the beginning.
+script = f"print\n{unsaved}open {second}\nopen {second}\nprint\nopen {small}\nprint\nquit\n"
+lines, _ = window(write(at("first.off"), bytes_of(mesh)), "--samples", 0, "--no-log", script=script, what="one after another, at once")
+check([(line["faces"], line["edits"]) for line in lines] == [(1600, 0), (192, 0), (12, 0)], f"counts of each: {lines}")
+window(small, "--samples", 0, "--no-log", "--report", at("counts.json"), script="quit\n", what="nothing but quit")
+check(json.load(open(at("counts.json")))["faces"] == 12, "a report has the counts of the mesh")
+# The log of a mesh that is opened again is not another process's.
+script = f"settle\nopen {small}\nopen {second}\nopen {small}\nopen {second}\nsettle\nprint\nquit\n"
+lines, _ = window(second, "--samples", 0, script=script, what="to and fro")
+check(lines[0]["faces"] == 192, f"the last one: {lines}")
+script = "settle\nscroll 1e4 ctrl\nscroll -1e4 ctrl\nscroll -1e4 ctrl\ndrag 320 240 330 240 2\nsettle\nprint\nquit\n"
+lines, _ = window(small, "--samples", 0, "--no-log", script=script, what="a brush of any size")
+check("nan" not in lines[0]["refused"], f"a radius is a number: {lines}")
 script = f"settle\nsave {at('remeshed.off')}\nremesh 0.05\nsettle\nquit\n"
 window(under_way, "--samples", 0, script=script, what="a mesh that grows while it is copied")
 check(run(at("remeshed.off")).returncode == 0, "what grew while it was copied is saved")
@@ -482,7 +498,7 @@ window(large, "--samples", 0, "--no-log", script=script, code=5, what="a save th
 script = f"{edit}save {at('large_saved.off')}\nopen {second}\nopen {second}\nwait 2\n{edit}print\nquit\n"
 lines, _ = window(large, "--samples", 0, script=script, what="another mesh is sculpted while one is saved")
 check(lines[0]["faces"] == 192 and lines[0]["edits"] > 0 and os.path.exists(second + ".log"), f"its work is in its log: {lines}")
-for line in ("wait 1e10", "wait -1", "zoom 0", "view 0 0 0"):
+for line in ("wait 1e10", "wait -1", "zoom 0", "view 0 0 0", "remesh 0", "scroll 1 alt"):
     window(second, "--log", at("lines.log"), script=f"{line}\nquit\n", code=4, what=line)
 
 end()

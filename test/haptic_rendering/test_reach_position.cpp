@@ -4,6 +4,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
@@ -39,6 +40,41 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_reached_is_said_however_far_it_is) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1.9e305, -1e308})
     for (int axis = 0; axis < 3; ++axis)
       BOOST_TEST((tried(axis, bad).status() == Device_status::not_finite));
+}
+
+/// cond(J) by differences.
+double condition_at(const Device_parameters<double>& device, const Device_pose<double>& pose) {
+  Eigen::Matrix3d J;
+  for (int leg = 0; leg < 3; ++leg) {
+    const Vector3d step = 1e-5 * Vector3d::Unit(leg);
+    J.col(leg) = forward_kinematics(device, Vector3d(pose.theta + step), pose)->position -
+                 forward_kinematics(device, Vector3d(pose.theta - step), pose)->position;
+  }
+  const Vector3d singular = J.jacobiSvd().singularValues();
+  return singular[0] / singular[2];
+}
+
+BOOST_AUTO_TEST_CASE(the_pose_that_is_reached_is_conditioned_as_asked) {
+  const Device_parameters<double> device = device_of_size(1);
+  const auto home = home_pose(device);
+  const double at_home = condition_at(device, *home); // about 1.5
+  for (const double most : {1.0, 0.999 * at_home})
+    BOOST_TEST((reach_position(device, *home, home->position, most).status() == Device_status::unreachable));
+  BOOST_TEST((reach_position(device, *home, home->position, 1.001 * at_home).status() == Device_status::success));
+  int worse = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double way : {-0.9e-3, 0.9e-3, -0.03, 0.03}) { // one step, and many
+      const Vector3d there = home->position + way * Vector3d::Unit(axis);
+      const auto pose = reach_position(device, *home, there);
+      BOOST_REQUIRE(static_cast<bool>(pose));
+      const double condition = condition_at(device, *pose);
+      if (condition < 1.002 * at_home)
+        continue;
+      ++worse;
+      BOOST_TEST((reach_position(device, *home, there, 0.9995 * condition).status() == Device_status::unreachable));
+      BOOST_TEST((reach_position(device, *home, there, 1.0005 * condition).status() == Device_status::success));
+    }
+  BOOST_TEST(worse >= 6);
 }
 
 BOOST_AUTO_TEST_CASE(a_device_a_thousand_times_as_large_has_a_workspace_as_much_larger) {

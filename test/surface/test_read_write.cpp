@@ -6,6 +6,8 @@
 #include <surface/Temporary_folder.h>
 #include <surface/identical.h>
 
+#include <CGAL/Cartesian_converter.h>
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <boost/test/unit_test.hpp>
@@ -14,6 +16,7 @@
 #include <cstring>
 #include <locale>
 #include <random>
+#include <sstream>
 
 using namespace haptic_sculpt;
 using meshes::Mesh;
@@ -191,6 +194,93 @@ BOOST_AUTO_TEST_CASE(stl) {
   }
   gap.add_vertex({9, 9, 9});
   BOOST_CHECK_THROW(write_surface(folder / "p.stl", gap), Write_error);
+}
+
+/// What `facet normal` says of each triangle, against the cross product in rationals: along it, of length 1.
+BOOST_AUTO_TEST_CASE(facet_normals_of_stl_are_right_on_slivers_and_at_every_scale) {
+  using Rational = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+  const CGAL::Cartesian_converter<meshes::Kernel, Rational> exact;
+  constexpr unsigned seed = 60;
+  BOOST_TEST_MESSAGE("seed " << seed);
+  std::mt19937_64 random(seed);
+  const auto number = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
+  for (const double scale : {1.0, 0x1p1000, 0x1p-1000, 0x1p-530})
+    for (int i = 0; i < 20; ++i) {
+      Mesh mesh = to_mesh(meshes::tetrahedron());
+      const meshes::Point_3 a(scale * number(), scale * number(), scale * number()),
+          b(scale * number(), scale * number(), scale * number());
+      mesh.point(V(0)) = a, mesh.point(V(1)) = b;
+      mesh.point(V(2)) = CGAL::midpoint(a, b); // on the line, up to rounding
+      mesh.point(V(3)) = {scale * number(), scale * number(), scale * number()};
+      std::istringstream text(surface_bytes(mesh, Mesh_file_format::stl));
+      std::vector<std::array<double, 3>> normals;
+      for (std::string word; text >> word;)
+        if (word == "normal") {
+          std::array<std::string, 3> words; // a stream does not read subnormal numbers
+          text >> words[0] >> words[1] >> words[2];
+          normals.push_back({std::stod(words[0]), std::stod(words[1]), std::stod(words[2])});
+        }
+      BOOST_REQUIRE(normals.size() == 4u);
+      for (const auto f : mesh.faces()) {
+        const auto h = mesh.halfedge(f);
+        const auto p = exact(mesh.point(mesh.source(h)));
+        const Rational::Vector_3 n = CGAL::cross_product(exact(mesh.point(mesh.target(h))) - p,
+                                                         exact(mesh.point(mesh.target(mesh.next(h)))) - p);
+        const auto& [x, y, z] = normals[f];
+        const Rational::Vector_3 said(x, y, z);
+        if (n == CGAL::NULL_VECTOR) {
+          BOOST_TEST((said == CGAL::NULL_VECTOR));
+          continue;
+        }
+        BOOST_TEST(std::abs(std::hypot(x, y, z) - 1) < 1e-15);
+        BOOST_TEST(n * said > 0);
+        const auto across = CGAL::cross_product(n, said);
+        BOOST_TEST(across.squared_length() < 1e-30 * n.squared_length());
+      }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(polygons_beyond_a_byte_are_written_as_text) {
+  const Temporary_folder folder;
+  Mesh mesh;
+  std::vector<V> corners, backwards;
+  constexpr int number = 300;
+  for (int i = 0; i < number; ++i)
+    corners.push_back(mesh.add_vertex({std::cos(2 * CGAL_PI * i / number), std::sin(2 * CGAL_PI * i / number), 0}));
+  backwards.assign(corners.rbegin(), corners.rend());
+  mesh.add_face(corners), mesh.add_face(backwards);
+  Write_parameters as_text, as_bytes;
+  as_text.encoding(Write_parameters::Encoding::ascii), as_bytes.encoding(Write_parameters::Encoding::binary);
+  BOOST_CHECK_THROW(write_surface(folder / "m.ply", mesh, as_bytes), Write_error);
+  write_surface(folder / "m.ply", mesh, as_text);
+  const Face_soup soup = read_face_soup(folder / "m.ply");
+  BOOST_TEST(soup.number_of_faces() == 2u);
+  BOOST_TEST(soup.number_of_corners(0) == 300u);
+  BOOST_TEST(soup.number_of_corners(1) == 300u);
+}
+
+BOOST_AUTO_TEST_CASE(bytes_are_read_as_their_file_is) {
+  const Temporary_folder folder;
+  const Mesh mesh = to_mesh(meshes::bumpy_sphere(2));
+  for (const char* const name : {"m.off", "m.ply", "m.obj", "m.stl"}) {
+    write_surface(folder / name, mesh);
+    const std::string bytes = bytes_of(folder / name);
+    fs::remove(folder / name);
+    const Mesh back = make_surface<Mesh>(read_face_soup(folder / name, bytes));
+    write_surface(folder / name, back);
+    BOOST_TEST((bytes_of(folder / name) == bytes), name);
+  }
+  const auto names = [](const char* what) {
+    return [what](const Error& e) { return std::string(e.what()).find(what) != std::string::npos; };
+  };
+  BOOST_CHECK_EXCEPTION(read_face_soup("there.off", " \n"), Read_error, names("'there.off': the file is empty"));
+  BOOST_CHECK_EXCEPTION(read_face_soup("there.txt", "OFF"), Read_error, names("'there.txt': the extension"));
+  const Face_soup flat = read_face_soup("there.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  BOOST_CHECK_EXCEPTION(make_surface<Mesh>(flat, 0, "'there.off'"), Invalid_surface, names("'there.off' is not"));
+  Face_soup from = flat;
+  const Face_soup to = std::move(from);
+  BOOST_TEST(from.number_of_faces() == 0u); // NOLINT: what is left is a list without faces
+  BOOST_TEST(to.number_of_faces() == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(removed_vertices_and_vertex_order) {

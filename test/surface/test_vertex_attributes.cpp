@@ -136,12 +136,30 @@ BOOST_AUTO_TEST_CASE(obj_has_colours_from_0_to_1_and_what_a_format_cannot_hold_i
     put(add_vertex_attribute(bytes, name, Type::uint8).map, V(3), 51);
   write_surface(folder / "b.obj", bytes);
   BOOST_TEST(get(vertex_attributes(read_surface<Mesh>(folder / "b.obj"))[1].map, V(3)) == 0.2);
+  Mesh words = meshes::to_mesh(meshes::cube());
+  for (const char* name : {"red", "green", "blue"})
+    put(add_vertex_attribute(words, name, Type::uint16).map, V(3), 13107);
+  write_surface(folder / "w.obj", words);
+  BOOST_TEST(get(vertex_attributes(read_surface<Mesh>(folder / "w.obj"))[1].map, V(3)) == 0.2);
   using Words = std::vector<std::string>;
   BOOST_TEST((attributes_not_held(bytes, Mesh_file_format::obj) == Words()));
+  add_vertex_attribute(words, "alpha", Type::uint16);
+  BOOST_TEST((attributes_not_held(words, Mesh_file_format::obj) == Words{"opacity"}));
   add_vertex_attribute(bytes, "heat");
   BOOST_TEST((attributes_not_held(bytes, Mesh_file_format::ply) == Words()));
   BOOST_TEST((attributes_not_held(bytes, Mesh_file_format::obj) == Words{"the property 'heat'"}));
   BOOST_TEST((attributes_not_held(bytes, Mesh_file_format::off) == Words{"colours", "the property 'heat'"}));
+}
+
+BOOST_AUTO_TEST_CASE(maps_of_other_types_with_the_same_name_are_none) {
+  const Temporary_folder folder;
+  Mesh mesh = meshes::to_mesh(meshes::cube());
+  mesh.add_property_map<V, int>("v:uchar red", 7);
+  put(add_vertex_attribute(mesh, "red", Type::uint8).map, V(3), 51);
+  mesh.add_property_map<V, std::string>("v:uchar red", "none");
+  BOOST_TEST(vertex_attributes(mesh).size() == 1u);
+  write_surface(folder / "m.ply", mesh);
+  BOOST_TEST(get(vertex_attributes(read_surface<Mesh>(folder / "m.ply"))[0].map, V(3)) == 51);
 }
 
 BOOST_AUTO_TEST_CASE(edits_give_means_undo_gives_back_and_files_have_numbers_of_their_type) {

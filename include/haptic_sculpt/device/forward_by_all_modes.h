@@ -43,8 +43,15 @@ template <class S> S least_residual(const Platform_closure<S>& closure, Link_ang
   return largest_magnitude(f);
 }
 
+/// Whether y is the mode on the other side of the fold next to x, with which it would merge there.
+template <class S>
+bool is_across_the_fold(const Platform_closure<S>& closure, const Link_angles<S>& x, const Link_angles<S>& y) {
+  Link_angles<S> twin = across_the_fold(closure, x);
+  return free_newton(closure, twin, 60) && angular_distance(twin, y) <= mode_separation<S>();
+}
+
 /// The mode nearest to a seed. Two modes about a fold that are closer to each other than to the seed cannot be
-/// distinguished by it: then the one on the home sheet is meant.
+/// distinguished by it: then the one on the home sheet is meant, and where two folds meet the nearer one of these.
 template <class S>
 bool nearest_mode(const Platform_closure<S>& closure, const Assembly_modes<S>& modes, const Link_angles<S>& seed,
                   Link_angles<S>& x) {
@@ -57,14 +64,17 @@ bool nearest_mode(const Platform_closure<S>& closure, const Assembly_modes<S>& m
     if (distance < best_distance)
       best_distance = distance, best = k;
   }
-  if (!on_home_sheet(closure, modes.modes[best]))
-    for (int k = 0; k < modes.count; ++k)
-      if (k != best && on_home_sheet(closure, modes.modes[k]) &&
-          angular_distance(modes.modes[k], modes.modes[best]) < best_distance) {
-        best = k;
-        break;
-      }
   x = modes.modes[best];
+  if (on_home_sheet(closure, x))
+    return true;
+  bool found = false;
+  for (int k = 0; k < modes.count; ++k) {
+    const Link_angles<S>& mode = modes.modes[k];
+    if (on_home_sheet(closure, mode) && angular_distance(mode, modes.modes[best]) < best_distance &&
+        (!found || angular_distance(mode, seed) < angular_distance(x, seed)) &&
+        is_across_the_fold(closure, mode, modes.modes[best]))
+      x = mode, found = true;
+  }
   return true;
 }
 
@@ -116,8 +126,9 @@ Outcome<Device_pose<S>> forward_by_all_modes(const Device_parameters<S>& paramet
   return internal::forward_nearest_to(parameters, theta, seed, true);
 }
 
-/// The mode nearest to the link angles `phi` (rad). Of two modes about a fold that are closer to each other than to the
-/// seed, the one on the home sheet. Failures: `not_finite`; `no_real_mode`, as above, from the seed; `singular`.
+/// The mode nearest to the link angles `phi` (rad). Of two modes about a fold (the closure's second-order expansion
+/// leads from one to the other) that are closer to each other than to the seed, the one on the home sheet. Failures:
+/// `not_finite`; `no_real_mode`, as above, from the seed; `singular`.
 /// \pre `parameters.form() == Device_form::general`
 template <class S>
 Outcome<Device_pose<S>> forward_by_all_modes(const Device_parameters<S>& parameters, const Device_vector<S>& theta,

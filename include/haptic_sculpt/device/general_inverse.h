@@ -211,8 +211,8 @@ std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& para
 /// to p, `p.B_i = |p|^2 / 2`, an equation in theta_i alone with two solutions. Same fields as the di-tetrahedral
 /// inverse.
 ///
-/// Failures: `not_finite`; `singular`: p at the base's centre, or over it so that an angle is free; `unreachable`,
-/// shortfall the largest |cosine| - 1 of a leg. \pre `parameters.is_mirror()`
+/// Failures: `not_finite`; `singular`: p at the base's centre; `unreachable`, shortfall the largest |cosine| - 1 of a
+/// leg, 0 where p has no part in a leg's plane. \pre `parameters.is_mirror()`
 template <class S>
 Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device_parameters<S>& parameters,
                                                  const Device_vector<S>& position) {
@@ -220,15 +220,22 @@ Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device_parameters<S>& par
   using std::sqrt;
   Outcome<Ditetrahedral_inverse<S>> outcome;
   Ditetrahedral_inverse<S> inverse;
-  S shortfall(-1);
+  const S square = position.squaredNorm();
+  const bool finite = internal::is_finite(S(S(2) * square)); // twice: a leg's part of it may be rounded up
+  if (!finite || square == S(0)) {
+    outcome.fail(finite ? Device_status::singular : Device_status::not_finite, S(0));
+    return outcome;
+  }
+  S shortfall(0);
   for (int leg = 0; leg < 3; ++leg) {
     const S x = Leg_frame<S>::along_radial(leg, position), z = position[2], length = sqrt(x * x + z * z);
-    const S cosine =
-        (position.squaredNorm() / S(2) - parameters.base_radius() * x) / (parameters.primary_length() * length);
-    if (!internal::is_finite(cosine)) {
-      outcome.fail(internal::all_finite(position) ? Device_status::singular : Device_status::not_finite, S(0));
-      return outcome;
-    }
+    S cosine = (square / S(2) - parameters.base_radius() * x) / (parameters.primary_length() * length);
+    // A leg that is along the way but for the rounding of these few operations is along it.
+    const S rounding = S(4) * std::numeric_limits<S>::epsilon();
+    if (cosine > S(1) && cosine < S(1) + rounding)
+      cosine = S(1);
+    if (cosine < S(-1) && cosine > S(-1) - rounding)
+      cosine = S(-1);
     const S least = cosine > S(0) ? S(1 - cosine) : S(1 + cosine);
     inverse.one_minus_cosine[leg] = least;
     inverse.leg_reaches[leg] = least >= S(0);
@@ -241,10 +248,10 @@ Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device_parameters<S>& par
     inverse.minus[leg] = centre - half_opening;
     inverse.plus[leg] = centre + half_opening;
   }
-  if (shortfall >= S(0))
-    outcome.fail(Device_status::unreachable, shortfall);
-  else
+  if (inverse.leg_reaches[0] && inverse.leg_reaches[1] && inverse.leg_reaches[2])
     outcome.succeed();
+  else
+    outcome.fail(Device_status::unreachable, shortfall);
   outcome.value_to_fill() = inverse;
   return outcome;
 }

@@ -17,7 +17,7 @@ struct Force_limits {
   double ramp_time = 0.3;     ///< from 0 to the whole force after a start, s
   double fade_time = 0.1;     ///< to 0 on a fault, s
 
-  /// \throw Error naming what cannot be used; `infinite` is a bound that there is not
+  /// \throw Error naming what cannot be used
   void check() const {
     internal::require_number("Force_limits::largest, the largest force,", "N", largest, 0, 1e9);
     internal::require_number("Force_limits::slew, the slew limit,", "N/s", slew, 1e-3, 1e12);

@@ -49,10 +49,12 @@ inline Outcome<Device_pose<double>> reach_position(const Device_parameters<doubl
     return Result(Device_status::not_finite, 0.0);
   for (double k = 1; k <= steps; ++k) {
     const Device_vector<double> aim = start.position + way * (k / steps);
-    for (int iteration = 0; iteration < 20 && (aim - pose.position).norm() > precision; ++iteration) {
-      const auto map = jacobian(parameters, pose);
+    for (int iteration = 0;; ++iteration) {
+      const auto map = jacobian(parameters, pose); // asked of every pose, also of the one that is returned
       if (!map || !(translation_conditioning(*map).condition <= most_condition))
         return Result(Device_status::unreachable, (position - pose.position).stableNorm());
+      if (iteration == 20 || !((aim - pose.position).norm() > precision))
+        break;
       const Device_vector<double> turn = map->linear.partialPivLu().solve(aim - pose.position);
       const auto next = forward_kinematics(parameters, Device_vector<double>(pose.theta + turn), pose);
       if (!next)
@@ -82,9 +84,6 @@ inline double workspace_radius(const Device_parameters<double>& parameters, cons
       const auto next = reach_position(
           parameters, pose, Device_vector<double>(home.position + (reached + step) * direction), most_condition);
       if (!next)
-        break;
-      const auto map = jacobian(parameters, *next);
-      if (!map || !(translation_conditioning(*map).condition <= most_condition))
         break;
       pose = *next, reached += step;
     }

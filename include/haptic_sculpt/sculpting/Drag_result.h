@@ -11,7 +11,7 @@ namespace haptic_sculpt {
 /// Why a drag ended.
 enum class Drag_end : std::uint8_t {
   reached, ///< it is at the target
-  held, ///< contacts hold it where it is; a slide has found no free way nearer (doc/proofs/slide.md, "What held means")
+  held, ///< contacts hold it where it is; a slide has found no free way nearer (doc/use/drags.md, "What a drag says")
   no_progress, ///< it did not move, and no contact is known that explains it: too little room for the clearance
   leg_limit,   ///< as many legs were made as one drag may make; the next drag to the same target goes on
   refused,     ///< a probe that could not begin where it is

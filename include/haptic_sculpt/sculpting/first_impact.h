@@ -48,6 +48,14 @@ void check_point(const char* what, const Point_3& p) {
   throw_out_of_range(what, coordinates(p));
 }
 
+/// \throw Out_of_range
+template <class Mesh>
+void check_points(const Mesh& mesh) {
+  for (const auto v : mesh.vertices())
+    if (const Coordinates p = coordinates(mesh.point(v)); !is_in_range(p))
+      throw_out_of_range("vertex " + std::to_string(static_cast<std::size_t>(v)) + " at", p);
+}
+
 /// \throw Error
 template <class Mesh>
 void check_triangles_about(const Mesh& mesh, typename Mesh::Vertex_index v) {
@@ -79,6 +87,7 @@ Star_impacts<Mesh, typename Traits::Impact_3> first_impacts(const Mesh& mesh, ty
   const internal::Rounding_to_nearest rounding;
   internal::check_vertex(mesh, v);
   internal::check_point("the target", target);
+  internal::check_points(mesh);
   internal::check_triangles_about(mesh, v);
   const auto source = vertex_coordinates(mesh, v);
   const internal::Coordinates end = internal::coordinates(target);

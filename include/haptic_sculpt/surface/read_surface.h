@@ -42,13 +42,21 @@ namespace internal {
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!file || static_cast<std::size_t>(file.gcount()) != bytes.size())
     throw Read_error("the file cannot be read to its end");
-  if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
-    throw Read_error("the file is empty");
   return bytes;
 }
 
 /// \throw Read_error
+inline Mesh_file_format format_to_read(const std::filesystem::path& path) {
+  const auto format = mesh_file_format(path);
+  if (!format)
+    throw Read_error("the extension has to be .off, .ply, .obj or .stl");
+  return *format;
+}
+
+/// \throw Read_error
 inline Face_soup parse(std::string_view bytes, Mesh_file_format format) {
+  if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos)
+    throw Read_error("the file is empty");
   switch (format) {
   case Mesh_file_format::off:
     return parse_off(without_bom(bytes));
@@ -96,6 +104,27 @@ Mesh mesh_of(const Face_soup& soup) {
 
 namespace internal {
 
+/// \param bytes returns those of the file, and is called once that is one of a mesh
+template <class Bytes>
+Face_soup read_face_soup(const std::filesystem::path& path, const Bytes& bytes) {
+  const Rounding_to_nearest rounding;
+  try {
+    const Mesh_file_format format = format_to_read(path);
+    Face_soup soup = parse(bytes(), format);
+    if (soup.number_of_faces() == 0)
+      throw Read_error("the file holds no faces");
+    for (std::size_t v = 0; v < soup.points.size(); ++v) {
+      const auto& p = soup.points[v];
+      const std::array<double, 3> coordinates = {p.x(), p.y(), p.z()};
+      if (soup.is_finite(v) && !is_in_range(coordinates)) // what is not finite is named by validate_soup()
+        throw_out_of_range("cannot read " + quoted_path(path) + ": vertex " + std::to_string(v) + " at", coordinates);
+    }
+    return soup;
+  } catch (const Read_error& error) {
+    throw Read_error("cannot read " + quoted_path(path) + ": " + error.what());
+  }
+}
+
 template <class Mesh>
 struct Is_mesh_of_doubles : std::false_type {};
 template <class Point>
@@ -112,25 +141,12 @@ struct Is_mesh_of_doubles<CGAL::Surface_mesh<Point>>
 /// against the file's before anything is allocated, and errors name the line. The tests compare both on good files.
 /// \throw Read_error; Out_of_range if a coordinate is
 inline Face_soup read_face_soup(const std::filesystem::path& path) {
-  const internal::Rounding_to_nearest rounding;
-  try {
-    const auto format = mesh_file_format(path);
-    if (!format)
-      throw Read_error("the extension has to be .off, .ply, .obj or .stl");
-    Face_soup soup = internal::parse(internal::bytes_of_file(path), *format);
-    if (soup.number_of_faces() == 0)
-      throw Read_error("the file holds no faces");
-    for (std::size_t v = 0; v < soup.points.size(); ++v) {
-      const auto& p = soup.points[v];
-      const std::array<double, 3> coordinates = {p.x(), p.y(), p.z()};
-      if (soup.is_finite(v) && !is_in_range(coordinates)) // what is not finite is named by validate_soup()
-        internal::throw_out_of_range(
-            "cannot read " + internal::quoted_path(path) + ": vertex " + std::to_string(v) + " at", coordinates);
-    }
-    return soup;
-  } catch (const Read_error& error) {
-    throw Read_error("cannot read " + internal::quoted_path(path) + ": " + error.what());
-  }
+  return internal::read_face_soup(path, [&] { return internal::bytes_of_file(path); });
+}
+
+/// The same of the bytes of a file, e.g. for who needs their hash. \param path names it, and is not opened
+inline Face_soup read_face_soup(const std::filesystem::path& path, std::string_view bytes) {
+  return internal::read_face_soup(path, [&] { return bytes; });
 }
 
 /// Reads a valid surface from an OFF, PLY (ASCII or binary), OBJ or STL (ASCII or binary) file, or refuses it whole.
@@ -169,15 +185,15 @@ Mesh read_surface(const std::filesystem::path& path, double delta = 0, std::vect
 
 /// The mesh of a valid list of faces, e.g. of one that repair() has repaired. Vertices and faces keep their numbers.
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
-/// \param delta the delta rule's length, >= 0
+/// \param delta the delta rule's length, >= 0 \param name how messages call it
 /// \throw Invalid_surface if `validate_soup()` finds fault with it, Error if a corner is no index of a point
 template <class Mesh>
-Mesh make_surface(const Face_soup& soup, double delta = 0) {
+Mesh make_surface(const Face_soup& soup, double delta = 0, const std::string& name = "the list of faces") {
   static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
                 "make_surface<Mesh>: Mesh must be a CGAL::Surface_mesh whose points have double coordinates");
   Validity_report report = validate_soup(soup, delta);
   if (!report.is_valid())
-    throw Invalid_surface("the list of faces", std::move(report));
+    throw Invalid_surface(name, std::move(report));
   return mesh_of<Mesh>(soup);
 }
 

@@ -5,6 +5,11 @@
 #include <haptic_sculpt/surface/io/attribute_in_words.h>
 #include <haptic_sculpt/surface/validity/Face_soup.h>
 
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
 /// \file
 /// What files have for each vertex beside its place, in property maps of a mesh.
 
@@ -25,11 +30,12 @@ template <class Mesh>
 std::vector<Attribute_map<Mesh>> vertex_attributes(const Mesh& mesh) {
   using Vertex = typename Mesh::Vertex_index;
   std::vector<Attribute_map<Mesh>> found;
+  std::set<std::string> names; // maps of other types may have the same one
   for (const std::string& property : mesh.template properties<Vertex>())
     for (int i = 0; i < Vertex_attribute::number_of_types; ++i) {
       const auto type = static_cast<Vertex_attribute::Type>(i);
       const std::string begin = std::string("v:") + name_of(type) + ' ';
-      if (property.compare(0, begin.size(), begin) == 0)
+      if (property.compare(0, begin.size(), begin) == 0 && names.insert(property).second)
         if (const auto map = find_property_map<Vertex, double>(mesh, property))
           found.push_back({property.substr(begin.size()), type, *map});
     }

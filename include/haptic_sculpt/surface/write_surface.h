@@ -5,6 +5,7 @@
 #include <haptic_sculpt/surface/Invalid_surface.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/io/format_attributes.h>
+#include <haptic_sculpt/surface/io/format_stl.h>
 #include <haptic_sculpt/surface/io/parse_ply.h>
 #include <haptic_sculpt/surface/io/replace_file.h>
 #include <haptic_sculpt/surface/validate.h>
@@ -144,8 +145,16 @@ inline Face_soup rounded_to_float(Face_soup soup) {
   soup = std::move(rounded);
 }
 
-/// \throw Write_error if a face has more corners than the byte that PLY counts them with can say, or a header cannot
-/// name an attribute
+/// The first face with more corners than a byte can count; number_of_faces() if there is none.
+inline std::size_t face_beyond_byte(const Face_soup& soup) {
+  std::size_t f = 0;
+  while (f < soup.number_of_faces() && soup.number_of_corners(f) <= 255)
+    ++f;
+  return f;
+}
+
+/// \throw Write_error if a face has more corners than the byte that binary PLY counts them with can say, or a header
+/// cannot name an attribute
 inline void prepare_ply(const Face_soup& soup, bool binary) {
   std::set<std::string> names = {"x", "y", "z"};
   if (names.size() + soup.attributes.size() > most_names)
@@ -161,42 +170,34 @@ inline void prepare_ply(const Face_soup& soup, bool binary) {
                                    : "is no single word") +
                         "; give it another name");
   }
-  for (std::size_t f = 0; binary && f < soup.number_of_faces(); ++f)
-    if (soup.number_of_corners(f) > 255)
-      throw Write_error("face " + std::to_string(f) + " has more than the 255 corners of binary PLY; write OFF or OBJ");
+  if (const std::size_t f = face_beyond_byte(soup); binary && f != soup.number_of_faces())
+    throw Write_error("face " + std::to_string(f) + " has more than the 255 corners of binary PLY; write OFF or OBJ");
 }
 
-/// The text or bytes of the file, by CGAL's writers. They are given a stream of their own, in the C locale and with 17
-/// digits, which bring every double back.
+/// The text or bytes of the file, by CGAL's writers as far as they can say it. They are given a stream of their own, in
+/// the C locale and with 17 digits, which bring every double back.
 [[gnu::cold]] inline std::string file_contents(const Face_soup& soup, Mesh_file_format format, bool binary) {
-  if (format == Mesh_file_format::ply && !soup.attributes.empty())
+  const bool counts_beyond_byte = face_beyond_byte(soup) != soup.number_of_faces(); // CGAL counts by bytes as text, too
+  if (format == Mesh_file_format::ply && (!soup.attributes.empty() || counts_beyond_byte))
     return format_ply(soup, binary);
+  if (format == Mesh_file_format::stl)
+    return format_stl(soup, binary);
   if (const auto colours = colours_of_obj(soup); format == Mesh_file_format::obj && colours)
     return format_obj(soup, *colours);
   std::vector<boost::iterator_range<const Face_soup::Index*>> faces;
   faces.reserve(soup.number_of_faces());
   for (std::size_t f = 0; f < soup.number_of_faces(); ++f)
     faces.emplace_back(soup.begin(f), soup.end(f));
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(std::numeric_limits<double>::max_digits10);
+  std::ostringstream out = exact_stream();
   CGAL::IO::set_mode(out, binary ? CGAL::IO::BINARY : CGAL::IO::ASCII);
   const auto digits = CGAL::parameters::stream_precision(std::numeric_limits<double>::max_digits10);
   bool written = false;
-  switch (format) {
-  case Mesh_file_format::off:
+  if (format == Mesh_file_format::off)
     written = CGAL::IO::write_OFF(out, soup.points, faces, digits);
-    break;
-  case Mesh_file_format::ply:
+  else if (format == Mesh_file_format::ply)
     written = CGAL::IO::write_PLY(out, soup.points, faces, digits);
-    break;
-  case Mesh_file_format::obj:
+  else
     written = CGAL::IO::write_OBJ(out, soup.points, faces, digits);
-    break;
-  case Mesh_file_format::stl:
-    written = CGAL::IO::write_STL(out, soup.points, faces, digits);
-    break;
-  }
   if (!written)
     throw Write_error("CGAL's writer failed");
   return std::move(out).str();

@@ -12,6 +12,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -216,6 +217,22 @@ BOOST_AUTO_TEST_CASE(what_is_asked_of_open_meshes_and_polygons) {
   square.add_face(corners);
   const Vertex_index beside = square.add_vertex(Point_3(0.25, 0.75, 1));
   BOOST_CHECK_THROW(first_impacts(square, beside, Point_3(0.25, 0.75, -1)), Error); // through it
+}
+
+BOOST_AUTO_TEST_CASE(meshes_with_coordinates_out_of_range_are_refused) {
+  constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
+  for (const double x : {infinite, -infinite, none, 0x1.8p1000})
+    for (const std::size_t which : {0, 5}) { // what is dragged, and another
+      meshes::Triangle_list list = meshes::tetrahedron();
+      list += meshes::tetrahedron().scale_and_move(1, 5, 0, 0);
+      Mesh mesh = meshes::to_mesh(list);
+      mesh.point(Vertex_index(which)) = {0, x, 0};
+      const auto names_it = [&](const Out_of_range& error) {
+        return std::string(error.what()).find("vertex " + std::to_string(which) + " at") != std::string::npos;
+      };
+      BOOST_CHECK_EXCEPTION(first_impacts(mesh, Vertex_index(0), Point_3(0, 0, 1)), Out_of_range, names_it);
+      BOOST_CHECK_EXCEPTION(first_impact(mesh, Vertex_index(0), Point_3(0, 0, 1)), Out_of_range, names_it);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(broad_phases_miss_nothing) {

@@ -100,8 +100,9 @@ void for_each_brush_target(const std::vector<typename Mesh::Vertex_index>& verti
       return (from_centre * direction) * direction - from_centre;
     default: {
       Vector_3 to_mean = CGAL::NULL_VECTOR;
+      const auto valence = mesh.degree(v);
       for (const auto h : mesh.halfedges_around_target(mesh.halfedge(v)))
-        to_mean = to_mean + (mesh.point(mesh.source(h)) - mesh.point(v)) / mesh.degree(v);
+        to_mean = to_mean + (mesh.point(mesh.source(h)) - mesh.point(v)) / valence;
       return to_mean;
     }
     }

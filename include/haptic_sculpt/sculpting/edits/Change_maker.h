@@ -27,7 +27,7 @@ namespace haptic_sculpt::internal {
 /// In this order: what is to be replaced is looked up and compared with what is known; room is made for all that will
 /// be written; values are kept, and the visitor hears, of what dies; all is written, `noted` included; what was made
 /// gets values, and the visitor hears of it. So an exception leaves a change not begun, or complete. One that comes
-/// while all is written leaves the Write_state saying so (doc/use/edits.md, "Memory that runs out").
+/// while all is written leaves the Write_state saying so (doc/proofs/edits.md, "Memory that runs out").
 template <class Mesh, class Broad_phase, class Visitor>
 class Change_maker {
 public:

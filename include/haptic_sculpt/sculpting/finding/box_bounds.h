@@ -3,7 +3,7 @@
 
 /// \file
 /// Lower bounds by which a tree of boxes is searched, nearest first. In doubles, safe whatever rounding does
-/// (doc/use/finding.md, "What is left out").
+/// (doc/proofs/finding.md, "What is left out").
 
 #include <haptic_sculpt/surface/broad_phase/Box_node.h>
 #include <haptic_sculpt/surface/broad_phase/Box_scale.h>

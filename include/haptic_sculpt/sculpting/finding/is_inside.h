@@ -10,7 +10,7 @@
 namespace haptic_sculpt::internal {
 
 /// On which side of ab a ray along x passes that begins at p + (0, e, e^2) with an infinitely small e > 0; 0 only where
-/// a and b are one point, seen along x. As First_face_along_x decides it (doc/use/validity.md, "What it meets").
+/// a and b are one point, seen along x. As First_face_along_x decides it (doc/proofs/validity.md, "What it meets").
 template <class Counters>
 int turn_along_x(const Coordinates& a, const Coordinates& b, const Coordinates& p, Counters& counters) {
   if (const int sign = orientation_2(a, b, p, 0, counters); sign != 0)

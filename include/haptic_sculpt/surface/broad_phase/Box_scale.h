@@ -18,8 +18,8 @@ public:
   Box_scale() = default; ///< 1
 
   /// The one that brings the middle one of the points to about 1, by the exponents of their largest coordinates; the
-  /// origin does not count. So a few points far out, or close to the origin, take no digits from the others.
-  /// \param for_each `for_each(visit)` calls `visit(p)` with all points. Cost: linear.
+  /// origin does not count, nor what is not finite. So a few points far out, or close to the origin, take no digits
+  /// from the others. \param for_each `for_each(visit)` calls `visit(p)` with all points. Cost: linear.
   template <class For_each>
   explicit Box_scale(const For_each& for_each) {
     constexpr int least = -1074, largest = 1023;
@@ -27,7 +27,7 @@ public:
     std::size_t count = 0;
     for_each([&](const Box_3::Coordinates& p) {
       const double size = std::max(std::abs(p[0]), std::max(std::abs(p[1]), std::abs(p[2])));
-      if (size > 0)
+      if (size > 0 && std::isfinite(size))
         ++count, ++counts[std::ilogb(size) - least];
     });
     if (count == 0)

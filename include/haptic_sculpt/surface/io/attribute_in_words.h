@@ -21,8 +21,10 @@ inline std::string attribute_in_words(const std::string& name) {
   };
   if (is_one_of({"nx", "ny", "nz"}))
     return "normals";
-  if (is_one_of({"red", "green", "blue", "alpha", "diffuse_red", "diffuse_green", "diffuse_blue"}))
+  if (is_one_of({"red", "green", "blue", "diffuse_red", "diffuse_green", "diffuse_blue"}))
     return "colours";
+  if (name == "alpha")
+    return "opacity"; // of colours: OBJ holds these without it
   if (is_one_of({"s", "t", "u", "v", "texture_u", "texture_v", "texcoord", "texnumber"}))
     return "texture coordinates";
   return "the property " + in_quotes(name);

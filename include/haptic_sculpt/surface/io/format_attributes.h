@@ -22,10 +22,10 @@ inline std::ostringstream exact_stream() {
   return out;
 }
 
-/// Numbers of PLY's types, as text or as bytes, the lowest first.
-class Ply_writer {
+/// Numbers of PLY's types, as text or as bytes.
+class Number_writer {
 public:
-  Ply_writer(std::ostringstream& out, bool binary) : out_(out), binary_(binary) {}
+  Number_writer(std::ostringstream& out, bool binary) : out_(out), binary_(binary) {}
 
   void put(Vertex_attribute::Type type, double x) {
     using Type = Vertex_attribute::Type;
@@ -86,7 +86,7 @@ private:
     out << "property " << name_of(attribute.type) << ' ' << attribute.name << '\n';
   out << "element face " << soup.number_of_faces() << "\nproperty list " << (binary ? "uchar" : "uint")
       << " uint vertex_indices\nend_header\n";
-  Ply_writer writer(out, binary);
+  Number_writer writer(out, binary);
   for (std::size_t v = 0; v < soup.points.size(); ++v) {
     for (int axis = 0; axis < 3; ++axis)
       writer.put(Type::float64, soup.points[v][axis]);
@@ -116,14 +116,27 @@ inline std::optional<std::array<std::size_t, 3>> colours_of_obj(const Face_soup&
   return colours;
 }
 
-/// Colours from 0 to 1: the bytes of PLY are divided by 255.
+/// What is divided by for colours from 0 to 1.
+inline double largest_colour(Vertex_attribute::Type type) {
+  switch (type) {
+  case Vertex_attribute::Type::uint8:
+    return std::numeric_limits<std::uint8_t>::max();
+  case Vertex_attribute::Type::uint16:
+    return std::numeric_limits<std::uint16_t>::max();
+  case Vertex_attribute::Type::uint32:
+    return std::numeric_limits<std::uint32_t>::max();
+  default:
+    return 1;
+  }
+}
+
 [[gnu::cold]] inline std::string format_obj(const Face_soup& soup, const std::array<std::size_t, 3>& colours) {
   std::ostringstream out = exact_stream();
   for (std::size_t v = 0; v < soup.points.size(); ++v) {
     out << "v " << soup.points[v].x() << ' ' << soup.points[v].y() << ' ' << soup.points[v].z();
     for (const std::size_t colour : colours) {
       const Vertex_attribute& part = soup.attributes[colour];
-      out << ' ' << (part.type == Vertex_attribute::Type::uint8 ? part.values[v] / 255 : part.values[v]);
+      out << ' ' << part.values[v] / largest_colour(part.type);
     }
     out << '\n';
   }

@@ -30,7 +30,8 @@ struct Face_soup {
   /// What the file has besides, e.g. "normals"; each once.
   std::vector<std::string> left_out;
 
-  std::size_t number_of_faces() const { return first_corner.size() - 1; } ///< those that are closed
+  /// Those that are closed; 0 of what was moved from.
+  std::size_t number_of_faces() const { return first_corner.empty() ? 0 : first_corner.size() - 1; }
   /// How many corners a face has. \pre face < number_of_faces()
   std::size_t number_of_corners(std::size_t face) const { return first_corner[face + 1] - first_corner[face]; }
   /// The first corner, as an index.

@@ -17,7 +17,7 @@ namespace haptic_sculpt::internal {
 /// Finds the face that a ray from a vertex v in the direction of x meets first.
 ///
 /// The ray begins at v + (e, e^2, e^3) with an infinitely small e > 0, and so meets neither edges nor corners: none is
-/// in special position, and none has to be tried twice. doc/use/validity.md has the mathematics. Faces lie in a
+/// in special position, and none has to be tried twice. doc/proofs/validity.md has the mathematics. Faces lie in a
 /// balanced tree of boxes; those in front are looked at first, and what begins behind the best face so far is left out.
 class First_face_along_x {
   using Index = Face_soup::Index;

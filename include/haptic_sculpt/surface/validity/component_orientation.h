@@ -45,7 +45,7 @@ inline CGAL::Sign volume_sign(const Face_soup& soup, const std::vector<Face_soup
 /// A closed embedded component has its normals on the outside of itself iff it encloses a positive signed volume. It
 /// has to, unless it lies in an odd number of other components, when it bounds a cavity and has to enclose a negative
 /// one. Where a component lies follows from what is first seen from its outermost vertex: the outside of a component
-/// that lies as deep, or the inside of the one it lies in. doc/use/validity.md says why that is enough, and what it
+/// that lies as deep, or the inside of the one it lies in. doc/proofs/validity.md says why that is enough, and what it
 /// costs: O(n log n) and the faces whose boxes the rays meet on their way.
 class Component_orientation {
   using Index = Face_soup::Index;
