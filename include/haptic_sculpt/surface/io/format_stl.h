@@ -4,7 +4,10 @@
 #include <haptic_sculpt/surface/io/format_attributes.h>
 
 #include <CGAL/Cartesian_converter.h>
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Simple_cartesian.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,7 +16,7 @@ namespace haptic_sculpt::internal {
 /// Of length 1 to rounding, however thin the triangle is: CGAL's writer takes the cross product of doubles, which is
 /// far off on slivers, and no number where a square overflows or underflows. 0 where the corners are on a line.
 [[gnu::cold]] inline std::array<double, 3> facet_normal(const Face_soup& soup, std::size_t face) {
-  using Exact = Decision_kernel::Exact_kernel;
+  using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
   const CGAL::Cartesian_converter<Decision_kernel, Exact> exact;
   const Face_soup::Index* const corner = soup.begin(face);
   const Exact::Point_3 a = exact(soup.points[corner[0]]);
