@@ -73,7 +73,7 @@ def kill_and_resume(out):
     """Killed with all it has started, once three reports are there, of which two must not be made again; the same command goes on."""
     going = subprocess.Popen([PYTHON, str(ROOT / "benchmark/run"), "--tiny", "--no-build", "--build", str(BUILD), "--out", str(out), "--cores", "1", *STEPS],
                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-    end = time.monotonic() + 300
+    end = time.monotonic() + 1800  # under sanitizers a report takes minutes
     while time.monotonic() < end and going.poll() is None and len(list(out.glob("shards/*/*.json"))) < 3:
         time.sleep(0.02)
     os.killpg(going.pid, signal.SIGKILL)

@@ -217,6 +217,7 @@ BOOST_AUTO_TEST_CASE(room_that_no_machine_has_is_refused) {
   BOOST_CHECK_THROW(sculptor.reserve(most, 0), std::bad_alloc);
   BOOST_CHECK_THROW(sculptor.reserve(0, most), std::bad_alloc);
   BOOST_CHECK_THROW(sculptor.reserve(std::size_t{1} << 30, 0), std::bad_alloc); // three times the edges
+  BOOST_CHECK_THROW(sculptor.reserve(0, std::size_t{1} << 43), std::bad_alloc);
   BOOST_TEST(sculptor.drag(Vertex_index(3), {0, 0, 2}).reached);
 }
 

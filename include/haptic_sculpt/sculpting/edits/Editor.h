@@ -49,8 +49,8 @@ public:
   /// This many edits and moves follow: what they need is allocated now, for stars of `valence` faces and this many
   /// candidates about them.
   void reserve(std::size_t edits, std::size_t moves, std::size_t valence, std::size_t candidates) {
+    changes_.reserve(edits, valence); // first: it refuses what no mesh can have before memory is asked for
     history_.reserve(edits, moves, ids().size() + edits, valence);
-    changes_.reserve(edits, valence);
     creation_.reserve(candidates);
     collapse_.reserve(valence, candidates);
     flip_.reserve(candidates);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -49,6 +51,8 @@ public:
   /// This many additions allocate nothing. \throw std::bad_alloc, and no record has changed
   void reserve(std::size_t additions) {
     const std::size_t blocks = (end_ - base_ + additions + block_size - 1) / block_size;
+    if (blocks > blocks_.size() + 1)
+      check_memory(blocks - blocks_.size());
     while (blocks_.size() < blocks) {
       std::vector<Record> block;
       block.reserve(block_size);
@@ -59,6 +63,15 @@ public:
 private:
   std::vector<std::vector<Record>> blocks_;    ///< each with room for block_size
   std::size_t begin_ = 0, end_ = 0, base_ = 0; ///< base_: the number of the first place of the first block
+
+  /// Asks for all at once: a system grants block after block, until it has to end some process.
+  /// \throw std::bad_alloc
+  static void check_memory(std::size_t blocks) {
+    constexpr std::size_t most = std::numeric_limits<std::ptrdiff_t>::max();
+    if (blocks > most / (block_size * sizeof(Record)))
+      throw std::bad_alloc();
+    ::operator delete(::operator new(blocks* block_size * sizeof(Record)));
+  }
 
   const std::vector<Record>& block_of(std::size_t i) const { return blocks_[(i - base_) / block_size]; }
 };

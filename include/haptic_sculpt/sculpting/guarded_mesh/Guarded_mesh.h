@@ -325,7 +325,7 @@ private:
   /// More faces about a star than a drag of default bound looks up, and than an edit of a vertex drawn far out as a
   /// rule.
   static constexpr std::size_t usual_candidates = 2048;
-  static constexpr std::size_t most_moves = std::size_t{1} << 48; ///< more than there is memory to note
+  static constexpr std::size_t most_moves = std::size_t{1} << 40; ///< more than there is memory to note
 
   Mesh* mesh_;
   Write_state writing_;
