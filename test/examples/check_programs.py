@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What `sculpt` and `haptic_loop` must not lose, whatever becomes of their streams, readers, disks and inputs, and the words that help.
 Arguments: sculpt, source folder, haptic_loop."""
+import fcntl
 import json
 import os
 import resource
 import signal
 import subprocess
+import sys
 import tempfile
+import termios
 import time
 
 from box_mesh import box
@@ -140,10 +143,14 @@ def rows_that_wait(folder):
         time.sleep(seconds)
         process.send_signal(signal.SIGTERM)
         check(process.wait(60) in (5, -signal.SIGTERM), f"nobody has opened the pipe: exit {process.returncode}")
-    process = started(BALL, "--no-wait", "--trace", pipe, "-o", out, program=LOOP)
-    with open(pipe, "rb") as rows:
-        rows.read(1)
-        time.sleep(1)  # the pipe is full by then
+    smallest = 4096  # bytes that a pipe holds
+    with open(os.open(pipe, os.O_RDONLY | os.O_NONBLOCK), "rb") as rows:
+        fcntl.fcntl(rows, fcntl.F_SETPIPE_SZ, smallest)
+        process = started(BALL, "--no-wait", "--trace", pipe, "-o", out, program=LOOP)
+        waiting, latest = bytearray(4), time.monotonic() + PATIENCE
+        while int.from_bytes(waiting, sys.byteorder) < smallest and time.monotonic() < latest:
+            fcntl.ioctl(rows, termios.FIONREAD, waiting)
+            time.sleep(0.01)
         process.send_signal(signal.SIGTERM)
         check(process.wait(60) == 5 and os.path.exists(out), f"nobody reads the pipe: exit {process.returncode}")
     os.remove(out)
