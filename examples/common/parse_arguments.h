@@ -59,7 +59,7 @@ inline void parse_arguments(CLI::App& app, int argc, char** argv) {
       option->transform(CLI::Validator(normalise_whole_number<std::uint64_t>, ""));
     else if (type.rfind("INT", 0) == 0)
       option->transform(CLI::Validator(normalise_whole_number<std::int64_t>, ""));
-    else if (type.rfind("FLOAT", 0) == 0 || type.rfind("X Y Z", 0) == 0)
+    else if (type.rfind("FLOAT", 0) == 0 || type.rfind("X Y Z", 0) == 0) // three of them
       option->transform(CLI::Validator(normalise_number, ""));
   }
   app.parse(argc, argv);

@@ -178,7 +178,8 @@ check(lines[-1] == "" and lines[-2].startswith("# tick ") and 4630 <= int(lines[
 last = max(int(line.split()[2]) for line in lines if line.startswith("# tick ")) / 1000
 done = run(MESH, "--no-wait", "--seconds", last + 0.02, "--log", at("short.log"), "--fault", f"log@{last - 0.02}",
            "--report", at("short.json"), "-o", at("short.off"), code=5)
-check("short.log' lacks the last edits" in done.stderr and json.load(open(at("short.json")))["log"]["lost"] > 0, f"it is said: {done.stderr}")
+lost = json.load(open(at("short.json")))["log"]["lost"]
+check("short.log' lacks the last edits" in done.stderr and lost > 0, f"it is said: {done.stderr}")
 check(" done # " not in open(at("short.log")).read(), "a log that lacks edits says that it is whole")
 # A pause is not made up for by ticks that follow each other at once, which would be more than the log can take.
 with open(at("early.csv"), "w") as file:  # where the hand holds a vertex for long

@@ -163,7 +163,8 @@ def finding_vertices(folder, mesh):
     run(octahedron, "--nearest", "0", "0", "0", "--report", report)
     check([v["vertex"] for v in json.load(open(report))["nearest"]] == list(range(6)), "equally near")
     # A hair above the middle of two doubles: rounded once, to 1 + 2^-52; at first to a long double, to 1.
-    run(octahedron, "--nearest", "1.00000000000000011102230246251565404236316680908203126", "0", "0", "--report", report)
+    above = "1.00000000000000011102230246251565404236316680908203126"
+    run(octahedron, "--nearest", above, "0", "0", "--report", report)
     check(json.load(open(report))["nearest"][0]["distance"] == 2**-52, "a number of the command line is rounded twice")
     run(octahedron, "--nearest", "1e300", "0x1p-1070", "0", "--report", report)
     check([v["vertex"] for v in json.load(open(report))["nearest"]] == [0, 2, 4, 5, 3, 1], "nearest to a point far away, where distances are all one double")

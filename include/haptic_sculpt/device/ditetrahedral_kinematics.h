@@ -136,6 +136,13 @@ template <class S> struct Leg_triangle {
   S x, z, distance, one_minus, one_plus;
 };
 
+/// Of 1 less or more a leg's cosine, without unit: what the few operations that it comes from may round off. A leg that
+/// is straight or folded but for this is straight or folded.
+template <class S>
+S rounding_of_leg() {
+  return S(4) * std::numeric_limits<S>::epsilon();
+}
+
 template <class S>
 inline Leg_triangle<S> leg_triangle(const Device_parameters<S>& parameters, const Device_vector<S>& point, int leg) {
   using std::sqrt;
@@ -151,8 +158,7 @@ inline Leg_triangle<S> leg_triangle(const Device_parameters<S>& parameters, cons
   const S scale = S(1) / (S(2) * l1 * t.distance);
   t.one_minus = (in_plane_squared - (t.distance - l1) * (t.distance - l1)) * scale;
   t.one_plus = ((t.distance + l1) * (t.distance + l1) - in_plane_squared) * scale;
-  // A knee that is straight or folded but for the rounding of these few operations is straight or folded.
-  const S rounding = S(4) * std::numeric_limits<S>::epsilon();
+  const S rounding = rounding_of_leg<S>();
   if (t.one_minus > -rounding && t.one_minus < S(0))
     t.one_minus = S(0);
   if (t.one_plus > -rounding && t.one_plus < S(0))

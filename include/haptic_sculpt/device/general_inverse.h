@@ -230,8 +230,7 @@ Outcome<Ditetrahedral_inverse<S>> mirror_inverse(const Device_parameters<S>& par
   for (int leg = 0; leg < 3; ++leg) {
     const S x = Leg_frame<S>::along_radial(leg, position), z = position[2], length = sqrt(x * x + z * z);
     S cosine = (square / S(2) - parameters.base_radius() * x) / (parameters.primary_length() * length);
-    // A leg that is along the way but for the rounding of these few operations is along it.
-    const S rounding = S(4) * std::numeric_limits<S>::epsilon();
+    const S rounding = internal::rounding_of_leg<S>();
     if (cosine > S(1) && cosine < S(1) + rounding)
       cosine = S(1);
     if (cosine < S(-1) && cosine > S(-1) - rounding)

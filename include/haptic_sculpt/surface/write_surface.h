@@ -177,8 +177,8 @@ inline void prepare_ply(const Face_soup& soup, bool binary) {
 /// The text or bytes of the file, by CGAL's writers as far as they can say it. They are given a stream of their own, in
 /// the C locale and with 17 digits, which bring every double back.
 [[gnu::cold]] inline std::string file_contents(const Face_soup& soup, Mesh_file_format format, bool binary) {
-  const bool counts_beyond_byte = face_beyond_byte(soup) != soup.number_of_faces(); // CGAL counts by bytes as text, too
-  if (format == Mesh_file_format::ply && (!soup.attributes.empty() || counts_beyond_byte))
+  if (format == Mesh_file_format::ply && // CGAL counts corners by bytes, as text, too
+      (!soup.attributes.empty() || face_beyond_byte(soup) != soup.number_of_faces()))
     return format_ply(soup, binary);
   if (format == Mesh_file_format::stl)
     return format_stl(soup, binary);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/surface/io/format_attributes.h>
+#include <haptic_sculpt/surface/io/Number_writer.h>
+#include <haptic_sculpt/surface/validity/Face_soup.h>
 
 #include <CGAL/Cartesian_converter.h>
 #include <CGAL/Exact_rational.h>
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace haptic_sculpt::internal {
 
