@@ -59,7 +59,7 @@ public:
   }
 
 private:
-  static constexpr double pi = 3.14159265358979323846;
+  static constexpr double pi = EIGEN_PI;
 
   double tick_, share_, lag_, curvature_, elapsed_ = 0;
   bool has_step_ = false;

@@ -48,7 +48,7 @@ public:
   int samples() const { return samples_; } ///< ticks that a burst takes, at least 6
   /// N, for the largest amplitude. \pre 0 <= k < samples()
   double sample(int k) const {
-    const double pi = 3.14159265358979323846;
+    constexpr double pi = EIGEN_PI;
     const int from_middle = std::abs(2 * k + 1 - samples_); // in half ticks: even about the middle in every bit
     const double window = 0.5 * (1 + std::cos(pi * from_middle / samples_));
     return amplitude * window * std::cos(pi * cycles_ * from_middle / samples_);

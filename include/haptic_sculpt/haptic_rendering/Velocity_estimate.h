@@ -17,11 +17,11 @@ class Velocity_estimate {
 public:
   static constexpr double default_cutoff = 100; ///< Hz
   /// What a damper b behind the low-pass makes of a step at most, N/m: 2 pi f b. \param damping b, N s/m
-  static double change_of_way(double damping) { return 2 * 3.14159265358979323846 * default_cutoff * damping; }
+  static double change_of_way(double damping) { return 2 * double(EIGEN_PI) * default_cutoff * damping; }
 
   /// \param tick s \param cutoff of the low-pass, Hz
   explicit Velocity_estimate(double tick, double cutoff = default_cutoff)
-      : tick_(tick), rate_(2 * 3.14159265358979323846 * cutoff), share_(-std::expm1(-rate_ * tick)) {}
+      : tick_(tick), rate_(2 * double(EIGEN_PI) * cutoff), share_(-std::expm1(-rate_ * tick)) {}
 
   /// Takes the handle's step in one tick, m. \return m/s
   const Eigen::Vector3d& add(const Eigen::Vector3d& step) { return add(step, tick_); }

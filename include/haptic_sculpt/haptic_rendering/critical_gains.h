@@ -26,7 +26,7 @@ inline std::complex<double> held_force_response(double tick, double delay, doubl
 template <class Response>
 double critical_gain(const Response& response) {
   constexpr int angles = 20000; // between two of them a crossing is found by halving
-  constexpr double pi = 3.14159265358979323846;
+  constexpr double pi = EIGEN_PI;
   double farthest = 0, last_angle = 0.1 * pi / angles / angles;
   std::complex<double> last = response(last_angle);
   for (int k = 1; k <= angles; ++k) {
@@ -78,7 +78,7 @@ constexpr double stable_share = 1.0 / 3;
 /// time by which the velocity lags. A stronger one stops the mass sooner, pushes on, and throws it off a wall faster
 /// than it came.
 inline double largest_damping_rate(double tick, double delay, double cutoff = Velocity_estimate::default_cutoff) {
-  return std::fmin(stable_share * critical_damping_rate(tick, delay, cutoff), 2 * 3.14159265358979323846 * cutoff);
+  return std::fmin(stable_share * critical_damping_rate(tick, delay, cutoff), 2 * double(EIGEN_PI) * cutoff);
 }
 
 } // namespace haptic_sculpt

@@ -61,7 +61,7 @@ public:
 
   /// Constrains the edges of the range at which the normals of the faces differ by more than this angle.
   void constrain_features(const Scaled_points<Mesh>& points, double degrees) {
-    const double cosine = std::cos(degrees * (3.14159265358979323846 / 180));
+    const double cosine = std::cos(degrees * (CGAL_PI / 180));
     for (const Edge_index e : mesh_->edges()) {
       if (!is_inside(e))
         continue;
