@@ -163,9 +163,10 @@ bool Application::act(const Action& action) {
     record(action.word);
     return true;
   case Kind::print:
-    if (has_status())
-      print_status();
-    return has_status();
+    if (background_.is_opening() || !has_status()) // of the mesh that was opened last
+      return false;
+    print_status();
+    return true;
   case Kind::where: {
     const Eigen::Vector2d at = pixel_of(action.spot);
     std::cout << Json{{"where", {at.x(), at.y()}}}.dump() << std::endl;
