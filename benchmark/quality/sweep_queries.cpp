@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -173,7 +174,7 @@ int main(int argc, char** argv) {
         continue;
       std::cout << answer(text, line, traits) << '\n';
     }
-    if (input.bad())
+    if (path == "-" ? std::ferror(stdin) != 0 : input.bad()) // std::cin says nothing of what the system could not read
       throw haptic_sculpt::Error("reading '" + path + "' failed");
   } catch (const haptic_sculpt::Error& error) {
     std::cout.flush();

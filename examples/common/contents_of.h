@@ -33,12 +33,14 @@ inline std::string name_in_message(const std::string& path, const std::string& w
   return what + (what.empty() ? "'" : " '") + path + "'";
 }
 
-/// The same of a file by its name; a pipe, too. \param what how messages call it
-/// \throw Exception, which says why it cannot be read: not there, a folder, no permission
+/// The same of a file by its name; a pipe, too. Of standard input it is what is left, and it may be a socket: opened
+/// anew, a file begins at its beginning, and a socket not at all. \param what how messages call it \throw Exception,
+/// which says why it cannot be read: not there, a folder, no permission
 template <class Exception, class Take>
 void read_blocks(const std::string& path, const std::string& what, const Take& take) {
   const std::string name = name_in_message(path, what);
-  const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int opened =
+      path == "/dev/stdin" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (opened < 0)
     throw Exception("cannot open " + name + ": " + std::strerror(errno));
   const auto close = [](const int* file) { ::close(*file); };

@@ -8,7 +8,9 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include <fcntl.h>
@@ -36,11 +38,14 @@ public:
     path_ = path, is_ended_ = &is_ended;
     if (path.empty())
       return;
-    // A call that waits would go on waiting after a signal, or before one.
-    while ((descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NONBLOCK | O_CLOEXEC, 0666)) < 0 &&
-           errno == ENXIO && !is_ended)
+    int why = 0; // errno
+    for (;;) {   // a call that waits would go on waiting after a signal, or before one
+      descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NONBLOCK | O_CLOEXEC, 0666);
+      why = descriptor_ < 0 ? errno : 0;
+      if (why != ENXIO || is_socket(path) || is_ended)
+        break;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    const int why = errno;
+    }
     if (descriptor_ >= 0) {
       cookie_io_functions_t functions{};
       functions.write = write, functions.close = close_descriptor;
@@ -48,7 +53,10 @@ public:
         ::close(descriptor_);
     }
     if (file_ == nullptr)
-      throw Write_error("cannot write '" + path + "': " + (why == ENXIO ? "nobody reads it" : std::strerror(why)));
+      throw Write_error("cannot write '" + path + "': " +
+                        (why != ENXIO      ? std::strerror(why)
+                         : is_socket(path) ? "it is a socket"
+                                           : "nobody reads it"));
   }
   /// nullptr: there is none
   std::FILE* get() const { return file_; }
@@ -74,6 +82,11 @@ private:
 
   static ssize_t write(void* self, const char* bytes, std::size_t size) {
     return static_cast<Row_file*>(self)->write(bytes, size);
+  }
+  /// Which nothing will ever open, while a pipe waits for its reader.
+  static bool is_socket(const std::string& path) {
+    std::error_code unknown;
+    return std::filesystem::is_socket(path, unknown);
   }
   /// \return 0: an error
   ssize_t write(const char* bytes, std::size_t size) {

@@ -24,7 +24,7 @@ bool is_polygon(const Face_soup& soup, std::size_t f) {
 /// \throw Read_error where a polygon cannot be divided
 Face_soup triangulated(const Face_soup& soup, const Arguments& arguments) {
   Face_soup result;
-  result.points = soup.points;
+  result.points = soup.points, result.attributes = soup.attributes;
   std::vector<std::array<Face_soup::Index, 3>> others;
   for (std::size_t f = 0; f < soup.number_of_faces(); ++f) {
     const Face_soup::Index* const corner = soup.begin(f);

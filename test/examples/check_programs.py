@@ -7,6 +7,7 @@ import json
 import os
 import resource
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -135,7 +136,7 @@ def signals(folder, mesh):
 
 
 def rows_that_wait(folder):
-    """A signal ends a program whose rows nobody reads."""
+    """A signal ends a program whose rows nobody reads; a socket, which nothing opens, is not waited for."""
     pipe, out = f"{folder}/rows", f"{folder}/waited.off"
     os.mkfifo(pipe)
     for seconds in (0.05, 0.5, 1):  # before it waits, or while it does
@@ -143,6 +144,10 @@ def rows_that_wait(folder):
         time.sleep(seconds)
         process.send_signal(signal.SIGTERM)
         check(process.wait(60) in (5, -signal.SIGTERM), f"nobody has opened the pipe: exit {process.returncode}")
+    here, there = socket.socketpair()
+    with here, there:
+        done = subprocess.run([LOOP, BALL, "--no-wait", "--trace", "/dev/stdout"], stdout=there, stderr=subprocess.PIPE, text=True, timeout=PATIENCE)
+    fails(5, ["/dev/stdout", "socket"], done, "rows to a socket")
     smallest = 4096  # bytes that a pipe holds
     with open(os.open(pipe, os.O_RDONLY | os.O_NONBLOCK), "rb") as rows:
         fcntl.fcntl(rows, fcntl.F_SETPIPE_SZ, smallest)

@@ -4,10 +4,12 @@
 import hashlib
 import json
 import os
+import socket
 import struct
+import subprocess
 import tempfile
 
-from program_runs import (FURTHER as QUERIES, OCTAHEDRON, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points, run,
+from program_runs import (FURTHER as QUERIES, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points, run,
                           surface, two_octahedra, write)
 
 
@@ -299,6 +301,18 @@ def what_people_read(folder, mesh):
             text = file.read()
         check(run(write(f"{folder}/bom_{name}", b"\xef\xbb\xbf" + text), "-o", out).returncode == 0 and len(points(out)) == 4, f"a byte order mark in {name}")
     check(run(mesh, "--script", "-", script=bom + "drag 3 0 0 2\n").returncode == 0, "a byte order mark in a script")
+    # Of standard input what is left of it, from a file and from a socket.
+    lines = b"drag 3 0 0 2\ndrag 3 0 0 3\n"
+    with open(write(f"{folder}/two.script", lines), "rb", buffering=0) as file:
+        file.read(13)
+        subprocess.run([SCULPT, mesh, "--script", "-", "-o", out, "--report", report], stdin=file, capture_output=True)
+        check(len(json.load(open(report))["edits"]) == 1 and points(out)[3] == (0, 0, 3), "a line that was read before is none of the script")
+    here, there = socket.socketpair()
+    with here, there:
+        here.sendall(lines)
+        here.shutdown(socket.SHUT_WR)
+        done = subprocess.run([SCULPT, mesh, "--script", "-", "--report", report], stdin=there, capture_output=True, text=True)
+        check(done.returncode == 0 and len(json.load(open(report))["edits"]) == 2, f"a script from a socket: {done.stderr}")
     # What is lost.
     for name, text, parts in (
             ("c.off", TETRAHEDRON.replace("OFF", "COFF").replace("0 0 0\n", "0 0 0 255 0 0\n", 1), ["colours"]),
@@ -525,6 +539,11 @@ def queries(folder):
     check(ask(vertex_face + "# " + "x" * 60000 + "\n\n" + last).stdout == "1 1/2\n" * 2, "the last line without an end")
     fails(2, ["line 1"], ask("VF 1 2 3\n"), "short line")
     fails(2, ["none.txt"], run(f"{folder}/none.txt", program=QUERIES), "missing queries")
+    for path in (folder, "/dev/null"):
+        opened = os.open(path, os.O_RDONLY)
+        done = subprocess.run([QUERIES, "-"], stdin=opened, capture_output=True, text=True)
+        os.close(opened)
+        check(done.returncode == (2 if path == folder else 0), f"queries on standard input from {path}: exit {done.returncode}")
 
 
 def main():

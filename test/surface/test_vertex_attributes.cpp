@@ -143,12 +143,38 @@ BOOST_AUTO_TEST_CASE(obj_has_colours_from_0_to_1_and_what_a_format_cannot_hold_i
   BOOST_TEST(get(vertex_attributes(read_surface<Mesh>(folder / "w.obj"))[1].map, V(3)) == 0.2);
   using Words = std::vector<std::string>;
   BOOST_TEST((attributes_not_held(bytes, Mesh_file_format::obj) == Words()));
-  add_vertex_attribute(words, "alpha", Type::uint16);
+  add_vertex_attribute(words, "red"); // besides the other: the file holds the first
+  BOOST_TEST((attributes_not_held(words, Mesh_file_format::obj) == Words{"colours"}));
+  words = meshes::to_mesh(meshes::cube());
+  for (const char* name : {"red", "green", "blue", "alpha"})
+    add_vertex_attribute(words, name, Type::uint16);
   BOOST_TEST((attributes_not_held(words, Mesh_file_format::obj) == Words{"opacity"}));
   add_vertex_attribute(bytes, "heat");
   BOOST_TEST((attributes_not_held(bytes, Mesh_file_format::ply) == Words()));
   BOOST_TEST((attributes_not_held(bytes, Mesh_file_format::obj) == Words{"the property 'heat'"}));
   BOOST_TEST((attributes_not_held(bytes, Mesh_file_format::off) == Words{"colours", "the property 'heat'"}));
+}
+
+BOOST_AUTO_TEST_CASE(what_stl_says_besides_is_told) {
+  const Temporary_folder folder;
+  const Mesh mesh = meshes::to_mesh(meshes::cube());
+  const auto left_out = [&](const std::string& bytes) {
+    std::vector<std::string> words;
+    const std::string path = folder.file("m.stl", bytes);
+    BOOST_TEST(read_surface<Mesh>(path, 0, &words).number_of_faces() == 12u);
+    return words;
+  };
+  using Words = std::vector<std::string>;
+  write_surface(folder / "a.stl", mesh);
+  std::string text = bytes_of(folder / "a.stl");
+  BOOST_TEST((left_out(text) == Words()));
+  text.insert(text.find("facet normal", text.size() / 2), "endsolid\nsolid other\n");
+  BOOST_TEST((left_out(text) == Words{"groups"}));
+  write_surface(folder / "b.stl", mesh, Write_parameters().encoding(Write_parameters::Encoding::binary));
+  std::string bytes = bytes_of(folder / "b.stl");
+  BOOST_TEST((left_out(bytes) == Words()));
+  bytes[84 + 50 * 7 - 1] = '\x80'; // of the seventh facet
+  BOOST_TEST((left_out(bytes) == Words{"colours"}));
 }
 
 BOOST_AUTO_TEST_CASE(maps_of_other_types_with_the_same_name_are_none) {

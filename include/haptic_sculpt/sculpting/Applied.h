@@ -103,8 +103,10 @@ private:
   /// Contacts are carried on from the last edit, if that was a move of the same vertex.
   Done move(Sculptor& sculptor, const Edit& edit) {
     const auto v = sculptor.vertex(edit.vertices[0]);
-    if (!v.is_valid())
+    if (!v.is_valid()) {
+      sculptor.release();
       return done({}, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
+    }
     for (const auto& leg : edit.legs) // before the first is gone, not after
       check_point("a leg", point(leg));
     check_point("the target", point(edit.point));

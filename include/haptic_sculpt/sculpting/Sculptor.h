@@ -240,7 +240,7 @@ public:
   /// Interpolate_property, or your own What the functions of the map and `carry` throw goes on to the caller of the
   /// edit, which stands; where a value cannot be copied before the edit, the edit is not made. Cost: while a map is
   /// kept, an edit looks up its ids, n log n in the valence; the history keeps the values of what dies, which
-  /// `history().bytes()` does not count.
+  /// `history().bytes()` does not count. \throw Invalid_parameter for the mesh's own map of points
   template <class Map, class Carry = Copy_property>
   void keep(Map map, Carry carry = Carry()) {
     guarded_.whole_editor().kept().add(map, std::move(carry));

@@ -59,11 +59,15 @@ std::vector<std::string> attributes_not_held(const Mesh& mesh, Mesh_file_format 
     return std::any_of(attributes.begin(), attributes.end(), [&](const auto& a) { return a.name == name; });
   };
   const bool holds_colours = format == Mesh_file_format::obj && has("red") && has("green") && has("blue");
-  for (const auto& [name, type, map] : attributes)
-    if (format != Mesh_file_format::ply && !(holds_colours && (name == "red" || name == "green" || name == "blue")))
-      if (const std::string word = internal::attribute_in_words(name);
-          std::find(lost.begin(), lost.end(), word) == lost.end())
-        lost.push_back(word);
+  std::set<std::string> held;
+  for (const auto& [name, type, map] : attributes) {
+    const bool is_held =
+        format == Mesh_file_format::ply || (holds_colours && (name == "red" || name == "green" || name == "blue") &&
+                                            held.insert(name).second); // of two maps, e.g. of other types, the first
+    const std::string word = internal::attribute_in_words(name);
+    if (!is_held && std::find(lost.begin(), lost.end(), word) == lost.end())
+      lost.push_back(word);
+  }
   return lost;
 }
 

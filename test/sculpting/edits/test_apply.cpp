@@ -6,7 +6,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
+#include <array>
 #include <map>
+#include <vector>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -139,4 +142,79 @@ BOOST_AUTO_TEST_CASE(what_apply_says) {
     shift.ways.insert(shift.ways.begin(), {7, 2.0}); // of one vertex the last counts
   }
   BOOST_TEST((snapshot(sculptor) == before));
+}
+
+// A refused edit between two moves of a vertex ends its grab, as every other edit does: whoever makes the lines of a
+// log again comes to the same bits.
+BOOST_AUTO_TEST_CASE(a_vertex_that_is_not_there_ends_the_grab) {
+  Random random(seed_from_environment(62));
+  std::uniform_real_distribution<double> number(-1.5, 1.5);
+  std::size_t other_than_released = 0, other_than_carried = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Mesh scene = meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05));
+    Mesh unknown_between = scene, released_between = scene, nothing_between = scene;
+    Sculptor<Mesh> a(unknown_between), b(released_between), c(nothing_between);
+    const std::size_t v = random() % scene.number_of_vertices();
+    for (int drag = 0; drag < 4; ++drag) {
+      const double x = number(random), y = number(random), z = number(random);
+      const Edit move = Edit::of(Edit_kind::move, {v, 0, 0}, {x, y, z});
+      const auto first = a.apply(move), second = b.apply(move), third = c.apply(move);
+      const auto is_same = [&](const auto& other) {
+        return first.drag->position == other.drag->position && first.drag->work == other.drag->work;
+      };
+      other_than_released += !is_same(second), other_than_carried += !is_same(third);
+      BOOST_TEST(!a.apply(Edit::of(Edit_kind::move, {99999, 0, 0}, {0, 0, 0})));
+      b.release();
+    }
+  }
+  BOOST_TEST_MESSAGE(other_than_carried << " of 1,200 drags differ where contacts are carried on");
+  BOOST_TEST(other_than_released == 0u);
+  BOOST_TEST(other_than_carried > 10u);
+}
+
+namespace {
+
+using Corners = std::array<std::size_t, 3>;
+
+/// By numbers, each from its least corner on.
+std::vector<Corners> faces_by_number(const Sculptor<Mesh>& sculptor) {
+  std::vector<Corners> faces;
+  const Mesh& mesh = sculptor.mesh();
+  for (const auto f : mesh.faces()) {
+    Corners corners;
+    std::size_t k = 0;
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+      corners[k++] = sculptor.id(v);
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    faces.push_back(corners);
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+} // namespace
+
+// Undo gives connectivity and places back, not where circulators begin: what is removed then goes into the same
+// neighbour all the same, of several that are as good, too, as those of an octahedron are.
+BOOST_AUTO_TEST_CASE(after_undo_a_removal_is_what_it_would_have_been) {
+  for (const Mesh& scene : {meshes::to_mesh(meshes::bipyramid(4)), meshes::to_mesh(meshes::icosphere(1)),
+                            meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05))})
+    for (std::size_t v = 0; v < scene.number_of_vertices(); ++v) {
+      Mesh never_edited = scene;
+      Sculptor<Mesh> fresh(never_edited);
+      const auto expected = fresh.remove(fresh.vertex(v));
+      for (const auto h : scene.halfedges_around_target(scene.halfedge(Vertex_index(static_cast<unsigned>(v)))))
+        for (const Edit_kind kind : {Edit_kind::collapse, Edit_kind::flip, Edit_kind::insert_on_face}) {
+          Mesh mesh = scene;
+          Sculptor<Mesh> sculptor(mesh);
+          const auto done = kind == Edit_kind::collapse ? sculptor.collapse(mesh.opposite(h))
+                            : kind == Edit_kind::flip
+                                ? sculptor.flip(mesh.edge(h))
+                                : sculptor.insert_on_face(mesh.face(h), in_face(mesh, mesh.face(h), 0.3, 0.3));
+          if (done)
+            BOOST_REQUIRE(sculptor.undo());
+          BOOST_TEST(bool(sculptor.remove(sculptor.vertex(v))) == bool(expected));
+          BOOST_TEST((faces_by_number(sculptor) == faces_by_number(fresh)));
+        }
+    }
 }

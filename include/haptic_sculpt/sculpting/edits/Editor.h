@@ -10,6 +10,7 @@
 #include <haptic_sculpt/sculpting/edits/Pivot_order.h>
 #include <haptic_sculpt/surface/vertex_coordinates.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace haptic_sculpt::internal {
@@ -94,11 +95,15 @@ public:
     return refusal ? Result{std::nullopt, std::move(refusal)} : collapse_into(pivot);
   }
 
-  /// Draws v into each neighbour in turn, the one first whose fan has the largest least angle, until one is free.
+  /// Draws v into each neighbour in turn, the one first whose fan has the largest least angle, until one is free. Of
+  /// equal ones their numbers tell, not where the mesh's own circulators begin: undo does not restore that.
   Result remove(Vertex_index v, double delta) {
     if (auto refusal = collapse_.begin(v))
       return {std::nullopt, std::move(refusal)};
-    order_.begin(collapse_.star());
+    const std::vector<Vertex_index>& link = collapse_.star().link;
+    const auto first = std::min_element(link.begin(), link.end(),
+                                        [this](Vertex_index a, Vertex_index b) { return ids().id(a) < ids().id(b); });
+    order_.begin(collapse_.star(), static_cast<std::size_t>(first - link.begin()));
     std::optional<Refusal<Mesh>> gravest;
     while (const auto pivot = order_.next()) {
       auto refusal = collapse_.refuse(*pivot, delta);

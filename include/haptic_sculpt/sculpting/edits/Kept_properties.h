@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/sculpting/Invalid_parameter.h>
 #include <haptic_sculpt/sculpting/edits/Kept_map.h>
 #include <haptic_sculpt/sculpting/edits/Lineage_map.h>
 #include <haptic_sculpt/sculpting/geometry/vector_3.h>
@@ -27,6 +28,9 @@ public:
     static_assert(std::is_same<Key, Vertex_index>::value || std::is_same<Key, typename Mesh::Halfedge_index>::value ||
                       std::is_same<Key, Edge_index>::value || std::is_same<Key, Face_index>::value,
                   "Sculptor::keep: the keys of the map must be vertices, halfedges, edges or faces of the mesh");
+    if constexpr (std::is_same<Map, typename Mesh::template Property_map<Vertex_index, typename Mesh::Point>>::value)
+      if (map.data() == mesh_->points().data()) // else a value that is carried would take the place of a proven one
+        throw Invalid_parameter("keep() takes no map of where vertices are: edits and undo see to these");
     maps_.push_back(std::make_unique<Kept_map_of<Mesh, Map, Carry>>(map, std::move(carry)));
   }
   /// The visitor hears of what comes from what, if it has the functions for that. \param visitor is called as long as

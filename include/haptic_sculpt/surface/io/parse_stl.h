@@ -84,9 +84,12 @@ inline Face_soup parse_ascii_stl(std::string_view text) {
   };
   Face_soup soup;
   Stl_vertices vertices(soup);
+  std::size_t solids = 0;
   while (scan.has_word() || scan.next_line()) {
     expect_keywords(scan, {"solid"});
     scan.skip_rest_of_line(); // its name
+    if (++solids == 2)
+      soup.leave_out("groups");
     for (;;) {
       const std::string_view word = scan.word_anywhere("'facet' or 'endsolid'");
       if (is_keyword(word, "endsolid"))
@@ -125,7 +128,8 @@ inline Face_soup parse_binary_stl(std::string_view bytes, std::uint32_t faces) {
       const float x = scan.take<float>(), y = scan.take<float>(), z = scan.take<float>();
       vertices.add_corner(x, y, z);
     }
-    scan.take<std::uint16_t>(); // attributes
+    if (scan.take<std::uint16_t>() != 0) // attributes
+      soup.leave_out("colours");
     soup.close_face();
   }
   return soup;
