@@ -227,3 +227,16 @@ BOOST_AUTO_TEST_CASE(a_visitor_hears_what_comes_from_what) {
       BOOST_REQUIRE_EQUAL(attribute.at(f), static_cast<std::size_t>(numbered(f)));
   }
 }
+
+// Else a value made of its neighbours' would take the place of the point that was proven.
+BOOST_AUTO_TEST_CASE(the_points_of_the_mesh_are_not_kept) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+  const auto copied = mesh.add_property_map<Mesh::Vertex_index, Point_3>("v:copied").first;
+  Sculptor<Mesh> sculptor(mesh);
+  BOOST_CHECK_THROW(sculptor.keep(mesh.points()), Invalid_parameter);
+  sculptor.keep(copied);
+  const auto f = *mesh.faces().begin();
+  BOOST_REQUIRE(sculptor.insert_on_face(f, in_face(mesh, f, 0.3, 0.3)));
+  sculptor.check_unchanged();
+  BOOST_TEST(validate(mesh).is_valid());
+}

@@ -51,7 +51,8 @@ public:
 private:
   struct Fan {
     double bound; ///< the least altitude among the triangles seen
-    std::size_t rank, seen; ///< from `first_` on
+    std::size_t rank, ///< of the pivot, from `first_` on
+        seen;         ///< triangles
     bool operator<(const Fan& other) const {
       return bound < other.bound || (bound == other.bound && rank > other.rank);
     }
