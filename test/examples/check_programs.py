@@ -146,7 +146,8 @@ def rows_that_wait(folder):
         check(process.wait(60) in (5, -signal.SIGTERM), f"nobody has opened the pipe: exit {process.returncode}")
     here, there = socket.socketpair()
     with here, there:
-        done = subprocess.run([LOOP, BALL, "--no-wait", "--trace", "/dev/stdout"], stdout=there, stderr=subprocess.PIPE, text=True, timeout=PATIENCE)
+        done = subprocess.run([LOOP, BALL, "--no-wait", "--trace", "/dev/stdout"], stdout=there, stderr=subprocess.PIPE,
+                              text=True, timeout=PATIENCE)
     fails(5, ["/dev/stdout", "socket"], done, "rows to a socket")
     smallest = 4096  # bytes that a pipe holds
     with open(os.open(pipe, os.O_RDONLY | os.O_NONBLOCK), "rb") as rows:

@@ -9,8 +9,8 @@ import struct
 import subprocess
 import tempfile
 
-from program_runs import (FURTHER as QUERIES, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails, points, run,
-                          surface, two_octahedra, write)
+from program_runs import (FURTHER as QUERIES, OCTAHEDRON, SCULPT, SOURCE, TETRAHEDRON, bytes_of, check, end, fails,
+                          points, run, surface, two_octahedra, write)
 
 
 def happy_path(folder, mesh):
@@ -306,13 +306,16 @@ def what_people_read(folder, mesh):
     with open(write(f"{folder}/two.script", lines), "rb", buffering=0) as file:
         file.read(13)
         subprocess.run([SCULPT, mesh, "--script", "-", "-o", out, "--report", report], stdin=file, capture_output=True)
-        check(len(json.load(open(report))["edits"]) == 1 and points(out)[3] == (0, 0, 3), "a line that was read before is none of the script")
+    edits = json.load(open(report))["edits"]
+    check(len(edits) == 1 and points(out)[3] == (0, 0, 3), f"a line that was read before is none of the script: {edits}")
     here, there = socket.socketpair()
     with here, there:
         here.sendall(lines)
         here.shutdown(socket.SHUT_WR)
-        done = subprocess.run([SCULPT, mesh, "--script", "-", "--report", report], stdin=there, capture_output=True, text=True)
-        check(done.returncode == 0 and len(json.load(open(report))["edits"]) == 2, f"a script from a socket: {done.stderr}")
+        done = subprocess.run([SCULPT, mesh, "--script", "-", "--report", report], stdin=there, capture_output=True,
+                              text=True)
+    edits = json.load(open(report))["edits"]
+    check(done.returncode == 0 and len(edits) == 2, f"a script from a socket: {done.stderr}")
     # What is lost.
     for name, text, parts in (
             ("c.off", TETRAHEDRON.replace("OFF", "COFF").replace("0 0 0\n", "0 0 0 255 0 0\n", 1), ["colours"]),
@@ -543,7 +546,8 @@ def queries(folder):
         opened = os.open(path, os.O_RDONLY)
         done = subprocess.run([QUERIES, "-"], stdin=opened, capture_output=True, text=True)
         os.close(opened)
-        check(done.returncode == (2 if path == folder else 0), f"queries on standard input from {path}: exit {done.returncode}")
+        code = done.returncode
+        check(code == (2 if path == folder else 0), f"queries on standard input from {path}: exit {code}")
 
 
 def main():

@@ -15,8 +15,9 @@ from program_runs import check, end, fails, run, surface, write
 
 SEED = int(os.environ.get("HAPTIC_SCULPT_SEED", "1"))
 FOLDED = ("OFF\n7 7 0\n2 1 2\n2 1 3\n3 1 3\n2 2 3\n2 2 2\n3 1 2\n17.3 -11.1 5.7\n6 0 1 2 3 4 5\n3 1 0 6\n3 2 1 6\n3 3 2 6\n3 4 3 6\n3 5 4 6\n3 0 5 6\n")
-COLOURED = ("ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\nproperty uchar green\n"
-            "property uchar blue\nproperty float heat\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n"
+COLOURED = ("ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float heat\n"
+            "element face 6\nproperty list uchar int vertex_indices\nend_header\n"
             + "".join(f"{v & 1} {v >> 1 & 1} {v >> 2} {v} 2 3 {v}.5\n" for v in range(8))
             + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n")
 NEEDLE = "OFF\n4 4 0\n0 0 0\n1 0 0\n0.5 1e-09 0\n0.5 0 1e-09\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
@@ -78,9 +79,11 @@ def main():
                 check(is_divided(at, faces, triangles, axes.index(2)), f"{n} corners, slope {slope}, axes {axes}: this is no triangulation")
         done = run(write(f"{folder}/quads.ply", COLOURED), "--triangulate", "-o", f"{folder}/out.ply")
         text = open(f"{folder}/out.ply", "rb").read()
-        check(done.returncode == 0 and all(word in text for word in (b"uchar red", b"uchar green", b"uchar blue", b"float heat")), "colours and other numbers go on")
+        words = (b"uchar red", b"uchar green", b"uchar blue", b"float heat")
+        check(done.returncode == 0 and all(word in text for word in words), "colours and other numbers go on")
         done = run(f"{folder}/quads.ply", "--triangulate", "-o", out)
-        check(done.returncode == 0 and "colours" in done.stderr and "heat" in done.stderr, f"a line says what is lost: {done.stderr}")
+        is_told = "colours" in done.stderr and "heat" in done.stderr
+        check(done.returncode == 0 and is_told, f"a line says what is lost: {done.stderr}")
         for text in (FOLDED, FOLDED.replace("2 1 3\n", "2 1 3.5\n")):
             fails(3, ["face 0", "folds"], run(write(path, text), "--triangulate", "--report", f"{folder}/folds.json"), "a folded hexagon")
             check(json.load(open(f"{folder}/folds.json"))["faults"]["non_triangular_faces"] == [0], "which the report names")
