@@ -4,6 +4,7 @@
 #include "Promises.h"
 #include "Shard.h"
 
+#include "../../examples/common/json_words.h"
 #include "../../examples/common/numbers.h"
 #include "../../examples/common/parse_arguments.h"
 
@@ -90,7 +91,7 @@ public:
   /// What there is until now, in the course of long work. \throw Write_error
   void write(const Json& report) const {
     if (!file_.empty())
-      replace_file(file_, report.dump(1) + '\n');
+      replace_file(file_, examples::text_of(report, 1) + '\n');
   }
 
 private:

@@ -105,7 +105,7 @@ int main(int argument_count, char** arguments) {
   app.add_flag("--quick", quick, "small meshes and few drags: shows that everything runs");
   Benchmark_program program("drag_performance", app, "part and size");
   return program.run(argument_count, arguments, [&](Promises&) -> Json {
-    if (parts.find_first_not_of("tfpmovn") != std::string::npos)
+    if (parts.empty() || parts.find_first_not_of("tfpmovn") != std::string::npos)
       throw Wrong_use("--parts has letters of t, f, p, m, o, v and n, not '" + parts + "'");
     Shard& shard = program.shard;
     if (quick) {

@@ -221,7 +221,7 @@ Json run(const Options& options, Shard& shard, Promises& promises) {
       Json row = {{"unit", unit}, {"mesh", name}, {"faces", mesh.number_of_faces()}};
       row.update(tally.json());
       rows.push_back(row);
-      std::cout << row.dump() << '\n' << std::flush;
+      std::cout << examples::text_of(row) << '\n' << std::flush;
       validations += tally.validations + tally.legs_checked;
       invalid += tally.invalid + tally.legs_crossing + tally.ways_unproven;
       drags += tally.drags, contradictions += tally.contradictions;

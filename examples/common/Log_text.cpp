@@ -206,7 +206,7 @@ private:
     }
     pass.last_line = *line;
     pass.settings = settings_;
-    if (*line != 0) { // it goes on with what was in force when it broke off
+    if (pass.last_line != 0) { // it goes on with what was in force when it broke off
       const auto before = std::find_if(contents_.passes.rbegin(), contents_.passes.rend(),
                                        [&](const Log_contents::Pass& other) { return other.script == pass.script; });
       if (before != contents_.passes.rend())

@@ -148,6 +148,7 @@ json json_of(const Settings& s) {
           {"virtual_mass", s.virtual_mass},
           {"controller", s.controller ? json(*s.controller) : json()},
           {"map", s.map},
+          {"begin", s.begin ? json({s.begin->x(), s.begin->y(), s.begin->z()}) : json()},
           {"device", json_of(s.device)}};
 }
 
@@ -167,6 +168,8 @@ Settings settings_of(const json& j) {
       const Eigen::VectorXd snap = json_vector(j, "snap", 2, 2);
       s.snap = {snap[0], snap[1]};
     }
+    if (!j.value("begin", json()).is_null())
+      s.begin = json_vector_3(j, "begin");
     if (!j.value("controller", json(0)).is_null())
       s.controller = number_or_0("controller");
     if (const auto bad = bad_setting(s)) {

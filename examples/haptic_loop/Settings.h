@@ -37,6 +37,7 @@ struct Settings {
   Vertex_snap snap;                                 ///< off by default
   std::size_t work = 400;
   std::vector<double> map; ///< scale, origin and, if given, the rotation vector; empty: the scene is fitted
+  std::optional<Eigen::Vector3d> begin; ///< where the path begins, m, in the device; older recordings do not say it
   Device_description<double> device;
   Simulated_hand hand = Simulated_hand::finger();
 };

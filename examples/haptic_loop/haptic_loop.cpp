@@ -86,6 +86,7 @@ int loop(const Arguments& arguments, Plan& plan) {
     settings = plan.replay->settings;
   } else {
     plan.path = read_path(arguments.path);
+    settings.begin = plan.path->at(0).position;
     if (!arguments.seconds && !(plan.path->end() > 0))
       throw Usage_error("the path ends at " + examples::decimal(plan.path->end()) +
                         " s, before the first tick: give --seconds, or times above 0");

@@ -20,6 +20,8 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <memory>
+
 namespace haptic_sculpt::loop_program {
 namespace {
 
@@ -51,8 +53,10 @@ public:
       , faults_(plan.fault, device_, tick_) {}
 
   Run_result run() {
-    if (!home_)
-      throw Usage_error("the device has no pose in the middle of its joint limits");
+    of_settings([&] {
+      if (!home_)
+        throw Usage_error("the device has no pose in the middle of its joint limits");
+    });
     const examples::Mesh_file file(plan_.mesh);
     const std::string hash = file.hash();
     if (plan_.replay && plan_.replay->mesh != hash)
@@ -65,7 +69,7 @@ public:
     std::vector<std::string> left_out;
     Mesh mesh = file.surface<Mesh>(&left_out);
     Scene scene(std::move(mesh), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
-      return map_of(settings_, lower, upper, device_, *home_);
+      return of_settings([&] { return map_of(settings_, lower, upper, device_, *home_); });
     });
     if (const std::string loss = examples::told_loss(plan_.mesh, plan_.out, scene.mesh, left_out); !loss.empty())
       writer_.note(loss);
@@ -80,10 +84,12 @@ public:
     parameters.virtual_mass.mass = settings_.virtual_mass;
     parameters.controller_damping = settings_.controller;
     parameters.reach = settings_.reach, parameters.work_limit = settings_.work;
-    const Passivity_limits limits = limits_of(parameters, scene);
-    const Device_pose<double> start = start_pose();
+    const Passivity_limits limits = of_settings([&] { return limits_of(parameters, scene); });
+    const Device_pose<double> start = of_settings([&] { return start_pose(); });
     check(parameters, limits);
-    Loop loop(scene.sculptor, device_, start, scene.map, parameters, limits);
+    const auto made = of_settings(
+        [&] { return std::make_unique<Loop>(scene.sculptor, device_, start, scene.map, parameters, limits); });
+    Loop& loop = *made;
     log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
     trace_.open(plan_.trace, is_interrupted_), record_.open(plan_.record, is_interrupted_); // the last to be refused
     Session session(loop, scene, nullptr, nullptr, log_->journal());
@@ -132,6 +138,20 @@ private:
   double free_since_ = 0;
   Row_file trace_, record_;
 
+  /// What is made of the settings. \throw Foreign_recording where it cannot be made of a recording's
+  template <class Make>
+  auto of_settings(const Make& make) const -> decltype(make()) {
+    try {
+      return make();
+    } catch (const Unstable_coupling&) { // options could have asked for it
+      throw;
+    } catch (const Error& error) {
+      if (!plan_.replay)
+        throw;
+      throw Foreign_recording(std::string("the settings of the recording cannot be used: ") + error.what());
+    }
+  }
+
   /// \throw Unstable_coupling that says more where the device is the reason
   void check(const Haptic_parameters& parameters, const Passivity_limits& limits) const {
     try {
@@ -164,15 +184,16 @@ private:
     return limits;
   }
 
+  /// The same in a run and in its replay, to the bit.
   Device_pose<double> start_pose() const {
-    if (plan_.replay) {
+    if (!settings_.begin) { // in a recording of before there was one
       const auto& readings = plan_.replay->readings;
       const auto pose = readings.empty() || !readings[0].theta.allFinite()
                             ? home_
                             : forward_kinematics(device_, readings[0].theta, *home_);
       return pose ? *pose : *home_;
     }
-    const Eigen::Vector3d begin = plan_.path->at(0).position;
+    const Eigen::Vector3d& begin = *settings_.begin;
     const auto start = reach_position(device_, *home_, begin);
     if (!start)
       throw Usage_error("the device cannot come to where the path begins, at " + examples::decimal(begin[0]) + ", " +

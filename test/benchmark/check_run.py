@@ -305,6 +305,18 @@ def own_meshes(out, folder):
     for refuse, code in ((broken, 0), (["cut.off"], 14), ([*broken, "tetrahedron.off"], 13)):
         told = subprocess.run([*robustness, "--refuse", *refuse], capture_output=True, text=True)
         expect(told.returncode == code, f"told to refuse {refuse}: exit {told.returncode}, not {code}: {told.stderr}")
+    others = meshes / "others"  # a name that is no UTF-8, and one of nothing
+    others.mkdir()
+    (meshes / "tetrahedron.off").rename(os.path.join(os.fsencode(others), b"m\xf6we.off"))
+    (others / "nothing.off").symlink_to("nowhere.off")
+    report = meshes / "others.json"
+    for program, options in (("robustness", robustness[3:]), ("response_quality", ["--drags", "0", "--sculpt", "5"]),
+                             ("guard_for_cgal", ["--quick", "--no-generated", "--no-large", "--no-functions"])):
+        command = [str(BUILD / "benchmark" / program), "--meshes", str(others), *options, "--json", str(report)]
+        told = subprocess.run(command, capture_output=True)
+        expect(told.returncode == 0, f"{program} of odd names: exit {told.returncode}, {told.stderr}")
+        expect(b"nothing.off" in told.stdout + told.stderr, f"{program} does not name what is nothing: {told.stdout}")
+        json.loads(report.read_text())
     none = [str(BUILD / "benchmark/robustness"), "--drags", "10", "--edits", "0", "--shard", "0/1000000"]
     for options, code in ((["--dump", str(meshes / "cut.off")], 5), (["--dump", "/dev/null/x", "--dump-all"], 5),
                           (["--dump", ""], 2), (["--clearance", "nan"], 2)):

@@ -116,6 +116,7 @@ with tempfile.TemporaryDirectory() as folder:
     samples, device = f"{folder}/samples.txt", f"{folder}/device.json"
     good = '{"form":"ditetra","R":0.03,"l1":0.07,"l2":0.1,"r":0,"m1":0.05,"m2":0.05,"M":0.1}'
     for text, code, part in ((good, 0, ""), ('{"params":' * 50000, 3, "32 deep"),
+                             (good[:-1] + ',"torque_limit":1e308}', 3, "range of numbers"),
                              ('"' + "a" * 900000, 3, "cannot be read"), (" " * 1100000, 3, "1 MiB")):
         with open(device, "w") as file:
             file.write(text)

@@ -273,6 +273,25 @@ refused = run(MESH, "--no-wait", "--path", at("path.csv"), code=4).stderr
 check("line 2, column 11" in refused, f"which column the button is in: {refused}")
 run(MESH, "--no-wait", "-o", at("missing/a.off"), code=5)
 run(at("a.off"), "--replay", at("a.rec"), code=6)
+# The general form's pose is found from where the path begins, which only the head of a recording says.
+general = {"form": "general", "R": 0.03, "l1": 0.07, "l2": 0.1, "r": 0.02, "m1": 0.004, "m2": 0.004, "M": 0.02,
+           "friction": 0.005, "coulomb": 0.0005, "encoder_step": 0.000153}
+open(at("general.json"), "w").write(json.dumps(general))
+open(at("early.csv"), "w").write("t,x,y,z,button\n0,-0.00898,-0.00003,0.15508,1\n"
+                                 "0.05,-0.00898,-0.00003,0.15508,1\n0.3,0.004,0.011,0.145,1\n")
+run(MESH, "--no-wait", "--device", at("general.json"), "--path", at("early.csv"), "--reach", 0.1,
+    "--record", at("general.rec"), "--trace", at("g.csv"), "-o", at("g.off"))
+run(MESH, "--replay", at("general.rec"), "--trace", at("h.csv"), "-o", at("h.off"))
+check(strip(rows_of(at("g.csv"))) == strip(rows_of(at("h.csv"))), "the general form replayed has the same forces")
+check(open(at("g.off")).read() == open(at("h.off")).read() != open(MESH).read(), "the general form has the same mesh")
+# What options could not have given is not taken from a recording either; one without the beginning is an older one.
+head, *readings = open(at("a.rec")).read().split("\n")
+for key, value, code in (("map", [1, 1e9, 0, 0], 6), ("map", [1, 0, 0, 0, 1e300, 1e300, 1e300], 6),
+                         ("begin", [0, 0, 5], 6), ("begin", [0, "x", 0], 6), ("begin", None, 0)):
+    changed = json.dumps({**json.loads(head), key: value})
+    open(at("other.rec"), "w").write("\n".join([changed, *readings[:20]]) + "\n")
+    refused = run(MESH, "--replay", at("other.rec"), code=code).stderr
+    check(code == 0 or "recording" in refused, f"a recording whose {key} is {value}: {refused}")
 run(at("a.off"), "--log", at("g.log"), "--no-wait", code=6)
 run(MESH, "--log", at("g.log"), "--record", at("g.rec"), "--no-wait", code=2)
 # A log that sculpt has written is made again with all its lines, objects that are moved included.

@@ -44,7 +44,8 @@ std::vector<Named_mesh> of_folder(const Options& options) {
   std::sort(paths.begin(), paths.end());
   std::vector<Named_mesh> meshes;
   for (const auto& path : paths) {
-    if (std::filesystem::file_size(path) > 64 * options.largest) {
+    std::error_code none; // what has no size is no file, which reading it says
+    if (const auto size = std::filesystem::file_size(path, none); !none && size > 64 * options.largest) {
       std::fprintf(stderr, "%s: left out, it is too large (--largest)\n", path.filename().c_str());
       continue;
     }

@@ -228,8 +228,8 @@ public:
   /// Makes room, in the mesh too: after it this many edits (flips, collapses, creations, removals), of stars of eight
   /// faces in the mean, and this many moves allocate nothing, nor do undo and redo, as long as no vertex has more
   /// neighbours than any has now, or 28, no star more faces about it than 2,048 and twice as many, no decision takes
-  /// rational numbers; with the Box_tree_broad_phase. A slide's lists are warm after a few drags. Cost: linear in the
-  /// mesh.
+  /// rational numbers, nothing is kept, no visitor has `face_replaces`, and the mesh recycles its garbage; with the
+  /// Box_tree_broad_phase. A slide's lists are warm after a few drags. Cost: linear in the mesh.
   void reserve(std::size_t edits, std::size_t moves) { guarded_.reserve(edits, moves); }
   ///@}
 

@@ -188,7 +188,7 @@ struct Step {
 // Of all values, those of the change that was broken off included.
 BOOST_AUTO_TEST_CASE(a_step_that_a_map_breaks_off_is_made_later_as_if_nothing_had_been) {
   int broken = 0;
-  for (const auto [is_redo, is_late] : {std::pair(false, false), {true, false}, {false, true}, {true, true}}) {
+  for (const auto& [is_redo, is_late] : {std::pair(false, false), {true, false}, {false, true}, {true, true}}) {
     Step calm(is_redo, is_late);
     const auto before = calm.values();
     const std::size_t steps = calm.steps();

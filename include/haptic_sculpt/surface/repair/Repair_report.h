@@ -67,7 +67,7 @@ struct Repair_step {
 /// relative error is less than 1e-15, unless they are less than 2^-1000; removed_distance is off by some 1e-15 of the
 /// size of the scene.
 struct Repair_report {
-  std::vector<Repair_step> steps; ///< those that did something, or failed to; empty: there was nothing to do
+  std::vector<Repair_step> steps; ///< those that did or left something, or failed; empty: there was nothing to do
   double moved = 0;               ///< the largest distance of a point from where it was
   std::size_t points_before = 0;  ///< distinct ones with faces
   std::size_t points_removed = 0; ///< of these: they are not there any more

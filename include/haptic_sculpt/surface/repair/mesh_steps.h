@@ -2,6 +2,7 @@
 #pragma once
 
 #include <haptic_sculpt/surface/divide_polygon.h>
+#include <haptic_sculpt/surface/repair/Hole_kernel.h>
 #include <haptic_sculpt/surface/repair/Repair_parameters.h>
 #include <haptic_sculpt/surface/repair/Trail.h>
 #include <haptic_sculpt/surface/repair/Work_mesh.h>
@@ -131,8 +132,9 @@ inline Repair_step remove_degenerate(Work_mesh& mesh) {
 constexpr std::size_t most_edges_of_all_triangles = 500;
 
 inline void close_hole(Work_mesh& mesh, Work_mesh::Halfedge_index h) {
-  const auto parameters = CGAL::parameters::do_not_use_cubic_algorithm(CGAL::halfedges_around_face(h, mesh).size() >
-                                                                       most_edges_of_all_triangles);
+  const auto parameters =
+      CGAL::parameters::geom_traits(Hole_kernel())
+          .do_not_use_cubic_algorithm(CGAL::halfedges_around_face(h, mesh).size() > most_edges_of_all_triangles);
 #if CGAL_VERSION_NR >= 1050600000
   CGAL::Polygon_mesh_processing::triangulate_hole(mesh, h, parameters);
 #else
