@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/surface/orient_components.h>
 #include <haptic_sculpt/surface/repair/Crossing_removal.h>
+#include <haptic_sculpt/surface/repair/order_by_places.h>
 
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 
@@ -167,7 +168,11 @@ private:
         continue;
       }
       ++united;
-      meshes_[a] = std::move(sum);
+      Polygon_soup soup(face_soup(sum));
+      order_by_places(soup);
+      // Where vertices of the sum are pinched it stays as it is: another round splits them.
+      const bool is_mesh = PMP::is_polygon_soup_a_polygon_mesh(soup.faces);
+      meshes_[a] = is_mesh ? work_mesh(soup) : std::move(sum);
       meshes_[b].clear();
       for (std::size_t& c : now)
         if (c == b)
