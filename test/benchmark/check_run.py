@@ -307,7 +307,7 @@ def own_meshes(out, folder):
         expect(told.returncode == code, f"told to refuse {refuse}: exit {told.returncode}, not {code}: {told.stderr}")
     others = meshes / "others"  # a name that is no UTF-8, and one of nothing
     others.mkdir()
-    (meshes / "tetrahedron.off").rename(os.path.join(os.fsencode(others), b"m\xf6we.off"))
+    shutil.copy(meshes / "tetrahedron.off", others / os.fsdecode(b"m\xf6we.off"))
     (others / "nothing.off").symlink_to("nowhere.off")
     report = meshes / "others.json"
     for program, options in (("robustness", robustness[3:]), ("response_quality", ["--drags", "0", "--sculpt", "5"]),
