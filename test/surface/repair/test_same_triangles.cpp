@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(a_mesh_is_repaired_alike_wherever_in_memory) {
     if (report.steps.empty())
       continue;
     ++(run % 4 == 3 ? united : cut);
-    for (int again = 0; again < 8; ++again) {
+    for (int again = 0; again < 3; ++again) {
       const Scattered_memory memory(random);
       haptic_sculpt::Face_soup soup = haptic_sculpt::test::soup_of(list);
       repair(soup);
