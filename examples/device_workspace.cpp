@@ -24,6 +24,13 @@ using namespace haptic_sculpt;
 
 struct Range {
   std::vector<double> values;
+  /// \throw Error where no number holds what comes of the device
+  void add(double figure) {
+    if (!std::isfinite(figure))
+      throw Error("its forces, or its apparent masses, are beyond the range of numbers; give `torque_limit` (N m) and "
+                  "masses (kg) of a device that can be built");
+    values.push_back(figure);
+  }
   void print(const char* what, const char* unit) {
     if (values.empty()) {
       std::printf("  %-44s none\n", what);
@@ -34,13 +41,6 @@ struct Range {
                 values[values.size() / 2], unit);
   }
 };
-
-/// \throw Error where no number holds what comes of the device
-void check_range(double figure) {
-  if (!std::isfinite(figure))
-    throw Error("its forces, or its apparent masses, are beyond the range of numbers; give `torque_limit` (N m) and "
-                "masses (kg) of a device that can be built");
-}
 
 Device_vector<double> eigenvalues(const Device_matrix<double>& m) {
   return Eigen::SelfAdjointEigenSolver<Device_matrix<double>>(m).eigenvalues();
@@ -61,23 +61,20 @@ void figures(Device_description<double> description, const char* name, int per_j
       continue;
     ++inside;
     low = low.cwiseMin(sample.pose.position), high = high.cwiseMax(sample.pose.position);
-    condition.values.push_back(sample.condition);
-    force.values.push_back(sample.force);
-    check_range(sample.force);
-    tilt.values.push_back(std::acos(std::min(1.0, sample.pose.orientation(2, 2))));
+    condition.add(sample.condition);
+    force.add(sample.force);
+    tilt.add(std::acos(std::min(1.0, sample.pose.orientation(2, 2))));
     const auto motion = device_motion(parameters, sample.pose, Device_vector<double>(Device_vector<double>::Zero()));
     const auto planar = planar_dynamics(parameters, *motion);
     const Device_matrix<double> mass = spatial_dynamics(parameters, *motion).mass, position = motion->jacobian.linear;
     if (!planar || translation_conditioning(motion->jacobian).least < 1e-3)
       continue;
     const Device_vector<double> felt = eigenvalues(apparent_mass(mass, position));
-    check_range(felt[2] / felt[0]);
-    light.values.push_back(felt[2] / felt[0]);
+    light.add(felt[2] / felt[0]);
     const Device_vector<double> felt_geared =
         eigenvalues(apparent_mass(spatial_dynamics(geared, *motion).mass, position));
-    heavy.values.push_back(felt_geared[2] / felt_geared[0]);
-    model_difference.values.push_back((planar->mass - mass).norm() / mass.norm());
-    check_range(heavy.values.back() + model_difference.values.back());
+    heavy.add(felt_geared[2] / felt_geared[0]);
+    model_difference.add((planar->mass - mass).norm() / mass.norm());
     if (samples_file)
       *samples_file << sample.pose.position.transpose() << ' ' << sample.condition << ' ' << sample.force << ' '
                     << felt.transpose() << ' ' << felt_geared.transpose() << '\n';

@@ -307,7 +307,8 @@ def what_people_read(folder, mesh):
         file.read(13)
         subprocess.run([SCULPT, mesh, "--script", "-", "-o", out, "--report", report], stdin=file, capture_output=True)
     edits = json.load(open(report))["edits"]
-    check(len(edits) == 1 and points(out)[3] == (0, 0, 3), f"a line that was read before is none of the script: {edits}")
+    is_rest = len(edits) == 1 and points(out)[3] == (0, 0, 3)
+    check(is_rest, f"a line that was read before is none of the script: {edits}")
     here, there = socket.socketpair()
     with here, there:
         here.sendall(lines)

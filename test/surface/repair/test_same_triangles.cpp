@@ -4,7 +4,7 @@
 #include "surface/identical.h"
 #include "surface/soup_of.h"
 
-#include <meshes/broken_meshes.h>
+#include <meshes/generated_meshes.h>
 
 #include <seeds_and_sizes.h>
 
