@@ -70,6 +70,8 @@ public:
   /// \param unit what a shard is a share of, for `--help`: "population"
   Benchmark_program(std::string name, CLI::App& app, const std::string& unit) : name_(std::move(name)), app_(app) {
     app.add_option("--json", file_, "Where the report goes");
+    app.footer("Exit: 0 all kept, 1 out of memory or a fault of the program, 2 usage, 5 the report or standard output "
+               "cannot be written; others name a promise that broke.");
     shard.add_option(app, unit);
   }
 

@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   std::size_t dabs = 1000, vertices = 5000;
   std::uint64_t seed = 1;
   bool drags = false;
-  CLI::App app("Times dabs with each brush. Exit codes: 0; 2 usage; 5 the report cannot be written; 10 the mesh is not "
+  CLI::App app("Times dabs with each brush. Exit: 10 the mesh is not "
                "valid at the end.");
   app.add_option("--mesh", file, "OFF, OBJ or PLY; hills on a sphere where none is given");
   app.add_option("--level", level, "of the hills: 20 * 4^level triangles")

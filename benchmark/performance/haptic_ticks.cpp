@@ -125,12 +125,14 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   Haptic_parameters parameters;
   parameters.tick = 1 / options.rate, parameters.reach = 1e-3 * options.reach;
   parameters.work_limit = options.work, parameters.work_of_a_face = options.work_of_a_face;
-  const Passivity_limits limits = passivity_limits(device, parameters.limits, scene.map, 1.1 * scene.lower,
-                                                   1.1 * scene.upper, 0, parameters.tick, 0);
+  const Passivity_limits limits = benchmark::read_given([&] {
+    return passivity_limits(device, parameters.limits, scene.map, 1.1 * scene.lower, 1.1 * scene.upper, 0,
+                            parameters.tick, 0);
+  });
   const Hand hand{options, home->position};
   auto pose = reach_position(device, *home, hand.position(0));
   if (!pose)
-    throw Error("the hand's path begins where the device cannot be");
+    throw benchmark::Wrong_use("the hand's path begins where the device cannot be");
   Loop loop(scene.sculptor, device, *pose, scene.map, parameters, limits);
   if (mlockall(MCL_CURRENT) != 0)
     std::cerr << "haptic_ticks: the memory cannot be locked: first uses of pages are in the times\n";
@@ -145,7 +147,7 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   for (std::size_t tick = 0; tick < options.ticks && !loop.has_stopped(); ++tick) {
     pose = reach_position(device, *pose, hand.position(tick));
     if (!pose)
-      throw Error("the hand's path leaves the workspace");
+      throw benchmark::Wrong_use("the hand's path leaves the workspace");
     reading.theta = measured_angles(device, pose->theta);
     reading.button = options.valence == 0 ? Hand::button(tick) : 0, reading.elapsed = tick == 0 ? 0 : parameters.tick;
     const Vector3d tip_before = place_of(scene, tip);
@@ -164,12 +166,12 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
     const auto event = static_cast<std::size_t>(made.tool.event);
     (event != 0 ? events[event] : loop.tool().holds_vertex() ? vertex : probe).add(taken);
     if (made.is_new_fault)
-      throw Error(std::string("a fault: ") + name_of(made.fault));
+      throw benchmark::Wrong_use(std::string("the loop ends by a fault: ") + name_of(made.fault));
   }
   const Tool_edits& done = loop.tool().edits();
   if (options.depth > 0 && options.valence == 0 && 4 * blocked < all.number())
-    throw Error("the hand was held back in " + std::to_string(blocked) +
-                " ticks only: that is not what is measured here");
+    throw benchmark::Wrong_use("the hand was held back in " + std::to_string(blocked) +
+                               " ticks only: that is not what is measured here");
   if (options.refuses_allocations && allocations != 0)
     throw Error(std::to_string(allocations) + " allocations were made in ticks, with " + std::to_string(done.created) +
                 " creations and " + std::to_string(done.removed) + " removals");

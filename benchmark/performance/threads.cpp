@@ -86,9 +86,8 @@ int main(int argc, char** argv) {
   int level = 7, moves = 6;
   std::vector<int> threads{1, 2};
   std::uint64_t seed = 1;
-  CLI::App app(
-      "Times axis moves of all vertices and validation with several threads. Exit codes: 0; 2 usage; 5 the report "
-      "cannot be written; 10 another number of threads makes other bits, or the mesh is not valid at the end.");
+  CLI::App app("Times axis moves of all vertices and validation with several threads. Exit: 10 another number of "
+               "threads makes other bits, or the mesh is not valid at the end.");
   app.add_option("--mesh", file, "OFF, OBJ or PLY; hills on a sphere where none is given");
   app.add_option("--level", level, "of the hills: 20 * 4^level triangles")
       ->check(CLI::Range(2, 9))

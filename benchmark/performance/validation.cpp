@@ -102,10 +102,9 @@ void pull_through(Mesh& mesh) {
 
 int main(int argc, char** argv) {
   std::size_t largest = 100000;
-  CLI::App app(
-      "Times validate() against the number of triangles, beside CGAL's does_self_intersect, which looks for "
-      "intersections alone. Exit codes: 0; 5 the report cannot be written; 10 a verdict differs from CGAL's, or "
-      "a generated mesh is not valid.");
+  CLI::App app("Times validate() against the number of triangles, beside CGAL's does_self_intersect, which looks for "
+               "intersections alone. Exit: 10 a verdict differs from CGAL's, or "
+               "a generated mesh is not valid.");
   app.add_option("--largest", largest, "triangles, from 1,000 on by factors of ten")->capture_default_str();
   benchmark::Benchmark_program program("validation", app, "mesh");
   return program.run(argc, argv, [&](benchmark::Promises& promises) -> Json {

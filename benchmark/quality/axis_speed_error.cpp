@@ -184,7 +184,7 @@ Json measure(const Query_timer& timer, const std::vector<Judged>& queries, const
 int main(int argc, char** argv) {
   CLI::App app(
       "Time of the axis sweeps against their error, for each arithmetic, judged by linear feasibility in rational "
-      "numbers. Exit code 10: the exact ones were wrong.");
+      "numbers. Exit: 10 the exact ones were wrong.");
   std::uint64_t seed = 1;
   std::size_t count = 5000;
   app.add_option("--seed", seed, "Seed of the populations")->capture_default_str();

@@ -296,7 +296,7 @@ void measure_motion(const Motion& m, Json& rows) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Many vertices to targets: share of the way against time, by move_vertices, by one drag after the other, and all "
-      "at once with a line search on CGAL's does_self_intersect. Exit code 10: a guarded mesh is not embedded.");
+      "at once with a line search on CGAL's does_self_intersect. Exit: 10 a guarded mesh is not embedded.");
   std::string given;
   std::uint64_t seed = 1;
   int level = 4, rounds = 1;

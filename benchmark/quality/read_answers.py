@@ -8,6 +8,7 @@ their order: `0`, or `1`, or `1 u` with the time of impact as a decimal. `-` say
 as wrong. `truth.txt` is written by the rational oracle, `0` or `1 num/den` a line.
 """
 import json
+import math
 import pathlib
 import sys
 from fractions import Fraction
@@ -23,13 +24,27 @@ def lines_of(path):
 
 def read_one(path):
     """A row for the page."""
-    head = dict(line[1:].split(":", 1) for line in path.read_text().splitlines() if line.startswith("#") and ":" in line)
+    try:
+        text = path.read_text()
+    except UnicodeDecodeError:
+        raise Bad_answers(f"{path} is no text") from None
+    head = dict(line[1:].split(":", 1) for line in text.splitlines() if line.startswith("#") and ":" in line)
     head = {key.strip(): value.strip() for key, value in head.items()}
     folder = pathlib.Path(head.get("queries", path.parent))
     truth = [words for _, words in lines_of(folder / "truth.txt")]
+    if not truth:
+        raise Bad_answers(f"{folder / 'truth.txt'} tells of no query")
     answers = lines_of(path)
     if len(answers) != len(truth):
         raise Bad_answers(f"{path}: {len(answers)} answers to {len(truth)} queries: give one line each, '-' where there is none")
+    seconds = None
+    if "seconds" in head:
+        try:
+            seconds = float(head["seconds"]) / len(truth)
+        except ValueError:
+            seconds = math.nan
+        if not 0 <= seconds < math.inf:
+            raise Bad_answers(f"{path}: the seconds, '{head['seconds']}', are no time")
     false_positives = false_negatives = none = 0
     largest = None
     for (number, words), true in zip(answers, truth):
@@ -48,7 +63,6 @@ def read_one(path):
                 raise Bad_answers(f"{path}, line {number}: '{words[1]}' is not a number") from None
             error = float(abs(Fraction(time) - Fraction(true[1]))) if 0 <= time <= 1 else 1.0
             largest = max(largest or 0.0, error)
-    seconds = float(head["seconds"]) / len(truth) if "seconds" in head else None
     return {"name": head.get("name", path.stem), "queries": len(truth), "seconds_a_query": seconds, "false_positives": false_positives,
             "false_negatives": false_negatives, "not_answered": none, "share_wrong": (false_positives + false_negatives + none) / len(truth),
             "largest_error": largest}
@@ -59,8 +73,11 @@ def read(paths):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+    if len(sys.argv) < 2:
         sys.exit(__doc__)
+    if sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        sys.exit(0)
     try:
         print(json.dumps(read(sys.argv[1:]), indent=1))
     except (Bad_answers, OSError) as bad:

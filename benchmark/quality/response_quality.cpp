@@ -242,7 +242,7 @@ int main(int argc, char** argv) {
   CLI::App app("Drags with each response: distance left to the target, share of ends at a local minimum, time.\n"
                "With --sculpt, slides over the meshes of a folder for long, with creations, removals, undo and redo in "
                "between.\n"
-               "Exit: 0 all kept, 2 usage, 5 the report cannot be written, 10 a mesh is "
+               "Exit: 10 a mesh is "
                "no longer embedded or a leg "
                "crosses something, 11 more than 0.1 % of "
                "the checked slides are at no minimum, 12 a result contradicts itself.");

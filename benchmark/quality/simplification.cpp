@@ -91,7 +91,7 @@ std::vector<std::pair<std::string, Mesh>> generated_meshes(int level, unsigned s
 int main(int argc, char** argv) {
   CLI::App app(
       "CGAL's edge_collapse beside decimate(), with the same policies to the same share of the edges: time, pairs "
-      "of faces that meet, distance from the input. Exit code 10: a guarded mesh is not embedded.");
+      "of faces that meet, distance from the input. Exit: 10 a guarded mesh is not embedded.");
   std::vector<std::string> files;
   unsigned seed = 1;
   int level = 3;

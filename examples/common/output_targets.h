@@ -30,7 +30,7 @@ struct Named_file {
 /// The role of the mesh that a program begins with.
 constexpr const char* input_mesh = "MESH, the mesh to be read";
 
-/// Whether two names lead to one file, there or not yet there.
+/// Whether two names lead to one file, there or not yet there; a folder may have two names by a mount.
 inline bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error))
@@ -44,7 +44,9 @@ inline bool are_one_file(const std::filesystem::path& a, const std::filesystem::
       return path;
     }
   };
-  return full(a) == full(b);
+  const std::filesystem::path first = full(a), second = full(b);
+  return first == second || (first.filename() == second.filename() &&
+                             std::filesystem::equivalent(first.parent_path(), second.parent_path(), error));
 }
 
 /// The first of these files that this one is; none where it is empty, or another.

@@ -11,8 +11,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace haptic_sculpt::examples {
 
@@ -41,6 +43,18 @@ inline std::string normalise_number(std::string& text) {
   return "";
 }
 
+/// In the line of usage what has no name comes first: behind an option with a list it would be taken for more of that.
+struct Arguments_first : CLI::Formatter {
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    const std::string options = " [OPTIONS]", usage = Formatter::make_usage(app, std::move(name));
+    const std::size_t at = usage.find(options), end = usage.find_last_not_of('\n') + 1;
+    if (at == std::string::npos)
+      return usage;
+    const std::size_t behind = at + options.size();
+    return usage.substr(0, at) + usage.substr(behind, end - behind) + options + usage.substr(end);
+  }
+};
+
 /// Reads the command line. Whole numbers are decimal, whatever zeros they begin with. An empty argument is refused: it
 /// is mostly a variable that was not set, and would pass for 0, or for an option that was not given.
 /// \throw CLI::ParseError
@@ -62,6 +76,7 @@ inline void parse_arguments(CLI::App& app, int argc, char** argv) {
     else if (type.rfind("FLOAT", 0) == 0 || type.rfind("X Y Z", 0) == 0) // three of them
       option->transform(CLI::Validator(normalise_number, ""));
   }
+  app.formatter(std::make_shared<Arguments_first>());
   app.parse(argc, argv);
 }
 

@@ -76,7 +76,6 @@ public:
     keep_vertex_attributes(scene.sculptor);
     if (const std::string told = log_->resume(scene); !told.empty())
       writer_.note(told);
-    examples::end_in_order_by_signals(); // until here they end it at once, and nothing is lost
     Haptic_parameters parameters;
     parameters.tick = tick_, parameters.delay = settings_.delay;
     parameters.coupling = {settings_.stiffness, settings_.damping};
@@ -90,6 +89,7 @@ public:
     const auto made = of_settings(
         [&] { return std::make_unique<Loop>(scene.sculptor, device_, start, scene.map, parameters, limits); });
     Loop& loop = *made;
+    examples::end_in_order_by_signals(); // until here they end it at once, and nothing is lost
     log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
     trace_.open(plan_.trace, is_interrupted_), record_.open(plan_.record, is_interrupted_); // the last to be refused
     Session session(loop, scene, nullptr, nullptr, log_->journal());
@@ -239,7 +239,8 @@ private:
       last = *tick_made_;
       if (device.write(last.rendered.torque, last.rendered.interaction_torque) != Device_status::success) {
         writer_.note("at " + std::to_string(device.time()) +
-                     " s the hand has torn the mechanism through a singular pose; give a path within the workspace");
+                     " s the mechanism has been torn through a singular pose; give the hand a path within the "
+                     "workspace, and a device with friction a higher --rate");
         result_.faults.emplace_back(device.time(), "torn");
         break;
       }

@@ -244,8 +244,6 @@ int sculpt(const Arguments& arguments) {
     read = mesh_of(file, arguments, writer);
   Mesh& mesh = read->mesh;
   check_mesh_directives(script.commands, arguments, hash);
-  if (arguments.repair.is_asked)
-    write_repair_report(arguments, writer, *read);
   const drawing::Scene before = needs_before(arguments.shown) ? drawing::scene_of(mesh) : drawing::Scene();
 
   if (const std::string remarks = read->found.remarks(); !remarks.empty())
@@ -260,7 +258,7 @@ int sculpt(const Arguments& arguments) {
       writer.note(log->failure() + ". The work goes on without; what the log holds can be resumed");
   };
   const bool is_logging = log && !script.commands.empty();
-  const auto begin_log = [&] { // once nothing is refused any more
+  const auto begin_log = [&] {
     if (!log)
       return;
     if (log->contents() && !log->contents()->unfinished.empty())
@@ -271,6 +269,11 @@ int sculpt(const Arguments& arguments) {
       log->begin_pass(script.hash, plan.rest.after);
     tell_failure();
   };
+  const auto begin = [&] { // once nothing is refused any more
+    begin_log();
+    if (arguments.repair.is_asked)
+      write_repair_report(arguments, writer, *read);
+  };
   std::optional<Mesh> without_guard;
   if (!arguments.comparison.empty())
     without_guard = sculpted_without_guard(mesh, script.commands);
@@ -280,7 +283,7 @@ int sculpt(const Arguments& arguments) {
       tell_failure();
     }
   };
-  const Run_result result = run(mesh, plan.commands, arguments, {begin_log, append_to_log});
+  const Run_result result = run(mesh, plan.commands, arguments, {begin, append_to_log});
   if (result.failure)
     writer.note((result.failed.is_logged ? arguments.log : arguments.script) + ": line " +
                 std::to_string(result.failed.line) + ": `" + name_of(result.failed) + "` has ended the script: " +

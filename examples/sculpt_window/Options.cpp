@@ -75,9 +75,7 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
   app.add_option("--screenshot", options.screenshot,
                  "Writes a picture of the window, after the script, and quits: .png");
   app.add_option("--report", options.report, "Where frame and loop times go, as JSON, at the end");
-  app.add_option("--size", options.size, "WIDTH HEIGHT of the window, in pixels")
-      ->expected(2)
-      ->check(CLI::Range(64, 8192));
+  app.add_option("--size", options.size, "WIDTH HEIGHT of the window, in pixels")->check(CLI::Range(64, 8192));
   app.add_option("--samples", options.samples,
                  "A pixel is drawn by: 0 is fastest, 4 has smooth edges. By default 4, but 0 where the driver draws in "
                  "software")

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace haptic_sculpt::window_program {
 
@@ -12,7 +12,7 @@ struct Options {
   std::string mesh, out, log, script, screenshot, report, record;
   bool without_log = false;
   bool makes_ball = false; ///< no mesh was given, and the one to begin with is not there yet
-  std::vector<int> size = {1200, 900};
+  std::array<int, 2> size = {1200, 900};
   std::optional<int> samples; ///< none: as the driver is
 
   /// The log of a mesh: the one that was asked for, of the first; else one beside it, which is gone when all is well.

@@ -443,6 +443,16 @@ def answers(out, folder):
     (queries / "short.txt").write_text("0\n")
     short = subprocess.run([PYTHON, str(ROOT / "benchmark/quality/read_answers.py"), str(queries / "short.txt")], capture_output=True, text=True)
     expect(short.returncode == 1 and "1 answers to" in short.stderr, f"too few answers: {short.stderr}")
+    for name, text in (("short", b"0\n"), ("no_time", b"# seconds: nan\n" + "\n".join(said).encode()),
+                       ("no_number", b"# seconds: abc\n" + "\n".join(said).encode()), ("no_text", b"\xff\xfe\0")):
+        bad = queries / f"{name}.txt"
+        bad.write_bytes(text)
+        done = run(folder / "none", "axis", "--answers", str(bad))
+        expect(done.returncode == 2 and bad.name in done.stderr and "Traceback" not in done.stderr,
+               f"answers that cannot be read: exit {done.returncode}, {done.stderr}")
+        expect(not (folder / "none").exists(), "wrong answers are found before anything is run")
+    told = subprocess.run([str(ROOT / "benchmark/quality/read_answers.py"), "--help"], capture_output=True, text=True)
+    expect(told.returncode == 0 and "# queries: FOLDER" in told.stdout, f"read_answers.py --help: {told}")
 
 
 def main():

@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_finds_what_a_denser_search_find
           (Eigen::AngleAxisd(uniform(random, 0, 1.5), random_vector(random, 1).normalized())).toRotationMatrix();
       if (!internal::inverse_newton<double>(parameters, pose->position, trial, 60))
         continue;
-      internal::reduce_angles(trial.theta);
+      internal::reduce_angles(parameters, trial.theta);
       if (!within_joint_limits<double>(parameters, trial.theta) || !platform_above_elbows(trial))
         continue;
       ++found;
@@ -44,6 +44,38 @@ BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_finds_what_a_denser_search_find
   const auto far = general_inverse(parameters, Vector(0, 0, 0.4), *start);
   BOOST_TEST((far.status() == Device_status::unreachable));
   BOOST_TEST(far.shortfall() > 0.2);
+  for (const double x : {1e154, 1e155, 1e300}) { // whose squares are too large
+    const auto farther = general_inverse(parameters, Vector(x, 0, 0), *start);
+    BOOST_TEST((farther.status() == Device_status::unreachable && farther.shortfall() > 0.99 * x));
+  }
+}
+
+// Limits count angles as given: where they ask for the turn beside, angles are of that.
+BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_gives_angles_within_limits_beyond_a_half_turn) {
+  Device_description<double> d = named_design<double>(Named_design::D1, Device_form::general);
+  Random random(seed + 9);
+  int found = 0, beyond = 0;
+  for (const bool is_above : {true, false}) {
+    d.least_angle.setConstant(is_above ? 2 : -5), d.greatest_angle.setConstant(is_above ? 5 : -2);
+    const Device_parameters<double> parameters(d);
+    for (int k = 0; k < 60; ++k) {
+      const Vector theta = random_angles(random, is_above ? 2 : -5, is_above ? 5 : -2);
+      const auto pose = general_forward(parameters, theta);
+      if (!pose || !platform_above_elbows(*pose))
+        continue;
+      ++found;
+      beyond += theta.cwiseAbs().maxCoeff() > 3.15;
+      const auto same = general_inverse(parameters, pose->position, *pose);
+      BOOST_TEST((same && (same->theta - theta).norm() < 1e-9));
+      if (found % 8 != 1)
+        continue;
+      const auto all = general_inverse_all(parameters, pose->position);
+      BOOST_TEST(std::any_of(all.begin(), all.end(),
+                             [&](const Device_pose<double>& other) { return (other.theta - theta).norm() < 1e-6; }));
+    }
+  }
+  BOOST_TEST_MESSAGE("seed " << seed << ": " << found << " poses, " << beyond << " beyond a half turn");
+  BOOST_TEST(beyond >= 20);
 }
 
 BOOST_AUTO_TEST_CASE(inverse_of_the_mirror_case_names_what_has_no_answer) {

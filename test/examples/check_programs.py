@@ -133,6 +133,15 @@ def signals(folder, mesh):
     loop(BALL, "--no-wait", "--seconds", "0.1", "--report", report)
     check(json.load(open(report))["missed_by_wakeup"] == 0, "where nothing is waited for, nothing is late")
     rows_that_wait(folder)
+    # Before the loop begins nothing is made that could be lost: while a workspace is searched there is no reason to wait.
+    device = write(f"{folder}/far.json", '{"form":"general","R":0.03,"l1":0.07,"l2":0.1,"r":0.03,"m1":0.02,"m2":0.02,'
+                   '"M":0.05,"friction":0.005,"angle_limits":[-100,100]}')
+    kept = write(f"{folder}/kept.json", "kept")
+    process = started(mesh, "--no-wait", "--device", device, "--report", kept, program=LOOP)
+    time.sleep(1)
+    process.send_signal(signal.SIGTERM)
+    check(process.wait(10) == -signal.SIGTERM, f"SIGTERM while the workspace is searched: exit {process.returncode}")
+    check(open(kept).read() == "kept", "a run that has not begun writes a report")
 
 
 def rows_that_wait(folder):
@@ -214,6 +223,13 @@ def targets(folder, mesh):
                            (["--picture", plain("a.png"), "--compare", plain("a.png"), "--script", script], ["--picture", "--compare"])):
         fails(2, parts + ["one file"], run(mesh, *options), f"sculpt {options}")
     fails(2, [".png"], run(mesh, "--picture", mesh), "a picture over the mesh")
+    os.mkdir(plain("first")), os.mkdir(plain("second"))
+    mounted = ["unshare", "--mount", *([] if os.geteuid() == 0 else ["--map-root-user"]), "sh", "-c",
+               'mount --bind "$1/first" "$1/second" && shift && exec "$@"', "sh", folder]
+    if subprocess.run([*mounted, "true"], capture_output=True).returncode == 0:  # not in every container
+        done = subprocess.run([*mounted, SCULPT, mesh, "-o", plain("first/x.off"), "--report", plain("second/x.off")],
+                              capture_output=True, text=True, timeout=PATIENCE)
+        fails(2, ["-o", "--report", "one file"], done, "one file by two names of its folder")
     for options, parts in ((["--report", mesh], ["--report", "MESH"]), (["--trace", mesh], ["--trace", "MESH"]), (["--record", mesh], ["--record", "MESH"]),
                            (["--trace", plain("t"), "--record", plain("t")], ["--trace", "--record"]), (["--path", script, "--trace", script], ["--trace", "--path"]),
                            (["--log", plain("l"), "-o", mesh], ["-o", "MESH"]), (["--hand", script, "--report", script], ["--report", "--hand"])):
@@ -318,6 +334,9 @@ def words(folder, mesh):
             if option != "-o":
                 fails(2, [option, "empty"], run(mesh, option + "=", program=program), f"{option}=")
     fails(2, ["empty"], run(""), "a mesh without a name")
+    for program, line in ((SCULPT, "sculpt MESH [OPTIONS]"), (LOOP, "haptic_loop [MESH] [OPTIONS]")):
+        told = run("--help", program=program).stdout
+        check(line in told, f"--help does not say {line}: {told[:2000]}")
     fails(2, ["--seconds"], loop(mesh, "--seconds", "0"), "no time")
     fails(2, ["--log"], loop(mesh, "--fault", "log@0.01"), "a fault of no log")
     for never in (["--fault", "nan@inf"], ["--fault", "nan@1e300"], ["--fault", "nan@1", "--seconds", "1"],

@@ -76,6 +76,20 @@ def refusals(folder):
     fails(2, ["--repair-gap"], run(mesh, "--repair", "--repair-gap", "-1"), "a gap below zero")
     fails(2, ["the mesh to be read"], run(mesh, "--repair", "--repair-report", mesh), "a report over the mesh")
     check(run(mesh, "--repair-report", f"{folder}/x.json").returncode == 2, "a report of no repair")
+    # What is refused after the repair leaves the old report, too.
+    kept, log = write(f"{folder}/kept.json", "kept"), f"{folder}/short.log"
+    script = write(f"{folder}/u.script", "undo\n")
+    fails(4, ["does more than"], run(mesh, "--repair", "--script", script, "--compare", f"{folder}/c.png",
+                                     "--repair-report", kept), "a comparison with an undo")
+    drag = write(f"{folder}/d.script", "drag @1,1,1 1.5 1.5 1.5\n")
+    done = run(mesh, "--repair", "--script", drag, "--log", log)
+    check(done.returncode == 0, f"a log of what was repaired: {done.stderr}")
+    begun = bytes_of(log)
+    with open(log, "wb") as file:  # killed within its head
+        file.write(begun[:begun.index(b"clearance")])
+    fails(6, ["a whole head"], run(mesh, "--repair", "--script", drag, "--log", log, "--response", "stop",
+                               "--repair-report", kept), "a log with another response")
+    check(open(kept).read() == "kept", "a report of a repair is written where the run is refused")
     # A log or script of another mesh, or a log that cannot be: nothing is written.
     kept, other = write(f"{folder}/kept.json", "kept"), f"{folder}/other.log"
     box_mesh = write(f"{folder}/whole.off", off(vertices, faces))

@@ -343,6 +343,9 @@ for options, parts in ((["--record", precious], ["--record", "MESH"]), (["--repo
     _, err = window(precious, *options, script="quit\n", code=2, what=f"{options}")
     check(all(part in err for part in parts + ["one file"]), f"{options}: {err}")
 _, err = window(precious, "--size", 640, script="", code=2, what="half a size")
+before_mesh = run("--size", 300, 225, precious, "--script", at("none.script"), program=WINDOW)
+check("none.script" in before_mesh.stderr and "--size" not in before_mesh.stderr,
+      f"--size before MESH: {before_mesh.stderr}")
 _, err = window(precious, "--screenshot", precious, script="", code=2, what="a screenshot over the mesh")
 check(".png" in err, f"a screenshot over the mesh: {err}")
 for line in (f"save {precious}", f"save {at('precious.off.log')}", f"save {at('nothing.txt')}", f"screenshot {precious}", f"record {precious}",

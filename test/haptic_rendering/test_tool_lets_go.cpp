@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a tool lets go of by itself, and what it does not bring then.
 #include "haptic_rendering/Tool_bench.h"
+#include "sculpting/edits/failing_allocations.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -12,6 +13,20 @@ using namespace exchange_tests;
 
 namespace {
 
+/// Of a vertex a little off the first face.
+template <class Sculptor>
+Edit creation_on_a_face(const Sculptor& sculptor) {
+  const Mesh& mesh = sculptor.mesh();
+  Edit wanted = Edit::of(Edit_kind::insert_on_face);
+  Vector3d middle = Vector3d::Zero();
+  int k = 0;
+  for (const auto corner : mesh.vertices_around_face(mesh.halfedge(*mesh.faces_begin())))
+    wanted.vertices[k++] = sculptor.id(corner), middle += internal::vector_of(mesh.point(corner)) / 3;
+  middle *= 1.1;
+  wanted.point = {middle[0], middle[1], middle[2]};
+  return wanted;
+}
+
 BOOST_AUTO_TEST_CASE(a_vertex_that_is_not_there_is_not_taken_and_begins_no_step) {
   Tool_bench bench;
   BOOST_CHECK_THROW(bench.tool.take(Mesh::Vertex_index(100000)), Unknown_vertex);
@@ -21,6 +36,44 @@ BOOST_AUTO_TEST_CASE(a_vertex_that_is_not_there_is_not_taken_and_begins_no_step)
                                 internal::point_of<Mesh::Point>(1.01 * bench.place(Mesh::Vertex_index(v))));
     });
   BOOST_TEST(bench.scene->sculptor.history().number_of_undo_steps() == 2u);
+  BOOST_TEST(bench.is_made_again());
+}
+
+// Where memory runs out between a creation and its taking, no stroke stays open that nobody ends.
+BOOST_AUTO_TEST_CASE(a_created_vertex_that_cannot_be_taken_begins_no_step_for_what_comes) {
+  int created_and_not_taken = 0;
+  for (std::size_t n = 1;; ++n) {
+    Mesh mesh = ball;
+    Sculptor<Mesh> sculptor(mesh); // a Loop_scene has made room for all
+    Tool<Sculptor<Mesh>> tool(sculptor, map_of_tests, 0.01, 0.001);
+    const Edit wanted = creation_on_a_face(sculptor);
+    bool is_taken = false;
+    try {
+      const test::Failing_allocations nth(n, false);
+      is_taken = static_cast<bool>(tool.create_and_take(wanted));
+    } catch (const std::bad_alloc&) {
+    }
+    if (is_taken)
+      break;
+    const std::size_t before = sculptor.history().number_of_undo_steps();
+    created_and_not_taken += before != 0;
+    BOOST_TEST(!tool.holds_vertex());
+    for (const std::uint32_t v : {3, 5}) // each a step of its own
+      BOOST_REQUIRE(tool.edit_by([&](auto& edits) {
+        const Vector3d place = internal::vector_of(mesh.point(Mesh::Vertex_index(v)));
+        return edits.move_if_free(Mesh::Vertex_index(v), internal::point_of<Mesh::Point>(1.01 * place));
+      }));
+    BOOST_TEST(sculptor.history().number_of_undo_steps() == before + 2);
+  }
+  BOOST_TEST(created_and_not_taken > 0);
+}
+
+// An Edit object may have been that of a move before.
+BOOST_AUTO_TEST_CASE(legs_of_what_is_no_move_are_not_told) {
+  Tool_bench bench;
+  Edit wanted = creation_on_a_face(bench.scene->sculptor);
+  wanted.legs.push_back({9, 9, 9});
+  BOOST_REQUIRE(static_cast<bool>(bench.tool.edit(wanted)));
   BOOST_TEST(bench.is_made_again());
 }
 
@@ -35,15 +88,7 @@ BOOST_AUTO_TEST_CASE(a_vertex_that_somebody_else_takes_or_removes_is_let_go_of_w
         const Vector3d hand = 1.2 * bench.place(v);
         std::optional<Scene::Sculptor_type::Grab_type> other;
         if (how == "undone") {
-          const auto f = *bench.scene->mesh.faces_begin();
-          Edit wanted = Edit::of(Edit_kind::insert_on_face);
-          Vector3d middle = Vector3d::Zero();
-          int k = 0;
-          for (const auto corner : bench.scene->mesh.vertices_around_face(bench.scene->mesh.halfedge(f)))
-            wanted.vertices[k++] = sculptor.id(corner), middle += bench.place(corner) / 3;
-          middle *= 1.1;
-          wanted.point = {middle[0], middle[1], middle[2]};
-          BOOST_REQUIRE(static_cast<bool>(bench.tool.create_and_take(wanted)));
+          BOOST_REQUIRE(static_cast<bool>(bench.tool.create_and_take(creation_on_a_face(bench.scene->sculptor))));
         } else {
           bench.tool.take(v);
         }

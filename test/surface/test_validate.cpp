@@ -10,9 +10,11 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 using haptic_sculpt::Face_soup;
 using haptic_sculpt::validate;
@@ -64,6 +66,20 @@ BOOST_AUTO_TEST_CASE(generated_meshes_are_valid) {
   auto huge = meshes::icosphere(2), tiny = meshes::icosphere(1);
   check_clean(huge.scale_and_move(1e307, 0, 0, 0), 1);
   check_clean(tiny.scale_and_move(1e-319, 0, 0, 0), 1);
+}
+
+BOOST_AUTO_TEST_CASE(a_list_of_faces_that_was_moved_from_can_be_filled_again) {
+  Face_soup soup;
+  soup.add_face(std::array<int, 3>{0, 1, 2});
+  const Face_soup taken = std::move(soup);
+  BOOST_TEST(taken.number_of_faces() == 1u);
+  soup.points.clear(), soup.corners.clear();
+  for (const auto& p : {std::array<double, 3>{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+    soup.add_point(p[0], p[1], p[2]);
+  for (const auto& face : {std::array<int, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+    soup.add_face(face);
+  BOOST_TEST(soup.number_of_faces() == 4u);
+  BOOST_TEST(validate_soup(soup).is_valid());
 }
 
 BOOST_AUTO_TEST_CASE(an_empty_mesh_and_isolated_vertices) {

@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
                "all faces: has it "
                "touched or crossed anything on its way, and was it stopped though its way was free? What went wrong is "
                "counted and "
-               "taken back, so each drag starts from a valid mesh. Exit code 10: the exact traits were wrong."};
+               "taken back, so each drag starts from a valid mesh. Exit: 10 the exact traits were wrong."};
   std::string response = "stop";
   std::uint64_t seed = 1;
   std::size_t drags = 2000;

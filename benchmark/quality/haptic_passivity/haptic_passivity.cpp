@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Energy that the simulated device gives in contact with a plane, within the passive limit and beyond; "
                "what each limit of forces adds; false alarms; the weight that is left in the hand; where stability "
-               "ends.");
+               "ends. Exit: 9 a bound is not kept.");
   app.add_option("--runs", options.runs, "Of random pose, stiffness <= k_p, damping, delay, tick and hand")
       ->check(haptic_sculpt::benchmark::positive_number)
       ->capture_default_str();
@@ -97,7 +97,6 @@ int main(int argc, char** argv) {
   app.add_flag("--chart", options.chart, "Where activity and instability begin, over tick, delay and damping; minutes");
   app.add_option("--seed", options.seed, "Of everything random")->capture_default_str();
   haptic_sculpt::benchmark::Benchmark_program program("haptic_passivity", app, "part");
-  app.footer("Exit codes: 0 done, 2 usage, 5 cannot write, 9 a bound is not kept.");
   return program.run(argc, argv, [&](haptic_sculpt::benchmark::Promises& promises) {
     auto& shard = program.shard;
     Json report = {{"version", 1}, {"seed", options.seed}};

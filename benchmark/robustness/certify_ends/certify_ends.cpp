@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
   CLI::App app("Drags vertices of machine parts and of near-degenerate solids, as made and once deformed, and "
                "certifies every end that is not the\n"
                "target: does a free straight way lead nearer by more than 16 clearances? How often is judged.\n"
-               "Exit: 0 all kept, 2 usage, 5 the report cannot be written, 10 a mesh is no longer embedded, 11 more "
+               "Exit: 10 a mesh is no longer embedded, 11 more "
                "drags end too early than may.");
   app.add_option("--drags", options.drags, "Drags in each family, as made and again once deformed")
       ->capture_default_str();

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Drags vertices, and mixes drags with creations, removals, undo and redo, at random and on purpose; checks every "
       "promise.\n"
-      "Exit: 0 all kept, 2 usage, 5 the report cannot be written, 10 a mesh is no longer "
+      "Exit: 10 a mesh is no longer "
       "embedded, 11 fewer than 95 % of "
       "the short "
       "drags arrived, 12 a push through the object did not move without reason, 13 a mesh that has to be refused "

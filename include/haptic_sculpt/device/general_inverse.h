@@ -84,14 +84,23 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
   return false;
 }
 
-/// Reduces angles to (-pi, pi].
-template <class S> void reduce_angles(Device_vector<S>& theta) {
+/// Reduces angles to (-pi, pi], or to the turn beside it that is within the joint limits.
+template <class S>
+void reduce_angles(const Device_parameters<S>& parameters, Device_vector<S>& theta) {
+  using std::acos;
   using std::atan2;
   using std::cos;
   using std::sin;
-  for (int leg = 0; leg < 3; ++leg)
+  const S turn = S(2) * S(acos(S(-1)));
+  for (int leg = 0; leg < 3; ++leg) {
     if (theta[leg] > S(3.1415926) || theta[leg] < S(-3.1415926))
       theta[leg] = atan2(S(sin(theta[leg])), S(cos(theta[leg])));
+    const S least = parameters.least_angle()[leg], greatest = parameters.greatest_angle()[leg];
+    if (theta[leg] < least && theta[leg] + turn <= greatest)
+      theta[leg] += turn;
+    else if (theta[leg] > greatest && theta[leg] - turn >= least)
+      theta[leg] -= turn;
+  }
 }
 
 } // namespace internal
@@ -112,7 +121,8 @@ template <class S>
 std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& parameters,
                                                 const Device_vector<S>& position);
 
-/// The pose with the platform's centre at `position`, reached from `previous` by moving the centre straight there.
+/// The pose with the platform's centre at `position`, reached from `previous` by moving the centre straight there. Its
+/// joint angles are from -pi to pi, or a turn beside where the joint limits ask for that.
 ///
 /// Failures: `not_finite`; `unreachable`: the way ends at the edge of the workspace, shortfall the distance left, m.
 /// Cost: some microseconds; more at the workspace's edge. No allocation.
@@ -146,11 +156,11 @@ Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, 
     }
   }
   if (done < S(1)) {
-    outcome.fail(Device_status::unreachable, (S(1) - done) * way.norm());
+    outcome.fail(Device_status::unreachable, (S(1) - done) * way.stableNorm());
     return outcome;
   }
   outcome.value_to_fill() = reached;
-  reduce_angles(outcome.value_to_fill().theta);
+  reduce_angles(parameters, outcome.value_to_fill().theta);
   outcome.succeed();
   return outcome;
 }
@@ -194,7 +204,7 @@ std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& para
           }
           if (!usable || !inverse_newton(parameters, position, pose, 40))
             continue;
-          reduce_angles(pose.theta);
+          reduce_angles(parameters, pose.theta);
           if (!within_joint_limits(parameters, pose.theta) || !platform_above_elbows(pose))
             continue;
           bool known = false;

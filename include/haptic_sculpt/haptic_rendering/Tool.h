@@ -99,14 +99,10 @@ public:
   void take(Vertex_index v) {
     const internal::Rounding_to_nearest rounding;
     begin_stroke();
-    try {
-      hold(v);
-    } catch (...) { // no stroke without a vertex
-      let_go();
-      throw;
-    }
+    hold(v);
   }
-  /// Makes a creation and takes the vertex, both in one stroke. \pre its kind is one of the creations
+  /// Makes a creation and takes the vertex, both in one stroke. Where it cannot be taken, as memory runs out, the
+  /// creation stands as a step of its own. \pre its kind is one of the creations
   Edited create_and_take(const Edit& wanted) {
     const internal::Rounding_to_nearest rounding;
     let_go();
@@ -300,10 +296,15 @@ private:
     return wanted.kind == Edit_kind::insert_on_edge ? Tool_event::created_on_edge : Tool_event::created_on_face;
   }
 
-  /// From the next move() on.
+  /// From the next move() on. Where that throws, the stroke that was begun for it ends.
   void hold(Vertex_index v) {
-    drop_probe();
-    grab_.emplace(sculptor_->grab(v));
+    try {
+      drop_probe();
+      grab_.emplace(sculptor_->grab(v));
+    } catch (...) {
+      let_go();
+      throw;
+    }
     is_anchored_ = false;
   }
 

@@ -37,6 +37,7 @@ public:
     if (edit.kind == Edit_kind::move)
       return move(sculptor, edit);
     Edit made = edit; // before anything is changed: memory may run out
+    made.legs.clear(); // those of a move alone
     const auto& v = edit.vertices;
     const Point p = point(edit.point);
     sculptor.release();

@@ -35,7 +35,8 @@ struct Drag_parameters {
     return *this;
   }
   /// Whether a vertex is dragged once, and then another: then what is near is looked up for this drag alone, and only
-  /// the points of the star are compared with where they were left. No result depends on it.
+  /// the points of the star are compared with where they were left. It is counted as other work, and the next drag of
+  /// this vertex begins without contacts; where the drag ends without a work limit does not depend on it.
   Drag_parameters& once(bool on = true) {
     is_once = on;
     return *this;

@@ -35,6 +35,11 @@ BOOST_AUTO_TEST_CASE(friction_encoders_and_delays_are_what_they_say) {
     d.encoder_step = finest;
     BOOST_TEST((measured_angles(Device_parameters<double>(d), Vector(0.1, -0.2, 3)) == Vector(0.1, -0.2, 3)));
   }
+  d.encoder_step = 1; // the doubles beside halves
+  BOOST_TEST((measured_angles(Device_parameters<double>(d), Vector(0.49999999999999994, 0.5, -0.49999999999999994)) ==
+              Vector(0, 1, 0)));
+  BOOST_TEST((measured_angles(Device_parameters<double>(d), Vector(-0.5, 0x1p52 - 1.5, 1.4999999999999998)) ==
+              Vector(0, 0x1p52 - 1, 1)));
   d.encoder_step = 0;
   BOOST_TEST((measured_angles(Device_parameters<double>(d), Vector(0.1, -0.2, 0.3)) - Vector(0.1, -0.2, 0.3)).norm() ==
              0);

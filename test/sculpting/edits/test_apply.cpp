@@ -142,6 +142,10 @@ BOOST_AUTO_TEST_CASE(what_apply_says) {
     shift.ways.insert(shift.ways.begin(), {7, 2.0}); // of one vertex the last counts
   }
   BOOST_TEST((snapshot(sculptor) == before));
+  Edit again = Edit::of(Edit_kind::flip, {7, sculptor.id(mesh.source(mesh.halfedge(Vertex_index(7)))), 0});
+  again.legs.push_back({9, 9, 9}); // of a move that it was used for before
+  const auto flipped = sculptor.apply(again);
+  BOOST_TEST((flipped && flipped.edit.kind == Edit_kind::flip && flipped.edit.legs.empty()));
 }
 
 // A refused edit between two moves of a vertex ends its grab, as every other edit does: whoever makes the lines of a

@@ -4,7 +4,11 @@
 
 #include <haptic_sculpt/sculpting/move_vertices.h>
 
+#include <boost/iterator/transform_iterator.hpp>
+
+#include <iterator>
 #include <limits>
+#include <sstream>
 
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
@@ -315,4 +319,12 @@ BOOST_AUTO_TEST_CASE(few_none_and_repeated) {
     BOOST_TEST(stroke.is_open());
   }
   BOOST_TEST(sculptor.history().number_of_undo_steps() == 2u);
+  // A range that can be read once only.
+  map[other] = beside + Vector_3(0.01, 0, 0);
+  std::istringstream numbers("5 6 5");
+  const auto vertex = [](std::uint32_t n) { return Vertex_index(n); };
+  using Once = boost::transform_iterator<decltype(vertex), std::istream_iterator<std::uint32_t>, Vertex_index>;
+  const Move_report once = move_vertices(
+      sculptor, CGAL::make_range(Once(std::istream_iterator<std::uint32_t>(numbers), vertex), Once({}, vertex)), map);
+  BOOST_TEST((once.asked == 2u && once.reached == 2u && mesh.point(other) == map[other]));
 }

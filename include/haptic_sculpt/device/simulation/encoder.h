@@ -18,7 +18,9 @@ Device_vector<S> measured_angles(const Device_parameters<S>& parameters, const D
   for (int joint = 0; joint < 3; ++joint) {
     const S steps = theta[joint] / step; // overflows where a step is next to nothing
     // From 2^52 steps on, a step is less than what doubles tell of the angle: it is measured as it is.
-    measured[joint] = abs(steps) < S(0x1p52) ? S(step * floor(S(steps + S(0.5)))) : theta[joint];
+    const S whole = floor(steps); // steps + 0.5 would be rounded; this is not where it is near a half
+    measured[joint] =
+        abs(steps) < S(0x1p52) ? S(step * (S(steps - whole) < S(0.5) ? whole : S(whole + S(1)))) : theta[joint];
   }
   return measured;
 }

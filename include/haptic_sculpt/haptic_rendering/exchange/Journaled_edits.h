@@ -256,13 +256,14 @@ private:
   }
   /// A slide as its legs, each a move of its own; of what has changed nothing, nothing.
   void tell(const Edit& made) {
+    if (made.kind == Edit_kind::none)
+      return;
+    if (made.kind != Edit_kind::move)
+      return add(made);
     in_one_step(!made.legs.empty(), [&] {
       for (const auto& leg : made.legs)
         add(Edit::of(Edit_kind::move, made.vertices, leg));
-      if (made.kind == Edit_kind::move)
-        add(Edit::of(Edit_kind::move, made.vertices, made.point));
-      else if (made.kind != Edit_kind::none)
-        add(made);
+      add(Edit::of(Edit_kind::move, made.vertices, made.point));
     });
   }
   bool is_in_stroke() const { return stroke_ && stroke_->is_open(); } ///< an undo ends it

@@ -31,7 +31,6 @@ template <class Mesh, class Vertex_range, class Target_of>
 std::vector<Moving_vertex<Mesh>> moving_vertices(const Mesh& mesh, const Vertex_range& vertices,
                                                  Target_of target_of) {
   std::vector<Moving_vertex<Mesh>> moving;
-  moving.reserve(static_cast<std::size_t>(std::distance(std::begin(vertices), std::end(vertices))));
   std::vector<bool> is_given(mesh.num_vertices(), false);
   for (const typename Mesh::Vertex_index v : vertices) {
     check_vertex(mesh, v);

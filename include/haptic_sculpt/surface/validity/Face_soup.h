@@ -60,6 +60,8 @@ struct Face_soup {
   void close_face() {
     if (corners.size() > std::numeric_limits<Index>::max())
       throw Read_error("the faces have 2^32 corners or more");
+    if (first_corner.empty()) // it was moved from
+      first_corner.push_back(0);
     first_corner.push_back(static_cast<Index>(corners.size()));
   }
 
