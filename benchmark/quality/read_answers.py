@@ -18,22 +18,38 @@ class Bad_answers(Exception):
     """Names the file and the line."""
 
 
+def text_of(path):
+    try:
+        if not path.is_file():
+            raise Bad_answers(f"{path} is no file")
+        return path.read_text()
+    except ValueError:  # its bytes, or those of its name
+        raise Bad_answers(f"{str(path)!r} is no text") from None
+
+
 def lines_of(path):
-    return [(n, line.split()) for n, line in enumerate(path.read_text().splitlines(), 1) if line.strip() and not line.startswith("#")]
+    return [(n, line.split()) for n, line in enumerate(text_of(path).splitlines(), 1) if line.strip() and not line.startswith("#")]
+
+
+def truth_of(path):
+    """The time of impact for each query, None where there is none."""
+    truth = []
+    for number, words in lines_of(path):
+        try:
+            truth.append({("0", 1): lambda: None, ("1", 2): lambda: Fraction(words[1])}[words[0], len(words)]())
+        except (KeyError, ValueError, ZeroDivisionError):
+            raise Bad_answers(f"{path}, line {number}: '{' '.join(words)}' is not 0, or 1 and a fraction") from None
+    if not truth:
+        raise Bad_answers(f"{path} tells of no query")
+    return truth
 
 
 def read_one(path):
     """A row for the page."""
-    try:
-        text = path.read_text()
-    except UnicodeDecodeError:
-        raise Bad_answers(f"{path} is no text") from None
-    head = dict(line[1:].split(":", 1) for line in text.splitlines() if line.startswith("#") and ":" in line)
+    head = dict(line[1:].split(":", 1) for line in text_of(path).splitlines() if line.startswith("#") and ":" in line)
     head = {key.strip(): value.strip() for key, value in head.items()}
     folder = pathlib.Path(head.get("queries", path.parent))
-    truth = [words for _, words in lines_of(folder / "truth.txt")]
-    if not truth:
-        raise Bad_answers(f"{folder / 'truth.txt'} tells of no query")
+    truth = truth_of(folder / "truth.txt")
     answers = lines_of(path)
     if len(answers) != len(truth):
         raise Bad_answers(f"{path}: {len(answers)} answers to {len(truth)} queries: give one line each, '-' where there is none")
@@ -47,8 +63,8 @@ def read_one(path):
             raise Bad_answers(f"{path}: the seconds, '{head['seconds']}', are no time")
     false_positives = false_negatives = none = 0
     largest = None
-    for (number, words), true in zip(answers, truth):
-        hits = true[0] == "1"
+    for (number, words), impact in zip(answers, truth):
+        hits = impact is not None
         if words[0] not in ("0", "1", "-") or len(words) > 2:
             raise Bad_answers(f"{path}, line {number}: '{' '.join(words)}' is not 0, 1, 1 u or -")
         if words[0] == "-":
@@ -61,7 +77,7 @@ def read_one(path):
                 time = float(words[1])
             except ValueError:
                 raise Bad_answers(f"{path}, line {number}: '{words[1]}' is not a number") from None
-            error = float(abs(Fraction(time) - Fraction(true[1]))) if 0 <= time <= 1 else 1.0
+            error = float(abs(Fraction(time) - impact)) if 0 <= time <= 1 else 1.0
             largest = max(largest or 0.0, error)
     return {"name": head.get("name", path.stem), "queries": len(truth), "seconds_a_query": seconds, "false_positives": false_positives,
             "false_negatives": false_negatives, "not_answered": none, "share_wrong": (false_positives + false_negatives + none) / len(truth),

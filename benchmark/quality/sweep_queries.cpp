@@ -146,7 +146,8 @@ int main(int argc, char** argv) {
       "the\n"
       "ends of two edges, to where they are along K at the end.\n"
       "Prints a line each: 0, or 1 and the first time u as num/den in lowest terms; of AX, 1 without a time.\n"
-      "Empty lines and lines that begin with # are skipped. Exit: 0 done, 2 usage or a malformed line, 5 the answers "
+      "Empty lines and lines that begin with # are skipped. Exit: 0 done, 1 out of memory, 2 usage or a malformed "
+      "line, 5 the answers "
       "cannot be written.");
   std::string path;
   app.add_option("FILE", path, "The queries; - is standard input")->required();

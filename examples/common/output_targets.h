@@ -33,8 +33,8 @@ constexpr const char* input_mesh = "MESH, the mesh to be read";
 /// Whether two names lead to one file, there or not yet there; a folder may have two names by a mount.
 inline bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
-  if (std::filesystem::equivalent(a, b, error))
-    return true;
+  if (const bool are_one = std::filesystem::equivalent(a, b, error); !error) // one of them is there
+    return are_one;
   // Made absolute first: weakly_canonical leaves the name of a file that is not there yet as it is, but not ./name.
   const auto full = [](const std::filesystem::path& path) {
     std::error_code ignored; // check_target() reports a name that leads nowhere

@@ -89,6 +89,13 @@ inline void put_process_in_order(const char* program) {
   announce_crashes(program);
 }
 
+/// Of a program that has nothing to lose yet: a terminal that is closed ends it at once, as control-C and SIGTERM do,
+/// unless it was begun not to mind. \pre put_process_in_order()
+inline void end_at_once_by_signals() {
+  if (!process::outlives_terminal())
+    std::signal(SIGHUP, SIG_DFL);
+}
+
 /// Of a program that goes on until it is ended: from here on control-C, SIGTERM and SIGHUP end it in order, as far as
 /// they were not ignored when it began. \pre put_process_in_order() \return becomes true with the first of them
 inline const std::atomic<bool>& end_in_order_by_signals() {

@@ -51,7 +51,7 @@ struct Run_result {
 };
 
 /// Reads the mesh, runs, and writes sculpted mesh, picture and rows. \param writer gets what people should know
-/// Signals end it in order once its log has been made again (end_in_order_by_signals()).
+/// Signals end it at once until the log is begun, and in order from then on.
 /// \throw before the first tick what reading meshes and opening files throws; Unstable_coupling; Foreign_recording;
 /// Usage_error; Foreign_log, Script_error
 Run_result run_loop(const Plan& plan, examples::Result_writer& writer);

@@ -53,6 +53,7 @@ public:
       , faults_(plan.fault, device_, tick_) {}
 
   Run_result run() {
+    examples::end_at_once_by_signals();
     of_settings([&] {
       if (!home_)
         throw Usage_error("the device has no pose in the middle of its joint limits");
@@ -89,7 +90,7 @@ public:
     const auto made = of_settings(
         [&] { return std::make_unique<Loop>(scene.sculptor, device_, start, scene.map, parameters, limits); });
     Loop& loop = *made;
-    examples::end_in_order_by_signals(); // until here they end it at once, and nothing is lost
+    examples::end_in_order_by_signals();
     log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
     trace_.open(plan_.trace, is_interrupted_), record_.open(plan_.record, is_interrupted_); // the last to be refused
     Session session(loop, scene, nullptr, nullptr, log_->journal());

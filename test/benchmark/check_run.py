@@ -406,8 +406,8 @@ def few_jobs(out, folder):
 
 
 def exit_codes(folder):
-    """1 where a run cannot go on, 2 for what was given, 5 where the report cannot be written: before the work."""
-    for words, code, said in ((["haptic_ticks", "--level", "2", "--ticks", "10", "--depth", "-1000"], 1, "the hand's path"),
+    """2 for what was given, 5 where the report cannot be written: before the work."""
+    for words, code, said in ((["haptic_ticks", "--level", "2", "--ticks", "10", "--depth", "-1000"], 2, "the hand's path"),
                               (["brush_dabs", "--mesh", str(folder / "nowhere.off")], 2, "nowhere.off"),
                               (["device_speed_error", "--nothing"], 2, "--nothing"),
                               (["hand_drags", "--json", str(folder / "nowhere/x.json")], 5, "cannot write")):
@@ -451,7 +451,17 @@ def answers(out, folder):
         expect(done.returncode == 2 and bad.name in done.stderr and "Traceback" not in done.stderr,
                f"answers that cannot be read: exit {done.returncode}, {done.stderr}")
         expect(not (folder / "none").exists(), "wrong answers are found before anything is run")
-    told = subprocess.run([str(ROOT / "benchmark/quality/read_answers.py"), "--help"], capture_output=True, text=True)
+    for k, line in enumerate(("1", "1 x", "1 1/0", "7 1/2", "\0", "")):
+        place = folder / f"truth{k}"
+        place.mkdir()
+        (place / "truth.txt").write_text(line + "\n")
+        (place / "answers.txt").write_text("0\n")
+        done = run(folder / "none", "axis", "--answers", str(place / "answers.txt"))
+        expect(done.returncode == 2 and "truth.txt" in done.stderr and "Traceback" not in done.stderr,
+               f"truth that is {line!r}: exit {done.returncode}, {done.stderr}")
+    script = ROOT / "benchmark/quality/read_answers.py"
+    expect(os.access(script, os.X_OK), "read_answers.py is not to be run by its name")
+    told = subprocess.run([PYTHON, str(script), "--help"], capture_output=True, text=True)
     expect(told.returncode == 0 and "# queries: FOLDER" in told.stdout, f"read_answers.py --help: {told}")
 
 

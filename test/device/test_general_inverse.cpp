@@ -55,11 +55,11 @@ BOOST_AUTO_TEST_CASE(inverse_of_the_general_form_gives_angles_within_limits_beyo
   Device_description<double> d = named_design<double>(Named_design::D1, Device_form::general);
   Random random(seed + 9);
   int found = 0, beyond = 0;
-  for (const bool is_above : {true, false}) {
-    d.least_angle.setConstant(is_above ? 2 : -5), d.greatest_angle.setConstant(is_above ? 5 : -2);
+  for (const double least : {2.0, -5.0, 8.0, -11.0, 14.5}) {
+    d.least_angle.setConstant(least), d.greatest_angle.setConstant(least + 3);
     const Device_parameters<double> parameters(d);
     for (int k = 0; k < 60; ++k) {
-      const Vector theta = random_angles(random, is_above ? 2 : -5, is_above ? 5 : -2);
+      const Vector theta = random_angles(random, least, least + 3);
       const auto pose = general_forward(parameters, theta);
       if (!pose || !platform_above_elbows(*pose))
         continue;

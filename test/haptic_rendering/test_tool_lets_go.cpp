@@ -68,6 +68,37 @@ BOOST_AUTO_TEST_CASE(a_created_vertex_that_cannot_be_taken_begins_no_step_for_wh
   BOOST_TEST(created_and_not_taken > 0);
 }
 
+// Nor where a removal of what is in hand is not made.
+BOOST_AUTO_TEST_CASE(a_removal_that_runs_out_of_memory_ends_the_step_of_what_was_in_hand) {
+  int thrown = 0;
+  for (std::size_t n = 1;; ++n) {
+    Mesh mesh = ball;
+    Sculptor<Mesh> sculptor(mesh);
+    Tool<Sculptor<Mesh>> tool(sculptor, map_of_tests, 0.01, 0.001);
+    tool.take(Mesh::Vertex_index(17));
+    const Vector3d hand = map_of_tests.to_device(internal::vector_of(mesh.point(Mesh::Vertex_index(17))));
+    tool.move(hand, 0);
+    bool is_done = false;
+    try {
+      const test::Failing_allocations nth(n, false);
+      tool.move(hand, 2);
+      is_done = true;
+    } catch (const std::bad_alloc&) {
+    }
+    if (is_done)
+      break;
+    ++thrown;
+    BOOST_TEST(!tool.holds_vertex());
+    for (const std::uint32_t v : {3, 5})
+      BOOST_REQUIRE(tool.edit_by([&](auto& edits) {
+        const Vector3d place = internal::vector_of(mesh.point(Mesh::Vertex_index(v)));
+        return edits.move_if_free(Mesh::Vertex_index(v), internal::point_of<Mesh::Point>(1.01 * place));
+      }));
+    BOOST_TEST(sculptor.history().number_of_undo_steps() == 2u);
+  }
+  BOOST_TEST(thrown > 0);
+}
+
 // An Edit object may have been that of a move before.
 BOOST_AUTO_TEST_CASE(legs_of_what_is_no_move_are_not_told) {
   Tool_bench bench;

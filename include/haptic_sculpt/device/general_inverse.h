@@ -84,11 +84,12 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
   return false;
 }
 
-/// Reduces angles to (-pi, pi], or to the turn beside it that is within the joint limits.
+/// Reduces angles to (-pi, pi], or to the nearest turn that is within the joint limits.
 template <class S>
 void reduce_angles(const Device_parameters<S>& parameters, Device_vector<S>& theta) {
   using std::acos;
   using std::atan2;
+  using std::ceil;
   using std::cos;
   using std::sin;
   const S turn = S(2) * S(acos(S(-1)));
@@ -96,10 +97,12 @@ void reduce_angles(const Device_parameters<S>& parameters, Device_vector<S>& the
     if (theta[leg] > S(3.1415926) || theta[leg] < S(-3.1415926))
       theta[leg] = atan2(S(sin(theta[leg])), S(cos(theta[leg])));
     const S least = parameters.least_angle()[leg], greatest = parameters.greatest_angle()[leg];
-    if (theta[leg] < least && theta[leg] + turn <= greatest)
-      theta[leg] += turn;
-    else if (theta[leg] > greatest && theta[leg] - turn >= least)
-      theta[leg] -= turn;
+    const S up = theta[leg] + turn * S(ceil(S((least - theta[leg]) / turn)));
+    const S down = theta[leg] - turn * S(ceil(S((theta[leg] - greatest) / turn)));
+    if (theta[leg] < least && up <= greatest)
+      theta[leg] = up;
+    else if (theta[leg] > greatest && down >= least)
+      theta[leg] = down;
   }
 }
 
@@ -122,7 +125,7 @@ std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& para
                                                 const Device_vector<S>& position);
 
 /// The pose with the platform's centre at `position`, reached from `previous` by moving the centre straight there. Its
-/// joint angles are from -pi to pi, or a turn beside where the joint limits ask for that.
+/// joint angles are from -pi to pi, or of the nearest turn within the joint limits.
 ///
 /// Failures: `not_finite`; `unreachable`: the way ends at the edge of the workspace, shortfall the distance left, m.
 /// Cost: some microseconds; more at the workspace's edge. No allocation.
@@ -168,8 +171,8 @@ Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, 
 /// All poses with the platform's centre at `position`, within the joint limits and with the platform above its elbows.
 ///
 /// By Newton's method from a grid of platform rotations and all eight knee choices; a search, not a proof of
-/// completeness, compared with random multi-starts in the tests. Tens of milliseconds, allocates: not for a tick. Empty
-/// if there is none.
+/// completeness, compared with random multi-starts in the tests. Of angles that differ by a turn one is given. Tens of
+/// milliseconds, allocates: not for a tick. Empty if there is none.
 template <class S>
 std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& parameters,
                                                 const Device_vector<S>& position) {

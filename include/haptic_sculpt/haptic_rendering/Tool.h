@@ -296,16 +296,24 @@ private:
     return wanted.kind == Edit_kind::insert_on_edge ? Tool_event::created_on_edge : Tool_event::created_on_face;
   }
 
-  /// From the next move() on. Where that throws, the stroke that was begun for it ends.
+  /// From the next move() on.
   void hold(Vertex_index v) {
-    try {
+    or_let_go([&] {
       drop_probe();
       grab_.emplace(sculptor_->grab(v));
+    });
+    is_anchored_ = false;
+  }
+
+  /// Where the function throws, the stroke of what is, or was to be, in hand ends.
+  template <class Function>
+  auto or_let_go(const Function& function) {
+    try {
+      return function();
     } catch (...) {
       let_go();
       throw;
     }
-    is_anchored_ = false;
   }
 
   Tool_event release() {
@@ -354,7 +362,9 @@ private:
     const Eigen::Vector3d place = place_of(v), away = internal::vector_of(vertex_normal(sculptor_->mesh(), v));
     const bool was_held = grab_.has_value();
     grab_.reset();
-    const auto made = mesh_edits_.make(Edit::of(Edit_kind::remove, {sculptor_->id(v), 0, 0}));
+    const auto made = or_let_go([&] {
+      return mesh_edits_.make(Edit::of(Edit_kind::remove, {sculptor_->id(v), 0, 0}));
+    });
     mesh_edits_.end_stroke();
     if (was_held && carries_probe_)
       placement_ = Probe_placement{place, away, place};

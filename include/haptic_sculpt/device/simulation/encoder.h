@@ -5,8 +5,8 @@
 
 namespace haptic_sculpt {
 
-/// What the encoders say of joint angles: each the nearest multiple of the encoder step, rad, so off by half a step at
-/// most; halves go up.
+/// What the encoders say of joint angles: each the nearest multiple of the encoder step, rad, as the rounded quotient
+/// says, so off by half a step and that rounding at most; halves go up.
 template <class S>
 Device_vector<S> measured_angles(const Device_parameters<S>& parameters, const Device_vector<S>& theta) {
   using std::abs;
