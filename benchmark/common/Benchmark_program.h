@@ -17,7 +17,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <new>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <unistd.h>
@@ -105,6 +108,7 @@ private:
     try {
       examples::parse_arguments(app_, argc, argv);
       refuse_nan();
+      refuse_report_over_input();
       check_file();
       Promises promises;
       Json report = work(promises);
@@ -121,9 +125,22 @@ private:
       return say(error.what()), cannot_write;
     } catch (const Wrong_use& error) {
       return say(error.what()), usage;
+    } catch (const std::bad_alloc&) {
+      return say("the memory does not suffice for this"), failed;
+    } catch (const std::length_error&) { // of more than any memory
+      return say("the memory does not suffice for this"), failed;
     } catch (const std::exception& error) {
       return say(error.what()), failed;
     }
+  }
+  /// \throw Wrong_use
+  void refuse_report_over_input() const {
+    std::error_code none;
+    for (const CLI::Option* option : app_.get_options())
+      for (const std::string& value : option->results())
+        if (option->get_name() != "--json" && std::filesystem::equivalent(file_, value, none))
+          throw Wrong_use("'" + file_ + "' (--json) and '" + value + "' (" + option->get_name() +
+                          ") are one file; give --json another name");
   }
   /// A range of CLI11 lets it pass: it is neither below nor above.
   void refuse_nan() const {

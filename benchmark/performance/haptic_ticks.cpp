@@ -17,6 +17,7 @@
 
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <limits>
 #include <vector>
 
@@ -133,7 +134,9 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   auto pose = reach_position(device, *home, hand.position(0));
   if (!pose)
     throw benchmark::Wrong_use("the hand's path begins where the device cannot be");
-  Loop loop(scene.sculptor, device, *pose, scene.map, parameters, limits);
+  const auto made = benchmark::read_given(
+      [&] { return std::make_unique<Loop>(scene.sculptor, device, *pose, scene.map, parameters, limits); });
+  Loop& loop = *made;
   if (mlockall(MCL_CURRENT) != 0)
     std::cerr << "haptic_ticks: the memory cannot be locked: first uses of pages are in the times\n";
   Tick_statistics all, probe, vertex;
