@@ -17,8 +17,8 @@
 
 #include <fstream>
 #include <iostream>
-#include <memory>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace {
@@ -134,9 +134,9 @@ Json run(const Options& options, std::vector<std::uint64_t>& least) {
   auto pose = reach_position(device, *home, hand.position(0));
   if (!pose)
     throw benchmark::Wrong_use("the hand's path begins where the device cannot be");
-  const auto made = benchmark::read_given(
+  const auto begun = benchmark::read_given(
       [&] { return std::make_unique<Loop>(scene.sculptor, device, *pose, scene.map, parameters, limits); });
-  Loop& loop = *made;
+  Loop& loop = *begun;
   if (mlockall(MCL_CURRENT) != 0)
     std::cerr << "haptic_ticks: the memory cannot be locked: first uses of pages are in the times\n";
   Tick_statistics all, probe, vertex;

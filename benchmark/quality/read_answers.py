@@ -28,7 +28,8 @@ def text_of(path):
 
 
 def lines_of(path):
-    return [(n, line.split()) for n, line in enumerate(text_of(path).splitlines(), 1) if line.strip() and not line.startswith("#")]
+    lines = enumerate(text_of(path).splitlines(), 1)
+    return [(n, line.split()) for n, line in lines if line.strip() and not line.startswith("#")]
 
 
 def truth_of(path):

@@ -409,10 +409,11 @@ def exit_codes(folder):
     """2 for what was given, 5 where the report cannot be written: before the work."""
     kept = folder / "kept.off"
     kept.write_text("kept")
-    for words, code, said in ((["haptic_ticks", "--level", "2", "--ticks", "10", "--depth", "-1000"], 2, "the hand's path"),
+    ticks = ["haptic_ticks", "--level", "2", "--ticks", "10"]
+    for words, code, said in (([*ticks, "--depth", "-1000"], 2, "the hand's path"),
                               (["brush_dabs", "--mesh", str(folder / "nowhere.off")], 2, "nowhere.off"),
                               (["device_speed_error", "--nothing"], 2, "--nothing"),
-                              (["haptic_ticks", "--reach", "2e9", "--level", "2", "--ticks", "10"], 2, "reach"),
+                              ([*ticks, "--reach", "2e9"], 2, "reach"),
                               (["brush_dabs", "--mesh", str(kept), "--json", str(kept)], 2, "one file"),
                               (["hand_drags", "--json", str(folder / "nowhere/x.json")], 5, "cannot write")):
         done = subprocess.run([str(BUILD / "benchmark" / words[0]), *words[1:]], capture_output=True, text=True)

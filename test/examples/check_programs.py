@@ -134,7 +134,7 @@ def signals(folder, mesh):
     loop(BALL, "--no-wait", "--seconds", "0.1", "--report", report)
     check(json.load(open(report))["missed_by_wakeup"] == 0, "where nothing is waited for, nothing is late")
     rows_that_wait(folder)
-    # Before the loop begins nothing is made that could be lost: while a workspace is searched there is no reason to wait.
+    # Before the loop begins nothing can be lost: while a workspace is searched there is no reason to wait.
     device = write(f"{folder}/far.json", '{"form":"general","R":0.03,"l1":0.07,"l2":0.1,"r":0.03,"m1":0.02,"m2":0.02,'
                    '"M":0.05,"friction":0.005,"angle_limits":[-100,100]}')
     kept = write(f"{folder}/kept.json", "kept")
@@ -226,8 +226,8 @@ def targets(folder, mesh):
         fails(2, parts + ["one file"], run(mesh, *options), f"sculpt {options}")
     fails(2, [".png"], run(mesh, "--picture", mesh), "a picture over the mesh")
     os.mkdir(plain("first")), os.mkdir(plain("second"))
-    mounted = [shutil.which("unshare") or "false", "--mount", *([] if os.geteuid() == 0 else ["--map-root-user"]), "sh", "-c",
-               'mount --bind "$1/first" "$1/second" && shift && exec "$@"', "sh", folder]
+    mounted = [shutil.which("unshare") or "false", "--mount", *([] if os.geteuid() == 0 else ["--map-root-user"]),
+               "sh", "-c", 'mount --bind "$1/first" "$1/second" && shift && exec "$@"', "sh", folder]
     if subprocess.run([*mounted, "true"], capture_output=True).returncode == 0:  # not in every container
         done = subprocess.run([*mounted, SCULPT, mesh, "-o", plain("first/x.off"), "--report", plain("second/x.off")],
                               capture_output=True, text=True, timeout=PATIENCE)

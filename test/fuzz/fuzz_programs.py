@@ -18,7 +18,6 @@ import argparse
 import collections
 import concurrent.futures
 import os
-import random
 import re
 import resource
 import shlex
@@ -94,20 +93,15 @@ def faults_of(draw, arguments, code, output, was_asked, validator):
         faults.append(f"does not end within {grace(arguments[0])} s of a SIGTERM")
     elif code < 0 and not (was_asked and code == -signal.SIGTERM):
         faults.append(f"ended by {signal.Signals(-code).name}")
-    elif (
-        code >= 0
-        and code not in draw.codes
-        and not (code == FAULT_OF_THE_PROGRAM and b"memory" in output)
-        and not was_asked
-    ):
+    elif code >= 0 and code not in draw.codes and not was_asked and not (
+            code == FAULT_OF_THE_PROGRAM and b"memory" in output):
         faults.append(f"exit code {code}, which is not one that --help names, or a fault of the program")
     told = RUNTIME.search(output)
     if told:
         faults.append(f"says '{told.group(0).decode()}'")
     for path, data in draw.inputs.items():
-        is_named = (
-            arguments.count(path) == 2 and "--output" in arguments
-        )  # `sculpt MESH -o MESH` sculpts a file in its place
+        # `sculpt MESH -o MESH` sculpts a file in its place.
+        is_named = arguments.count(path) == 2 and "--output" in arguments
         try:
             is_kept = is_named or open(path, "rb").read() == data
         except OSError:
@@ -150,8 +144,7 @@ def main():
     parser.add_argument(
         "--display",
         action="store_true",
-        help="open one without a screen (Xvfb) for sculpt_window; "
-        "else it refuses to make a window, and its command line is tried only",
+        help="open one without a screen (Xvfb) for sculpt_window; else its command line is tried only",
     )
     arguments = parser.parse_args()
     if arguments.cores < 1 or arguments.runs < 1 or arguments.first < 0:

@@ -24,14 +24,20 @@ SMALL = {
         "named.json": '{"name": "finger"}',
         "device.json": '{"form": "general", "params": {"R": 0.06, "l1": 0.1, "l2": 0.12, "r": 0.03, "m1": 0.1, '
         '"m2": 0.1, "M": 0.1, "g": 9.81}}',
-        "D1.json": '{"params": {"R": 0.06, "l1": 0.12, "l2": 0.12, "r": 0.06, "m1": 0.1, "m2": 0.1, "M": 0.1, "g": 9.81}}',
-        "small.window-script": "brush inflate 0.3 0.1\ndrag 300 300 320 310 3\nkey u\ntool create\nclick 300 280\nquit\n",
+        "D1.json": '{"params": {"R": 0.06, "l1": 0.12, "l2": 0.12, "r": 0.06, "m1": 0.1, "m2": 0.1, "M": 0.1, '
+        '"g": 9.81}}',
+        "small.window-script": "brush inflate 0.3 0.1\ndrag 300 300 320 310 3\nkey u\ntool create\n"
+        "click 300 280\nquit\n",
         "some.queries": "VF 0.25 0.25 1 0.25 0.25 -2 0 0 0 1 0 0 0 1 0\nEE 0 0 1 0x1p0 0 -1 1 1 0 0 1 0.25 1 0 0.25\n"
         "FV 0 0 1 0 0 -1 1 0 1 0 1 1 0.375 0.375 0\n# none\nAX VF 2 0 0 1 0 0 0 1 0 0 0 1 0 -1 0 0 0\n",
-        "all.script": "drag 0 0.5 0.5 0.5\ninsert_face 0 1 2 0.2 0.2 0.2\nundo\nredo\nbrush inflate 0 0 0 1 0.1\nremesh 0.3\nstroke\n"
-        "remove 1\nend\nflip 0 1\ncollapse 0 1\ndelta 1e-6\nclearance 1e-9\nresponse stop\n",
+        "all.script": "drag 0 0.5 0.5 0.5\ninsert_face 0 1 2 0.2 0.2 0.2\nundo\nredo\nbrush inflate 0 0 0 1 0.1\nremesh 0.3\n"
+        "stroke\nremove 1\nend\nflip 0 1\ncollapse 0 1\ndelta 1e-6\nclearance 1e-9\nresponse stop\n",
     }.items()
 }
+
+WHOLE_NUMBERS = [0, 1, 2, 3, 7, 100, 2**31 - 1, 2**31, 2**32, 2**63 - 1, 2**64 - 1, 2**64, -1, -(2**63)]
+WORDS = ["", "-", "--", "é\u202e", "\udcff\udcfe", "a" * 5000, "%s%n", "$(true)", "edit", "@0,0,0", "@nan,0,0",
+         "slide", "off", "..", "0", "nan@1", "jump@0", "jump@-1e300", "V"]
 
 # Options that a program gets where none were drawn, so that a run takes milliseconds: where nothing else does it, a
 # share of the work that is empty.
@@ -128,11 +134,8 @@ def options_of(program):
         letters = re.match(r"((?:[A-Z] )*[A-Z])(?: |$)", head)
         values = int(count.group(1)) if count else len(letters.group(1).split()) if letters else 1 if kind else 0
         needs = re.search(r"Needs: ((?:--[\w-]+ ?)+)", head)
-        options.append(
-            Option(
-                name, values, choices.group(1).split(",") if choices else [], needs.group(1).split() if needs else []
-            )
-        )
+        options.append(Option(name, values, choices.group(1).split(",") if choices else [],
+                              needs.group(1).split() if needs else []))
     codes = {int(code) for line in re.findall(r"Exit:(.*\n.*)", text) for code in re.findall(r" (\d+) [a-z]", line)}
     return options, codes - {FAULT_OF_THE_PROGRAM}
 
@@ -150,11 +153,9 @@ class Draw:
         words = []
         for suffix, damaged in ARGUMENTS.get(name, {}).items():
             if r.random() < 0.95:
-                words.append(
-                    os.path.join(folder, "out" + suffix)
-                    if damaged is None
-                    else self.file(suffix, "argument", r.random() < damaged)
-                )
+                is_output = damaged is None
+                words.append(os.path.join(folder, "out" + suffix) if is_output else
+                             self.file(suffix, "argument", r.random() < damaged))
         chosen = {
             o.name
             for o in options
@@ -164,10 +165,8 @@ class Draw:
         chosen = [o for o in options if o.name in chosen]
         spoiled = r.sample(range(len(chosen)), min(len(chosen), r.choice([0, 1, 1, 2])))
         for k, option in enumerate(chosen):
-            words += [
-                option.name,
-                *(self.value(option.name, option.choices, k not in spoiled) for _ in range(option.values)),
-            ]
+            values = (self.value(option.name, option.choices, k not in spoiled) for _ in range(option.values))
+            words += [option.name, *values]
         for option, value in SMALLEST.get(name, {}).items():
             words += [option, value] if option not in words and "--replay" not in words else []
         self.arguments = [word.replace("\0", "") for word in words]
@@ -181,26 +180,7 @@ class Draw:
             lambda: repr(struct.unpack("d", struct.pack("Q", r.getrandbits(64)))[0]),
             lambda: repr(r.uniform(-2, 2)),
             lambda: repr(10.0 ** r.randint(-320, 308)),
-            lambda: str(
-                r.choice(
-                    [
-                        0,
-                        1,
-                        2,
-                        3,
-                        7,
-                        100,
-                        2**31 - 1,
-                        2**31,
-                        2**32,
-                        2**63 - 1,
-                        2**64 - 1,
-                        2**64,
-                        -1,
-                        -(2**63),
-                    ]
-                )
-            ),
+            lambda: str(r.choice(WHOLE_NUMBERS)),
             lambda: struct.unpack("d", struct.pack("Q", r.getrandbits(64)))[0].hex(),
             lambda: r.choice(
                 ["nan", "-nan", "inf", "-inf", "-0", "0x", "1e", "", " ", "1,5", "1e400", "+1", "++1", "0x1p-1074"]
@@ -209,29 +189,7 @@ class Draw:
         return r.choice(kinds)()
 
     def text(self):
-        return self.random.choice(
-            [
-                "",
-                "-",
-                "--",
-                "é\u202e",
-                "\udcff\udcfe",
-                "a" * 5000,
-                "%s%n",
-                "$(true)",
-                "edit",
-                "@0,0,0",
-                "@nan,0,0",
-                "slide",
-                "off",
-                "..",
-                "0",
-                "nan@1",
-                "jump@0",
-                "jump@-1e300",
-                "V",
-            ]
-        )
+        return self.random.choice(WORDS)
 
     def damaged(self, data):
         r = self.random
@@ -278,23 +236,11 @@ class Draw:
         if reads and (is_good or r.random() < 0.8):
             return self.file(reads, "in" + option.strip("-"), not is_good)
         good = os.path.join(self.folder, "out" + option.strip("-") + (writes or ".log"))
-        return (
-            good
-            if is_good
-            else r.choice(
-                [
-                    good + ".",
-                    os.path.join(self.folder, "outoutput.off"),
-                    os.path.join(self.folder, "none", "x" + (writes or "")),
-                    self.folder,
-                    "/dev/null",
-                    "/dev/full",
-                    "/proc/self/mem",
-                    "",
-                    *self.inputs,
-                ]
-            )
-        )
+        if is_good:
+            return good
+        missing = os.path.join(self.folder, "none", "x" + (writes or ""))
+        return r.choice([good + ".", os.path.join(self.folder, "outoutput.off"), missing, self.folder, "/dev/null",
+                         "/dev/full", "/proc/self/mem", "", *self.inputs])
 
     def value(self, name, choices, is_good):
         r = self.random
