@@ -30,7 +30,7 @@ import tempfile
 from random_runs import FAULT_OF_THE_PROGRAM, Draw, corpus_of, options_of
 
 MEMORY = 3 << 30  # bytes: what is refused below this is refused in order
-PATIENCE = 10  # seconds before a run is asked to end
+PATIENCE = 2  # seconds before a run is asked to end; loops of 10^24 seconds are one in a hundred
 GRACE = 20  # seconds that it may take then
 # AddressSanitizer reserves more than any limit of addresses. It is given bounds of its own, and ends a program there.
 BOUNDS_OF_THE_SANITIZER = f"max_allocation_size_mb={MEMORY >> 20}:hard_rss_limit_mb={2 * MEMORY >> 20}"
@@ -48,9 +48,13 @@ def environment():
     return {**os.environ, "ASAN_OPTIONS": f"abort_on_error=1:{BOUNDS_OF_THE_SANITIZER}{leaks}"}
 
 
+def slowness(program):
+    return 10 if is_sanitized(program) else 1
+
+
 def grace(program):
     """Seconds that it may take to end."""
-    return GRACE * (10 if is_sanitized(program) else 1)
+    return GRACE * slowness(program)
 
 
 def set_limits(program):
@@ -73,7 +77,7 @@ def run(arguments, stdin, folder):
         env=environment(),
     ) as process:
         try:
-            output = process.communicate(stdin, timeout=PATIENCE)[0]
+            output = process.communicate(stdin, timeout=PATIENCE * slowness(arguments[0]))[0]
             return process.returncode, output, False
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGTERM)

@@ -43,7 +43,6 @@ WORDS = ["", "-", "--", "é\u202e", "\udcff\udcfe", "a" * 5000, "%s%n", "$(true)
 # share of the work that is empty.
 EMPTY_SHARE = {"--shard": "999/1000"}
 SMALLEST = {
-    "haptic_loop": {"--seconds": "0.02"},
     "axis_speed_error": {"--queries": "1"},
     "brush_dabs": {"--level": "2", "--dabs": "1", "--vertices": "8"},
     "certify_ends": {"--drags": "1", "--ways": "1", **EMPTY_SHARE},
@@ -167,7 +166,10 @@ class Draw:
         for k, option in enumerate(chosen):
             values = (self.value(option.name, option.choices, k not in spoiled) for _ in range(option.values))
             words += [option.name, *values]
-        for option, value in SMALLEST.get(name, {}).items():
+        smallest = dict(SMALLEST.get(name, {}))
+        if name == "haptic_loop":  # the hand has edited by 8 s; without waiting that takes 0.1 s
+            smallest["--seconds"] = r.choice(["0.02", "0.02", "8"]) if "--no-wait" in words else "0.02"
+        for option, value in smallest.items():
             words += [option, value] if option not in words and "--replay" not in words else []
         self.arguments = [word.replace("\0", "") for word in words]
         self.stdin = (

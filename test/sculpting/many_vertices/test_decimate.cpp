@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Decimation under the guard, beside CGAL's own with the same policies.
+#include "sculpting/many_vertices/Policy_optional.h"
+
 #include <haptic_sculpt/sculpting/decimate.h>
 #include <haptic_sculpt/surface.h>
 
@@ -23,6 +25,7 @@
 namespace {
 
 namespace SMS = CGAL::Surface_mesh_simplification;
+using haptic_sculpt::Policy_optional;
 using haptic_sculpt::Sculptor;
 using meshes::Mesh;
 
@@ -213,10 +216,10 @@ BOOST_AUTO_TEST_CASE(placements_and_meshes_out_of_range_are_refused_by_name) {
       Sculptor<Mesh> sculptor(mesh);
       int calls = 0;
       const auto cost = [](const auto& profile, const auto&) {
-        return boost::optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+        return Policy_optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
       };
       const auto placement = [&](const auto& profile) {
-        return boost::optional<meshes::Point_3>(++calls < from ? CGAL::midpoint(profile.p0(), profile.p1())
+        return Policy_optional<meshes::Point_3>(++calls < from ? CGAL::midpoint(profile.p0(), profile.p1())
                                                                : meshes::Point_3(0, bad, 0));
       };
       BOOST_CHECK_THROW(

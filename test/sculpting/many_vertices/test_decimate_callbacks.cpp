@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Decimation and what it calls: policies, visitors. What was drawn for nothing goes back, whatever they do.
+#include "sculpting/many_vertices/Policy_optional.h"
+
 #include <haptic_sculpt/sculpting/decimate.h>
 #include <haptic_sculpt/surface.h>
 
@@ -13,6 +15,7 @@
 #include <string>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
+using haptic_sculpt::Policy_optional;
 using haptic_sculpt::Sculptor;
 using meshes::Mesh;
 
@@ -31,9 +34,9 @@ BOOST_AUTO_TEST_CASE(what_was_drawn_for_nothing_goes_back_whatever_delta_is) {
   BOOST_REQUIRE(static_cast<bool>(sculptor.undo()));
   const Mesh before = mesh;
   const auto cost = [](const auto& profile, const auto&) {
-    return boost::optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+    return Policy_optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
   };
-  const auto placement = [](const auto&) { return boost::optional<meshes::Point_3>(meshes::Point_3(0, 0, 2)); };
+  const auto placement = [](const auto&) { return Policy_optional<meshes::Point_3>(meshes::Point_3(0, 0, 2)); };
   const auto report =
       haptic_sculpt::decimate(sculptor, [](const auto&, const auto&, std::size_t, std::size_t) { return false; },
                               CGAL::parameters::get_cost(cost).get_placement(placement));
@@ -79,7 +82,7 @@ BOOST_AUTO_TEST_CASE(a_visitor_sees_the_parameters_that_were_set) {
   sculptor.visitor().parameters = &sculptor.parameters();
   // Places beside the surface: many a draw is for nothing, and goes back.
   const auto placement = [](const auto& profile) {
-    return boost::optional<meshes::Point_3>(CGAL::midpoint(profile.p0(), profile.p1()) +
+    return Policy_optional<meshes::Point_3>(CGAL::midpoint(profile.p0(), profile.p1()) +
                                             meshes::Kernel::Vector_3(0.2, 0, 0));
   };
   const auto stop = [](const auto&, const auto&, std::size_t, std::size_t edges) { return edges < 100; };
@@ -106,13 +109,13 @@ BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
         edit("stop");
         return edges < 100;
       };
-      const auto cost = [&](const Profile& profile, const boost::optional<meshes::Point_3>&) {
+      const auto cost = [&](const Profile& profile, const Policy_optional<meshes::Point_3>&) {
         edit("cost");
-        return boost::optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+        return Policy_optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
       };
       const auto placement = [&](const Profile& profile) {
         edit("placement");
-        return boost::optional<meshes::Point_3>(CGAL::midpoint(profile.p0(), profile.p1()));
+        return Policy_optional<meshes::Point_3>(CGAL::midpoint(profile.p0(), profile.p1()));
       };
       const std::function<bool(Mesh::Edge_index)> constraint = [&](Mesh::Edge_index) {
         edit("constraint");

@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(lines_are_relaxed_along_themselves) {
     const double before = unevenness(mesh, marks);
     BOOST_TEST(before > 2);
     Mesh plain = mesh;
-    const Edge_marks plain_marks = plain.property_map<Edge_index, bool>("e:line").first;
+    const Edge_marks plain_marks = *find_property_map<Edge_index, bool>(plain, "e:line");
     const double length = mean_edge(mesh);
     const auto np = [&](const Edge_marks& map) {
       return CGAL::parameters::number_of_iterations(3).number_of_relaxation_steps(3).edge_is_constrained_map(map)
