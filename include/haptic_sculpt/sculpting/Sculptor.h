@@ -228,19 +228,20 @@ public:
   /// Makes room, in the mesh too: after it this many edits (flips, collapses, creations, removals), of stars of eight
   /// faces in the mean, and this many moves allocate nothing, nor do undo and redo, as long as no vertex has more
   /// neighbours than any has now, or 28, no star more faces about it than 2,048 and twice as many, no decision takes
-  /// rational numbers, nothing is kept, no visitor has `face_replaces`, and the mesh recycles its garbage; with the
-  /// Box_tree_broad_phase. A slide's lists are warm after a few drags. Cost: linear in the mesh.
+  /// rational numbers, nothing is kept, no visitor has `face_replaces` or `edge_replaces`, and the mesh recycles its
+  /// garbage; with the Box_tree_broad_phase. A slide's lists are warm after a few drags. Cost: linear in the mesh.
   void reserve(std::size_t edits, std::size_t moves) { guarded_.reserve(edits, moves); }
   ///@}
 
   /// Keeps the values of a property map from now on: what undo and redo revive has its values again, and what edits
   /// create gets a value made of those of the elements it comes from (doc/use/properties.md); where it comes from none,
-  /// the mesh's default. \param map a model of `ReadWritePropertyMap`, copied; its keys are vertices, halfedges, edges
-  /// or faces of the mesh \param carry `value carry(const Property_origin<value>&)`: Copy_property,
-  /// Interpolate_property, or your own. What the functions of the map and `carry` throw goes on to the caller of the
-  /// edit, which stands; where a value cannot be copied before the edit, the edit is not made. Cost: while a map is
-  /// kept, an edit looks up its ids, n log n in the valence; the history keeps the values of what dies, which
-  /// `history().bytes()` does not count. \throw Invalid_parameter for the mesh's own map of points
+  /// the default of a map of the mesh, in other maps `value()` if there is one. \param map a model of
+  /// `ReadWritePropertyMap`, copied; its keys are vertices, halfedges, edges or faces of the mesh
+  /// \param carry `value carry(const Property_origin<value>&)`: Copy_property, Interpolate_property, or your own. What
+  /// the functions of the map and `carry` throw goes on to the caller of the edit, which stands; where a value cannot be
+  /// copied before the edit, the edit is not made. Cost: while a map is kept, an edit looks up its ids, n log n in the
+  /// valence; the history keeps the values of what dies, which `history().bytes()` does not count.
+  /// \throw Invalid_parameter for the mesh's own map of points
   template <class Map, class Carry = Copy_property>
   void keep(Map map, Carry carry = Carry()) {
     guarded_.whole_editor().kept().add(map, std::move(carry));

@@ -39,7 +39,8 @@ struct Decimation_report {
 ///
 /// \param should_stop a model of CGAL's `StopPredicate`, e.g. `Edge_count_stop_predicate` or, in CGAL 5.5,
 /// `Count_stop_predicate`; of 10,000 faces a closed mesh has 15,000 edges. Your own: `bool should_stop(cost, profile,
-/// edges at first, edges now)`, e.g. `cost > most` to bound the error.
+/// edges at first, edges now)`, e.g. `cost > most` to bound the error. Its profile, and that of policies, is of a
+/// `const Mesh`.
 /// \param np CGAL's named parameters `get_cost`, `get_placement` (default: Lindstrom and Turk's both) and
 /// `edge_is_constrained_map`: such an edge and its ends stay as they are. Others are not looked at.
 ///

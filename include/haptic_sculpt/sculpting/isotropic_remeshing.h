@@ -13,7 +13,7 @@ namespace haptic_sculpt {
 /// function of that name does, but every operation is proven, so the mesh is embedded at every moment; what cannot be
 /// done is left out.
 ///
-/// \param faces a range of faces of the mesh; edges on its border are not changed
+/// \param faces a range of faces of the mesh, const; edges on its border are not changed
 /// \param target_edge_length a length > 0; edges longer than 4/3 of it are split, edges shorter than 4/5 collapsed
 /// \param np CGAL's named parameters of these names, with its defaults: number_of_iterations (1),
 /// edge_is_constrained_map, vertex_is_constrained_map, face_patch_map, protect_constraints (false),

@@ -12,7 +12,7 @@ namespace haptic_sculpt {
 /// as that is free, and no farther: it does not slide.
 ///
 /// \tparam Concurrency_tag as of move_vertices()
-/// \param vertices a range of vertices; one that is given again counts once
+/// \param vertices a range of vertices, const; one that is given again counts once
 /// \param transformation of the kernel of the mesh's points. Where all of the way is gone, each vertex is at what
 /// `transformation.transform()` makes of its point, to the bit
 /// \param parameters as of move_vertices(): `most_drags`, `most_pairs`, `progress` end it where it stands; the others

@@ -73,7 +73,7 @@ Move_report move_to_targets(Sculptor& sculptor, const Vertex_range& vertices, Ta
 ///
 /// \tparam Concurrency_tag `CGAL::Sequential_tag` (the default), `CGAL::Parallel_tag` or
 /// `CGAL::Parallel_if_available_tag`: whether oneTBB's threads share the work of axis moves; the same bits either way
-/// \param vertices a range of vertices; one that is given again counts once
+/// \param vertices a range of vertices, const; one that is given again counts once
 /// \param target_map a model of `ReadablePropertyMap` from vertices to points
 /// \param left_behind an output iterator, told the vertices that are not at their targets at the end, in the order
 /// given; it may look, and not edit
@@ -92,10 +92,11 @@ Move_report move_vertices(Sculptor& sculptor, const Vertex_range& vertices, cons
                           Output_iterator left_behind = Output_iterator()) {
   const internal::Rounding_to_nearest rounding;
   auto& guarded = internal::Sculptor_access::guarded(sculptor);
-  const auto target = [&](auto v) -> decltype(auto) { return get(target_map, v); };
+  using Target = typename boost::property_traits<Target_map>::value_type;
+  const auto target = [&](auto v) -> Target { return get(target_map, v); };
   return internal::move_to_targets(
-      sculptor, vertices, [&](auto v) -> decltype(auto) { return internal::ask(guarded, target, v); }, parameters,
-      left_behind, Part_runner::by<Concurrency_tag>());
+      sculptor, vertices, [&](auto v) { return internal::ask(guarded, target, v); }, parameters, left_behind,
+      Part_runner::by<Concurrency_tag>());
 }
 
 } // namespace haptic_sculpt

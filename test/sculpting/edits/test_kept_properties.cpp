@@ -14,6 +14,47 @@
 using namespace haptic_sculpt;
 using namespace haptic_sculpt::test;
 
+namespace {
+
+// The mesh knows nothing of it.
+template <class Key>
+struct Own_map {
+  using key_type = Key;
+  using value_type = int;
+  using reference = int;
+  using category = boost::read_write_property_map_tag;
+  std::map<Key, int>* values;
+  friend int get(const Own_map& map, Key key) { return (*map.values)[key]; }
+  friend void put(const Own_map& map, Key key, int value) { (*map.values)[key] = value; }
+};
+
+template <class Key>
+struct Two_maps {
+  typename Mesh::Property_map<Key, int> of_mesh;
+  std::map<Key, int> own;
+
+  explicit Two_maps(Mesh& mesh) : of_mesh(mesh.add_property_map<Key, int>("own", 0).first) {}
+  template <class Range>
+  void fill(const Range& keys) {
+    int value = 100;
+    for (const Key key : keys)
+      of_mesh[key] = own[key] = value++;
+  }
+  void keep(Sculptor<Mesh>& sculptor) {
+    sculptor.keep(of_mesh);
+    sculptor.keep(Own_map<Key>{&own});
+  }
+  template <class Range>
+  std::size_t differing(const Range& keys) {
+    std::size_t result = 0;
+    for (const Key key : keys)
+      result += of_mesh[key] != own[key];
+    return result;
+  }
+};
+
+} // namespace
+
 // Values of what is new are overwritten after each edit by ones never used, so that what undo and redo bring back
 // cannot come from anywhere else.
 BOOST_AUTO_TEST_CASE(kept_values_are_back_after_undo_and_redo) {
@@ -73,6 +114,31 @@ BOOST_AUTO_TEST_CASE(kept_values_are_back_after_undo_and_redo) {
   BOOST_TEST(edits > 2000);
   BOOST_TEST(undone > 200);
   BOOST_TEST(redone > 20);
+}
+
+// Elements that come from nothing have descriptors of others that died.
+BOOST_AUTO_TEST_CASE(maps_of_ones_own_have_the_values_of_those_of_the_mesh) {
+  const auto seed = seed_from_environment(21);
+  Random random(seed);
+  BOOST_TEST_MESSAGE("seed " << seed);
+  for (int scene = 0; scene < 10; ++scene) {
+    Mesh mesh = meshes::to_mesh(lumpy_ball());
+    Two_maps<Mesh::Vertex_index> vertices(mesh);
+    Two_maps<Mesh::Halfedge_index> halfedges(mesh);
+    Two_maps<Mesh::Edge_index> edges(mesh);
+    Two_maps<Mesh::Face_index> faces(mesh);
+    Sculptor<Mesh> sculptor(mesh);
+    vertices.fill(mesh.vertices()), halfedges.fill(mesh.halfedges()), edges.fill(mesh.edges()),
+        faces.fill(mesh.faces());
+    vertices.keep(sculptor), halfedges.keep(sculptor), edges.keep(sculptor), faces.keep(sculptor);
+    for (int k = 0; k < 100; ++k) {
+      random_edit(sculptor, random);
+      BOOST_REQUIRE_EQUAL(vertices.differing(mesh.vertices()), 0u);
+      BOOST_REQUIRE_EQUAL(halfedges.differing(mesh.halfedges()), 0u);
+      BOOST_REQUIRE_EQUAL(edges.differing(mesh.edges()), 0u);
+      BOOST_REQUIRE_EQUAL(faces.differing(mesh.faces()), 0u);
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(kept_values_are_back_after_a_stroke_of_remeshing) {

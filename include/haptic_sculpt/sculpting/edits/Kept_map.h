@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <map>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -65,7 +66,7 @@ public:
 
   void dies(const Element& element, const Element_ids& ids) override {
     if (const Key* key = std::get_if<Key>(&element))
-      dead_.push_back({ids, get(map_, *key)});
+      dead_.push_back({ids, Value(get(map_, *key))});
   }
 
   void prepare(std::size_t first, std::size_t number, bool is_new, bool is_reversal) override {
@@ -99,7 +100,7 @@ public:
     boost::container::small_vector<Value, 3> around; // values of vertices that stay
     if constexpr (std::is_same<Key, typename Mesh::Vertex_index>::value) {
       if (under_way.is_back) // the map was given while it was dead, so nothing is known of it
-        return;
+        return give_default(key);
       for (std::size_t k = 0; k < under_way.size(); ++k)
         around.push_back(get(map_, vertices.vertex(under_way.change->edit.vertices[k])));
       for (std::size_t k = 0; k < under_way.size(); ++k)
@@ -117,8 +118,9 @@ public:
       for (std::size_t k = 0; k < origin.size; ++k)
         origin.weights[k] = 1.0 / static_cast<double>(origin.size);
     }
-    if (origin.size != 0)
-      put(map_, key, carry_(static_cast<const Property_origin<Value>&>(origin)));
+    if (origin.size == 0)
+      return give_default(key);
+    put(map_, key, carry_(static_cast<const Property_origin<Value>&>(origin)));
   }
 
   void end(bool is_whole) noexcept override {
@@ -156,6 +158,12 @@ private:
   Entries unwritten_;              ///< of the edit before, if it was broken off: what it was to write
   std::size_t number_ = no_id, broken_off_ = no_id; ///< of the edit under way; of the one before, if it was broken off
 
+  /// Where a descriptor is used again, the mesh sees to this in maps of its own.
+  void give_default(const Key& key) {
+    if constexpr (is_recorded && std::is_default_constructible<Value>::value &&
+                  !std::is_same<Map, typename Mesh::template Property_map<Key, Value>>::value)
+      put(map_, key, Value());
+  }
   /// \return nullptr where there is none
   template <class Range>
   static auto find(Range& entries, const Element_ids& ids) -> decltype(&*entries.begin()) {
