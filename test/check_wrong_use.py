@@ -44,6 +44,7 @@ def python_scripts(tree):
             (NO_REGEX, seeds, "-R", "("), ("'nan'", seeds, "--hours", "nan"), ("'0'", seeds, "--seeds", "0"),
             ("cannot be written", seeds, "--json", "/nowhere/x.json"), ("--share", seeds, "--share", "nan"),
             ("'-1'", seeds, "--first", "-1"), ("no such test", seeds, "-R", "none"),
+            ("cannot be written", tree / "test/planted_faults", "--json", "/nowhere/x.json"),
             (NO_REGEX, *fuzz, "-R", "("), ("'0'", *fuzz, "--cores", "0"), ("'-1'", *fuzz, "--runs", "-1"),
             ("'-1'", *fuzz, "--seed", "-1"), ("'0'", *fuzz, "--programs", "0"), ("no such target", *fuzz, "-R", "none"),
             (NO_REGEX, tree / "test/numerics", "-R", "("), (NO_REGEX, tree / "test/numerics", "--tests", "("),
@@ -111,7 +112,7 @@ def plots(folder):
 
 with tempfile.TemporaryDirectory() as place:
     tree = pathlib.Path(place) / "tree"
-    for name in ("test/run", "test/seeds", "test/numerics", "test/coverage", "test/argument_types.py", "test/fuzz/run",
+    for name in ("test/run", "test/seeds", "test/planted_faults", "test/numerics", "test/coverage", "test/argument_types.py", "test/fuzz/run",
                  "test/soak/run", "test/soak/loop_memory.py", "test/examples/hand_paths.py"):
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tree / name)

@@ -7,6 +7,7 @@ is no run, or cannot be written, ends with a message and its exit code."""
 import json
 import pathlib
 import random
+import resource
 import subprocess
 import sys
 import tempfile
@@ -35,7 +36,9 @@ def report(units, shard, shards, seed):
 
 
 def merge_by_command(target, *files):
-    done = subprocess.run([sys.executable, merge_shards.__file__, "--json", target, *files], capture_output=True, text=True)
+    # Bounded: a list of 10^12 shards would take all memory there is.
+    done = subprocess.run([sys.executable, merge_shards.__file__, "--json", target, *files], capture_output=True, text=True,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)))
     return done.returncode, done.stderr
 
 

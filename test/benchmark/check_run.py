@@ -17,7 +17,7 @@ import tempfile
 import time
 from html.parser import HTMLParser
 
-ROOT, BUILD = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+ROOT, BUILD = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 PYTHON = "/usr/bin/python3"  # Debian's, which has its packages
 STEPS = ["axis", "device", "drags_and_edits"]
 faults = []
