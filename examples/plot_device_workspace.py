@@ -1,7 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws what device_workspace wrote: plot_device_workspace.py SAMPLES.txt PICTURE.png"""
-import sys
+"""Draws what device_workspace wrote: plot_device_workspace.py SAMPLES.txt PICTURE.png
+
+Exit: 0 drawn, 2 a file without such samples, or a picture that cannot be written.
+"""
+import argparse
+import warnings
 
 import matplotlib
 
@@ -9,17 +13,47 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-data = np.loadtxt(sys.argv[1])
-x, z = 1e3 * data[:, 0], 1e3 * data[:, 2]
-near = np.abs(data[:, 1]) < 0.006  # a slab about the plane y = 0
-figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4), sharey=True)
-panels = (("condition", data[:, 3]), ("isotropic force, N", data[:, 4]), ("apparent mass, largest axis, g", 1e3 * data[:, 7]))
-for panel, (title, values) in zip(axes, panels):
-    drawn = panel.scatter(x[near], z[near], c=values[near], s=6, vmax=np.percentile(values[near], 95))
-    panel.set_title(title, fontsize=9)
-    panel.set_xlabel("x, mm")
-    panel.set_aspect("equal")
-    figure.colorbar(drawn, ax=panel, shrink=0.8)
-axes[0].set_ylabel("z, mm")
-figure.tight_layout()
-figure.savefig(sys.argv[2], dpi=70)
+COLUMNS = 8
+
+
+def samples_of(path):
+    """(all, whether each is in a slab about the plane y = 0). \\throw ValueError, OSError"""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # that there is none is said below
+        data = np.loadtxt(path, ndmin=2)
+    if data.shape[1] < COLUMNS:
+        raise ValueError(f"there are no samples of {COLUMNS} numbers a line")
+    near = np.abs(data[:, 1]) < 0.006
+    if not near.any():
+        raise ValueError("there is no sample near the plane y = 0, which is drawn")
+    return data, near
+
+
+def draw(data, near, picture):
+    x, z = 1e3 * data[:, 0], 1e3 * data[:, 2]
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4), sharey=True)
+    panels = (("condition", data[:, 3]), ("isotropic force, N", data[:, 4]), ("apparent mass, largest axis, g", 1e3 * data[:, 7]))
+    for panel, (title, values) in zip(axes, panels):
+        drawn = panel.scatter(x[near], z[near], c=values[near], s=6, vmax=np.percentile(values[near], 95))
+        panel.set_title(title, fontsize=9)
+        panel.set_xlabel("x, mm")
+        panel.set_aspect("equal")
+        figure.colorbar(drawn, ax=panel, shrink=0.8)
+    axes[0].set_ylabel("z, mm")
+    figure.tight_layout()
+    figure.savefig(picture, dpi=70)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("samples", help="what device_workspace has written")
+    parser.add_argument("picture", help="where the plots go")
+    arguments = parser.parse_args()
+    try:
+        samples = samples_of(arguments.samples)
+    except (ValueError, OSError) as error:
+        parser.error(f"{arguments.samples}: {error}")
+    try:
+        draw(*samples, arguments.picture)
+    except (ValueError, OSError) as error:
+        parser.error(f"{arguments.picture}: {error}")

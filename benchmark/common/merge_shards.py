@@ -5,10 +5,13 @@
 The merged report is that of the run without --shard, but for times. A row carries the number of its unit, and rows stand
 in the order of units. A unit that is in one shard alone is taken as it is; of one that several shards have, counts add up
 and the largest stays the largest. The exit code is that of the first promise that is broken in all shards together.
-Exit: that code, 0 where every promise is kept, 2 usage: a shard is missing, there twice, or of another run.
+Exit: that code, 0 where every promise is kept, 2 usage: a shard is missing, there twice, or of another run, 5 the merged
+report cannot be written.
 """
 import argparse
+import itertools
 import json
+import os
 import pathlib
 import re
 import sys
@@ -16,6 +19,8 @@ import sys
 TIME = re.compile(r"_ns$|_us$|^ns$|_seconds$|^seconds$|^cpu_us|_cpu_us$|^seconds_|_seconds_|^time_ratio$|^set_up$|^ns_a_line|^ms_|^(shift|held_back|validate)_s$")
 LARGEST = re.compile(r"^(largest|longest|most|max)(_|$)")
 SAME = {"unit", "faces", "triangles", "exit", "may"}  # of a row: part of what it is
+OF_A_PROMISE = {"exit": int, "promise": str, "asked": (int, float), "broken": (int, float), "may": (int, float)}
+MOST_DEEP = 50  # lists and objects in each other: reports have few, and Python takes some hundreds
 ADDED_AT_THE_TOP = {"wrongly_accepted", "wrongly_refused"}
 
 
@@ -117,7 +122,7 @@ def in_order(reports):
     if len(counts) != 1:
         raise Odd_shards("shards of runs with different numbers of them: " + ", ".join(sorted(counts)))
     n = int(counts.pop())
-    missing = [f"{i}/{n}" for i in range(n) if i not in numbered]
+    missing = list(itertools.islice((f"{i}/{n}" for i in range(n) if i not in numbered), 10))  # of 10^12 the first
     if missing:
         raise Odd_shards("missing: shard " + ", ".join(missing))
     return [numbered[i] for i in range(n)]
@@ -150,15 +155,45 @@ def merge(reports):
     return merged
 
 
+def is_deeper(value, most):
+    values = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return most == 0 or any(is_deeper(v, most - 1) for v in values)
+
+
+def is_promise(value):
+    return isinstance(value, dict) and all(isinstance(value.get(k), kind) for k, kind in OF_A_PROMISE.items())
+
+
 def report_in(path):
     """\\throw Odd_shards unless it is the report of a shard"""
     try:
         report = json.loads(path.read_text())
     except (OSError, ValueError) as error:
         raise Odd_shards(f"{path}: {error}") from error
-    if not isinstance(report, dict) or not re.fullmatch(r"\d+/\d+", str(report.get("shard"))):
+    except RecursionError:
+        report = None
+    if not isinstance(report, dict) or not re.fullmatch(r"\d+/\d+", str(report.get("shard"))) or is_deeper(report, MOST_DEEP):
         raise Odd_shards(f"{path} is no report of a shard")
+    promises = report.get("promises", [])
+    if not isinstance(promises, list) or not all(map(is_promise, promises)) or not isinstance(report.get("exit", 0), int):
+        raise Odd_shards(f"{path}: its promises, or its exit code, are none")
     return report
+
+
+def write_report(path, report):
+    """The merged one, whole or not at all. \\throw OSError"""
+    text = json.dumps(report, indent=1) + "\n"
+    if path.exists() and not path.is_file():  # a device or a pipe
+        path.write_text(text)
+        return
+    path = path.resolve()  # a link stays
+    whole = path.with_name(f"{path.name}.{os.getpid()}.whole")
+    try:
+        whole.write_text(text)
+        whole.replace(path)
+    except OSError:
+        whole.unlink(missing_ok=True)
+        raise
 
 
 def main():
@@ -167,11 +202,21 @@ def main():
     parser.add_argument("--json", type=pathlib.Path, required=True, help="where the merged report goes")
     options = parser.parse_args()
     try:
-        merged = merge([report_in(path) for path in options.reports])
+        reports = [report_in(path) for path in options.reports]
+        if options.json.exists() and any(options.json.samefile(path) for path in options.reports):
+            raise Odd_shards(f"{options.json} is a shard: it would be written over")
+        merged = merge(reports)
     except Odd_shards as odd:
         print("merge_shards:", odd, file=sys.stderr)
         return 2
-    options.json.write_text(json.dumps(merged, indent=1) + "\n")
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:  # JSON, but of other things
+        print(f"merge_shards: no reports of one run: {', '.join(map(str, options.reports))}: {error!r}", file=sys.stderr)
+        return 2
+    try:
+        write_report(options.json, merged)
+    except OSError as error:
+        print(f"merge_shards: {options.json} cannot be written: {error.strerror}", file=sys.stderr)
+        return 5
     return merged.get("exit", 0)
 
 

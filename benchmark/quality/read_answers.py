@@ -13,6 +13,8 @@ import pathlib
 import sys
 from fractions import Fraction
 
+ANSWERS = {("0", 1), ("1", 1), ("1", 2), ("-", 1)}  # what a line begins with, and how many words it has
+
 
 class Bad_answers(Exception):
     """Names the file and the line."""
@@ -22,7 +24,7 @@ def text_of(path):
     try:
         if not path.is_file():
             raise Bad_answers(f"{path} is no file")
-        return path.read_text()
+        return path.read_text(encoding="utf-8-sig")  # a mark of the order of bytes is no answer
     except ValueError:  # its bytes, or those of its name
         raise Bad_answers(f"{str(path)!r} is no text") from None
 
@@ -66,18 +68,20 @@ def read_one(path):
     largest = None
     for (number, words), impact in zip(answers, truth):
         hits = impact is not None
-        if words[0] not in ("0", "1", "-") or len(words) > 2:
+        time = None
+        try:
+            is_answer = (words[0], len(words)) in ANSWERS
+            time = float(words[1]) if is_answer and len(words) == 2 else None
+        except ValueError:
+            is_answer = False
+        if not is_answer:
             raise Bad_answers(f"{path}, line {number}: '{' '.join(words)}' is not 0, 1, 1 u or -")
         if words[0] == "-":
             none += 1
             continue
         false_positives += words[0] == "1" and not hits
         false_negatives += words[0] == "0" and hits
-        if words[0] == "1" and hits and len(words) == 2:
-            try:
-                time = float(words[1])
-            except ValueError:
-                raise Bad_answers(f"{path}, line {number}: '{words[1]}' is not a number") from None
+        if hits and time is not None:
             error = float(abs(Fraction(time) - impact)) if 0 <= time <= 1 else 1.0
             largest = max(largest or 0.0, error)
     return {"name": head.get("name", path.stem), "queries": len(truth), "seconds_a_query": seconds, "false_positives": false_positives,

@@ -3,11 +3,11 @@
 """Draws a trace of haptic_loop: draw_trace.py TRACE.csv PICTURE. Needs python3-matplotlib.
 
 Three plots: the forces over time, how far the proxy is behind the hand, and how many ticks took which time of the processor.
+Exit: 0 drawn, 2 a file that is no trace, or a picture that cannot be written.
 """
 import argparse
 import csv
 import math
-import sys
 
 import matplotlib
 
@@ -18,18 +18,25 @@ COUPLING, RENDERED, LAG = "#e69f00", "#0072b2", "#009e73"  # told apart by colou
 NEEDED = ["t", "tx", "ty", "tz", "x", "y", "z", "fcx", "fcy", "fcz", "fx", "fy", "fz", "cpu_ns"]
 
 
+class No_trace(Exception):
+    """Names the file."""
+
+
 def rows_of(path):
+    """\\throw No_trace, OSError"""
     with open(path, newline="") as file:
         reader = csv.DictReader(file)
-        missing = [name for name in NEEDED if name not in (reader.fieldnames or [])]
-        if missing:
-            sys.exit(f"{path} has no column '{missing[0]}'. Give a file that haptic_loop --trace has written.")
         try:
+            missing = [name for name in NEEDED if name not in (reader.fieldnames or [])]
+            if missing:
+                raise No_trace(f"{path} has no column '{missing[0]}'. Give a file that haptic_loop --trace has written.")
             rows = [{name: float(row[name]) for name in NEEDED} for row in reader]
-        except (TypeError, ValueError) as error:
-            sys.exit(f"{path}, line {reader.line_num}: {error}")
+        except (TypeError, ValueError, csv.Error) as error:
+            raise No_trace(f"{path}, line {reader.line_num}: {error}") from None
     if not rows:
-        sys.exit(f"{path} has no row: nothing is drawn")
+        raise No_trace(f"{path} has no row: nothing is drawn")
+    if not all(math.isfinite(row["cpu_ns"]) for row in rows):
+        raise No_trace(f"{path}: a cpu_ns is not finite")
     return rows
 
 
@@ -52,8 +59,15 @@ def draw(rows, picture):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("trace", help="what haptic_loop --trace has written")
     parser.add_argument("picture", help="where the plots go: .png, .svg or .pdf")
     arguments = parser.parse_args()
-    draw(rows_of(arguments.trace), arguments.picture)
+    try:
+        rows = rows_of(arguments.trace)
+    except (No_trace, OSError) as error:
+        parser.error(str(error))
+    try:
+        draw(rows, arguments.picture)
+    except (OSError, ValueError) as error:  # not all of them name a file
+        parser.error(f"{arguments.trace} as {arguments.picture}: {error}")

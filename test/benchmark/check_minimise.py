@@ -40,6 +40,50 @@ def box(x):
     return points, [t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))]
 
 
+def minimise(*words):
+    return subprocess.run([sys.executable, str(ROOT / "benchmark/robustness/minimise"), *map(str, words)],
+                          capture_output=True, text=True)
+
+
+def wrong_use(folder, mesh, script, faults):
+    """Exit code 2, before anything is tried, and what is given is as it was."""
+    (folder / "no_text.script").write_bytes(b"\xff\xfe")
+    no_program = folder / "no_program"
+    no_program.write_text("\0")
+    no_program.chmod(0o755)
+    before = mesh.read_bytes(), script.read_bytes(), sorted(folder.iterdir())
+    new = ("--out", folder / "new")
+    for words, said in (((SCULPT, mesh, folder / "lost.script", *new), "lost.script"),
+                        ((SCULPT, mesh, folder / "no_text.script", *new), "no_text.script"),
+                        ((SCULPT, folder / "lost.off", script, *new), "lost.off"),
+                        ((folder / "lost", mesh, script, *new), "lost"), ((no_program, mesh, script, *new), "no_program"),
+                        ((SCULPT, mesh, script, *new, "--command", "/nowhere/program {mesh}"), "/nowhere/program"),
+                        ((SCULPT, mesh, script, *new, "--command", ""), "is empty"),
+                        ((SCULPT, mesh, script, *new, "--command", "true {"), "a brace"),
+                        ((SCULPT, mesh, script, *new, "--command", "true {mash}"), "a brace"),
+                        ((SCULPT, mesh, script, *new, "--command", "true '"), "No closing quotation"),
+                        ((SCULPT, mesh, script, *new, "--seconds", "nan"), "--seconds"),
+                        ((SCULPT, mesh, script, "--out", folder / "nowhere/small"), "nowhere/small.off"),
+                        ((SCULPT, mesh, script, "--out", ""), "is no name"),
+                        ((SCULPT, mesh, script, "--out", mesh.with_suffix("")), "is read from")):
+        done = minimise(*words)
+        if done.returncode != 2 or said not in done.stderr or "Traceback" in done.stderr:
+            faults.append(f"wrong use, {words[1:]}: exit {done.returncode}, {done.stderr[-500:]}")
+    if before != (mesh.read_bytes(), script.read_bytes(), sorted(folder.iterdir())):
+        faults.append("wrong use has changed files")
+
+
+def places(folder, mesh, lines, faults):
+    """A vertex may be named by a place near it, which is kept as it is."""
+    script, place = folder / "places.script", "drag @0.1,0.1,0 0.1 0.1 0.1"
+    script.write_text("\n".join([place, *lines[:3]]) + "\n")
+    needed = f"grep -qF '{place}' {{script}}"
+    done = minimise(SCULPT, mesh, script, "--out", folder / "places_small", "--command", needed, "--exit", 0)
+    left = (folder / "places_small.script").read_text().splitlines()[1:] if done.returncode == 0 else []
+    if left != [place]:
+        faults.append(f"a place that is needed: exit {done.returncode}, {left}, {done.stderr[-500:]}")
+
+
 def main():
     draw = random.Random(SEED)
     points, faces = [], []
@@ -103,6 +147,8 @@ def main():
         drags = [line for line in small if line.startswith("drag ")]
         if len(drags) != 1 or mark not in drags[0]:
             faults.append(f"a push that stays: exit {stays.returncode}, {small}, {stays.stderr}")
+        wrong_use(folder, mesh, script, faults)
+        places(folder, mesh, lines, faults)
         print(*faults, sep="\n")
         return 1 if faults else 0
 

@@ -17,7 +17,7 @@ import tempfile
 import time
 from html.parser import HTMLParser
 
-ROOT, BUILD = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+ROOT, BUILD = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 PYTHON = "/usr/bin/python3"  # Debian's, which has its packages
 STEPS = ["axis", "device", "drags_and_edits"]
 faults = []
@@ -104,7 +104,8 @@ def wrong_use(folder):
     none = str(folder / "none")
     for option, value, said in (("--cores", "0", "--cores"), ("--minutes", "nan", "--minutes"),
                                 ("--minutes", "-1", "--minutes"), ("--shards", "-1", "--shards"),
-                                ("--seed", "-5", "--seed"), ("--build", none, "no folder with a build"),
+                                ("--seed", "-5", "--seed"), ("--seed", "99999999999999999999", "--seed"),
+                                ("--build", none, "no folder with a build"),
                                 ("--profile", "nosuch", "no profile nosuch"), ("--answers", none, "there is no file"),
                                 ("--out", "", "empty"), ("--out", "/dev/null/x", "cannot make the folder")):
         done = run(folder / "wrong", "device", option, value)
@@ -466,6 +467,15 @@ def answers(out, folder):
         expect(done.returncode == 2 and "truth.txt" in done.stderr and "Traceback" not in done.stderr,
                f"truth that is {line!r}: exit {done.returncode}, {done.stderr}")
     script = ROOT / "benchmark/quality/read_answers.py"
+    place = folder / "few"
+    place.mkdir()
+    (place / "truth.txt").write_text("0\n0\n1 1/2\n1 1/2\n")
+    for text, code in (("\ufeff# name: X\n0\n-\n1\n1 0.5\n", 0), ("0 abc\n-\n1\n1\n", 1), ("0\n- x\n1\n1\n", 1),
+                       ("1 abc\n-\n1\n1\n", 1), ("0\n-\n1\n1 abc\n", 1), ("0\n-\n1\n1 0.5 0.5\n", 1)):
+        (place / "answers.txt").write_text(text, encoding="utf-8")
+        told = subprocess.run([PYTHON, str(script), str(place / "answers.txt")], capture_output=True, text=True)
+        is_told = '"name": "X"' in told.stdout if code == 0 else "is not 0, 1, 1 u or -" in told.stderr
+        expect(told.returncode == code and is_told, f"answers {text!r}: {told}")
     expect(os.access(script, os.X_OK), "read_answers.py is not to be run by its name")
     told = subprocess.run([PYTHON, str(script), "--help"], capture_output=True, text=True)
     expect(told.returncode == 0 and "# queries: FOLDER" in told.stdout, f"read_answers.py --help: {told}")

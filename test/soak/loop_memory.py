@@ -4,7 +4,7 @@
 
 A hand goes about at random, in and out of the mesh; it presses its buttons, or touches only. What it edits may cost
 memory: the history and the journal keep it. What it touches may not. Exit code 0: the memory is as flat as the named
-bounds say; 1: it is not, or the loop failed."""
+bounds say; 1: it is not, or the loop failed; 2: wrong use."""
 import argparse
 import json
 import os
@@ -15,12 +15,15 @@ import sys
 import tempfile
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "examples"))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent.parent / name) for name in (".", "examples")]
+from argument_types import number, whole_number
 from hand_paths import BUTTONS_OF_A_HAND, random_path
 
 TICKS_A_SECOND = 1000
 # Simulated seconds that one of the clock may bring: more than the fastest machine makes of a path.
 FASTEST = 200
+# Minutes: before it is ended the loop has to have begun, to end in order, and its memory to have been looked at some times.
+LEAST = 0.1
 # Bytes after the first quarter, touching only: what allocators keep in pieces, and pages used for the first time.
 ALLOWED = 4 << 20
 # Bytes that an edit may keep: those of a grab, a creation or a removal in the history, the mesh and the tables; 1.2 to
@@ -45,8 +48,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("loop")
     parser.add_argument("mesh")
-    parser.add_argument("--minutes", type=float, default=1)
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--minutes", type=number(LEAST, 10000, ": the loop has to have begun"), default=1)
+    parser.add_argument("--seed", type=whole_number(0), default=1)
     parser.add_argument("--touch", action="store_true", help="press no button: nothing is edited")
     options = parser.parse_args()
     rng, seconds = random.Random(options.seed), FASTEST * 60 * options.minutes

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""check_wrong_use.py ROOT: scripts that are used wrongly end with exit code 2 and a message, before any work; nothing is
+built. In a copy of a tree that has no build and no programs but those below."""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(sys.argv[1]).resolve()
+faults = []
+TRACE = "t,tx,ty,tz,x,y,z,fcx,fcy,fcz,fx,fy,fz,cpu_ns"
+NO_REGEX = "is no regular expression"
+
+
+def expect(code, said, *words, **more):
+    try:
+        done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=60, **more)
+    except subprocess.TimeoutExpired:
+        faults.append(f"{words} does not end")
+        return
+    told = done.stdout + done.stderr
+    if done.returncode != code or said not in told or "Traceback" in told:
+        faults.append(f"{words}: exit {done.returncode}, expected {code} and '{said}': {told[-500:]}")
+
+
+def program(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    path.chmod(0o755)
+
+
+def python_scripts(tree):
+    # A test that passes at once, with one randomised case: what would begin to run would end with 0.
+    program(tree / "build/test/test_a", '#!/bin/sh\n[ "$1" != --list_content ] || echo case_a\necho seed 1\n')
+    program(tree / "build-test/test/fuzz/fuzz_a", "#!/bin/sh\necho no promise broken\n")
+    seeds, fuzz = tree / "test/seeds", (tree / "test/fuzz/run", "--no-build", "--preset", "test")
+    soak, memory = tree / "test/soak/run", (tree / "test/soak/loop_memory.py", "true", "none.off")
+    expect(0, "1 randomised cases", sys.executable, seeds, "--seeds", "2", "--json", tree / "seeds.json")
+    expect(0, "| `fuzz_a` | 3 |", sys.executable, *fuzz, "--runs", "3", "-R", "_a$")
+    for said, *words in (
+            (NO_REGEX, seeds, "-R", "("), ("'nan'", seeds, "--hours", "nan"), ("'0'", seeds, "--seeds", "0"),
+            ("cannot be written", seeds, "--json", "/nowhere/x.json"), ("--share", seeds, "--share", "nan"),
+            ("'-1'", seeds, "--first", "-1"), ("no such test", seeds, "-R", "none"),
+            ("cannot be written", tree / "test/planted_faults", "--json", "/nowhere/x.json"),
+            (NO_REGEX, *fuzz, "-R", "("), ("'0'", *fuzz, "--cores", "0"), ("'-1'", *fuzz, "--runs", "-1"),
+            ("'-1'", *fuzz, "--seed", "-1"), ("'0'", *fuzz, "--programs", "0"), ("no such target", *fuzz, "-R", "none"),
+            (NO_REGEX, tree / "test/numerics", "-R", "("), (NO_REGEX, tree / "test/numerics", "--tests", "("),
+            ("'0'", tree / "test/numerics", "--scale", "0"), (NO_REGEX, tree / "test/coverage", "-R", "("),
+            ("'x'", tree / "test/coverage", "--jobs", "x"), ("'nan'", soak, "--no-build", "--minutes", "nan"),
+            ("a loop has to have begun", soak, "--no-build", "--minutes", "0.01"),
+            ("a loop has to have begun", soak, "--no-build", "--minutes", "-1"),
+            ("is not built", soak, "--no-build", "--preset", "debug"),
+            ("the loop has to have begun", *memory, "--minutes", "0.01")):
+        expect(2, said, sys.executable, *words)
+
+
+def test_run(tree):
+    """With a ctest that knows two options and a cmake that ends with 9: so far, and no farther, right uses come."""
+    program(tree / ".ci/install_packages", "")
+    program(tree / "bin/cmake", "#!/bin/sh\nexit 9\n")
+    program(tree / "bin/ctest", '#!/bin/sh\n[ "$1" = --help ] || exit 8\ncat <<E\n'
+            "  -R <regex>, --tests-regex <regex>\n  -V,--verbose\n  -j <jobs>\n  -N,--show-only[=format]\n"
+            "  --no-tests=<[error|ignore]>\nE\n")
+    path = {"env": {**os.environ, "PATH": f"{tree / 'bin'}:{os.environ['PATH']}"}}
+    run = ("bash", tree / "test/run")
+    for words in ([], ["--quick"], ["--sanitize", "-R", "a"], ["--thread-sanitizer", "-V"], ["-R", "a b", "-j4"],
+                  ["--tests-regex", "", "--no-tests=error"], ["-N", "--show-only", "--show-only=human", "-j", "2"]):
+        expect(9, "", *run, *words, **path)
+    for said, *words in (("--quick has to come first", "-R", "a", "--quick"), ("--sanitize has", "--quick", "--sanitize"),
+                         ("--thread-sanitizer has", "-V", "--thread-sanitizer"), ("no --nosuch", "--nosuch"),
+                         ("no --quick=1", "--quick=1"), ("no -R=a", "-R=a"), ("no --tests-regex=a", "--tests-regex=a"),
+                         ("'collision' belongs to no option", "collision"), ("'b' belongs", "-R", "a", "b")):
+        expect(2, said, *run, *words, **path)
+    for words in (["--help"], ["-R", "a", "-h"]):
+        expect(0, "Installs what is missing", *run, *words, **path)
+
+
+def plots(folder):
+    python = next((p for p in (sys.executable, "/usr/bin/python3") if subprocess.run(
+        [p, "-c", "import matplotlib, numpy"], capture_output=True).returncode == 0), None)
+    if python is None:
+        print("skipped: the plots, because python3-matplotlib is not installed")
+        return
+    trace, samples = ((python, ROOT / "examples" / name) for name in ("haptic_loop/draw_trace.py", "plot_device_workspace.py"))
+    good, row = folder / "good", "1," * TRACE.count(",") + "1000"
+    good.write_text(f"{TRACE}\n{row}\n{row}\n")
+    expect(0, "", *trace, good, folder / "trace.png")
+    expect(2, "nowhere/trace.png", *trace, good, folder / "nowhere/trace.png")
+    for name, text in (("empty", b""), ("binary", b"\xff\xfe\0"), ("no_column", b"a,b\n1,2\n"), ("no_row", f"{TRACE}\n".encode()),
+                       ("short", f"{TRACE}\n1\n".encode()), ("nan", f"{TRACE}\n{row[:-4]}nan\n".encode()), ("folder", None),
+                       ("lost", None)):
+        given = folder / name
+        if text is not None:
+            given.write_bytes(text)
+        elif name == "folder":
+            given.mkdir()
+        expect(2, str(given), *trace, given, folder / "none.png")
+        expect(2, str(given), *samples, given, folder / "none.png")
+    good.write_text("0 0 0 1 1 1 1 1\n0.001 0.001 0 1 2 1 1 1\n")
+    expect(0, "", *samples, good, folder / "samples.png")
+    expect(2, "nowhere/samples.png", *samples, good, folder / "nowhere/samples.png")
+    good.write_text("0 1 0 1 1 1 1 1\n")
+    expect(2, "near the plane", *samples, good, folder / "none.png")
+    expect(2, "usage", *samples)
+    for name in ("trace.png", "samples.png"):
+        if not (folder / name).exists():
+            faults.append(f"{name} is not drawn")
+
+
+with tempfile.TemporaryDirectory() as place:
+    tree = pathlib.Path(place) / "tree"
+    for name in ("test/run", "test/seeds", "test/planted_faults", "test/numerics", "test/coverage", "test/argument_types.py", "test/fuzz/run",
+                 "test/soak/run", "test/soak/loop_memory.py", "test/examples/hand_paths.py"):
+        (tree / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, tree / name)
+    python_scripts(tree)
+    test_run(tree)
+    plots(pathlib.Path(place))
+print(f"{len(faults)} faults", *faults, sep="\n")
+sys.exit(1 if faults else 0)
