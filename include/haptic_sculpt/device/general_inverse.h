@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/device/ditetrahedral_kinematics.h>
 #include <haptic_sculpt/device/general_kinematics.h>
+#include <haptic_sculpt/device/linear_algebra/Small_lu.h>
 
 #include <vector>
 
@@ -12,6 +13,38 @@
 
 namespace haptic_sculpt {
 namespace internal {
+
+/// The six equations at a fixed platform position, in units of l2: of each leg (|link|^2 - 1) / 2 and arm . axis, with
+/// the arm from the centre to the elbow, and their derivative by the joint angles and a rotation vector of the
+/// platform.
+template <class S>
+struct Position_equations {
+  Eigen::Matrix<S, 6, 1> f;                 ///< of the three legs their lengths, then their right angles
+  Eigen::Matrix<S, 6, 6> derivative;        ///< by the three joint angles, then the rotation vector
+  Device_vector<S> link_length, arm_length; ///< of each leg, in l2
+
+  /// \param pose its elbows are those of its angles
+  Position_equations(const Device_parameters<S>& parameters, const Device_vector<S>& position,
+                     const Device_pose<S>& pose) {
+    using std::sqrt;
+    const S scale = parameters.inverse_secondary_length(), r = parameters.platform_radius() * scale;
+    derivative.setZero();
+    for (int i = 0; i < 3; ++i) {
+      const Device_vector<S> axis = pose.orientation * Leg_frame<S>::tangential(i);
+      const Device_vector<S> rate = pose.elbow_rate(parameters, i) * scale,
+                             arm = (pose.elbows.col(i) - position) * scale;
+      const Device_vector<S> lever = r * (pose.orientation * Leg_frame<S>::radial(i)), link = lever - arm;
+      const S square = link.squaredNorm();
+      link_length[i] = sqrt(square), arm_length[i] = sqrt(S(arm.squaredNorm()));
+      f[i] = (square - S(1)) / S(2);
+      f[3 + i] = arm.dot(axis);
+      derivative(i, i) = -link.dot(rate);
+      derivative(3 + i, i) = rate.dot(axis);
+      derivative.template block<1, 3>(i, 3) = lever.cross(link).transpose();
+      derivative.template block<1, 3>(3 + i, 3) = axis.cross(arm).transpose();
+    }
+  }
+};
 
 /// Newton's method at a fixed platform position from the angles and rotation in `pose`; steps are cut to 0.3 rad. On
 /// success the pose is complete. False if it does not settle within `most_iterations`.
@@ -25,24 +58,10 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (!place_elbows(parameters, Device_vector<S>(pose.theta), pose))
       return false;
-    Eigen::Matrix<S, 6, 6> a = Eigen::Matrix<S, 6, 6>::Zero();
-    Eigen::Matrix<S, 6, 1> f;
-    for (int i = 0; i < 3; ++i) {
-      const Device_vector<S> radial = pose.orientation * Leg_frame<S>::radial(i),
-                             axis = pose.orientation * Leg_frame<S>::tangential(i);
-      const Device_vector<S> rate = pose.elbow_rate(parameters, i) * scale,
-                             arm = (pose.elbows.col(i) - position) * scale;
-      const Device_vector<S> lever = (r * scale) * radial, link = lever - arm;
-      f[i] = (link.squaredNorm() - S(1)) / S(2);
-      f[3 + i] = arm.dot(axis);
-      a(i, i) = -link.dot(rate);
-      a(3 + i, i) = rate.dot(axis);
-      a.template block<1, 3>(i, 3) = lever.cross(link).transpose();
-      a.template block<1, 3>(3 + i, 3) = axis.cross(arm).transpose();
-    }
+    const Position_equations<S> equations(parameters, position, pose);
     Small_lu<S, 6> lu;
-    lu.compute(a);
-    Eigen::Matrix<S, 6, 1> step = lu.solve(-f);
+    lu.compute(equations.derivative);
+    Eigen::Matrix<S, 6, 1> step = lu.solve(-equations.f);
     S length = step.cwiseAbs().maxCoeff();
     if (!is_finite(length) || !all_finite(step))
       return false;
@@ -82,6 +101,52 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
     previous = length;
   }
   return false;
+}
+
+/// How far joint angles and platform turn at most, rad, where the centre moves straight from that of `from` to
+/// `position`, if it is certain that no singular pose is on that way; else infinite. At the end the pose is the only
+/// one within this of `from`. By a contraction that holds at every place of the way (doc/proofs/device.md).
+template <class S>
+S certain_turn(const Device_parameters<S>& parameters, const Device_vector<S>& position, const Device_pose<S>& from) {
+  using std::sqrt;
+  const S scale = parameters.inverse_secondary_length(), l1 = parameters.primary_length() * scale,
+          r = parameters.platform_radius() * scale, root_3 = sqrt(S(3));
+  const S moved = (position - from.position).norm() * scale;
+  const Position_equations<S> equations(parameters, position, from);
+  const S extent = (position.norm() + parameters.base_radius()) * scale + l1 + r;
+  const S rounding = S(16) * std::numeric_limits<S>::epsilon() * (S(1) + extent * extent);
+  Small_lu<S, 6> lu;
+  lu.compute(equations.derivative);
+  Eigen::Matrix<S, 6, 6> inverse;
+  for (int k = 0; k < 6; ++k)
+    inverse.col(k) = lu.solve(Eigen::Matrix<S, 6, 1>::Unit(k));
+  // Through the inverse, of numbers that bound those of each equation.
+  const auto weighed = [&](const S& of_lengths, const S& of_right_angles) {
+    Eigen::Matrix<S, 6, 1> bounds;
+    bounds << of_lengths, of_lengths, of_lengths, of_right_angles, of_right_angles, of_right_angles;
+    return S((inverse.cwiseAbs() * bounds).maxCoeff());
+  };
+  // What is left of the equations anywhere on the way: lengths are of second degree in the place, right angles linear.
+  const S first = S((inverse * equations.f).cwiseAbs().maxCoeff()) + weighed(moved * moved / S(8) + rounding, rounding);
+  const S turned = S(2) * first;
+  const S drift = weighed(moved * (l1 + root_3 * r), moved * root_3); // of the derivative, by the move of the centre
+  const S link_rate = l1 + root_3 * r, link = equations.link_length.maxCoeff() + moved + turned * link_rate,
+          arm = equations.arm_length.maxCoeff() + moved + turned * l1;
+  const S curvature = weighed(link_rate * link_rate + link * (l1 + S(3) * r), l1 + S(2) * root_3 * l1 + S(3) * arm);
+  return drift + curvature * turned <= S(0.5) ? turned : std::numeric_limits<S>::infinity();
+}
+
+/// The largest joint angle, or part of a rotation vector of the platform, from one pose to another, rad.
+template <class S>
+S turn_between(const Device_pose<S>& from, const Device_pose<S>& to) {
+  using std::atan2;
+  const Device_matrix<S> turn = to.orientation * from.orientation.transpose();
+  const Device_vector<S> sines =
+      Device_vector<S>(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1)) / S(2);
+  const S sine = sines.norm(), angle = atan2(sine, S((turn.trace() - S(1)) / S(2)));
+  const S of_platform = sine > S(0) ? S(angle * largest_magnitude(sines) / sine) : angle;
+  const S of_joints = largest_magnitude(Device_vector<S>(to.theta - from.theta));
+  return of_platform > of_joints ? of_platform : of_joints;
 }
 
 /// Reduces angles to (-pi, pi], or to the nearest turn that is within the joint limits.
@@ -139,22 +204,22 @@ Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, 
     return outcome;
   }
   const Device_vector<S> start = previous.position, way = position - start;
+  constexpr int most_steps = 20000;
+  const S least_step(1e-7); // of the way: nearer to a singular pose is at it
   Device_pose<S> reached = previous;
   S done(0), step(1);
-  for (int k = 0; k < 200 && done < S(1); ++k) {
+  for (int k = 0; k < most_steps && done < S(1); ++k) {
     const bool last = done + step >= S(1);
     Device_pose<S> next = reached;
     const Device_vector<S> target = last ? position : Device_vector<S>(start + (done + step) * way);
-    // A step that turns a part by more than a third of a radian may have changed the branch: halve it.
-    if (inverse_newton(parameters, target, next, 12) &&
-        largest_magnitude(Device_vector<S>(next.theta - reached.theta)) < S(0.35) &&
-        (next.orientation - reached.orientation).cwiseAbs().maxCoeff() < S(0.35)) {
+    const S turned = certain_turn(parameters, target, reached);
+    if (is_finite(turned) && inverse_newton(parameters, target, next, 12) && turn_between(reached, next) <= turned) {
       reached = next;
       done = last ? S(1) : done + step;
       step *= S(2);
     } else {
       step /= S(2);
-      if (step < S(1e-5))
+      if (step < least_step)
         break;
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/device/elbow_way.h>
 #include <haptic_sculpt/device/platform_closure.h>
 
 /// \file
@@ -52,24 +53,42 @@ inline bool place_platform(const Device_parameters<S>& parameters, const Link_an
   return all_finite(pose.position) && all_finite(pose.orientation);
 }
 
+/// Whether the mode x is certain to go on, without a singular pose, while the joints turn straight from those of the
+/// elbows `from` to those of `to`, none by more than `turned` rad. If so, x is the link angles there; else it stays.
+template <class S>
+inline bool certified_step(const Device_parameters<S>& parameters, const Device_matrix<S>& from,
+                           const Device_matrix<S>& to, const S& turned, Link_angles<S>& x) {
+  Link_angles<S> next = x;
+  next.normalize();
+  if (!elbows_stay_off_a_line(parameters, from, turned) ||
+      certified_newton(Platform_closure<S>(parameters, to), next, strayed_separation(parameters, turned)) !=
+          Newton_end::converged)
+    return false;
+  x = next;
+  return true;
+}
+
 /// Follows the mode x from `from` to `to` along the straight way between the two triples of joint angles, in certified
-/// steps. Returns the part of the way done: 1 on success. The steps shrink towards a fold; no more than `most_steps`
-/// are taken.
+/// steps. Returns the part of the way done: 1 on success. The steps shrink towards a singular pose; no more than
+/// `most_steps` are taken.
 template <class S>
 inline S follow_mode(const Device_parameters<S>& parameters, const Device_vector<S>& from, const Device_vector<S>& to,
                      Link_angles<S>& x, int most_steps) {
+  const S turned = largest_magnitude(Device_vector<S>(to - from));
   S done(0), step(0.5);
-  Device_pose<S> pose;
+  Device_pose<S> here, there;
+  if (!place_elbows(parameters, from, here))
+    return done;
   for (int k = 0; k < most_steps; ++k) {
     const bool last = done + step >= S(1);
     const Device_vector<S> theta = last ? to : Device_vector<S>(from + (done + step) * (to - from));
-    place_elbows(parameters, theta, pose);
-    Link_angles<S> next = x;
-    if (certified_newton(Platform_closure<S>(parameters, pose.elbows), next) == Newton_end::converged) {
-      x = next;
-      x.normalize();
-      if (last)
+    place_elbows(parameters, theta, there);
+    if (certified_step(parameters, here.elbows, there.elbows, S((last ? S(1) - done : step) * turned), x)) {
+      if (last) {
+        x.normalize();
         return S(1);
+      }
+      here.elbows = there.elbows;
       done += step;
       step *= S(2);
     } else {
@@ -122,14 +141,11 @@ inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& param
     return outcome;
   }
   Link_angles<S> x{previous.cos_phi, previous.sin_phi};
-  x.normalize();
-  if (certified_newton(Platform_closure<S>(parameters, pose.elbows), x) != Newton_end::converged) {
-    x = Link_angles<S>{previous.cos_phi, previous.sin_phi};
-    x.normalize();
+  const S turned = largest_magnitude(Device_vector<S>(theta - previous.theta));
+  if (!certified_step(parameters, previous.elbows, pose.elbows, turned, x)) {
     const S done = follow_mode(parameters, previous.theta, theta, x, 400);
     if (done < S(1)) {
-      outcome.fail(Device_status::mode_lost,
-                   (S(1) - done) * largest_magnitude(Device_vector<S>(theta - previous.theta)));
+      outcome.fail(Device_status::mode_lost, (S(1) - done) * turned);
       return outcome;
     }
   }

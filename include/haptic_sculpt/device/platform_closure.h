@@ -145,15 +145,23 @@ template <class S> struct Platform_closure {
 
   /// A bound of the second derivative, as a map from steps to residuals in the largest-magnitude norm.
   S curvature_bound() const { return S(2) * linear + S(8); }
+  /// What rounding can make of a residual: of each of its terms a few roundings, those of cosines and sines too.
+  S residual_rounding() const {
+    return S(16) * std::numeric_limits<S>::epsilon() *
+           (constant + S(2) * linear + S(3) + largest_magnitude(separation_squared));
+  }
 };
 
 /// How a Newton iteration ended.
 enum class Newton_end { converged, not_certified, stalled };
 
 /// Newton's method on the closure, started only if Kantorovich's theorem promises convergence to the one solution
-/// nearby: |G^-1| L |first step| <= 1/2 with L the curvature bound. So the solution found is the continuation of the
+/// nearby: |G^-1| L |first step| <= 1/2 with L the curvature bound, rounding of the step counted.
+/// \param strayed how far the separations stray from the straight line between those of the start and the closure's on
+/// the way between. With it the theorem holds all along the way, so that the solution found is the continuation of the
 /// start, never that of another assembly mode.
-template <class S> inline Newton_end certified_newton(const Platform_closure<S>& closure, Link_angles<S>& x) {
+template <class S>
+inline Newton_end certified_newton(const Platform_closure<S>& closure, Link_angles<S>& x, const S& strayed = S(0)) {
   using std::abs;
   const S bound = closure.curvature_bound();
   const S epsilon = std::numeric_limits<S>::epsilon();
@@ -169,8 +177,10 @@ template <class S> inline Newton_end certified_newton(const Platform_closure<S>&
       const S sum = abs(adjugate(row, 0)) + abs(adjugate(row, 1)) + abs(adjugate(row, 2));
       inverse_norm = sum > inverse_norm ? sum : inverse_norm;
     }
-    const S contraction = inverse_norm * abs(inverse_determinant) * bound * length;
-    if (iteration == 0 && !(contraction <= S(0.5)))
+    inverse_norm *= abs(inverse_determinant);
+    const S contraction = inverse_norm * bound * length;
+    if (iteration == 0 &&
+        !(contraction + inverse_norm * bound * inverse_norm * (strayed + closure.residual_rounding()) <= S(0.5)))
       return Newton_end::not_certified;
     x.turn(step);
     // The next error is at most contraction times this step.

@@ -12,7 +12,7 @@ namespace haptic_sculpt {
 template <class S> struct Workspace_limits {
   S least_transmission =
       S(0.1); ///< |sin| of the knee angle times cos gamma: below it a motor's torque explodes into link force
-  S greatest_tilt = S(1);           ///< of the platform's axis from the vertical, rad; general form
+  S greatest_tilt = S(1);           ///< of the platform's axis from the vertical, 0 to pi, rad; general form
   S greatest_condition = S(50);     ///< of the velocity equations
 };
 

@@ -79,6 +79,22 @@ BOOST_AUTO_TEST_CASE(a_hand_comes_to_rest_where_it_wants_to_be) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(torques_that_are_not_finite_are_refused_and_forgotten) {
+  const Hand_path path({{0, {0.004, 0.002, 0.136}, 0}});
+  const Device_parameters<double> parameters = device(Device_form::ditetrahedral, 0.005);
+  const Simulated_hand hand = Simulated_hand::finger();
+  Simulated_device tried(parameters, *home_pose(parameters), hand, path, 0.001, 1),
+      other(parameters, *home_pose(parameters), hand, path, 0.001, 1);
+  const Vector3d torque(0.01, 0, 0), bad(0, std::nan(""), 0);
+  for (int k = 0; k < 5; ++k) {
+    BOOST_TEST((tried.write(bad, torque) == Device_status::not_finite));
+    BOOST_TEST((tried.write(torque, bad) == Device_status::not_finite));
+    BOOST_TEST((tried.write(torque, torque) == Device_status::success));
+    other.write(torque, torque);
+    BOOST_TEST((tried.read().theta == other.read().theta && tried.read().torque == other.read().torque));
+  }
+}
+
 /// Energy of all springs and masses of a hand but the first mass, J.
 double energy_of(const Simulated_hand& hand, const Simulated_hand::States& states, const Vector3d& handle,
                  const Vector3d& wish) {

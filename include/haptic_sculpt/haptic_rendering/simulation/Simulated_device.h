@@ -45,8 +45,11 @@ public:
   }
 
   /// \param interaction the part of the torque that is there for the hand: its work is the energy of the port
-  /// \return `success`, or why the mechanism cannot move on; it stays where it is then
+  /// \return `success`, or why the mechanism cannot move on; it stays where it is then. `not_finite` for torques that
+  /// are not: nothing has happened
   Device_status write(const Eigen::Vector3d& torque, const Eigen::Vector3d& interaction) {
+    if (!torque.allFinite() || !interaction.allFinite())
+      return Device_status::not_finite;
     const double limit = parameters_.torque_limit();
     held_.command(torque.cwiseMax(-limit).cwiseMin(limit));
     interaction_.command(interaction);
