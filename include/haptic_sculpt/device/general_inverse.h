@@ -192,8 +192,9 @@ std::vector<Device_pose<S>> general_inverse_all(const Device_parameters<S>& para
 /// The pose with the platform's centre at `position`, reached from `previous` by moving the centre straight there. Its
 /// joint angles are from -pi to pi, or of the nearest turn within the joint limits.
 ///
-/// Failures: `not_finite`; `unreachable`: the way ends at the edge of the workspace, shortfall the distance left, m.
-/// Cost: some microseconds; more at the workspace's edge. No allocation.
+/// Of steps that are certain to keep the branch (doc/proofs/device.md). Failures: `not_finite`; `unreachable`: the way
+/// meets a singular pose, as at the edge of the workspace, shortfall the distance left, m. Cost: 5 microseconds for a
+/// tenth of a millimetre, 0.1 to 1 ms for a centimetre, some more where it meets a singular pose. No allocation.
 template <class S>
 Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, const Device_vector<S>& position,
                                         const Device_pose<S>& previous) {
