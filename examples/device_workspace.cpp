@@ -137,6 +137,7 @@ int print_figures(int argument_count, char** arguments) {
   if (!file.empty())
     check_target(file);
   std::ostringstream samples;
+  samples.exceptions(std::ios::badbit); // what memory does not suffice for comes out, and no part is written
   device.empty() ? figures_of_designs(samples) : figures_of_file(device, samples);
   if (!file.empty())
     replace_file(file, samples.str());

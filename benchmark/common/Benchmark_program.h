@@ -107,7 +107,7 @@ private:
   int exit_code_of(int argc, char** argv, const Work& work) {
     try {
       examples::parse_arguments(app_, argc, argv);
-      refuse_nan();
+      refuse_what_is_not_finite();
       refuse_report_over_input();
       check_file();
       Promises promises;
@@ -142,12 +142,12 @@ private:
           throw Wrong_use("'" + file_ + "' (--json) and '" + value + "' (" + option->get_name() +
                           ") are one file; give --json another name");
   }
-  /// A range of CLI11 lets it pass: it is neither below nor above.
-  void refuse_nan() const {
+  /// A range of CLI11 lets nan pass, which is neither below nor above.
+  void refuse_what_is_not_finite() const {
     for (const CLI::Option* option : app_.get_options())
       for (const std::string& value : option->results())
-        if (option->get_type_name().compare(0, 5, "FLOAT") == 0 && std::isnan(std::strtod(value.c_str(), nullptr)))
-          throw CLI::ValidationError(option->get_name(), "a number is expected, not " + value);
+        if (option->get_type_name().compare(0, 5, "FLOAT") == 0 && !std::isfinite(std::strtod(value.c_str(), nullptr)))
+          throw CLI::ValidationError(option->get_name(), "a finite number is expected, not " + value);
   }
   void check_file() const {
     if (const std::string why = file_.empty() ? "" : why_not_replaceable(follow_links(file_)); !why.empty())

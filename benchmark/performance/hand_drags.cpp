@@ -148,13 +148,14 @@ Measured measure(const Mesh& mesh, const Options& options, const std::string& wh
   Bench free(mesh, 0), bounded(mesh, options.work);
   Hand_path hand(options, height);
   std::vector<double> apart, apart_later;
-  for (std::size_t done = 0; done < options.drags; done += options.ticks_per_grab) {
+  for (std::size_t done = 0; done < options.drags;) {
+    const std::size_t ticks = std::min(options.ticks_per_grab, options.drags - done); // the last grab may be shorter
     const Point_3 start = hand.next();
     const Vertex_index v = nearest_vertex(free.mesh(), start);
     for (Bench* bench : {&free, &bounded})
       what == "probe" ? bench->bring_probe_to(start) : bench->take(v);
     std::vector<bool> was_limited;
-    for (std::size_t tick = 0; tick < options.ticks_per_grab; ++tick) {
+    for (std::size_t tick = 0; tick < ticks; ++tick) {
       const Point_3 target = hand.next();
       const auto a = free.drag(target);
       if (options.work == 0)
@@ -167,7 +168,8 @@ Measured measure(const Mesh& mesh, const Options& options, const std::string& wh
     }
     for (Bench* bench : {&free, &bounded})
       bench->take_back();
-    std::fprintf(stderr, "%s: %zu of %zu drags\r", what.c_str(), done + options.ticks_per_grab, options.drags);
+    done += ticks;
+    std::fprintf(stderr, "%s: %zu of %zu drags\r", what.c_str(), done, options.drags);
   }
   return {free.times, bounded.times, free.work, bounded.work, apart, apart_later, bounded.limited};
 }
@@ -207,7 +209,9 @@ int main(int argc, char** argv) {
   app.add_option("--speed", options.speed, "Of the hand, mm/s; the object has a radius of 30 mm")
       ->capture_default_str();
   app.add_option("--rate", options.rate, "Drags a second")->check(benchmark::positive_number)->capture_default_str();
-  app.add_option("--depth", options.depth, "How deep the hand is under the surface, mm")->capture_default_str();
+  app.add_option("--depth", options.depth, "How deep the hand is under the surface, mm")
+      ->check(CLI::Range(-1e6, 1e6))
+      ->capture_default_str();
   app.add_option("--drags", options.drags, "Of each kind")->capture_default_str();
   app.add_option("--ticks-per-grab", options.ticks_per_grab, "Drags until the hand lets go, and the mesh is as it was")
       ->check(benchmark::positive_number)

@@ -83,6 +83,8 @@ public:
 /// The sphere, 60 mm wide; or, with a valence, one of a third of that, and over it a double cone whose lower tip, the
 /// last vertex, has that valence.
 meshes::Triangle_list surface(const Options& options) {
+  if (options.valence == 1 || options.valence == 2)
+    throw benchmark::Wrong_use("--valence: the tip of a double cone has at least 3 faces");
   meshes::Triangle_list list = meshes::bumpy_sphere(options.level, 0.05);
   if (options.valence == 0)
     return list.scale_and_move(options.radius, 0, 0, 0);
@@ -224,7 +226,7 @@ int main(int argc, char** argv) {
   app.add_option(
          "--valence", options.valence,
          "Have a vertex of that many faces in hand: a tip of a double cone that hops on a sphere of a third of the "
-         "size; 0: none")
+         "size; at least 3, or 0: none")
       ->capture_default_str();
   app.add_option("--work", options.work, "Pairs that a drag may decide")->capture_default_str();
   app.add_option("--work-of-a-face", options.work_of_a_face, "Pairs more for each face about the vertex in hand")

@@ -39,7 +39,7 @@ Log_file::Log_file(const std::string& path, const std::string& mesh)
   file_ = ::open(target_.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (file_ < 0)
     throw Write_error("cannot open " + in_words(path) + " for appending: " + system_says() +
-                      "; to replay it only, give it as a script (--script)");
+                      "; to replay it only, give it to sculpt as a script (sculpt --script)");
   try {
     lock();
     std::string text;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "run_program.h"
+
 #include <exception>
 #include <iostream>
 #include <new>
@@ -34,22 +36,26 @@ public:
       if (const std::string lost = write(path); !lost.empty())
         note(lost);
     } catch (const std::bad_alloc&) {
+      exit_code_ = failed;
       fail("cannot write '" + path + "': the memory does not suffice");
     } catch (const std::exception& error) { // told, and by the exit code
       fail(error.what());
     }
   }
-  bool all_written() const { return all_written_; }
+  bool all_written() const { return exit_code_ == done; }
+  /// `failed` where the memory did not suffice, else cannot_write where something was not written.
+  int exit_code() const { return exit_code_; }
   /// Something was not written, which has been told.
   void fail(const std::string& text) {
-    all_written_ = false;
+    if (all_written())
+      exit_code_ = cannot_write;
     note(text);
   }
 
 private:
   std::string program_;
   std::vector<std::string> notes_;
-  bool all_written_ = true;
+  Exit exit_code_ = done;
 };
 
 } // namespace haptic_sculpt::examples

@@ -7,6 +7,7 @@
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/Write_error.h>
 
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -37,11 +38,10 @@ inline bool are_one_file(const std::filesystem::path& a, const std::filesystem::
     return are_one;
   // Made absolute first: weakly_canonical leaves the name of a file that is not there yet as it is, but not ./name.
   const auto full = [](const std::filesystem::path& path) {
-    std::error_code ignored; // check_target() reports a name that leads nowhere
     try {
-      return std::filesystem::weakly_canonical(std::filesystem::absolute(follow_links(path), ignored), ignored);
-    } catch (const Write_error&) { // links in a circle, told there, too
-      return path;
+      return std::filesystem::weakly_canonical(std::filesystem::absolute(follow_links(path)));
+    } catch (const std::exception&) { // such as links in a circle, told by check_target(), or a current folder too deep
+      return path.lexically_normal();
     }
   };
   const std::filesystem::path first = full(a), second = full(b);

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 
 namespace haptic_sculpt::examples {
 
@@ -34,6 +35,11 @@ int run_program(const char* name, const Body& body, const Exit_code_of& exit_cod
     std::cerr << name << ": the memory does not suffice for this\n";
     return failed;
   } catch (const std::exception& error) {
+    const auto* const refused = dynamic_cast<const std::system_error*>(&error); // by std::thread, at a limit
+    if (refused != nullptr && refused->code() == std::errc::resource_unavailable_try_again) {
+      std::cerr << name << ": no thread can be made: " << refused->what() << '\n';
+      return failed;
+    }
     const std::string text = message_of(error);
     std::cerr << name << ": " << text << (!text.empty() && text.back() == '\n' ? "" : "\n");
     const int code = exit_code_of(error);

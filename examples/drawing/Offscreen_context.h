@@ -7,6 +7,8 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include <cstdlib>
+
 namespace haptic_sculpt::drawing {
 
 /// An OpenGL 3.3 core context without window, display or graphics card (EGL's surfaceless platform). It is current in
@@ -15,6 +17,8 @@ class Offscreen_context {
 public:
   /// \throw Picture_error if the machine has no such context; says which packages bring it.
   Offscreen_context() {
+    // Where the system gives no more threads, llvmpipe waits for ever for those that it has not got. It draws without.
+    ::setenv("LP_NUM_THREADS", "0", 0);
     // libepoxy ends the program when a function is missing, so every need is asked for first.
     if (!epoxy_has_egl() || !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
       refuse("EGL's surfaceless platform is missing");

@@ -122,7 +122,7 @@ int loop(const Arguments& arguments, Plan& plan) {
   if (result.failure)
     return examples::exit_code_of(result.failure);
   if (!writer.all_written())
-    return examples::cannot_write;
+    return writer.exit_code();
   if (!result.faults.empty())
     return fault;
   return examples::done;

@@ -34,7 +34,7 @@ public:
         if (command.kind == Kind::move) {
           carry_out_move(command, i != 0 && script[i - 1].edit.kind == Edit_kind::move, after);
         } else {
-          carry_out(command);
+          carry_out_whole(command);
           tell(command, after);
         }
       } catch (const std::exception&) { // told with what was done so far, which is not lost
@@ -104,6 +104,24 @@ private:
       return held.drag.clearance_length ? command.word.empty() && command.length == *held.drag.clearance_length
                                         : command.word == "default";
     return true;
+  }
+
+  /// All of it, or nothing: what it did before it was broken off would be in the mesh, but in no log and no report.
+  void carry_out_whole(const Command& command) {
+    const std::size_t steps = sculptor_.history().number_of_undo_steps();
+    try {
+      carry_out(command);
+    } catch (...) {
+      try {
+        if (sculptor_.history().is_in_stroke()) // whose earlier lines an undo would take back, too
+          result_.may_be_in_part = command.kind == Kind::brush || command.kind == Kind::remesh;
+        else if (sculptor_.history().number_of_undo_steps() > steps)
+          result_.may_be_in_part = !sculptor_.undo();
+      } catch (const std::exception&) { // no memory for that, either
+        result_.may_be_in_part = true;
+      }
+      throw;
+    }
   }
 
   void carry_out(const Command& command) {

@@ -285,16 +285,18 @@ int sculpt(const Arguments& arguments) {
   };
   const Run_result result = run(mesh, plan.commands, arguments, {begin, append_to_log});
   if (result.failure)
-    writer.note((result.failed.is_logged ? arguments.log : arguments.script) + ": line " +
-                std::to_string(result.failed.line) + ": `" + name_of(result.failed) + "` has ended the script: " +
-                examples::message_of(result.failure) + ". What was done until then is written");
+    writer.note(
+        (result.failed.is_logged ? arguments.log : arguments.script) + ": line " + std::to_string(result.failed.line) +
+        ": `" + name_of(result.failed) + "` has ended the script: " + examples::message_of(result.failure) +
+        ". What was done until then is written" +
+        (result.may_be_in_part ? ", with what this line may have done, which neither log nor report tells" : ""));
   const std::vector<Near_vertex> nearest = nearest_to(arguments, mesh, result);
   write_all(writer, mesh, result, arguments, nearest, before, without_guard);
   if (is_logging && writer.all_written() && !result.failure) {
     log->end_pass(script.hash);
     tell_failure();
   }
-  const bool all_written = writer.all_written() && (!log || log->failure().empty());
+  const bool is_log_whole = !log || log->failure().empty();
   if (plan.replayed > 0)
     std::cout << "replayed " << plan.replayed << " lines of " << arguments.log << '\n';
   if (plan.rest.after > 0)
@@ -306,7 +308,7 @@ int sculpt(const Arguments& arguments) {
     throw Write_error("cannot write the table to standard output");
   if (result.failure)
     return examples::exit_code_of(result.failure);
-  return all_written ? examples::done : examples::cannot_write;
+  return is_log_whole ? writer.exit_code() : examples::cannot_write;
 }
 
 } // namespace

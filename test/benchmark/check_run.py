@@ -415,6 +415,10 @@ def exit_codes(folder):
                               (["brush_dabs", "--mesh", str(folder / "nowhere.off")], 2, "nowhere.off"),
                               (["device_speed_error", "--nothing"], 2, "--nothing"),
                               ([*ticks, "--reach", "2e9"], 2, "reach"),
+                              ([*ticks, "--valence", "2"], 2, "valence"),
+                              (["hand_drags", "--level", "2", "--drags", "10", "--depth", "inf"], 2, "depth"),
+                              (["hand_drags", "--level", "2", "--drags", "10", "--depth", "1e200"], 2, "depth"),
+                              (["hand_drags", "--level", "2", "--drags", "10"], 0, "probe: 10 of 10 drags"),
                               (["brush_dabs", "--mesh", str(kept), "--json", str(kept)], 2, "one file"),
                               (["hand_drags", "--json", str(folder / "nowhere/x.json")], 5, "cannot write")):
         done = subprocess.run([str(BUILD / "benchmark" / words[0]), *words[1:]], capture_output=True, text=True)

@@ -17,7 +17,7 @@ import time
 
 from box_mesh import box
 from program_runs import (FURTHER as LOOP, IS_SANITIZED, OCTAHEDRON, PATIENCE, SCULPT, SOURCE, TETRAHEDRON,
-                          bytes_of, check, end, fails, points, run, write)
+                          bytes_of, check, end, fails, points, run, surface, write)
 
 BALL = f"{SOURCE}/examples/data/ball_and_moon.off"
 PATH = f"{SOURCE}/examples/data/hand_path.csv"
@@ -208,12 +208,18 @@ def thrown_while_a_script_runs(folder, mesh):
         return
     # The memory that a line asks for is not there.
     ball = write(f"{folder}/box.off", box(8))
-    few = lambda: resource.setrlimit(resource.RLIMIT_AS, (200 << 20, 200 << 20))
-    done = subprocess.run([SCULPT, ball, "--script", "-", "-o", out, "--report", report], input="drag 0 -1.25 -1 1\nremesh 0.003\ndrag 0 -1.5 -1 1\n",
-                          capture_output=True, text=True, preexec_fn=few, timeout=3 * PATIENCE)
+    before = f"{folder}/before.off"
+    run(ball, "--script", "-", "-o", before, script="drag 0 -1.25 -1 1\n")
+    command = [ball, "--script", "-", "-o", out, "--report", report]
+    done = run(*command, script="drag 0 -1.25 -1 1\nremesh 0.003\ndrag 0 -1.5 -1 1\n", memory=200 << 20, seconds=3 * PATIENCE)
     fails(1, ["line 2", "remesh", "memory"], done, "no memory in a script")
-    check(os.path.exists(out) and run(out).returncode == 0 and (-1.5, -1, 1) not in points(out), "what was done until then is written")
-    check("line 2" in " ".join(json.load(open(report))["notes"]), f"and told in the report: {json.load(open(report))['notes']}")
+    check(os.path.exists(out) and surface(out) == surface(before), "what was done until then is written, and nothing of the line that ended it")
+    told = json.load(open(report))
+    check("line 2" in " ".join(told["notes"]) and [edit["line"] for edit in told["edits"]] == [1], f"and told in the report: {told['notes']}, {told['edits']}")
+    check("may have done" not in done.stderr, f"a line that was taken back: {done.stderr}")
+    done = run(*command, script="stroke\ndrag 0 -1.25 -1 1\nremesh 0.003\n", memory=200 << 20, seconds=3 * PATIENCE)
+    fails(1, ["line 3", "remesh", "memory", "may have done"], done, "no memory in a stroke, which is not taken back")
+    check((-1.25, -1, 1) in points(out), "what the stroke had done before is written")
 
 
 def targets(folder, mesh):
@@ -225,6 +231,15 @@ def targets(folder, mesh):
                            (["--picture", plain("a.png"), "--compare", plain("a.png"), "--script", script], ["--picture", "--compare"])):
         fails(2, parts + ["one file"], run(mesh, *options), f"sculpt {options}")
     fails(2, [".png"], run(mesh, "--picture", mesh), "a picture over the mesh")
+    here = os.open(".", os.O_RDONLY)
+    os.chdir(folder)
+    for _ in range(17):  # a current folder whose name is longer than the system gives out
+        os.mkdir("d" * 250), os.chdir("d" * 250)
+    shutil.copy(mesh, "mesh.off")
+    done = run("mesh.off", "-o", "x.off", "--report", "x.json")
+    check(done.returncode == 0 and os.path.exists("x.json"), f"two files in a deep folder: {done.stderr}")
+    fails(2, ["one file"], run("mesh.off", "-o", "x.off", "--report", "./x.off"), "one file in a deep folder")
+    os.fchdir(here), os.close(here)
     os.mkdir(plain("first")), os.mkdir(plain("second"))
     mounted = [shutil.which("unshare") or "false", "--mount", *([] if os.geteuid() == 0 else ["--map-root-user"]),
                "sh", "-c", 'mount --bind "$1/first" "$1/second" && shift && exec "$@"', "sh", folder]
@@ -379,10 +394,34 @@ def words(folder, mesh):
         check(pictures[0] == pictures[1] != pictures[2], "--picture-at reads hexadecimal numbers as scripts do")
 
 
+def limits_of_another_user(folder, mesh):
+    """A user who gets no threads, and a log that he may not write."""
+    if os.getuid() != 0 or IS_SANITIZED:
+        print("skipped: only root can be somebody else, and sanitizers need threads")
+        return
+    os.chmod(os.path.dirname(folder), 0o755)
+    os.chmod(folder, 0o777)
+    # Where other users reach them: not in a home folder.
+    sculpt, looped, ball = (shutil.copy(file, folder) for file in (SCULPT, LOOP, BALL))
+    log = f"{folder}/a.log"
+    run(ball, "--script", "-", "--log", log, script=DRAGS)
+    os.chmod(log, 0o444)
+    options = {"program": looped, "user": 34567}
+    fails(5, ["appending", "give it to sculpt"], run(ball, "--no-wait", "--seconds", "0.1", "--log", log, **options), "a log that may not be written")
+    done = run(ball, "--no-wait", "--seconds", "0.1", "--log", f"{folder}/b.log", processes=1, **options)
+    fails(1, ["no thread"], done, "a loop without a thread for its log")
+    check("fault of the program" not in done.stderr, f"a limit is no fault: {done.stderr}")
+    if run(mesh, "--picture", f"{folder}/a.png").returncode != 0:
+        return print("skipped: no picture can be drawn here")
+    for processes in (1, 2):  # none, and not as many as the driver wants
+        done = run(ball, "--picture", f"{folder}/{processes}.png", program=sculpt, user=34567, processes=processes)
+        check(done.returncode == 0 and os.path.exists(f"{folder}/{processes}.png"), f"a picture, drawn by {processes} thread(s): {done.stderr}")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/mesh.off", TETRAHEDRON)
-        for part in (closed_streams, readers_that_have_gone, signals, a_line_that_takes_long, thrown_while_a_script_runs, targets, inputs_of_the_loop, recordings, words):
+        for part in (closed_streams, readers_that_have_gone, signals, a_line_that_takes_long, thrown_while_a_script_runs, limits_of_another_user, targets, inputs_of_the_loop, recordings, words):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             part(inner, mesh)

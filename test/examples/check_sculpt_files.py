@@ -9,7 +9,8 @@ import stat
 import subprocess
 import tempfile
 
-from program_runs import PATIENCE, SCULPT, TETRAHEDRON, bytes_of, check, end, fails, run, write
+from box_mesh import box
+from program_runs import IS_SANITIZED, PATIENCE, SCULPT, TETRAHEDRON, bytes_of, check, end, fails, run, write
 
 
 def bad_targets(folder, mesh):
@@ -49,6 +50,29 @@ def bad_targets(folder, mesh):
     fails(5, ["nowhere"], run(mesh, "--picture", f"{folder}/nowhere/picture.png"), "missing folder of the picture")
     done = run(mesh, "--picture", f"{folder}/picture.png")
     check(done.returncode == 0 and open(f"{folder}/picture.png", "rb").read(4) == b"\x89PNG", f"picture: {done.stderr}")
+
+
+def memory_runs_out(folder, mesh):
+    """Where there is enough to read a mesh, but not to write it: all of OUT is written, or nothing and the exit code is 1."""
+    if IS_SANITIZED:
+        return
+    ball, step = write(f"{folder}/ball.off", box(40)), 1 << 20
+    too_little, enough = step, 1 << 30  # to read it
+    while enough - too_little > step:
+        middle = (too_little + enough) // 2
+        too_little, enough = (too_little, middle) if run(ball, memory=middle).returncode == 0 else (middle, enough)
+    run(ball, "-o", f"{folder}/sound.stl")
+    out, codes = f"{folder}/out.stl", []
+    for memory in range(enough, enough + 12 * step, step):
+        write(out, "kept")
+        done = run(ball, "-o", out, memory=memory)
+        codes.append(done.returncode)
+        if done.returncode == 0:
+            check(bytes_of(out) == bytes_of(f"{folder}/sound.stl"), f"with {memory} bytes of memory a part of OUT is written, and the exit code is 0")
+        else:
+            fails(1, ["out.stl", "memory"], done, f"with {memory} bytes of memory")
+            check(bytes_of(out) == b"kept", f"with {memory} bytes of memory the old file is spoilt")
+    check(1 in codes and 0 in codes, f"memory has never run out while OUT is written, or always: {codes}")
 
 
 def links(folder, mesh):
@@ -185,7 +209,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
         os.chmod(mesh, 0o644)
-        for part in (bad_targets, links, rights, sticky_folder, control_bytes, left_over_files, hostile_inputs):
+        for part in (bad_targets, memory_runs_out, links, rights, sticky_folder, control_bytes, left_over_files, hostile_inputs):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             part(inner, mesh)

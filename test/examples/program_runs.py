@@ -24,14 +24,15 @@ def check(condition, what):
         print("FAULT:", what)
 
 
-def run(*arguments, program=SCULPT, script=None, limit=None, folder=None, user=None, seconds=PATIENCE):
-    def limit_size():
-        if limit is not None:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+def run(*arguments, program=SCULPT, script=None, limit=None, memory=None, processes=None, folder=None, user=None, seconds=PATIENCE):
+    def set_limits():
+        for which, value in ((resource.RLIMIT_FSIZE, limit), (resource.RLIMIT_AS, memory), (resource.RLIMIT_NPROC, processes)):
+            if value is not None:
+                resource.setrlimit(which, (value, value))
 
     # Python ignores SIGXFSZ; that the program does so too is checked by restoring signals.
     return subprocess.run([program, *map(str, arguments)], input=script, capture_output=True, text=True, timeout=seconds,
-                          cwd=folder, preexec_fn=limit_size, restore_signals=True, user=user, group=user,
+                          cwd=folder, preexec_fn=set_limits, restore_signals=True, user=user, group=user,
                           extra_groups=[] if user else None)
 
 

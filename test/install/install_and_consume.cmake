@@ -41,10 +41,15 @@ run(${CMAKE_COMMAND} -S ${SOURCE_FOLDER} -B ${WORK_FOLDER}/device_build -G ${GEN
 run(${CMAKE_COMMAND} --install ${WORK_FOLDER}/device_build --prefix ${device_only})
 configure(device_consumer ${device_only} ${no_cgal})
 build_and_run(device_consumer)
-# Who asks such an installation for more reads what is missing.
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK_FOLDER}/sculpt_consumer -B ${WORK_FOLDER}/refused -G ${GENERATOR}
-  -DCMAKE_PREFIX_PATH=${device_only} RESULT_VARIABLE result ERROR_VARIABLE message OUTPUT_QUIET)
-string(REGEX REPLACE "[ \n]+" " " message "${message}")
-if(result EQUAL 0 OR NOT message MATCHES "Only the device is installed here")
-  message(FATAL_ERROR "an installation of the device alone serves for more, or does not say why not: ${message}")
-endif()
+# Who asks such an installation for more, or for what there is not, reads what is missing.
+function(refused consumer expected)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK_FOLDER}/${consumer} -B ${WORK_FOLDER}/refused_${consumer} -G ${GENERATOR}
+    -DCMAKE_PREFIX_PATH=${device_only} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} ${ARGN}
+    RESULT_VARIABLE result ERROR_VARIABLE message OUTPUT_QUIET)
+  string(REGEX REPLACE "[ \n]+" " " message "${message}")
+  if(result EQUAL 0 OR NOT message MATCHES "${expected}")
+    message(FATAL_ERROR "an installation of the device alone serves for more, or does not say why not: ${message}")
+  endif()
+endfunction()
+refused(sculpt_consumer "Only the device is installed here")
+refused(device_consumer "There is no component nonsense" -Dfurther=nonsense)

@@ -11,9 +11,11 @@
 
 namespace haptic_sculpt::internal {
 
-/// In the C locale and with 17 digits, which bring every double back.
+/// In the C locale and with 17 digits, which bring every double back. What is thrown within it, such as
+/// std::bad_alloc, comes out of it.
 inline std::ostringstream exact_stream() {
   std::ostringstream out;
+  out.exceptions(std::ios::badbit); // else it is a stream that has failed, and nobody hears why
   out.imbue(std::locale::classic());
   out.precision(std::numeric_limits<double>::max_digits10);
   return out;
