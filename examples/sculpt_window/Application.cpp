@@ -233,8 +233,8 @@ void Application::take_saved() {
         continue; // another was opened meanwhile
       kept_.back().is_saved = true, kept_.back().saved_edits = saved->edits;
       is_done_ = is_done_ || saved->quits;
-    } catch (const std::exception& error) {
-      fail_to_write(error.what());
+    } catch (const std::exception&) {
+      fail_to_write(examples::message_of(std::current_exception()));
     }
   }
 }
