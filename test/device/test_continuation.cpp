@@ -7,6 +7,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -207,6 +208,44 @@ BOOST_AUTO_TEST_CASE(inverse_kinematics_goes_on_with_the_branch_of_the_pose_befo
   BOOST_TEST(ways.right > 60);
   BOOST_TEST(ways.refused > 10);
   BOOST_TEST(ways.unsure <= 2);
+}
+
+BOOST_AUTO_TEST_CASE(long_regular_ways_are_followed_to_their_end) {
+  Device_description<double> d = named_design<double>(Named_design::D1, Device_form::general);
+  d.base_radius = 0.1, d.primary_length = 0.05, d.secondary_length = 0.1, d.platform_radius = 0.06;
+  const Device_parameters<double> parameters(d);
+  const auto from = general_forward(parameters, Vector(0.3, 0.3, 0.3));
+  BOOST_REQUIRE(from);
+  for (const Vector& turns : {Vector(3, 0, 0), Vector(3, 3, 3), Vector(-7, 4, 5)}) {
+    const auto there = general_forward(parameters, Vector(from->theta + 2 * EIGEN_PI * turns), *from);
+    BOOST_REQUIRE(there);
+    BOOST_TEST((there->position - from->position).norm() < 1e-12);
+  }
+}
+
+// Of a platform far larger than links, of links far shorter than others, and in few digits.
+BOOST_AUTO_TEST_CASE(inverse_kinematics_follows_regular_ways_of_odd_designs) {
+  const auto goes = [](auto scalar, const std::array<double, 4>& lengths, const Vector& theta, const auto& place_from) {
+    using S = decltype(scalar);
+    Device_description<double> d = named_design<double>(Named_design::D1, Device_form::general);
+    d.base_radius = lengths[0], d.primary_length = lengths[1], d.secondary_length = lengths[2];
+    d.platform_radius = lengths[3];
+    const Device_parameters<S> parameters(description_as<S>(d));
+    const auto from = general_forward(parameters, vector_as<S>(theta));
+    BOOST_REQUIRE(from);
+    const Vector start = from->position.template cast<double>(), place = place_from(start);
+    for (const double part : {0.0, 0.5, 1.0}) {
+      const auto there = general_inverse(parameters, vector_as<S>(start + part * (place - start)), *from);
+      BOOST_TEST((there.status() == Device_status::success), lengths[3] << ", part " << part);
+    }
+  };
+  goes(0.0, {3, 0.07, 0.1, 3}, {0.8, 0.8, 0.8}, [](const Vector& p) { return Vector(p + Vector(0.001, 0, 0.01)); });
+  goes(0.0, {0.07, 1e-5, 0.1, 0.02}, {0.2, 0.2, 0.2},
+       [](const Vector& p) { return Vector(p + Vector(1e-6, 0, 5e-6)); });
+  goes(0.f, {0.0403142273, 0.0168024097, 0.0875372738, 0.0494013578}, {-0.215173796, 1.0809238, 1.66971171},
+       [](const Vector&) { return Vector(0.0173918419, 0.00711896364, 0.0936974734); });
+  goes(0.f, {0.0571623668, 0.0746211186, 0.104550697, 0.0776052028}, {1.73218369, 1.81533241, 1.54170537},
+       [](const Vector&) { return Vector(0.00639203144, -0.00212149508, 0.164694548); });
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -68,18 +68,21 @@ inline bool certified_step(const Device_parameters<S>& parameters, const Device_
   return true;
 }
 
+/// Of follow_mode(): a turn of all joints takes some hundred, a singular pose on the way some hundred more.
+constexpr int most_tries = 4000;
+
 /// Follows the mode x from `from` to `to` along the straight way between the two triples of joint angles, in certified
 /// steps. Returns the part of the way done: 1 on success. The steps shrink towards a singular pose; no more than
-/// `most_steps` are taken.
+/// `most_tries` are made.
 template <class S>
 inline S follow_mode(const Device_parameters<S>& parameters, const Device_vector<S>& from, const Device_vector<S>& to,
-                     Link_angles<S>& x, int most_steps) {
+                     Link_angles<S>& x) {
   const S turned = largest_magnitude(Device_vector<S>(to - from));
   S done(0), step(0.5);
   Device_pose<S> here, there;
   if (!place_elbows(parameters, from, here))
     return done;
-  for (int k = 0; k < most_steps; ++k) {
+  for (int k = 0; k < most_tries; ++k) {
     const bool last = done + step >= S(1);
     const Device_vector<S> theta = last ? to : Device_vector<S>(from + (done + step) * (to - from));
     place_elbows(parameters, theta, there);
@@ -129,7 +132,7 @@ void finish_general(const Device_parameters<S>& parameters, const Link_angles<S>
 /// One certified Newton iteration if the move is small, else in certified steps. Failures: `not_finite`; `mode_lost`:
 /// the way meets a singular pose, shortfall is how far before `theta` (largest joint angle left, rad); `singular`:
 /// elbows on a line. No allocation; about 0.3 microseconds in double for the moves of a 1 kHz loop, at worst (a fold on
-/// the way) tens of them.
+/// the way) some hundred.
 template <class S>
 inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& parameters, const Device_vector<S>& theta,
                                                const Device_pose<S>& previous) {
@@ -143,7 +146,7 @@ inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& param
   Link_angles<S> x{previous.cos_phi, previous.sin_phi};
   const S turned = largest_magnitude(Device_vector<S>(theta - previous.theta));
   if (!certified_step(parameters, previous.elbows, pose.elbows, turned, x)) {
-    const S done = follow_mode(parameters, previous.theta, theta, x, 400);
+    const S done = follow_mode(parameters, previous.theta, theta, x);
     if (done < S(1)) {
       outcome.fail(Device_status::mode_lost, (S(1) - done) * turned);
       return outcome;
@@ -243,7 +246,7 @@ inline Outcome<Device_pose<S>> general_forward(const Device_parameters<S>& param
   const S mean = (theta[0] + theta[1] + theta[2]) / S(3);
   const Device_vector<S> symmetric = Device_vector<S>::Constant(mean);
   Link_angles<S> x;
-  const S done = symmetric_home(parameters, mean, x) ? follow_mode(parameters, symmetric, theta, x, 400) : S(0);
+  const S done = symmetric_home(parameters, mean, x) ? follow_mode(parameters, symmetric, theta, x) : S(0);
   if (done < S(1))
     outcome.fail(Device_status::undecided, (S(1) - done) * largest_magnitude(Device_vector<S>(theta - symmetric)));
   else
