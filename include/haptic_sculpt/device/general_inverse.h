@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/device/certain_turn.h>
 #include <haptic_sculpt/device/ditetrahedral_kinematics.h>
 #include <haptic_sculpt/device/general_kinematics.h>
-#include <haptic_sculpt/device/linear_algebra/Small_lu.h>
 
 #include <vector>
 
@@ -13,38 +13,6 @@
 
 namespace haptic_sculpt {
 namespace internal {
-
-/// The six equations at a fixed platform position, in units of l2: of each leg (|link|^2 - 1) / 2 and arm . axis, with
-/// the arm from the centre to the elbow, and their derivative by the joint angles and a rotation vector of the
-/// platform.
-template <class S>
-struct Position_equations {
-  Eigen::Matrix<S, 6, 1> f;                 ///< of the three legs their lengths, then their right angles
-  Eigen::Matrix<S, 6, 6> derivative;        ///< by the three joint angles, then the rotation vector
-  Device_vector<S> link_length, arm_length; ///< of each leg, in l2
-
-  /// \param pose its elbows are those of its angles
-  Position_equations(const Device_parameters<S>& parameters, const Device_vector<S>& position,
-                     const Device_pose<S>& pose) {
-    using std::sqrt;
-    const S scale = parameters.inverse_secondary_length(), r = parameters.platform_radius() * scale;
-    derivative.setZero();
-    for (int i = 0; i < 3; ++i) {
-      const Device_vector<S> axis = pose.orientation * Leg_frame<S>::tangential(i);
-      const Device_vector<S> rate = pose.elbow_rate(parameters, i) * scale,
-                             arm = (pose.elbows.col(i) - position) * scale;
-      const Device_vector<S> lever = r * (pose.orientation * Leg_frame<S>::radial(i)), link = lever - arm;
-      const S square = link.squaredNorm();
-      link_length[i] = sqrt(square), arm_length[i] = sqrt(S(arm.squaredNorm()));
-      f[i] = (square - S(1)) / S(2);
-      f[3 + i] = arm.dot(axis);
-      derivative(i, i) = -link.dot(rate);
-      derivative(3 + i, i) = rate.dot(axis);
-      derivative.template block<1, 3>(i, 3) = lever.cross(link).transpose();
-      derivative.template block<1, 3>(3 + i, 3) = axis.cross(arm).transpose();
-    }
-  }
-};
 
 /// Newton's method at a fixed platform position from the angles and rotation in `pose`; steps are cut to 0.3 rad. On
 /// success the pose is complete. False if it does not settle within `most_iterations`.
@@ -101,71 +69,6 @@ bool inverse_newton(const Device_parameters<S>& parameters, const Device_vector<
     previous = length;
   }
   return false;
-}
-
-/// A size of turns: the largest joint angle, by how far it moves an elbow, or part of a rotation vector of the
-/// platform, by how far it moves a joint of the platform, and l2 more, in units of l2.
-template <class S>
-struct Turn_norm {
-  S of_joint, of_platform; ///< for 1 rad
-
-  explicit Turn_norm(const Device_parameters<S>& parameters)
-      : of_joint(parameters.primary_length() * parameters.inverse_secondary_length())
-      , of_platform(S(1) + parameters.platform_radius() * parameters.inverse_secondary_length()) {}
-
-  /// From one pose to another.
-  S operator()(const Device_pose<S>& from, const Device_pose<S>& to) const {
-    using std::atan2;
-    const Device_matrix<S> turn = to.orientation * from.orientation.transpose();
-    const Device_vector<S> sines =
-        Device_vector<S>(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1)) / S(2);
-    const S sine = sines.norm(), angle = atan2(sine, S((turn.trace() - S(1)) / S(2)));
-    const S part = sine > S(0) ? S(angle * largest_magnitude(sines) / sine) : angle;
-    const S joints = of_joint * largest_magnitude(Device_vector<S>(to.theta - from.theta)),
-            platform = of_platform * part;
-    return joints > platform ? joints : platform;
-  }
-};
-
-/// How far a pose turns at most, by Turn_norm, where the centre moves straight from that of `from` to `position`, if it
-/// is certain that no singular pose is on that way; else infinite. At the end the pose is the only one within this of
-/// `from`. By a contraction that holds at every place of the way (doc/proofs/device.md).
-template <class S>
-S certain_turn(const Device_parameters<S>& parameters, const Device_vector<S>& position, const Device_pose<S>& from) {
-  using std::sqrt;
-  const Turn_norm<S> norm(parameters);
-  const S scale = parameters.inverse_secondary_length(), l1 = parameters.primary_length() * scale,
-          r = parameters.platform_radius() * scale;
-  const S moved = (position - from.position).norm() * scale;
-  const Position_equations<S> equations(parameters, position, from);
-  // Of differences of places, whose squares are about 1.
-  const S rounding =
-      S(8) * std::numeric_limits<S>::epsilon() * (S(1) + l1 + r + (position.norm() + parameters.base_radius()) * scale);
-  Small_lu<S, 6> lu;
-  lu.compute(equations.derivative);
-  Eigen::Matrix<S, 6, 6> inverse; // its results in the units of the norm
-  for (int k = 0; k < 6; ++k)
-    inverse.col(k) = lu.solve(Eigen::Matrix<S, 6, 1>::Unit(k));
-  inverse.template topRows<3>() *= norm.of_joint;
-  inverse.template bottomRows<3>() *= norm.of_platform;
-  // Through the inverse, of numbers that bound those of each equation.
-  const auto weighed = [&](const S& of_lengths, const S& of_right_angles) {
-    Eigen::Matrix<S, 6, 1> bounds;
-    bounds << of_lengths, of_lengths, of_lengths, of_right_angles, of_right_angles, of_right_angles;
-    return S((inverse.cwiseAbs() * bounds).maxCoeff());
-  };
-  // Of a turn of 1 by the norm: the joint angle, and the length of the rotation vector.
-  const S joint = S(1) / norm.of_joint, turn = sqrt(S(3)) / norm.of_platform;
-  // What is left of the equations anywhere on the way: lengths are of second degree in the place, right angles linear.
-  const S first = S((inverse * equations.f).cwiseAbs().maxCoeff()) + weighed(moved * moved / S(8) + rounding, rounding);
-  const S turned = S(2) * first;
-  const S drift =
-      weighed(moved * (l1 * joint + r * turn), moved * turn); // of the derivative, by the move of the centre
-  const S link_rate = l1 * joint + r * turn, link = equations.link_length.maxCoeff() + moved + turned * link_rate,
-          arm = equations.arm_length.maxCoeff() + moved + turned * l1 * joint;
-  const S curvature = weighed(link_rate * link_rate + link * (l1 * joint * joint + r * turn * turn),
-                              l1 * joint * joint + S(2) * l1 * joint * turn + arm * turn * turn);
-  return drift + curvature * turned <= S(0.5) ? turned : std::numeric_limits<S>::infinity();
 }
 
 /// Reduces angles to (-pi, pi], or to the nearest turn that is within the joint limits.
