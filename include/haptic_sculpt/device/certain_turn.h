@@ -45,7 +45,8 @@ S certain_turn(const Device_parameters<S>& parameters, const Device_vector<S>& p
           r = parameters.platform_radius() * scale;
   const S moved = (position - from.position).norm() * scale;
   const Position_equations<S> equations(parameters, position, from);
-  // Of differences of places, whose squares are about 1.
+  // Of an equation, which is about 1, in units of l2: the places in it are rounded in proportion to how far they are
+  // from the origin, and subtracted, multiplied and summed by eight roundings at most.
   const S rounding =
       S(8) * std::numeric_limits<S>::epsilon() * (S(1) + l1 + r + (position.norm() + parameters.base_radius()) * scale);
   Small_lu<S, 6> lu;
@@ -66,9 +67,9 @@ S certain_turn(const Device_parameters<S>& parameters, const Device_vector<S>& p
   // What is left of the equations anywhere on the way: lengths are of second degree in the place, right angles linear.
   const S first = S((inverse * equations.f).cwiseAbs().maxCoeff()) + weighed(moved * moved / S(8) + rounding, rounding);
   const S turned = S(2) * first;
-  const S drift =
-      weighed(moved * (l1 * joint + r * turn), moved * turn); // of the derivative, by the move of the centre
-  const S link_rate = l1 * joint + r * turn, link = equations.link_length.maxCoeff() + moved + turned * link_rate,
+  const S link_rate = l1 * joint + r * turn;
+  const S drift = weighed(moved * link_rate, moved * turn); // of the derivative, by the move of the centre
+  const S link = equations.link_length.maxCoeff() + moved + turned * link_rate,
           arm = equations.arm_length.maxCoeff() + moved + turned * l1 * joint;
   const S curvature = weighed(link_rate * link_rate + link * (l1 * joint * joint + r * turn * turn),
                               l1 * joint * joint + S(2) * l1 * joint * turn + arm * turn * turn);

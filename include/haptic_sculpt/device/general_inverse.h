@@ -129,8 +129,9 @@ Outcome<Device_pose<S>> general_inverse(const Device_parameters<S>& parameters, 
   }
   const Device_vector<S> start = previous.position, way = position - start;
   const Turn_norm<S> norm(parameters);
-  constexpr int most_steps = 20000;
-  const S least_step(1e-7); // of the way: nearer to a singular pose is at it
+  constexpr int most_steps = 20000; // tried: some ten milliseconds
+  // Part of the way: the shortfall is known no better, and a singular pose that is nearer than some of these is met.
+  const S least_step(1e-7);
   Device_pose<S> reached = previous;
   S done(0), step(1);
   for (int k = 0; k < most_steps && done < S(1); ++k) {

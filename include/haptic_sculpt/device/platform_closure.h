@@ -145,7 +145,8 @@ template <class S> struct Platform_closure {
 
   /// A bound of the second derivative, as a map from steps to residuals in the largest-magnitude norm.
   S curvature_bound() const { return S(2) * linear + S(8); }
-  /// What rounding can make of a residual: of each of its terms a few roundings, those of cosines and sines too.
+  /// What rounding can make of a residual, in units of l2^2: 16 roundings of the sum of its terms, for the five
+  /// operations that make it, and what cosines and sines are off the unit circle.
   S residual_rounding() const {
     return S(16) * std::numeric_limits<S>::epsilon() *
            (constant + S(2) * linear + S(3) + largest_magnitude(separation_squared));
