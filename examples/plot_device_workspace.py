@@ -32,7 +32,8 @@ def samples_of(path):
 def draw(data, near, picture):
     x, z = 1e3 * data[:, 0], 1e3 * data[:, 2]
     figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4), sharey=True)
-    panels = (("condition", data[:, 3]), ("isotropic force, N", data[:, 4]), ("apparent mass, largest axis, g", 1e3 * data[:, 7]))
+    panels = (("condition", data[:, 3]), ("isotropic force, N", data[:, 4]),
+              ("apparent mass, largest axis, g", 1e3 * data[:, 7]))
     for panel, (title, values) in zip(axes, panels):
         drawn = panel.scatter(x[near], z[near], c=values[near], s=6, vmax=np.percentile(values[near], 95))
         panel.set_title(title, fontsize=9)

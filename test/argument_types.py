@@ -29,7 +29,7 @@ def whole_number(least, most=2**64 - 1):
 
 
 def number(least, most=math.inf, why=""):
-    """Of what float() reads, nan is out of all bounds, though each comparison that a script makes of it lets it pass."""
+    """Of what float() reads, nan is out of all bounds, though each comparison of a script lets it pass."""
 
     def checked(text):
         try:

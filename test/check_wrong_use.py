@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""check_wrong_use.py ROOT: scripts that are used wrongly end with exit code 2 and a message, before any work; nothing is
-built. In a copy of a tree that has no build and no programs but those below."""
+"""check_wrong_use.py ROOT: scripts that are used wrongly end with exit code 2 and a message, before any work; nothing
+is built. In a copy of a tree that has no build and no programs but those below."""
 import os
 import pathlib
 import shutil
@@ -66,8 +66,10 @@ def test_run(tree):
     run = ("bash", tree / "test/run")
     for words in ([], ["--quick"], ["--sanitize", "-R", "a"], ["--thread-sanitizer", "-V"], ["-R", "a b", "-j4"]):
         expect(9, "", *run, *words, **path)
-    for said, *words in (("--quick has to come first", "-R", "a", "--quick"), ("--sanitize has", "--quick", "--sanitize"),
-                         ("--thread-sanitizer has", "-V", "--thread-sanitizer"), ("'collision' belongs", "collision")):
+    for said, *words in (("--quick has to come first", "-R", "a", "--quick"),
+                         ("--sanitize has", "--quick", "--sanitize"),
+                         ("--thread-sanitizer has", "-V", "--thread-sanitizer"),
+                         ("'collision' belongs", "collision")):
         expect(2, said, *run, *words, **path)
     for words in (["--help"], ["-R", "a", "-h"]):
         expect(0, "Installs what is missing", *run, *words, **path)
@@ -79,14 +81,15 @@ def plots(folder):
     if python is None:
         print("skipped: the plots, because python3-matplotlib is not installed")
         return
-    trace, samples = ((python, ROOT / "examples" / name) for name in ("haptic_loop/draw_trace.py", "plot_device_workspace.py"))
+    trace, samples = ((python, ROOT / "examples" / name)
+                      for name in ("haptic_loop/draw_trace.py", "plot_device_workspace.py"))
     good, row = folder / "good", "1," * TRACE.count(",") + "1000"
     good.write_text(f"{TRACE}\n{row}\n{row}\n")
     expect(0, "", *trace, good, folder / "trace.png")
     expect(2, "nowhere/trace.png", *trace, good, folder / "nowhere/trace.png")
-    for name, text in (("empty", b""), ("binary", b"\xff\xfe\0"), ("no_column", b"a,b\n1,2\n"), ("no_row", f"{TRACE}\n".encode()),
-                       ("short", f"{TRACE}\n1\n".encode()), ("nan", f"{TRACE}\n{row[:-4]}nan\n".encode()), ("folder", None),
-                       ("lost", None)):
+    for name, text in (("empty", b""), ("binary", b"\xff\xfe\0"), ("no_column", b"a,b\n1,2\n"),
+                       ("no_row", f"{TRACE}\n".encode()), ("short", f"{TRACE}\n1\n".encode()),
+                       ("nan", f"{TRACE}\n{row[:-4]}nan\n".encode()), ("folder", None), ("lost", None)):
         given = folder / name
         if text is not None:
             given.write_bytes(text)
@@ -107,8 +110,8 @@ def plots(folder):
 
 with tempfile.TemporaryDirectory() as place:
     tree = pathlib.Path(place) / "tree"
-    for name in ("test/run", "test/seeds", "test/planted_faults", "test/numerics", "test/coverage", "test/argument_types.py", "test/fuzz/run",
-                 "test/soak/run", "test/soak/loop_memory.py", "test/examples/hand_paths.py"):
+    for name in ("test/run", "test/seeds", "test/planted_faults", "test/numerics", "test/coverage",
+                 "test/argument_types.py", "test/fuzz/run", "test/soak/run", "test/soak/loop_memory.py", "test/examples/hand_paths.py"):
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tree / name)
     python_scripts(tree)

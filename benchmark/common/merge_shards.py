@@ -5,8 +5,8 @@
 The merged report is that of the run without --shard, but for times. A row carries the number of its unit, and rows stand
 in the order of units. A unit that is in one shard alone is taken as it is; of one that several shards have, counts add up
 and the largest stays the largest. The exit code is that of the first promise that is broken in all shards together.
-Exit: that code, 0 where every promise is kept, 2 usage: a shard is missing, there twice, or of another run, 5 the merged
-report cannot be written.
+Exit: that code, 0 where every promise is kept, 2 usage: a shard is missing, there twice, or of another run, 5 the
+merged report cannot be written.
 """
 import argparse
 import itertools
@@ -172,10 +172,11 @@ def report_in(path):
         raise Odd_shards(f"{path}: {error}") from error
     except RecursionError:
         report = None
-    if not isinstance(report, dict) or not re.fullmatch(r"\d+/\d+", str(report.get("shard"))) or is_deeper(report, MOST_DEEP):
+    is_of_a_shard = isinstance(report, dict) and re.fullmatch(r"\d+/\d+", str(report.get("shard")))
+    if not is_of_a_shard or is_deeper(report, MOST_DEEP):
         raise Odd_shards(f"{path} is no report of a shard")
-    promises = report.get("promises", [])
-    if not isinstance(promises, list) or not all(map(is_promise, promises)) or not isinstance(report.get("exit", 0), int):
+    promises, code = report.get("promises", []), report.get("exit", 0)
+    if not isinstance(promises, list) or not all(map(is_promise, promises)) or not isinstance(code, int):
         raise Odd_shards(f"{path}: its promises, or its exit code, are none")
     return report
 
@@ -210,7 +211,8 @@ def main():
         print("merge_shards:", odd, file=sys.stderr)
         return 2
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:  # JSON, but of other things
-        print(f"merge_shards: no reports of one run: {', '.join(map(str, options.reports))}: {error!r}", file=sys.stderr)
+        names = ", ".join(map(str, options.reports))
+        print(f"merge_shards: no reports of one run: {names}: {error!r}", file=sys.stderr)
         return 2
     try:
         write_report(options.json, merged)

@@ -29,7 +29,8 @@ def rows_of(path):
         try:
             missing = [name for name in NEEDED if name not in (reader.fieldnames or [])]
             if missing:
-                raise No_trace(f"{path} has no column '{missing[0]}'. Give a file that haptic_loop --trace has written.")
+                wanted = "Give a file that haptic_loop --trace has written."
+                raise No_trace(f"{path} has no column '{missing[0]}'. {wanted}")
             rows = [{name: float(row[name]) for name in NEEDED} for row in reader]
         except (TypeError, ValueError, csv.Error) as error:
             raise No_trace(f"{path}, line {reader.line_num}: {error}") from None

@@ -37,7 +37,8 @@ def report(units, shard, shards, seed):
 
 def merge_by_command(target, *files):
     # Bounded: a list of 10^12 shards would take all memory there is.
-    done = subprocess.run([sys.executable, merge_shards.__file__, "--json", target, *files], capture_output=True, text=True,
+    command = [sys.executable, merge_shards.__file__, "--json", target, *files]
+    done = subprocess.run(command, capture_output=True, text=True,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)))
     return done.returncode, done.stderr
 
@@ -68,9 +69,9 @@ def wrong_use(folder):
         expect(5, f"{target} cannot be written", target, *shards)
     expect(0, "", "/dev/null", *shards)
     promise = report(units, 0, 1, SEED)["promises"][0]
-    for text in ('{"shard": "0/1", "promises": 7}', '{"shard": "0/1", "promises": [{}]}', '{"shard": "0/1", "exit": "x"}',
-                 json.dumps({"shard": "0/1", "promises": [{**promise, "may": None}]}), "[" * 100000,
-                 '{"shard": "0/1", "a": ' + "[" * 300 + "]" * 300 + "}", '{"shard": "0/1", "rows": [{"unit": []}]}'):
+    for text in ('{"shard": "0/1", "promises": 7}', '{"shard": "0/1", "promises": [{}]}',
+                 '{"shard": "0/1", "exit": "x"}', json.dumps({"shard": "0/1", "promises": [{**promise, "may": None}]}),
+                 "[" * 100000, '{"shard": "0/1", "a": ' + "[" * 300 + "]" * 300 + "}", '{"shard": "0/1", "rows": [{"unit": []}]}'):
         odd = folder / "odd.json"
         odd.write_text(text)
         expect(2, "odd.json", folder / "none.json", odd)

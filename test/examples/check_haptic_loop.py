@@ -64,7 +64,8 @@ if "No module named 'matplotlib'" in done.stderr:
 else:
     check(done.returncode == 0 and open(at("plots.png"), "rb").read(8) == b"\x89PNG\r\n\x1a\n", f"plots of a trace: {done.stderr}")
     refused = subprocess.run([sys.executable, DRAW, at("a.json"), at("none.png")], capture_output=True, text=True)
-    check(refused.returncode == 2 and "has no column 't'" in refused.stderr, f"what is no trace is refused: {refused.stderr}")
+    check(refused.returncode == 2 and "has no column 't'" in refused.stderr,
+          f"what is no trace is refused: {refused.stderr}")
 numbers = [line.split() for line in open(MESH).read().split("\n") if line and not line.startswith("#")]
 corners = 2 + int(numbers[1][0])
 with open(at("coloured.obj"), "w") as file:

@@ -211,11 +211,14 @@ def thrown_while_a_script_runs(folder, mesh):
     before = f"{folder}/before.off"
     run(ball, "--script", "-", "-o", before, script="drag 0 -1.25 -1 1\n")
     command = [ball, "--script", "-", "-o", out, "--report", report]
-    done = run(*command, script="drag 0 -1.25 -1 1\nremesh 0.003\ndrag 0 -1.5 -1 1\n", memory=200 << 20, seconds=3 * PATIENCE)
+    done = run(*command, script="drag 0 -1.25 -1 1\nremesh 0.003\ndrag 0 -1.5 -1 1\n", memory=200 << 20,
+               seconds=3 * PATIENCE)
     fails(1, ["line 2", "remesh", "memory"], done, "no memory in a script")
-    check(os.path.exists(out) and surface(out) == surface(before), "what was done until then is written, and nothing of the line that ended it")
+    check(os.path.exists(out) and surface(out) == surface(before),
+          "what was done until then is written, and nothing of the line that ended it")
     told = json.load(open(report))
-    check("line 2" in " ".join(told["notes"]) and [edit["line"] for edit in told["edits"]] == [1], f"and told in the report: {told['notes']}, {told['edits']}")
+    check("line 2" in " ".join(told["notes"]) and [edit["line"] for edit in told["edits"]] == [1],
+          f"and told in the report: {told['notes']}, {told['edits']}")
     check("may have done" not in done.stderr, f"a line that was taken back: {done.stderr}")
     done = run(*command, script="stroke\ndrag 0 -1.25 -1 1\nremesh 0.003\n", memory=200 << 20, seconds=3 * PATIENCE)
     fails(1, ["line 3", "remesh", "memory", "may have done"], done, "no memory in a stroke, which is not taken back")
@@ -407,7 +410,8 @@ def limits_of_another_user(folder, mesh):
     run(ball, "--script", "-", "--log", log, script=DRAGS)
     os.chmod(log, 0o444)
     options = {"program": looped, "user": 34567}
-    fails(5, ["appending", "give it to sculpt"], run(ball, "--no-wait", "--seconds", "0.1", "--log", log, **options), "a log that may not be written")
+    fails(5, ["appending", "give it to sculpt"],
+          run(ball, "--no-wait", "--seconds", "0.1", "--log", log, **options), "a log that may not be written")
     done = run(ball, "--no-wait", "--seconds", "0.1", "--log", f"{folder}/b.log", processes=1, **options)
     fails(1, ["no thread"], done, "a loop without a thread for its log")
     check("fault of the program" not in done.stderr, f"a limit is no fault: {done.stderr}")
@@ -415,13 +419,16 @@ def limits_of_another_user(folder, mesh):
         return print("skipped: no picture can be drawn here")
     for processes in (1, 2):  # none, and not as many as the driver wants
         done = run(ball, "--picture", f"{folder}/{processes}.png", program=sculpt, user=34567, processes=processes)
-        check(done.returncode == 0 and os.path.exists(f"{folder}/{processes}.png"), f"a picture, drawn by {processes} thread(s): {done.stderr}")
+        check(done.returncode == 0 and os.path.exists(f"{folder}/{processes}.png"),
+              f"a picture, drawn by {processes} thread(s): {done.stderr}")
 
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/mesh.off", TETRAHEDRON)
-        for part in (closed_streams, readers_that_have_gone, signals, a_line_that_takes_long, thrown_while_a_script_runs, limits_of_another_user, targets, inputs_of_the_loop, recordings, words):
+        for part in (closed_streams, readers_that_have_gone, signals, a_line_that_takes_long,
+                     thrown_while_a_script_runs, limits_of_another_user, targets, inputs_of_the_loop, recordings,
+                     words):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             part(inner, mesh)

@@ -53,7 +53,7 @@ def bad_targets(folder, mesh):
 
 
 def memory_runs_out(folder, mesh):
-    """Where there is enough to read a mesh, but not to write it: all of OUT is written, or nothing and the exit code is 1."""
+    """Where there is enough to read a mesh, but not to write it: all of OUT is written, or nothing, with exit code 1."""
     if IS_SANITIZED:
         return
     ball, step = write(f"{folder}/ball.off", box(40)), 1 << 20
@@ -68,7 +68,8 @@ def memory_runs_out(folder, mesh):
         done = run(ball, "-o", out, memory=memory)
         codes.append(done.returncode)
         if done.returncode == 0:
-            check(bytes_of(out) == bytes_of(f"{folder}/sound.stl"), f"with {memory} bytes of memory a part of OUT is written, and the exit code is 0")
+            check(bytes_of(out) == bytes_of(f"{folder}/sound.stl"),
+                  f"with {memory} bytes of memory a part of OUT is written, and the exit code is 0")
         else:
             fails(1, ["out.stl", "memory"], done, f"with {memory} bytes of memory")
             check(bytes_of(out) == b"kept", f"with {memory} bytes of memory the old file is spoilt")
@@ -209,7 +210,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/tetrahedron.off", TETRAHEDRON)
         os.chmod(mesh, 0o644)
-        for part in (bad_targets, memory_runs_out, links, rights, sticky_folder, control_bytes, left_over_files, hostile_inputs):
+        for part in (bad_targets, memory_runs_out, links, rights, sticky_folder, control_bytes, left_over_files,
+                     hostile_inputs):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)
             part(inner, mesh)

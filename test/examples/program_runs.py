@@ -24,9 +24,11 @@ def check(condition, what):
         print("FAULT:", what)
 
 
-def run(*arguments, program=SCULPT, script=None, limit=None, memory=None, processes=None, folder=None, user=None, seconds=PATIENCE):
+def run(*arguments, program=SCULPT, script=None, limit=None, memory=None, processes=None, folder=None, user=None,
+        seconds=PATIENCE):
     def set_limits():
-        for which, value in ((resource.RLIMIT_FSIZE, limit), (resource.RLIMIT_AS, memory), (resource.RLIMIT_NPROC, processes)):
+        for which, value in ((resource.RLIMIT_FSIZE, limit), (resource.RLIMIT_AS, memory),
+                             (resource.RLIMIT_NPROC, processes)):
             if value is not None:
                 resource.setrlimit(which, (value, value))
 

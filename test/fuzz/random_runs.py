@@ -30,7 +30,8 @@ SMALL = {
         "click 300 280\nquit\n",
         "some.queries": "VF 0.25 0.25 1 0.25 0.25 -2 0 0 0 1 0 0 0 1 0\nEE 0 0 1 0x1p0 0 -1 1 1 0 0 1 0.25 1 0 0.25\n"
         "FV 0 0 1 0 0 -1 1 0 1 0 1 1 0.375 0.375 0\n# none\nAX VF 2 0 0 1 0 0 0 1 0 0 0 1 0 -1 0 0 0\n",
-        "all.script": "drag 0 0.5 0.5 0.5\ninsert_face 0 1 2 0.2 0.2 0.2\nundo\nredo\nbrush inflate 0 0 0 1 0.1\nremesh 0.3\n"
+        "all.script": "drag 0 0.5 0.5 0.5\ninsert_face 0 1 2 0.2 0.2 0.2\nundo\nredo\n"
+        "brush inflate 0 0 0 1 0.1\nremesh 0.3\n"
         "stroke\nremove 1\nend\nflip 0 1\ncollapse 0 1\ndelta 1e-6\nclearance 1e-9\nresponse stop\n",
     }.items()
 }

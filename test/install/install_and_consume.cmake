@@ -43,8 +43,8 @@ configure(device_consumer ${device_only} ${no_cgal})
 build_and_run(device_consumer)
 # Who asks such an installation for more, or for what there is not, reads what is missing.
 function(refused consumer expected)
-  execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK_FOLDER}/${consumer} -B ${WORK_FOLDER}/refused_${consumer} -G ${GENERATOR}
-    -DCMAKE_PREFIX_PATH=${device_only} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} ${ARGN}
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK_FOLDER}/${consumer} -B ${WORK_FOLDER}/refused_${consumer}
+    -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${device_only} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} ${ARGN}
     RESULT_VARIABLE result ERROR_VARIABLE message OUTPUT_QUIET)
   string(REGEX REPLACE "[ \n]+" " " message "${message}")
   if(result EQUAL 0 OR NOT message MATCHES "${expected}")

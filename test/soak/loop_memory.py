@@ -22,7 +22,7 @@ from hand_paths import BUTTONS_OF_A_HAND, random_path
 TICKS_A_SECOND = 1000
 # Simulated seconds that one of the clock may bring: more than the fastest machine makes of a path.
 FASTEST = 200
-# Minutes: before it is ended the loop has to have begun, to end in order, and its memory to have been looked at some times.
+# Minutes: before it is ended the loop has to have begun, to end in order, and its memory to have been looked at.
 LEAST = 0.1
 # Bytes after the first quarter, touching only: what allocators keep in pieces, and pages used for the first time.
 ALLOWED = 4 << 20
