@@ -111,7 +111,8 @@ def plots(folder):
 with tempfile.TemporaryDirectory() as place:
     tree = pathlib.Path(place) / "tree"
     for name in ("test/run", "test/seeds", "test/planted_faults", "test/numerics", "test/coverage",
-                 "test/argument_types.py", "test/fuzz/run", "test/soak/run", "test/soak/loop_memory.py", "test/examples/hand_paths.py"):
+                 "test/argument_types.py", "test/fuzz/run", "test/soak/run", "test/soak/loop_memory.py",
+                 "test/examples/hand_paths.py"):
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tree / name)
     python_scripts(tree)

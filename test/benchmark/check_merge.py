@@ -71,7 +71,8 @@ def wrong_use(folder):
     promise = report(units, 0, 1, SEED)["promises"][0]
     for text in ('{"shard": "0/1", "promises": 7}', '{"shard": "0/1", "promises": [{}]}',
                  '{"shard": "0/1", "exit": "x"}', json.dumps({"shard": "0/1", "promises": [{**promise, "may": None}]}),
-                 "[" * 100000, '{"shard": "0/1", "a": ' + "[" * 300 + "]" * 300 + "}", '{"shard": "0/1", "rows": [{"unit": []}]}'):
+                 "[" * 100000, '{"shard": "0/1", "a": ' + "[" * 300 + "]" * 300 + "}",
+                 '{"shard": "0/1", "rows": [{"unit": []}]}'):
         odd = folder / "odd.json"
         odd.write_text(text)
         expect(2, "odd.json", folder / "none.json", odd)

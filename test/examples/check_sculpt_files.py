@@ -53,7 +53,7 @@ def bad_targets(folder, mesh):
 
 
 def memory_runs_out(folder, mesh):
-    """Where there is enough to read a mesh, but not to write it: all of OUT is written, or nothing, with exit code 1."""
+    """Where there is enough to read a mesh, but not to write it: all of OUT is written, or nothing, exit code 1."""
     if IS_SANITIZED:
         return
     ball, step = write(f"{folder}/ball.off", box(40)), 1 << 20
