@@ -6,6 +6,7 @@
 /// program.
 
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 namespace haptic_sculpt::test {
@@ -17,14 +18,19 @@ public:
     left_ = n;
     for_good_ = for_good;
   }
-  ~Failing_allocations() { left_ = 0; }
+  /// All requests for more than this many bytes fail, and no other.
+  explicit Failing_allocations(std::size_t largest) { largest_ = largest; }
+  ~Failing_allocations() {
+    left_ = 0;
+    largest_ = no_limit;
+  }
   Failing_allocations(const Failing_allocations&) = delete;
   Failing_allocations& operator=(const Failing_allocations&) = delete;
 
   static void* allocate(std::size_t size, std::size_t alignment) {
     if (left_ == 1 && for_good_)
       throw std::bad_alloc();
-    if (left_ != 0 && --left_ == 0)
+    if (size > largest_ || (left_ != 0 && --left_ == 0))
       throw std::bad_alloc();
     return allocate_always(size, alignment);
   }
@@ -37,6 +43,9 @@ public:
   }
 
 private:
+  static constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
+  static inline thread_local std::size_t largest_ = no_limit;
   static inline thread_local std::size_t left_ = 0; ///< until one fails; 0: none does
   static inline thread_local bool for_good_ = false;
 };

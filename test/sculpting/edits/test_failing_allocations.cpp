@@ -187,6 +187,36 @@ BOOST_AUTO_TEST_CASE(a_property_whose_values_allocate) {
   try_all<Box_tree_broad_phase<Mesh>>("labelled faces", false, {}, mesh);
 }
 
+// An edit that an array of the mesh cannot grow for leaves the room that there was: what was done until then is undone.
+BOOST_AUTO_TEST_CASE(where_no_array_grows_any_more_all_can_be_undone) {
+  int ended = 0;
+  for (std::size_t largest = 1u << 14; largest < 1u << 18; largest += largest / 7) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(3, 0.3, 0.05));
+    Sculptor<Mesh> sculptor(mesh);
+    sculptor.reserve(100, 8);
+    const Mesh_snapshot begin = snapshot(sculptor);
+    std::size_t steps = 0, undone = 0;
+    try {
+      const Failing_allocations failing(largest);
+      try {
+        for (Mesh::size_type f = 0; f < 1000; ++f) {
+          const auto [a, b, c] = internal::corners_of_face(mesh, Mesh::Face_index(f));
+          const Point_3 middle = CGAL::centroid(mesh.point(a), mesh.point(b), mesh.point(c));
+          steps += static_cast<bool>(sculptor.insert_on_face(Mesh::Face_index(f), middle));
+        }
+      } catch (const std::bad_alloc&) {
+        ++ended;
+      }
+      while (sculptor.undo())
+        ++undone;
+    } catch (const std::bad_alloc&) { // of an undo
+    }
+    BOOST_TEST(undone == steps, "requests of at most " << largest << " bytes: " << undone << " of " << steps);
+    BOOST_TEST((snapshot(sculptor) == begin));
+  }
+  BOOST_TEST(ended > 10);
+}
+
 // Where there is no memory to remember which faces have changed, all have; and a copy under way stays right.
 BOOST_AUTO_TEST_CASE(a_viewer_and_a_copy_have_all_though_no_memory_is_left_in_the_visitor) {
   using Faces = std::vector<std::array<std::uint32_t, 3>>;

@@ -81,11 +81,18 @@ private:
     using Size = typename Mesh::size_type;
     if (room.vertices > most || room.edges > most / 2 || room.faces > most)
       throw std::bad_alloc();
-    mesh_->reserve(static_cast<Size>(room.vertices), static_cast<Size>(room.edges), static_cast<Size>(room.faces));
-    corners_->reserve(room.faces);
-    watch_->reserve(room.vertices);
-    ids_->reserve_slots(room.vertices);
-    broad_phase_->reserve(room.faces, 0);
+    const bool is_known = points() == points_;
+    try {
+      mesh_->reserve(static_cast<Size>(room.vertices), static_cast<Size>(room.edges), static_cast<Size>(room.faces));
+      corners_->reserve(room.faces);
+      watch_->reserve(room.vertices);
+      ids_->reserve_slots(room.vertices);
+      broad_phase_->reserve(room.faces, 0);
+    } catch (...) {
+      if (is_known) // some arrays have grown, and none has less room: an undo needs no more
+        points_ = points();
+      throw;
+    }
     room_ = room;
     points_ = points();
   }
