@@ -2,6 +2,7 @@
 #include "Journal_writer.h"
 
 #include <chrono>
+#include <new>
 
 namespace haptic_sculpt::examples {
 Journal_writer::Journal_writer(Log_file& log, Edit_journal& journal)
@@ -16,8 +17,12 @@ void Journal_writer::finish() {
 void Journal_writer::run() {
   for (;;) {
     const bool was_ending = is_ending_; // asked before the queue: what was added before the end is seen then
-    if (!is_stalled_ && write_what_is_there())
-      continue;
+    try {
+      if (!is_stalled_ && write_what_is_there())
+        continue;
+    } catch (const std::bad_alloc&) { // of a tick that is written in no part
+      log_->fail(Log_file::no_memory);
+    }
     if (was_ending)
       return;
     std::this_thread::sleep_for(std::chrono::duration<double>(pause));

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <new>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -98,7 +99,7 @@ void Log_file::begin(const Settings& settings) {
     if (file_ < 0 && errno == EEXIST)
       throw begun_by_another();
     if (file_ < 0 && (errno == ENOSPC || errno == EDQUOT)) {
-      fail(system_says());
+      fail(std::strerror(errno));
       return;
     }
     if (file_ < 0)
@@ -108,7 +109,7 @@ void Log_file::begin(const Settings& settings) {
     if (struct stat status {}; ::fstat(file_, &status) != 0 || status.st_size != 0)
       throw begun_by_another();
   }
-  append(head.substr(part_of_head_.size())); // in one write: only a process that is killed leaves a part
+  write(head.substr(part_of_head_.size())); // in one write: only a process that is killed leaves a part
   if (is_made && !failure_.empty())
     remove();
 }
@@ -133,29 +134,50 @@ void Log_file::cut_to(const Log_contents::Place& place, const char* what) {
   writer_ = contents_->writer = Log_writer(place.checksum);
 }
 
+void Log_file::append(const Command& command) {
+  append_made([&] { return writer_.command(command, command.line); });
+}
+
 void Log_file::append_tick(const std::vector<Command>& commands, std::size_t tick) {
-  std::string lines;
-  for (const Command& command : commands)
-    lines += writer_.command(command, tick != 0 ? tick : 1);
-  append(lines + writer_.tick(tick));
+  append_made([&] {
+    std::string lines;
+    for (const Command& command : commands)
+      lines += writer_.command(command, tick != 0 ? tick : 1);
+    return lines + writer_.tick(tick);
+  });
 }
 
 void Log_file::begin_pass(const std::string& script, std::size_t after) {
-  std::string lines;
-  if (contents_)
-    lines += writer_.ends(open_strokes(contents_->commands));
-  append(lines + writer_.pass(script, after));
+  append_made([&] {
+    std::string lines;
+    if (contents_)
+      lines += writer_.ends(open_strokes(contents_->commands));
+    return lines + writer_.pass(script, after);
+  });
 }
 
-void Log_file::append(const std::string& lines) {
+void Log_file::end_pass(const std::string& script) {
+  append_made([&] { return writer_.done(script); });
+}
+
+template <class Lines>
+void Log_file::append_made(const Lines& lines) {
   if (!failure_.empty())
     return;
+  try {
+    write(lines());
+  } catch (const std::bad_alloc&) {
+    fail(no_memory);
+  }
+}
+
+void Log_file::write(const std::string& lines) {
   if (struct stat now{}; ::fstat(file_, &now) != 0 || now.st_size != size_ || !is_at_its_path())
     return fail("it was moved away, or changed, while it was written");
   for (std::size_t done = 0; done < lines.size();) {
     const ssize_t written = ::write(file_, lines.data() + done, lines.size() - done);
     if (written < 0 && errno != EINTR) {
-      fail(system_says());
+      fail(std::strerror(errno));
       if (::ftruncate(file_, size_) != 0)
         failure_ += " (and part of a line is left, which the next run drops)";
       return;
@@ -177,9 +199,13 @@ bool Log_file::is_at_its_path() const {
          here.st_dev == there.st_dev;
 }
 
-void Log_file::fail(const std::string& why) {
-  failure_ = "cannot append to " + in_words(path_) + ": " + why;
+void Log_file::fail(const char* why) {
   has_failed_ = true;
+  try {
+    failure_ = "cannot append to " + in_words(path_) + ": " + why;
+  } catch (const std::bad_alloc&) {
+    failure_ = "no room in log"; // short enough to be in the object itself
+  }
 }
 
 } // namespace haptic_sculpt::examples

@@ -42,15 +42,19 @@ public:
   void remove();
 
   /// \name Appending
-  /// After a failure, at once and for good, nothing is appended: a log ends where the first line is missing.
+  /// After a failure, at once and for good, nothing is appended: a log ends where the first line is missing. Memory
+  /// that does not suffice is such a failure.
   ///@{
   /// What follows comes from the script with this hash, from the lines after this one. Strokes that are open end here.
   void begin_pass(const std::string& script, std::size_t after);
-  void append(const Command& command) { append(writer_.command(command, command.line)); }
+  void append(const Command& command);
   /// What a loop did in a tick, in one write; nothing but the end of the tick where `commands` are none.
   void append_tick(const std::vector<Command>& commands, std::size_t tick);
   /// The script has been carried out to its end, and the results are written.
-  void end_pass(const std::string& script) { append(writer_.done(script)); }
+  void end_pass(const std::string& script);
+  /// What was to be appended is not there. \param why as in "cannot append to the log: "
+  void fail(const char* why);
+  static constexpr const char* no_memory = "the memory does not suffice"; ///< such a reason
   ///@}
 
   /// Why the log does not hold all that was appended; empty if it does.
@@ -70,10 +74,12 @@ private:
   std::atomic<bool> has_failed_{false};
 
   void cut_to(const Log_contents::Place& place, const char* what);
-  void append(const std::string& lines);
+  /// \param lines `lines()` makes them
+  template <class Lines>
+  void append_made(const Lines& lines);
+  void write(const std::string& lines);
   void lock() const;
   bool is_at_its_path() const;
-  void fail(const std::string& why);
 };
 
 } // namespace haptic_sculpt::examples

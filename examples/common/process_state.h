@@ -96,11 +96,12 @@ inline void end_at_once_by_signals() {
     std::signal(SIGHUP, SIG_DFL);
 }
 
-/// Of a program that goes on until it is ended: from here on control-C, SIGTERM and SIGHUP end it in order, as far as
-/// they were not ignored when it began. \pre put_process_in_order() \return becomes true with the first of them
+/// Of a program that goes on until it is ended: from here on control-C, SIGTERM, SIGHUP and a limit of processor time
+/// (SIGXCPU) end it in order, as far as they were not ignored when it began. \pre put_process_in_order() \return
+/// becomes true with the first of them
 inline const std::atomic<bool>& end_in_order_by_signals() {
   const auto note = [](int) { process::is_ended() = true; };
-  for (const int signal : {SIGINT, SIGTERM})
+  for (const int signal : {SIGINT, SIGTERM, SIGXCPU})
     if (std::signal(signal, note) == SIG_IGN)
       std::signal(signal, SIG_IGN);
   if (!process::outlives_terminal())

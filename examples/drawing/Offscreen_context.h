@@ -50,7 +50,7 @@ private:
 
   [[noreturn]] static void refuse(const std::string& what) {
     throw Picture_error("Cannot draw a picture: " + what +
-                        ". Install libegl1 and libgl1-mesa-dri, or ask for no picture.");
+                        ". Install libegl1 and libgl1-mesa-dri, give more memory, or ask for no picture.");
   }
 
   // The display itself stays initialised: it belongs to the whole process, and others may have a context on it.

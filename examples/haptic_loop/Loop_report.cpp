@@ -64,7 +64,7 @@ std::string report_of(const Run_result& r, const Settings& settings, const std::
                        {"happened", happened},
                        {"faults", faults},
                        {"log", {{"ticks", r.ticks_written}, {"lost", r.log_lost}, {"failure", r.log_failure}}},
-                       {"valid", r.is_valid},
+                       {"valid", r.is_valid ? json(*r.is_valid) : json()},
                        {"interrupted", r.is_cut_short},
                        {"map", r.map},
                        {"settings", json_of(settings)},
@@ -85,7 +85,11 @@ void print_summary(std::ostream& out, const Run_result& r, const Settings& setti
   out << std::setprecision(6) << "energy: from the hand " << r.port << " J, friction " << r.dissipated
       << " J, observer " << r.observed << " J\n";
   out << "edits: " << r.grabbed << " grabbed, " << r.created << " created, " << r.removed << " removed, " << r.refused
-      << " refused; mesh " << (r.is_valid ? "valid" : "NOT VALID") << '\n';
+      << " refused; mesh "
+      << (!r.is_valid   ? "not looked at"
+          : *r.is_valid ? "valid"
+                        : "NOT VALID")
+      << '\n';
   for (const auto& [time, what] : r.faults)
     out << "fault at " << time << " s: " << what << "; the force has been taken back\n";
 }

@@ -46,7 +46,8 @@ struct Run_result {
   std::uint64_t ticks_written = 0, log_lost = 0;      ///< ticks with edits; entries that found no room
   std::string log_failure;                            ///< why the log does not hold all; empty if it does
   std::vector<double> map;                            ///< scale, origin, rotation vector, home
-  bool is_valid = false, is_cut_short = false;
+  std::optional<bool> is_valid;                       ///< none where memory did not suffice to look
+  bool is_cut_short = false;
   std::exception_ptr failure; ///< what ended the run by an exception: the results are those so far
 };
 

@@ -95,8 +95,10 @@ int loop(const Arguments& arguments, Plan& plan) {
     if (plan.fault && plan.fault->time > last_tick)
       throw Usage_error("--fault comes at " + examples::decimal(plan.fault->time) + " s, after the last tick, at " +
                         examples::decimal(last_tick) + " s");
-    if (plan.fault && plan.fault->kind == Loop_fault::stall && plan.fault->time == 0)
-      throw Usage_error("--fault stall@0 comes before the first tick, and nobody would wait for it: give a later time");
+    if (plan.fault && (plan.fault->kind == Loop_fault::stall || plan.fault->kind == Loop_fault::jump) &&
+        plan.fault->time == 0)
+      throw Usage_error("--fault stall@0 or jump@0 comes before the first tick, which has none to differ from: give a "
+                        "later time");
   }
   plan.mesh = arguments.mesh, plan.out = arguments.out, plan.log = arguments.log;
   if (arguments.is_real_time && (arguments.does_not_wait || !arguments.replay.empty()))

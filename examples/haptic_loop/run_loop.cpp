@@ -69,9 +69,12 @@ public:
                         "not there yet");
     std::vector<std::string> left_out;
     Mesh mesh = file.surface<Mesh>(&left_out);
-    Scene scene(std::move(mesh), [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
+    const auto placed = [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
       return of_settings([&] { return map_of(settings_, lower, upper, device_, *home_); });
-    });
+    };
+    // Not on the stack: where that cannot grow any more the system ends the program.
+    const auto made_scene = std::make_unique<Scene>(std::move(mesh), placed);
+    Scene& scene = *made_scene;
     if (const std::string loss = examples::told_loss(plan_.mesh, plan_.out, scene.mesh, left_out); !loss.empty())
       writer_.note(loss);
     keep_vertex_attributes(scene.sculptor);
@@ -104,18 +107,17 @@ public:
       std::fputs(recording_head(hash, settings_).c_str(), record_.get());
     if (trace_.get() != nullptr)
       write_columns(trace_.get());
-    try {
+    carry_on([&] {
       if (plan_.replay)
         replay(loop);
       else
         simulate(loop, start);
-    } catch (const std::exception&) { // told with the results so far, which are not lost
-      result_.failure = std::current_exception();
-    }
+    });
     session.end();
     if (plan_.is_real_time)
       leave_real_time();
-    finish(loop, scene);
+    carry_on([&] { finish(loop, scene); });
+    carry_on([&] { result_.is_valid = validate(scene.mesh).is_valid(); }); // last: it needs memory
     return std::move(result_);
   }
 
@@ -138,6 +140,17 @@ private:
   Run_result result_;
   double free_since_ = 0;
   Row_file trace_, record_;
+
+  /// What it throws is told with the results so far, which are not lost.
+  template <class Step>
+  void carry_on(const Step& step) {
+    try {
+      step();
+    } catch (const std::exception&) {
+      if (!result_.failure)
+        result_.failure = std::current_exception();
+    }
+  }
 
   /// What is made of the settings. \throw Foreign_recording where it cannot be made of a recording's
   template <class Make>
@@ -326,11 +339,6 @@ private:
                    map.home()[0],
                    map.home()[1],
                    map.home()[2]};
-    Write_parameters parameters;
-    for (std::size_t name = 0; name < sculptor.number_of_ids(); ++name)
-      if (const auto v = sculptor.vertex(name); v.is_valid())
-        parameters.vertices_order.emplace_back(static_cast<Mesh::size_type>(v));
-    result_.is_valid = validate(scene.mesh).is_valid();
     log_->finish();
     const std::string lacking = "the log '" + plan_.log + "' lacks the last edits of this run" +
                                 (plan_.out.empty() ? "" : ", which '" + plan_.out + "' has");
@@ -338,8 +346,13 @@ private:
       writer_.note(lacking);
     else if (log_->unwritten() > 0) // the run has ended before that
       writer_.fail(lacking);
-    writer_.write(plan_.out,
-                  [&](const std::string& path) { return examples::write_mesh(path, scene.mesh, parameters); });
+    writer_.write(plan_.out, [&](const std::string& path) {
+      Write_parameters parameters;
+      for (std::size_t name = 0; name < sculptor.number_of_ids(); ++name)
+        if (const auto v = sculptor.vertex(name); v.is_valid())
+          parameters.vertices_order.emplace_back(static_cast<Mesh::size_type>(v));
+      return examples::write_mesh(path, scene.mesh, parameters);
+    });
     writer_.write(plan_.picture, [&](const std::string& path) {
       return write_run_picture(drawing::scene_of(scene.mesh), samples_, path);
     });
@@ -360,7 +373,7 @@ private:
 } // namespace
 
 Run_result run_loop(const Plan& plan, examples::Result_writer& writer) {
-  return Run(plan, writer).run();
+  return std::make_unique<Run>(plan, writer)->run(); // large, as the scene is
 }
 
 } // namespace haptic_sculpt::loop_program

@@ -66,7 +66,8 @@ struct Run_result {
   Filter_counters filter;
   std::exception_ptr failure; ///< of a line that could not be carried out and ended the script, which was `failed`
   Command failed;
-  bool may_be_in_part = false; ///< that line: what it had done by then could not be taken back
+  /// That line: what it had done by then could not be taken back, and log or report may not have it.
+  bool may_be_in_part = false;
 
   std::size_t asked() const { return reached + blocked + refused; }
 };

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <set>
+#include <tuple>
 
 namespace haptic_sculpt::sculpt_program {
 
@@ -35,7 +37,7 @@ public:
           carry_out_move(command, i != 0 && script[i - 1].edit.kind == Edit_kind::move, after);
         } else {
           carry_out_whole(command);
-          tell(command, after);
+          tell_or_say_so(command, after);
         }
       } catch (const std::exception&) { // told with what was done so far, which is not lost
         result_.failure = std::current_exception();
@@ -82,6 +84,15 @@ private:
     return command;
   }
 
+  void tell_or_say_so(const Command& command, const After_command& after) {
+    try {
+      tell(command, after);
+    } catch (const std::bad_alloc&) {
+      result_.may_be_in_part = true;
+      throw;
+    }
+  }
+
   /// Whoever reads the log has to know of a setting that is not in force.
   void tell(const Command& command, const After_command& after) const {
     if (is_in_force(command))
@@ -108,13 +119,16 @@ private:
 
   /// All of it, or nothing: what it did before it was broken off would be in the mesh, but in no log and no report.
   void carry_out_whole(const Command& command) {
-    const std::size_t steps = sculptor_.history().number_of_undo_steps();
+    const std::size_t steps = sculptor_.history().number_of_undo_steps(), edits = result_.edits.size();
+    const std::array counts = {result_.reached, result_.blocked, result_.refused};
     try {
       carry_out(command);
     } catch (...) {
+      result_.edits.resize(edits);
+      std::tie(result_.reached, result_.blocked, result_.refused) = std::tuple_cat(counts);
       try {
         if (sculptor_.history().is_in_stroke()) // whose earlier lines an undo would take back, too
-          result_.may_be_in_part = command.kind == Kind::brush || command.kind == Kind::remesh;
+          result_.may_be_in_part = true;
         else if (sculptor_.history().number_of_undo_steps() > steps)
           result_.may_be_in_part = !sculptor_.undo();
       } catch (const std::exception&) { // no memory for that, either
@@ -309,9 +323,10 @@ private:
 template <class Broad_phase>
 Run_result run_script(Mesh& mesh, const std::vector<Command>& script, const Sculptor_parameters& parameters,
                       const Run_hooks& hooks) {
-  Script_runner<Broad_phase> runner(mesh, parameters);
+  // Not on the stack: where that cannot grow any more the system ends the program.
+  const auto runner = std::make_unique<Script_runner<Broad_phase>>(mesh, parameters);
   hooks.begin();
-  return runner.run(script, hooks.after);
+  return runner->run(script, hooks.after);
 }
 
 } // namespace haptic_sculpt::sculpt_program

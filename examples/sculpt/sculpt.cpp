@@ -285,11 +285,10 @@ int sculpt(const Arguments& arguments) {
   };
   const Run_result result = run(mesh, plan.commands, arguments, {begin, append_to_log});
   if (result.failure)
-    writer.note(
-        (result.failed.is_logged ? arguments.log : arguments.script) + ": line " + std::to_string(result.failed.line) +
-        ": `" + name_of(result.failed) + "` has ended the script: " + examples::message_of(result.failure) +
-        ". What was done until then is written" +
-        (result.may_be_in_part ? ", with what this line may have done, which neither log nor report tells" : ""));
+    writer.note((result.failed.is_logged ? arguments.log : arguments.script) + ": line " +
+                std::to_string(result.failed.line) + ": `" + name_of(result.failed) + "` has ended the script: " +
+                examples::message_of(result.failure) + ". What was done until then is written" +
+                (result.may_be_in_part ? ", with what this line may have done, which log and report may lack" : ""));
   const std::vector<Near_vertex> nearest = nearest_to(arguments, mesh, result);
   write_all(writer, mesh, result, arguments, nearest, before, without_guard);
   if (is_logging && writer.all_written() && !result.failure) {

@@ -225,6 +225,50 @@ def thrown_while_a_script_runs(folder, mesh):
     check((-1.25, -1, 1) in points(out), "what the stroke had done before is written")
 
 
+def limits_of_memory_below_need(run_within):
+    """Twenty, 0.4 % apart, below the least, to an eighth of a megabyte, within which it ends with exit 0."""
+    low, high = 1 << 20, 1 << 30
+    while high - low > 1 << 17:
+        middle = (low + high) // 2
+        low, high = (low, middle) if run_within(middle).returncode == 0 else (middle, high)
+    return [high - step * high // 250 for step in range(20)]
+
+
+def memory_that_runs_out(folder, mesh):
+    """Wherever it does, a program ends in order, and what it wrote is what its log makes again, or it says that not."""
+    if IS_SANITIZED:
+        return
+    ball, log, out, again = write(f"{folder}/box.off", box(40)), *(f"{folder}/{name}" for name in ("a.log", "o.off", "b.off"))
+    report = f"{folder}/report.json"
+    shifts = "".join(f"shift {axis} {len(points(ball))}\n" + "".join(f"{i} {p[axis] + 1}\n" for i, p in enumerate(points(ball))) + "end\n" for axis in (0, 1))
+
+    def sculpt_within(memory):
+        return run(ball, "--script", "-", "--log", log, "-o", out, "--report", report, script=shifts, memory=memory)
+
+    def loop_within(memory):
+        return loop(BALL, "--no-wait", "--seconds", "1", "--log", log, "-o", out, "--report", report, memory=memory)
+
+    for source, run_within in ((ball, sculpt_within), (BALL, loop_within)):
+        limits = limits_of_memory_below_need(lambda memory: [os.path.exists(log) and os.remove(log), run_within(memory)][1])
+        told, written = 0, 0
+        for memory in limits:
+            for file in (log, out, report):
+                if os.path.exists(file):
+                    os.remove(file)
+            done = run_within(memory)
+            what = f"{run_within.__name__} {memory} bytes"
+            check(done.returncode in (0, 1, 5), f"{what}: exit {done.returncode}: {done.stderr}")
+            if not os.path.exists(out):
+                continue
+            written += 1
+            if "cannot append to the log" in done.stderr:
+                told += 1
+            else:
+                run(source, "--log", log, "-o", again)
+                check(surface(out) == surface(again), f"{what}: another mesh than its log makes: {done.stderr}")
+        print(f"{run_within.__name__}: {limits[-1]} to {limits[0]} bytes; {written} of {len(limits)} meshes written, {told} beside a log that ends before")
+
+
 def targets(folder, mesh):
     """No file of a run is written over another one."""
     script, plain = write(f"{folder}/a.script", DRAGS), lambda name: f"{folder}/{name}"
@@ -427,7 +471,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = write(f"{folder}/mesh.off", TETRAHEDRON)
         for part in (closed_streams, readers_that_have_gone, signals, a_line_that_takes_long,
-                     thrown_while_a_script_runs, limits_of_another_user, targets, inputs_of_the_loop, recordings,
+                     thrown_while_a_script_runs, memory_that_runs_out, limits_of_another_user, targets, inputs_of_the_loop, recordings,
                      words):
             inner = f"{folder}/{part.__name__}"
             os.mkdir(inner)

@@ -201,6 +201,30 @@ BOOST_AUTO_TEST_CASE(others_that_leave_fewer_elements_than_the_hand_holds_are_fo
     }
 }
 
+// The precondition of a sweep says nothing to who catches an Error.
+BOOST_AUTO_TEST_CASE(what_others_make_infinite_or_no_number_on_the_way_is_found) {
+  for (const double x : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    for (const bool is_once : {false, true}) {
+      Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.12));
+      Sculptor<Mesh> sculptor(mesh);
+      const Vertex_index top = sculptor.nearest_vertex(Point_3(0, 0, 2), 9);
+      const Vertex_index bottom = sculptor.nearest_vertex(Point_3(0, 0, -2), 9);
+      const Mesh before = mesh;
+      auto probe = sculptor.probe(Point_3(0, 0, 1.5));
+      mesh.point(bottom) = Point_3(x, before.point(bottom).y(), before.point(bottom).z());
+      const Point_3 far(0, 0.01, -3);
+      BOOST_CHECK_THROW(sculptor.drag(top, far, Drag_parameters().once(is_once)), Mesh_changed);
+      BOOST_CHECK_THROW(sculptor.move_if_free(top, far, Drag_parameters().once(is_once)), Mesh_changed);
+      BOOST_CHECK_THROW(sculptor.first_impact(top, far), Mesh_changed);
+      mesh.point(bottom) = before.point(bottom);
+      mesh.point(top) = Point_3(before.point(top).x(), before.point(top).y(), x);
+      BOOST_CHECK_THROW(probe.drag_to(Point_3(0, 0, 0)), Mesh_changed);
+      mesh.point(top) = before.point(top);
+      sculptor.check_unchanged();
+      BOOST_TEST(sculptor.drag(top, Point_3(0, 0, 2)).reached); // it goes on
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_removed_vertex_may_be_anywhere) {
   Mesh mesh = meshes::to_mesh(meshes::tetrahedron());
   mesh.remove_vertex(mesh.add_vertex({std::nan(""), 0, 0}));

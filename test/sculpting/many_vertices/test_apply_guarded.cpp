@@ -92,6 +92,23 @@ BOOST_AUTO_TEST_CASE(deformation_that_crosses_itself_is_stopped) {
   BOOST_TEST(report.left_l2 < 0.9 * report.asked_l2);
 }
 
+// Nobody arrives on the line, and there is no end of coming nearer to it: passes of axis moves end, too.
+BOOST_AUTO_TEST_CASE(coming_nearer_to_the_origin_ends) {
+  for (const double share : {1.0, 1e-320}) {
+    Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0.12));
+    Sculptor<Mesh> sculptor(mesh);
+    const auto flatten = [share](Mesh& copy, auto points) {
+      for (const Vertex_index v : copy.vertices())
+        put(points, v, Point_3(get(points, v).x(), share * get(points, v).y() * (share < 1), 0));
+    };
+    const Move_report report = apply_guarded(sculptor, flatten);
+    BOOST_TEST(report.reached < report.asked);
+    BOOST_TEST(report.left_max < 0x1p-90);
+    BOOST_TEST(report.drags < 20000u);
+    BOOST_TEST(validate(mesh).is_valid());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(functions_that_fail_or_do_more_than_move_points_change_nothing) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.2));
   Sculptor<Mesh> sculptor(mesh);

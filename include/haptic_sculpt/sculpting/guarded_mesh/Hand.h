@@ -6,6 +6,8 @@
 #include <haptic_sculpt/sculpting/guarded_mesh/Responses.h>
 #include <haptic_sculpt/sculpting/motion/Guarded_star.h>
 
+#include <CGAL/exceptions.h>
+
 namespace haptic_sculpt::internal {
 
 /// The vertex that is being dragged: its guarded star, the contacts it carries along, and when the mesh about it is
@@ -90,7 +92,8 @@ public:
       responses_.forget();
     begin_to_decide(parameters.work_limit_pairs);
     const Drag_rules rules = {Clearance_rule(parameters.clearance_length), delta};
-    const Coordinates end = responses_.move(parameters.response_rule, guard_, *mesh_, source, target, rules, result);
+    const Coordinates end = decided(
+        [&] { return responses_.move(parameters.response_rule, guard_, *mesh_, source, target, rules, result); });
     result.work = guard_.work().done();
     return end;
   }
@@ -108,12 +111,12 @@ public:
   /// Whether the straight way is free, and that has been decided within the bound on the work.
   bool is_free(const Coordinates& source, const Coordinates& target, const Drag_parameters& parameters, double delta) {
     begin_to_decide(parameters.work_limit_pairs);
-    return guard_.is_free(source, target, delta);
+    return decided([&] { return guard_.is_free(source, target, delta); });
   }
 
   auto first_impact(const Coordinates& source, const Coordinates& target) {
     begin_to_decide(std::nullopt);
-    return guard_.decide(source, target, 0).first_impact();
+    return decided([&] { return guard_.decide(source, target, 0).first_impact(); });
   }
 
   /// The mesh has been written: v has moved.
@@ -161,15 +164,30 @@ private:
     is_ready_ = false;
   }
 
+  /// \throw Mesh_changed for a precondition of the kernels: what others have made infinite or no number
+  template <class Decide>
+  auto decided(const Decide& decide) const {
+    try {
+      return decide();
+    } catch (const CGAL::Precondition_exception&) {
+      compare_all();
+      throw;
+    }
+  }
+
+  void compare_all() const {
+    for (const auto& candidate : guard_.candidate_list().vertices())
+      watch_->check(candidate.index);
+    watch_->check_faces(*corners_, guard_.star().faces);
+  }
+
   void compare_candidates() {
     if (is_held_once_) // whatever is near is the vertex or a neighbour at another drag
       return;
     const auto& candidates = guard_.candidate_list().vertices();
     if (compared_look_ != guard_.looks()) {
       compared_look_ = guard_.looks();
-      for (const auto& candidate : candidates)
-        watch_->check(candidate.index);
-      watch_->check_faces(*corners_, guard_.star().faces);
+      compare_all();
       return;
     }
     for (std::size_t left = std::min(candidates.size(), candidates_per_drag); left != 0; --left) {

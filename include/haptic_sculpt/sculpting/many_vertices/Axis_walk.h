@@ -35,6 +35,7 @@ public:
   /// \return false where it was cancelled
   bool run() {
     look_around(); // no coordinate leaves the interval from where it is to its target
+    const double asked = sum_left();
     // Steps that are taken back would use up what few motions there are.
     const bool takes_steps = parameters_.drags_singly && parameters_.drag_limit / work_of_steps >= vertices_.size();
     double way = takes_steps ? 0 : 1, step = 1;
@@ -62,7 +63,7 @@ public:
         look_around();
         step_to(share, vertices_.size());
       }
-    for (double left = sum_left(); goes_on_ && left > 0;) {
+    for (double left = sum_left(); goes_on_ && left > least_left * asked;) {
       look_around(); // fewer may be behind
       step_to(1, vertices_.size());
       const double gone = left - sum_left();
@@ -85,7 +86,8 @@ private:
   static constexpr double held_step = 1.0 / 8;
   /// Steps are tried where this many motions a vertex may be made.
   static constexpr std::size_t work_of_steps = 16;
-  /// Another pass to the end is made while the last has gained more than this share of what was left.
+  /// Another pass to the end is made while the last has gained more than this share of what was left, and more than
+  /// least_left is.
   static constexpr double least_gain = 0.01;
 
   using Ways = Axis_ways<Mesh>;

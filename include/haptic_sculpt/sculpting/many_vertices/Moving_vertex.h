@@ -14,6 +14,10 @@ struct Moving_vertex {
   Coordinates source, target;
 };
 
+/// No pass is made for less than this share of what was asked, as a sum of distances: to the origin there is no end of
+/// coming nearer.
+inline constexpr double least_left = 0x1p-100;
+
 /// Between two points; where squares would leave the range of doubles, in another unit.
 inline double distance(const Coordinates& p, const Coordinates& q) {
   const Vector d = minus(p, q);

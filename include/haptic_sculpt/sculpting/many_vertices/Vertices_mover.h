@@ -49,8 +49,8 @@ private:
   /// This many passes of slides are made when few are left.
   static constexpr int slide_passes_of_few = 3;
   /// Another pass is made at the end while the last has gained more than this share of what was left, as a sum of
-  /// distances, and more than this share of what was asked is left: to the origin there is no end of coming nearer.
-  static constexpr double least_gain = 0.01, least_left = 0x1p-100;
+  /// distances, and more than least_left of what was asked is left.
+  static constexpr double least_gain = 0.01;
 
   /// So few of n do not stand in each other's way as a whole: what blocks them is local.
   static std::size_t few(std::size_t n) { return 1 + n / 32; }
