@@ -141,7 +141,7 @@ private:
   double free_since_ = 0;
   Row_file trace_, record_;
 
-  /// What it throws is told with the results so far, which are not lost.
+  /// Keeps what it throws beside the results so far, which are not lost.
   template <class Step>
   void carry_on(const Step& step) {
     try {
