@@ -200,12 +200,12 @@ bool Log_file::is_at_its_path() const {
 }
 
 void Log_file::fail(const char* why) {
-  has_failed_ = true;
   try {
     failure_ = "cannot append to " + in_words(path_) + ": " + why;
   } catch (const std::bad_alloc&) {
     failure_ = "no room in log"; // short enough to be in the object itself
   }
+  has_failed_ = true; // last: whoever asks may read the reason then
 }
 
 } // namespace haptic_sculpt::examples
