@@ -37,7 +37,7 @@ public:
           carry_out_move(command, i != 0 && script[i - 1].edit.kind == Edit_kind::move, after);
         } else {
           carry_out_whole(command);
-          tell_or_say_so(command, after);
+          tell(command, after);
         }
       } catch (const std::exception&) { // told with what was done so far, which is not lost
         result_.failure = std::current_exception();
@@ -84,26 +84,27 @@ private:
     return command;
   }
 
-  void tell_or_say_so(const Command& command, const After_command& after) {
+  /// Hands the line to who logs it.
+  void tell(const Command& command, const After_command& after) {
     try {
-      tell(command, after);
-    } catch (const std::bad_alloc&) {
+      if (is_in_force(command))
+        after(command);
+      else
+        after(as_refused(command));
+    } catch (const std::bad_alloc&) { // it has been carried out, and the log may not have it
       result_.may_be_in_part = true;
       throw;
     }
   }
 
   /// Whoever reads the log has to know of a setting that is not in force.
-  void tell(const Command& command, const After_command& after) const {
-    if (is_in_force(command))
-      return after(command);
-    if (command.is_restored)
+  static Command as_refused(Command setting) {
+    if (setting.is_restored)
       throw examples::Usage_error(
           "the script had this when it broke off, and the mesh, changed since, does not take it. "
           "Undo what was done since, or carry out the lines that are left as another script");
-    Command refused = command;
-    refused.is_refused = true;
-    after(refused);
+    setting.is_refused = true;
+    return setting;
   }
 
   /// \return true of what is no setting that may be refused
