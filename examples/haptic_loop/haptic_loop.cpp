@@ -111,8 +111,9 @@ int loop(const Arguments& arguments, Plan& plan) {
   examples::Result_writer writer("haptic_loop");
   const Run_result result = run_loop(plan, writer);
   if (result.failure)
-    writer.note("the run has ended after " + std::to_string(result.ticks) + " ticks: " +
-                examples::message_of(result.failure) + ". What was done until then is written");
+    writer.note("the run has ended after " + std::to_string(result.ticks) +
+                " ticks: " + examples::message_of(result.failure) +
+                (writer.all_written() ? ". What was done until then is written" : ""));
   if (!result.log_failure.empty())
     writer.fail(result.log_failure);
   writer.write(arguments.report, [&](const std::string& path) {

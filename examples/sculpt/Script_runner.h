@@ -13,7 +13,6 @@
 #include <cmath>
 #include <memory>
 #include <set>
-#include <tuple>
 
 namespace haptic_sculpt::sculpt_program {
 
@@ -121,12 +120,14 @@ private:
   /// All of it, or nothing: what it did before it was broken off would be in the mesh, but in no log and no report.
   void carry_out_whole(const Command& command) {
     const std::size_t steps = sculptor_.history().number_of_undo_steps(), edits = result_.edits.size();
-    const std::array counts = {result_.reached, result_.blocked, result_.refused};
+    const std::size_t reached = result_.reached, blocked = result_.blocked, refused = result_.refused,
+                      within_clearance = result_.within_clearance;
     try {
       carry_out(command);
     } catch (...) {
       result_.edits.resize(edits);
-      std::tie(result_.reached, result_.blocked, result_.refused) = std::tuple_cat(counts);
+      result_.reached = reached, result_.blocked = blocked, result_.refused = refused;
+      result_.within_clearance = within_clearance;
       try {
         if (sculptor_.history().is_in_stroke()) // whose earlier lines an undo would take back, too
           result_.may_be_in_part = true;
