@@ -255,7 +255,7 @@ def memory_that_runs_out(folder, mesh):
         return anew(run, box_file, "--script", "-", script=shifts, memory=memory)
 
     def loop_within(memory):
-        return anew(loop, BALL, "--no-wait", "--seconds", "1", memory=memory)
+        return anew(loop, BALL, "--no-wait", memory=memory)
 
     for source, run_within in ((box_file, sculpt_within), (BALL, loop_within)):
         limits = limits_of_memory_below_need(run_within)
