@@ -30,7 +30,7 @@ import tempfile
 from random_runs import FAULT_OF_THE_PROGRAM, Draw, corpus_of, options_of
 
 MEMORY = 3 << 30  # bytes: what is refused below this is refused in order
-PATIENCE = 2  # seconds before a run is asked to end; loops of 10^24 seconds are one in a hundred
+PATIENCE = 1  # seconds before a run is asked to end; loops of 10^24 seconds are one in a hundred
 GRACE = 20  # seconds that it may take then
 # AddressSanitizer reserves more than any limit of addresses. It is given bounds of its own, and ends a program there.
 BOUNDS_OF_THE_SANITIZER = f"max_allocation_size_mb={MEMORY >> 20}:hard_rss_limit_mb={2 * MEMORY >> 20}"

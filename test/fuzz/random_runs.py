@@ -169,7 +169,7 @@ class Draw:
             words += [option.name, *values]
         smallest = dict(SMALLEST.get(name, {}))
         if name == "haptic_loop":  # the hand has edited by 8 s; without waiting that takes 0.1 s
-            smallest["--seconds"] = r.choice(["0.02", "0.02", "8"]) if "--no-wait" in words else "0.02"
+            smallest["--seconds"] = "8" if "--no-wait" in words and r.random() < 0.1 else "0.02"
         for option, value in smallest.items():
             words += [option, value] if option not in words and "--replay" not in words else []
         self.arguments = [word.replace("\0", "") for word in words]
@@ -242,8 +242,10 @@ class Draw:
         if is_good:
             return good
         missing = os.path.join(self.folder, "none", "x" + (writes or ""))
+        # To read what has no end until the limit takes a second: seldom.
+        endless = ["/dev/full"] if writes or r.random() < 0.05 else []
         return r.choice([good + ".", os.path.join(self.folder, "outoutput.off"), missing, self.folder, "/dev/null",
-                         "/dev/full", "/proc/self/mem", "", *self.inputs])
+                         "/proc/self/mem", "", *endless, *self.inputs])
 
     def value(self, name, choices, is_good):
         r = self.random
