@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/Is_mesh_of_doubles.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/coordinate_range.h>
 #include <haptic_sculpt/surface/io/check_regular_file.h>
@@ -124,12 +125,6 @@ Face_soup read_face_soup(const std::filesystem::path& path, const Bytes& bytes) 
     throw Read_error("cannot read " + quoted_path(path) + ": " + error.what());
   }
 }
-
-template <class Mesh>
-struct Is_mesh_of_doubles : std::false_type {};
-template <class Point>
-struct Is_mesh_of_doubles<CGAL::Surface_mesh<Point>>
-    : std::is_same<typename CGAL::Kernel_traits<Point>::Kernel::FT, double> {};
 
 } // namespace internal
 

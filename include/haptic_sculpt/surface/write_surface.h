@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/Rounding_to_nearest.h>
 #include <haptic_sculpt/surface/Invalid_surface.h>
+#include <haptic_sculpt/surface/Is_mesh_of_doubles.h>
 #include <haptic_sculpt/surface/Mesh_file_format.h>
 #include <haptic_sculpt/surface/io/format_attributes.h>
 #include <haptic_sculpt/surface/io/format_stl.h>
@@ -205,9 +206,13 @@ inline void prepare_ply(const Face_soup& soup, bool binary) {
 
 } // namespace internal
 
-/// The bytes of the file that write_surface() writes. \throw Write_error
+/// The bytes of the file that write_surface() writes. \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with
+/// `K::FT = double` \throw Write_error
 template <class Mesh>
 std::string surface_bytes(const Mesh& mesh, Mesh_file_format format, const Write_parameters& parameters = {}) {
+  static_assert(internal::Is_mesh_of_doubles<Mesh>::value,
+                "write_surface(), surface_bytes(): the mesh must be a CGAL::Surface_mesh whose points have double "
+                "coordinates");
   const internal::Rounding_to_nearest rounding;
   using Encoding = Write_parameters::Encoding;
   const bool may_be_binary = format == Mesh_file_format::ply || format == Mesh_file_format::stl;
@@ -246,6 +251,7 @@ std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path,
 /// the other formats none (`attributes_not_held()`). An invalid surface is written as it is (and will
 /// not be read back, nor is an empty one), unless the format cannot hold it.
 ///
+/// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param path of the file; its folder has to exist. `replace_file()` says what becomes of links and permissions
 /// \throw Write_error
 template <class Mesh>

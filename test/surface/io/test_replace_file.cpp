@@ -4,6 +4,7 @@
 #include <haptic_sculpt/surface/write_surface.h>
 
 #include <meshes/generated_meshes.h>
+#include <sculpting/edits/failing_allocations.h>
 #include <surface/Temporary_folder.h>
 #include <surface/identical.h>
 
@@ -21,6 +22,14 @@ using namespace haptic_sculpt;
 using meshes::Mesh;
 using meshes::to_mesh;
 namespace fs = std::filesystem;
+
+namespace {
+
+std::string note_of_rights(int, const struct stat&) {
+  return "a note about rights that is long enough to be stored";
+}
+
+} // namespace
 
 BOOST_AUTO_TEST_SUITE(reading_and_writing)
 
@@ -93,6 +102,32 @@ BOOST_AUTO_TEST_CASE(a_link_that_leads_nowhere_gets_a_file_and_a_circle_is_refus
     BOOST_TEST(fs::is_symlink(folder / name));
   }
   BOOST_TEST(folder.number_of_files() == 6u);
+}
+
+BOOST_AUTO_TEST_CASE(where_memory_runs_out_the_old_file_stays) {
+  const Temporary_folder folder;
+  const auto target = folder / "a_name_that_is_too_long_for_a_short_string.off";
+  for (int k = 0; k < 20; ++k)
+    folder.file("another_name_that_is_too_long_for_a_short_string" + std::to_string(k), "");
+  fs::create_symlink(target, folder / "link.off");
+  for (const bool for_good : {false, true}) {
+    std::size_t failures = 0;
+    for (bool has_failed = true; has_failed; ++failures) {
+      folder.file(target.filename().string(), "old");
+      has_failed = false;
+      {
+        const test::Failing_allocations failing(failures + 1, for_good);
+        try {
+          replace_file(folder / "link.off", "new", note_of_rights);
+        } catch (const std::bad_alloc&) {
+          has_failed = true;
+        }
+      }
+      BOOST_TEST(bytes_of(target) == (has_failed ? "old" : "new"));
+      BOOST_TEST(folder.number_of_files() == 22u);
+    }
+    BOOST_TEST(failures > 10u);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(rights_that_a_file_lends_are_not_passed_on) {

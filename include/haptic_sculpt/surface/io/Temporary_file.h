@@ -6,9 +6,11 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
-#include <system_error>
+#include <string_view>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -59,25 +61,33 @@ public:
     return true;
   }
 
-  /// Removes what killed processes have left in a folder. What cannot be removed stays: it is in nobody's way.
+  /// Removes what killed processes have left in a folder. What cannot be removed stays: it is in nobody's way. (POSIX:
+  /// `std::filesystem::directory_iterator` ends the process where memory runs out, in libstdc++ 12.)
   [[gnu::cold]] static void remove_left(const std::filesystem::path& folder) {
-    std::error_code error;
-    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-      if (!has_such_a_name(entry->path().filename().string()))
+    const std::unique_ptr<DIR, Folder_closer> opened(::opendir(folder.c_str()));
+    if (opened == nullptr)
+      return;
+    const int directory = ::dirfd(opened.get());
+    while (const dirent* const entry = ::readdir(opened.get())) {
+      const char* const name = entry->d_name;
+      if (!has_such_a_name(name))
         continue;
-      const int file = ::open(entry->path().c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+      const int file = ::openat(directory, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
       struct stat status {}, named {};
       if (file >= 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
-          ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::lstat(entry->path().c_str(), &named) == 0 &&
+          ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::fstatat(directory, name, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
           named.st_dev == status.st_dev && named.st_ino == status.st_ino) // else another one has the name by now
-        ::unlink(entry->path().c_str());
+        ::unlinkat(directory, name, 0);
       if (file >= 0)
         ::close(file);
     }
   }
 
 private:
+  struct Folder_closer {
+    void operator()(DIR* folder) const { ::closedir(folder); }
+  };
+
   /// A process gives no number twice: who has looked at an old file and removes its name never meets a new file. The
   /// first is the time, for in another container another process has the same number.
   static unsigned number() {
@@ -104,15 +114,15 @@ private:
   }
 
   /// `.NAME.haptic_sculpt-new-PROCESS-NUMBER`
-  static bool has_such_a_name(const std::string& name) {
+  static bool has_such_a_name(std::string_view name) {
     const std::size_t at = name.rfind(mark);
-    if (name[0] != '.' || at == std::string::npos)
+    if (name[0] != '.' || at == std::string_view::npos)
       return false;
-    const std::string numbers = name.substr(at + std::char_traits<char>::length(mark));
+    const std::string_view numbers = name.substr(at + std::char_traits<char>::length(mark));
     const std::size_t dash = numbers.find('-');
-    return dash != std::string::npos && dash != 0 && dash + 1 < numbers.size() &&
-           numbers.find_first_not_of("0123456789-") == std::string::npos &&
-           numbers.find('-', dash + 1) == std::string::npos;
+    return dash != std::string_view::npos && dash != 0 && dash + 1 < numbers.size() &&
+           numbers.find_first_not_of("0123456789-") == std::string_view::npos &&
+           numbers.find('-', dash + 1) == std::string_view::npos;
   }
 };
 

@@ -73,9 +73,10 @@ inline std::string keep_permissions(int new_file, const struct stat& old) {
   if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0)
     return "the file may not be written" + system_says();
   const fs::path folder = internal::folder_of(target);
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    return "no file can be made in its folder" + system_says();
-  return fs::is_directory(folder, error) ? "" : internal::quoted_path(folder) + " is not a folder";
+  const fs::file_status folder_status = fs::status(folder, error);
+  if (fs::exists(folder_status) && !fs::is_directory(folder_status))
+    return internal::quoted_path(folder) + " is not a folder";
+  return ::access(folder.c_str(), W_OK | X_OK) == 0 ? "" : "no file can be made in its folder" + system_says();
 }
 
 /// Puts a file of these bytes at `path`, whole or not at all (POSIX).
@@ -102,7 +103,8 @@ inline std::string keep_permissions(int new_file, const struct stat& old) {
   struct stat old {};
   const bool is_there = ::stat(target.c_str(), &old) == 0;
 
-  internal::Temporary_file::remove_left(internal::folder_of(target));
+  const std::filesystem::path folder = internal::folder_of(target);
+  internal::Temporary_file::remove_left(folder);
   // Until the rights of an old one are kept nobody else may read what he could not read there.
   internal::Temporary_file temporary(target, is_there ? 0600 : 0666);
   if (!temporary.is_open())
@@ -121,18 +123,21 @@ inline std::string keep_permissions(int new_file, const struct stat& old) {
   } catch (const std::system_error& error) {
     fail("the permissions of the old file cannot be kept (" + error.code().message() + ")");
   }
+  if (!note.empty())
+    note = internal::quoted_path(path) + ": " + note;
   if (::fsync(temporary.descriptor()) != 0)
     fail("the data do not reach the disk" + system_says());
   if (!temporary.rename_to(target))
     fail("the new file cannot take the place of the old" + system_says());
+  // From here on nothing asks for memory: what is thrown would say that the old file is still there.
   // The name, too, has to survive a power failure; where a folder cannot be synchronised the file is whole all the
   // same.
-  const int directory = ::open(internal::folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (directory >= 0) {
     ::fsync(directory);
     ::close(directory);
   }
-  return note.empty() ? note : internal::quoted_path(path) + ": " + note;
+  return note;
 }
 
 } // namespace haptic_sculpt

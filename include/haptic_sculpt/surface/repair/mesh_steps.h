@@ -21,6 +21,7 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace haptic_sculpt::internal {
@@ -143,6 +144,15 @@ inline void close_hole(Work_mesh& mesh, Work_mesh::Halfedge_index h) {
 #endif
 }
 
+/// Whether its border passes a vertex twice. CGAL finds no triangles for it, and says so on the screen.
+inline bool is_pinched(const Work_mesh& mesh, Work_mesh::Halfedge_index hole) {
+  std::set<Work_mesh::Vertex_index> passed;
+  for (const auto v : CGAL::vertices_around_face(hole, mesh))
+    if (!passed.insert(v).second)
+      return true;
+  return false;
+}
+
 /// A hole that CGAL finds no triangles for stays.
 inline Repair_step close_holes(Work_mesh& mesh, std::size_t most_edges) {
   std::vector<Work_mesh::Halfedge_index> holes;
@@ -150,7 +160,7 @@ inline Repair_step close_holes(Work_mesh& mesh, std::size_t most_edges) {
   std::size_t closed = 0, left = 0;
   const std::size_t faces = mesh.number_of_faces();
   for (const auto h : holes) {
-    if (CGAL::halfedges_around_face(h, mesh).size() <= most_edges)
+    if (CGAL::halfedges_around_face(h, mesh).size() <= most_edges && !is_pinched(mesh, h))
       close_hole(mesh, h);
     ++(mesh.is_border(h) ? left : closed);
   }
