@@ -19,6 +19,7 @@ struct Recording {
   std::string mesh; ///< SHA-256 of its file
   Settings settings;
   std::vector<Joint_reading> readings;
+  bool is_cut = false; ///< it ends within a reading, which is left out
 
   /// \throw Usage_error, Foreign_recording
   static Recording read(const std::string& path);
@@ -60,6 +61,7 @@ inline Recording Recording::read(const std::string& path) {
   });
   if (!has_head)
     recording.take_head(line, path);
+  recording.is_cut = has_head && !line.empty();
   return recording;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Fault_injection.h"
-#include "Run.h"
 #include "Real_time.h"
 #include "Row_file.h"
+#include "Run_conditions.h"
 #include "Tick_clock.h"
 #include "Trace.h"
 #include "write_run_picture.h"
@@ -31,15 +31,6 @@ using Scene = Loop_scene<Mesh>;
 using Loop = Haptic_loop<Scene::Sculptor_type>;
 using Session = Loop_session<Loop, Scene>;
 
-Workspace_map map_of(const Settings& settings, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
-                     const Device_parameters<double>& device, const Device_pose<double>& home) {
-  if (settings.map.empty())
-    return Workspace_map::fitted(lower, upper, home.position, workspace_radius(device, home));
-  const std::vector<double>& m = settings.map;
-  const Eigen::Vector3d rotation = m.size() == 7 ? Eigen::Vector3d(m[4], m[5], m[6]) : Eigen::Vector3d(0, 0, 0);
-  return Workspace_map(m[0], rotation, {m[1], m[2], m[3]}, home.position);
-}
-
 /// One run.
 class Run {
 public:
@@ -47,22 +38,17 @@ public:
       : plan_(plan)
       , settings_(plan.settings)
       , writer_(writer)
-      , tick_(1 / settings_.rate)
-      , device_(settings_.device)
-      , home_(home_pose(device_))
+      , conditions_(plan)
       , faults_(plan.fault, device_, tick_) {}
 
   Run_result run() {
-    examples::end_at_once_by_signals();
-    of_settings([&] {
-      if (!home_)
-        throw Usage_error("the device has no pose in the middle of its joint limits");
-    });
     const examples::Mesh_file file(plan_.mesh);
     const std::string hash = file.hash();
     if (plan_.replay && plan_.replay->mesh != hash)
       throw Foreign_recording("the recording is of a mesh with the SHA-256 " + plan_.replay->mesh + ", but that of '" +
                               plan_.mesh + "' is " + hash);
+    if (plan_.replay && plan_.replay->is_cut)
+      writer_.note("the recording ends within a reading, which is left out");
     log_.emplace(plan_.log, hash);
     if (log_->number_of_edits() > 0 && (plan_.replay || !plan_.record.empty()))
       throw Usage_error("a recording is of a run that begins with the mesh itself; give a log that has no edits, or is "
@@ -70,7 +56,7 @@ public:
     std::vector<std::string> left_out;
     Mesh mesh = file.surface<Mesh>(&left_out);
     const auto placed = [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
-      return of_settings([&] { return map_of(settings_, lower, upper, device_, *home_); });
+      return conditions_.map(lower, upper);
     };
     // Not on the stack: where that cannot grow any more the system ends the program.
     const auto made_scene = std::make_unique<Scene>(std::move(mesh), placed);
@@ -80,17 +66,12 @@ public:
     keep_vertex_attributes(scene.sculptor);
     if (const std::string told = log_->resume(scene); !told.empty())
       writer_.note(told);
-    Haptic_parameters parameters;
-    parameters.tick = tick_, parameters.delay = settings_.delay;
-    parameters.coupling = {settings_.stiffness, settings_.damping};
-    parameters.snap = settings_.snap;
-    parameters.virtual_mass.mass = settings_.virtual_mass;
-    parameters.controller_damping = settings_.controller;
-    parameters.reach = settings_.reach, parameters.work_limit = settings_.work;
-    const Passivity_limits limits = of_settings([&] { return limits_of(parameters, scene); });
-    const Device_pose<double> start = of_settings([&] { return start_pose(); });
-    check(parameters, limits);
-    const auto made = of_settings(
+    const Haptic_parameters parameters = conditions_.parameters();
+    const Passivity_limits limits = conditions_.limits(parameters, scene.map, scene.lower, scene.upper);
+    tell(limits, parameters);
+    const Device_pose<double> start = conditions_.start();
+    conditions_.check(parameters, limits);
+    const auto made = conditions_.of_settings(
         [&] { return std::make_unique<Loop>(scene.sculptor, device_, start, scene.map, parameters, limits); });
     Loop& loop = *made;
     examples::end_in_order_by_signals();
@@ -128,9 +109,9 @@ private:
   const std::atomic<bool>& is_interrupted_ = examples::process::is_ended();
   static constexpr double most_lost = 0.1;           ///< by a kill, s
   static constexpr double most_late = most_lost / 2; ///< what is made up for, s: no more than the log can take
-  double tick_;
-  Device_parameters<double> device_;
-  Outcome<Device_pose<double>> home_;
+  const Run_conditions conditions_;
+  const Device_parameters<double>& device_ = conditions_.device();
+  const double tick_ = conditions_.tick();
   Fault_injection faults_;
   std::optional<examples::Run_log> log_;
   Session* session_ = nullptr;
@@ -152,40 +133,7 @@ private:
     }
   }
 
-  /// What is made of the settings. \throw Foreign_recording where it cannot be made of a recording's
-  template <class Make>
-  auto of_settings(const Make& make) const -> decltype(make()) {
-    try {
-      return make();
-    } catch (const Unstable_coupling&) { // options could have asked for it
-      throw;
-    } catch (const Error& error) {
-      if (!plan_.replay)
-        throw;
-      throw Foreign_recording(std::string("the settings of the recording cannot be used: ") + error.what());
-    }
-  }
-
-  /// \throw Unstable_coupling that says more where the device is the reason
-  void check(const Haptic_parameters& parameters, const Passivity_limits& limits) const {
-    try {
-      check_dynamics(parameters.coupling.damping, parameters.virtual_mass.mass,
-                     parameters.controller_damping.value_or(0), limits);
-      check_coupling(parameters.stiffest(), limits);
-    } catch (const Unstable_coupling& error) {
-      if (settings_.device.viscous_friction > 0)
-        throw;
-      throw Unstable_coupling(error.what() + std::string(". This device has no `friction` (N m s/rad), without which "
-                                                         "nothing is passive: give its joints' in the device's file"));
-    }
-  }
-
-  Passivity_limits limits_of(const Haptic_parameters& parameters, const Scene& scene) {
-    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * (scene.upper - scene.lower).stableNorm());
-    const Passivity_limits limits = passivity_limits(device_, parameters.limits, scene.map, scene.lower - margin,
-                                                     scene.upper + margin, settings_.damping, tick_, settings_.delay);
-    if (!limits.worst.is_found)
-      throw Usage_error("the map leads to no place that the device can reach; see --map");
+  void tell(const Passivity_limits& limits, const Haptic_parameters& parameters) {
     result_.friction = limits.friction;
     result_.passive_stiffness = limits.passive_stiffness, result_.calm_stiffness = limits.calm_stiffness;
     result_.largest_damping = limits.largest_damping, result_.largest_mass = limits.largest_mass;
@@ -195,25 +143,6 @@ private:
       writer_.note("the stiffness " + examples::decimal(stiffness) +
                    " N/m is passive, but a handle that nobody holds rings on it; recommended are at most " +
                    examples::decimal(limits.recommended_stiffness()) + " N/m, or a damping");
-    return limits;
-  }
-
-  /// The same in a run and in its replay, to the bit.
-  Device_pose<double> start_pose() const {
-    if (!settings_.begin) { // in a recording of before there was one
-      const auto& readings = plan_.replay->readings;
-      const auto pose = readings.empty() || !readings[0].theta.allFinite()
-                            ? home_
-                            : forward_kinematics(device_, readings[0].theta, *home_);
-      return pose ? *pose : *home_;
-    }
-    const Eigen::Vector3d& begin = *settings_.begin;
-    const auto start = reach_position(device_, *home_, begin);
-    if (!start)
-      throw Usage_error("the device cannot come to where the path begins, at " + examples::decimal(begin[0]) + ", " +
-                        examples::decimal(begin[1]) + ", " + examples::decimal(begin[2]) +
-                        " m; begin it nearer to where the handle is at home");
-    return *start;
   }
 
   void replay(Loop& loop) {
@@ -373,6 +302,7 @@ private:
 } // namespace
 
 Run_result run_loop(const Plan& plan, examples::Result_writer& writer) {
+  examples::end_at_once_by_signals();
   return std::make_unique<Run>(plan, writer)->run(); // large, as the scene is
 }
 
