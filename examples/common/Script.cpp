@@ -63,7 +63,7 @@ public:
   }
 
   double number(const std::string& expected) { return number(expected, word(expected)); }
-  std::size_t next_index(const char* expected) { return index(word(expected)); }
+  std::size_t whole_number(const char* expected) { return index(word(expected), expected); }
   void end(const std::string& what = "this line") {
     if (const auto surplus = next_word())
       fail("'" + printable(*surplus) + "' is more than " + what + " takes");
@@ -88,28 +88,28 @@ public:
     return point;
   }
 
-  /// A vertex by index, or as @X,Y,Z.
-  void vertex(Command& command, std::size_t which) {
-    const std::string found = word("a vertex index, or @X,Y,Z,");
-    if (found[0] == '@')
-      command.places.push_back({which, place(found)});
-    else
-      command.edit.vertices[which] = index(found);
+  /// \param found the word just read: a vertex by index, or as @X,Y,Z \param which of its vertices the command has it
+  /// for \return 0 where it is yet to be found
+  std::size_t vertex(Command& command, std::size_t which, const std::string& found) const {
+    if (found[0] != '@')
+      return index(found, "a vertex index (0, 1, 2, ...), nor @X,Y,Z for the nearest vertex");
+    command.places.push_back({which, place(found)});
+    return 0;
   }
-
-  /// \param found the word just read
-  std::size_t index_in(const std::string& found) const { return index(found); }
+  std::size_t vertex(Command& command, std::size_t which) {
+    return vertex(command, which, word("a vertex index, or @X,Y,Z,"));
+  }
 
   [[noreturn]] void fail(const std::string& what) const { throw Script_error(script_, number_, begin_ + 1, what); }
 
 private:
-  std::size_t index(const std::string& found) const {
+  std::size_t index(const std::string& found, const char* expected) const {
     std::size_t value = 0;
     const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
     if (error == std::errc::invalid_argument || end != found.data() + found.size())
-      fail("'" + printable(found) + "' is not a vertex index (0, 1, 2, ...), nor @X,Y,Z for the nearest vertex");
+      fail("'" + printable(found) + "' is not " + expected);
     if (error == std::errc::result_out_of_range)
-      fail("'" + printable(found) + "' is more than any vertex index");
+      fail("'" + printable(found) + "' is more than any mesh has");
     return value;
   }
 
@@ -153,11 +153,11 @@ void read_last(Line& line, const Syntax& syntax, Command& command, std::size_t& 
   } else if (syntax.last == Syntax::brush) {
     read_brush(line, command);
   } else if (syntax.last == Syntax::count) {
-    const std::size_t axis = line.next_index("an axis, 0, 1 or 2");
+    const std::size_t axis = line.whole_number("an axis (0, 1 or 2)");
     if (axis > 2)
       line.fail("the axis must be 0, 1 or 2");
     command.edit.axis = static_cast<int>(axis);
-    shifted = line.next_index("how many vertices are moved");
+    shifted = line.whole_number("a number of vertices");
   } else if (syntax.last == Syntax::length) {
     const bool may_be_default = command.kind == Kind::clearance;
     const std::string expected = may_be_default ? "a length, or 'default'" : "a length";
@@ -197,8 +197,8 @@ std::optional<Command> read_line(const std::string& text, std::size_t number, co
   Command command;
   command.line = number;
   command.kind = syntax->kind, command.edit.kind = syntax->edit;
-  for (int i = 0; i < syntax->vertices; ++i)
-    line.vertex(command, static_cast<std::size_t>(i));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(syntax->vertices); ++i)
+    command.edit.vertices[i] = line.vertex(command, i);
   if (syntax->has_point)
     command.edit.point = line.coordinates("a coordinate");
   read_last(line, *syntax, command, shifted);
@@ -236,7 +236,7 @@ std::optional<Command> Line_joiner::take(const std::string& text, std::size_t nu
     line.fail("'" + printable(*first) + "' stands where the shift of line " + std::to_string(shift_->line) +
               " has to end");
   if (!is_whole) {
-    const std::size_t vertex = line.index_in(*first);
+    const std::size_t vertex = line.vertex(*shift_, shift_->edit.ways.size(), *first);
     shift_->edit.ways.emplace_back(vertex, line.number("a coordinate"));
   }
   line.end();

@@ -29,7 +29,8 @@ struct Command {
   bool is_refused = false;  ///< a setting that was not taken, as its log says: what was in force stays so
   Kind kind = Kind::release;
   Edit edit; ///< of a move, which none is by value: the vertex, and the way as `point`
-  /// Of `edit.vertices` those that are yet to be found: the vertex nearest to a point when the line's turn comes.
+  /// Of `edit.vertices`, or the ways of a shift, those that are yet to be found: the vertex nearest to a point when the
+  /// line's turn comes.
   struct Place {
     std::size_t which;
     std::array<double, 3> point;

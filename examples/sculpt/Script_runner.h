@@ -77,7 +77,9 @@ private:
   Command with_vertices_found(Command command) const {
     for (const Command::Place& place : command.places) {
       const auto point_of = [this](std::size_t name) { return mesh_.point(sculptor_.vertex(name)); };
-      command.edit.vertices[place.which] = nearest_vertices(numbers(), point_of, point(place.point), 1).at(0);
+      const bool is_shift = command.kind == Kind::edit && command.edit.kind == Edit_kind::shift;
+      std::size_t& vertex = is_shift ? command.edit.ways[place.which].first : command.edit.vertices[place.which];
+      vertex = nearest_vertices(numbers(), point_of, point(place.point), 1).at(0);
     }
     command.places.clear();
     return command;

@@ -119,6 +119,11 @@ run(MESH, "--replay", at("a.rec"), "-o", at("b.off"), "--trace", at("b.csv"))
 check(open(at("a.off")).read() == open(at("b.off")).read(), "a replay has the same mesh")
 strip = lambda rows: [[row[name] for name in COLUMNS if name != "cpu_ns"] for row in rows]
 check(strip(rows) == strip(rows_of(at("b.csv"))), "a replay has the same forces")
+with open(at("a.rec")) as recording, open(at("cut.rec"), "w") as cut:
+    cut.write(recording.read()[:-3])
+cut = run(MESH, "--replay", at("cut.rec"), "--trace", at("cut.csv"))
+check("ends within a reading" in cut.stderr, f"a recording that was cut: {cut.stderr}")
+check(strip(rows[:-1]) == strip(rows_of(at("cut.csv"))), "it is replayed as far as it goes")
 
 for kind in ("nan", "jump", "stall", "singular", "torque"):
     run(MESH, "--no-wait", "--fault", kind + "@1.2", "--report", at("f.json"), "--trace", at("f.csv"),

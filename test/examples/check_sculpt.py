@@ -178,6 +178,9 @@ def finding_vertices(folder, mesh):
     check([line[:4] for line in lines if line[:1] in (["drag"], ["insert_face"], ["remove"])]
           == [["drag", "0", "0x1p-1", "0x1p-2"], ["insert_face", "0", "2", "4"], ["remove", "6"]], f"logged by number {lines}")
     check(run(octahedron, "--log", log, "-o", f"{folder}/near_again.off").returncode == 0 and surface(f"{folder}/near_again.off") == surface(out), "replay")
+    for script in ("shift 2 2\n@0,0,2 1.5\n@0.9,0,0 0.25\nend\n", "shift 2 2\n4 1.5\n0 0.25\nend\n"):
+        done = run(octahedron, "--script", "-", "-o", out, script=script)
+        check(done.returncode == 0 and points(out)[:5:4] == [(1, 0, 0.25), (0, 0, 1.5)], f"{script!r}: {done.stderr}")
     fails(2, ["--nearest"], run(octahedron, "--nearest", "1", "2"), "--nearest of two numbers")
     fails(2, ["--nearest"], run(octahedron, "--nearest", "1", "2", "1e302"), "--nearest out of range")
     for script, column, part in (("drag @1,2 0 0 0", 6, "@X,Y,Z"), ("drag @1,2,3,4 0 0 0", 6, "@X,Y,Z"), ("drag @1,,3 0 0 0", 6, "number"), ("drag @ 0 0 0", 6, "@X,Y,Z"),

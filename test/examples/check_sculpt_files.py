@@ -22,6 +22,7 @@ def bad_targets(folder, mesh):
     check(open(kept).read() == "kept", "a full disk spoils the old file")
     check(not [name for name in os.listdir(folder) if name.startswith("kept.off") and name != "kept.off"], "left-over file")
     fails(5, ["nowhere"], run(mesh, "-o", f"{folder}/nowhere/out.off"), "missing folder of the result")
+    fails(5, ["is not a folder"], run(mesh, "--report", f"{mesh}/file"), "a mesh for a folder")
     os.mkdir(f"{folder}/target.off")
     fails(5, ["target.off"], run(mesh, "-o", f"{folder}/target.off"), "the result is a folder")
     for option in ("--report", "--picture"):

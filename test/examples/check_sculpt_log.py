@@ -139,7 +139,8 @@ def shifts(folder, mesh):
         check(bytes_of(cut) == complete, f"cut at {length}: the log ends otherwise than without the break")
     for text, line, column, part in (("shift 3 1\n0 0\nend\n", 1, 7, "the axis must be"), ("shift 0 2\n0 0\nend\n", 3, 1, "'end'"),
                                      ("shift 0 1\n0 0\n1 0\nend\n", 3, 1, "has to end"), ("drag 0 0 0 0\nshift 0 1\n0 0\n", 2, 1, "no `end`"),
-                                     ("shift 0 1\n0 inf\nend\n", 2, 3, "finite"), ("shift 0 1\n0 0 0\nend\n", 2, 5, "more than")):
+                                     ("shift 0 1\n0 inf\nend\n", 2, 3, "finite"), ("shift 0 1\n0 0 0\nend\n", 2, 5, "more than"),
+                                     ("shift 0 -1\nend\n", 1, 9, "a number of vertices"), ("shift 0 1\n@1,2 0\nend\n", 2, 1, "@X,Y,Z")):
         fails(4, [f"line {line}, column {column}", part], run(mesh, "--script", "/dev/stdin", script=text), f"shift: {text!r}")
 
 
