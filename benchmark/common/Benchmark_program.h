@@ -7,6 +7,7 @@
 #include "../../examples/common/json_words.h"
 #include "../../examples/common/numbers.h"
 #include "../../examples/common/parse_arguments.h"
+#include "../../examples/common/process_state.h"
 
 #include <haptic_sculpt/surface/io/replace_file.h>
 
@@ -85,6 +86,8 @@ public:
   /// `cannot_write`, also where standard output takes nothing; `failed` where the work throws anything else
   template <class Work>
   int run(int argc, char** argv, const Work& work) {
+    examples::put_process_in_order(name_.c_str());
+    examples::end_at_once_by_signals();
     const int code = exit_code_of(argc, argv, work);
     if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
       say("not all could be written to standard output");

@@ -2,6 +2,7 @@
 // Answers sweep queries from a file, exactly: one line in, one line out, so that any other implementation can be
 // checked.
 #include "../../examples/common/printable.h"
+#include "../../examples/common/run_program.h"
 
 #include <haptic_sculpt/Error.h>
 #include <haptic_sculpt/collision.h>
@@ -18,15 +19,16 @@
 
 namespace {
 
+using namespace haptic_sculpt;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point_3 = Kernel::Point_3;
-using Traits = haptic_sculpt::Swept_collision_traits_3<Kernel>;
-using haptic_sculpt::examples::printable;
+using Traits = Swept_collision_traits_3<Kernel>;
+using examples::printable;
 
 /// A longer line is refused, in bytes; sixteen coordinates in all their digits are a quarter of it.
 constexpr std::size_t longest_line = 1 << 16;
 
-struct Malformed_line : haptic_sculpt::Error {
+struct Malformed_line : Error {
   Malformed_line(std::size_t line, std::size_t column, const std::string& what)
     : Error("line " + std::to_string(line) + ", column " + std::to_string(column) + ": " + what) {}
 };
@@ -95,7 +97,7 @@ bool axis_answer(Line_reader& reader) {
   for (double& end : ends)
     end = reader.coordinate(16);
   reader.expect_end(16);
-  const haptic_sculpt::Axis_sweep_traits_3<Kernel> traits;
+  const Axis_sweep_traits_3<Kernel> traits;
   const int k = axis[0] - '0';
   return kind == "VF" ? traits.vertex_face_axis_sweep_3_object()(k, p[0], p[1], p[2], p[3], ends)
                       : traits.edge_edge_axis_sweep_3_object()(k, p[0], p[1], p[2], p[3], ends);
@@ -133,9 +135,8 @@ std::string answer(const std::string& text, std::size_t line, const Traits& trai
   return "1 " + time.get_num().get_str() + "/" + time.get_den().get_str();
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int answer_queries(int argc, char** argv) {
+  examples::end_at_once_by_signals();
   CLI::App app(
       "Answers exact sweep queries.\n"
       "Each line of FILE (doubles are decimal or C99 hexadecimal): VF, EE or FV and 15 doubles, the coordinates of\n"
@@ -154,38 +155,39 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) != 0 ? 2 : std::cout.flush() ? 0 : 5;
+    return app.exit(error) == 0 ? examples::done : examples::usage;
   }
 
   std::ifstream file;
   if (path != "-") {
     file.open(path);
-    if (!file) {
-      std::cerr << "sweep_queries: cannot open '" << path << "': " << std::strerror(errno) << '\n';
-      return 2;
-    }
+    if (!file)
+      throw Error("cannot open '" + path + "': " + std::strerror(errno));
   }
   std::istream& input = path == "-" ? std::cin : file;
   const Traits traits;
   std::string text;
-  try {
-    for (std::size_t line = 1; next_line(input, text, line); ++line) {
-      const std::size_t first = text.find_first_not_of(" \t\r");
-      if (first == std::string::npos || text[first] == '#')
-        continue;
-      std::cout << answer(text, line, traits) << '\n';
-    }
-    if (path == "-" ? std::ferror(stdin) != 0 : input.bad()) // std::cin says nothing of what the system could not read
-      throw haptic_sculpt::Error("reading '" + path + "' failed");
-  } catch (const haptic_sculpt::Error& error) {
-    std::cout.flush();
-    std::cerr << "sweep_queries: " << error.what() << '\n';
-    return 2;
+  for (std::size_t line = 1; next_line(input, text, line) && std::cout; ++line) {
+    const std::size_t first = text.find_first_not_of(" \t\r");
+    if (first == std::string::npos || text[first] == '#')
+      continue;
+    std::cout << answer(text, line, traits) << '\n';
   }
-  std::cout.flush();
-  if (!std::cout) {
-    std::cerr << "sweep_queries: cannot write the answers\n";
-    return 5;
-  }
-  return 0;
+  if (path == "-" ? std::ferror(stdin) != 0 : input.bad()) // std::cin says nothing of what the system could not read
+    throw Error("reading '" + path + "' failed");
+  return examples::done;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  return examples::run_program(
+      "sweep_queries", [&] { return answer_queries(argc, argv); },
+      [](const std::exception& error) {
+        return dynamic_cast<const Error*>(&error) != nullptr ? examples::usage : examples::failed;
+      },
+      [](const std::exception& error) {
+        std::cout.flush();
+        return std::string(error.what());
+      });
 }

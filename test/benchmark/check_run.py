@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -327,6 +328,16 @@ def own_meshes(out, folder):
     with open("/dev/full", "w") as full:
         told = subprocess.run(none, stdout=full, stderr=subprocess.DEVNULL)
         expect(told.returncode == 5, f"a table that nobody can read: exit {told.returncode}")
+    report.unlink()
+    reader, writer = os.pipe()
+    os.close(reader)
+    told = subprocess.run([*none, "--json", str(report)], stdout=writer, stderr=subprocess.PIPE)
+    os.close(writer)
+    expect(told.returncode == 5 and report.exists(), f"a reader who has gone: exit {told.returncode}, {told.stderr}")
+    report.write_text("kept")
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+    told = subprocess.run([*none, "--json", str(report)], capture_output=True, preexec_fn=limit)
+    expect(told.returncode == 5 and report.read_text() == "kept", f"no room for a report: exit {told.returncode}, {told.stderr}")
 
 
 PLANTED_ROBUSTNESS = """#!/usr/bin/python3
