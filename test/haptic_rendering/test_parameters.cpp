@@ -47,6 +47,16 @@ BOOST_AUTO_TEST_CASE(parts_that_are_checked_by_themselves_name_what_no_device_ha
   refuses("stage 1", hand);
   hand.stages = 4;
   refuses("4", hand);
+  Haptic_parameters parameters;
+  parameters.reach = 1e-9;
+  parameters.coupling.stiffness = Virtual_coupling::most_stiffness;
+  parameters.check();
+  parameters.snap.length = 0.01;
+  refuses("that of the snap", parameters);
+  parameters.coupling.stiffness = 0;
+  parameters.check();
+  parameters.reach = 0;
+  refuses("from 1e-09 to 1 m", parameters);
 }
 
 } // namespace

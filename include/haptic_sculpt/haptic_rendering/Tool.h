@@ -32,8 +32,6 @@ public:
 
   /// In free motion the offset of the target fades with this time, s.
   static constexpr double offset_time = 0.2;
-  /// m: beside a vertex that is let go of the probe is put in parts of the reach, so it cannot be 0.
-  static constexpr double least_reach = 1e-9;
 
   /// \param reach of a grab, in the device, m \param tick s \throw Error naming what cannot be used
   Tool(Sculptor& sculptor, const Workspace_map& map, double reach, double tick)
@@ -42,7 +40,7 @@ public:
       , reach_(reach)
       , offset_share_(std::exp(-tick / offset_time))
       , mesh_edits_(sculptor) {
-    internal::require_number("the reach of a Tool, that of a grab,", "m", reach, least_reach, 1);
+    internal::require_reach("the reach of a Tool, that of a grab,", reach);
     internal::require_number("the tick of a Tool", "s", tick, 0, 1);
   }
 

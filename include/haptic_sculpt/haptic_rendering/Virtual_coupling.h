@@ -40,12 +40,13 @@ private:
 
 /// A spring between the hand and what it holds, and a damper against what holds that. SI units, at the handle.
 struct Virtual_coupling {
-  double stiffness = 500; ///< k, N/m
-  double damping = 0;     ///< b, N s/m
+  static constexpr double most_stiffness = 1e7; ///< N/m
+  double stiffness = 500;                       ///< k, N/m
+  double damping = 0;                           ///< b, N s/m
 
   /// \throw Error for a number that no coupling has; whether a device can give it, its limits say
   void check() const {
-    internal::require_number("Virtual_coupling::stiffness", "N/m", stiffness, 0, 1e7);
+    internal::require_number("Virtual_coupling::stiffness", "N/m", stiffness, 0, most_stiffness);
     internal::require_number("Virtual_coupling::damping", "N s/m", damping, 0, 1e5);
   }
 

@@ -46,9 +46,11 @@ struct Haptic_parameters {
     internal::require_number("tick, the time of one,", "s", tick, Force_chain::least_tick, Force_chain::most_tick);
     internal::require_number("delay, to the force,", "ticks", delay, 0, Torque_delay<double>::most_ticks);
     coupling.check(), snap.check(), limits.check(), watchdog.check(), virtual_mass.check();
+    internal::require_number("the stiffness of the coupling and that of the snap, 2 force / length, together", "N/m",
+                             stiffest().stiffness, 0, Virtual_coupling::most_stiffness);
     internal::require_number("controller_damping, of the passivity controller,", "N s/m",
                              controller_damping.value_or(0), 0, 1e5);
-    internal::require_number("reach, of a grab,", "m", reach, 0, 1);
+    internal::require_reach("reach, of a grab,", reach);
     internal::require_number("button_quiet_time", "s", button_quiet_time, 0, 1);
     internal::require_number("work_limit, of a drag,", "pairs", static_cast<double>(work_limit), 1, 1e15);
     internal::require_number("work_of_a_face, of a drag,", "pairs", static_cast<double>(work_of_a_face), 0, 1e6);

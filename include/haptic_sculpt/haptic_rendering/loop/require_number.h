@@ -21,4 +21,11 @@ inline void require_tick(const char* what, double tick) {
   require_number(what, "s", tick, shortest, longest);
 }
 
+/// The reach of a grab, m in the device: beside a vertex that is let go of the probe is put in parts of it, so it
+/// cannot be 0.
+inline void require_reach(const char* what, double reach) {
+  constexpr double least = 1e-9, most = 1;
+  require_number(what, "m", reach, least, most);
+}
+
 } // namespace haptic_sculpt::internal
