@@ -80,8 +80,8 @@ BOOST_AUTO_TEST_CASE(to_a_tenth_without_an_intersection) {
                               << " faces, CGAL to " << alone.number_of_faces() << " with " << pairs
                               << " pairs; distances " << ours << " and " << theirs << "; " << report.refused
                               << " times refused");
-      // Where CGAL goes through itself it comes nearer. Where a collapse is refused another edge goes: 1.35 times as far
-      // for the tube of 38 faces with CGAL 6.0.1. Costs are rounded: with fused products other edges go, too.
+      // Where CGAL goes through itself it comes nearer. Where a collapse is refused another edge goes: 1.35 times as
+      // far for the tube of 38 faces with CGAL 6.0.1. Costs are rounded: with fused products other edges go, too.
       BOOST_TEST(ours <= (pairs > 0 ? 2 : report.refused > 0 ? 1.5 : 1.15) * theirs);
     }
   BOOST_TEST(pairs_of_cgal > 0u); // else these meshes show nothing
