@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws what device_workspace wrote: plot_device_workspace.py SAMPLES.txt PICTURE.png
 
-Exit: 0 drawn, 2 a file without such samples, or a picture that cannot be written.
+Exit: 0 drawn, 2 a file without such samples, or a picture that cannot be written or is that file.
 """
 import argparse
+import os
 import warnings
 
 import matplotlib
@@ -50,6 +51,8 @@ if __name__ == "__main__":
     parser.add_argument("samples", help="what device_workspace has written")
     parser.add_argument("picture", help="where the plots go")
     arguments = parser.parse_args()
+    if os.path.exists(arguments.picture) and os.path.realpath(arguments.picture) == os.path.realpath(arguments.samples):
+        parser.error(f"{arguments.picture} holds the samples: name another file for the picture")
     try:
         samples = samples_of(arguments.samples)
     except (ValueError, OSError) as error:

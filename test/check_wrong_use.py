@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """check_wrong_use.py ROOT: scripts that are used wrongly end with exit code 2 and a message, before any work; nothing
 is built. In a copy of a tree that has no build and no programs but those below."""
+import json
 import os
 import pathlib
 import shutil
@@ -81,15 +82,18 @@ def plots(folder):
     if python is None:
         print("skipped: the plots, because python3-matplotlib is not installed")
         return
-    trace, samples = ((python, ROOT / "examples" / name)
-                      for name in ("haptic_loop/draw_trace.py", "plot_device_workspace.py"))
+    trace, samples, passivity, chain, tables = (
+        (python, ROOT / name) for name in ("examples/haptic_loop/draw_trace.py", "examples/plot_device_workspace.py",
+                                           *(f"benchmark/quality/{name}.py" for name in (
+                                               "plot_haptic_passivity", "plot_haptic_chain", "tabulate_guard_for_cgal"))))
     good, row = folder / "good", "1," * TRACE.count(",") + "1000"
     good.write_text(f"{TRACE}\n{row}\n{row}\n")
     expect(0, "", *trace, good, folder / "trace.png")
     expect(2, "nowhere/trace.png", *trace, good, folder / "nowhere/trace.png")
     for name, text in (("empty", b""), ("binary", b"\xff\xfe\0"), ("no_column", b"a,b\n1,2\n"),
                        ("no_row", f"{TRACE}\n".encode()), ("short", f"{TRACE}\n1\n".encode()),
-                       ("nan", f"{TRACE}\n{row[:-4]}nan\n".encode()), ("folder", None), ("lost", None)):
+                       ("nan", f"{TRACE}\n{row[:-4]}nan\n".encode()), ("other.json", b"[]"), ("none.json", b"{}"),
+                       ("folder", None), ("lost", None)):
         given = folder / name
         if text is not None:
             given.write_bytes(text)
@@ -97,15 +101,29 @@ def plots(folder):
             given.mkdir()
         expect(2, str(given), *trace, given, folder / "none.png")
         expect(2, str(given), *samples, given, folder / "none.png")
+        expect(2, str(given), *tables, given)
+        if name in ("binary", "none.json", "lost"):
+            expect(2, str(given), *passivity, given, folder / "none.png")
+            expect(2, str(given), *chain, given, folder / "none.png")
     good.write_text("0 0 0 1 1 1 1 1\n0.001 0.001 0 1 2 1 1 1\n")
     expect(0, "", *samples, good, folder / "samples.png")
     expect(2, "nowhere/samples.png", *samples, good, folder / "nowhere/samples.png")
     good.write_text("0 1 0 1 1 1 1 1\n")
     expect(2, "near the plane", *samples, good, folder / "none.png")
-    expect(2, "usage", *samples)
-    for name in ("trace.png", "samples.png"):
+    good.write_text(json.dumps({"effects": [{"effect": effect, "least_energy_J": -0.001, "force_off_mean_N": 0.1,
+                                             "force_off_largest_N": 1} for effect in "ab"]}))
+    expect(0, "", *chain, good, folder / "chain.png")
+    expect(2, "nowhere/chain.png", *chain, good, folder / "nowhere/chain.png")
+    for name in ("trace.png", "samples.png", "chain.png"):
         if not (folder / name).exists():
             faults.append(f"{name} is not drawn")
+    for script in (trace, samples, passivity, chain):
+        expect(2, "usage", *script)
+        before = (folder / "chain.png").read_bytes()
+        expect(2, "name another file", *script, folder / "chain.png", folder / "chain.png")
+        if before != (folder / "chain.png").read_bytes():
+            faults.append(f"{script[1]} has written over what it reads")
+    expect(0, "usage", *tables, "--help")
 
 
 with tempfile.TemporaryDirectory() as place:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes a trefoil knot of round cross section to standard output, as OFF: a closed, embedded triangle mesh."""
 import math
+import sys
 
 ALONG, AROUND, RADIUS = 480, 40, 0.3
 
@@ -32,17 +33,21 @@ def ring(t):
         yield tuple(c + RADIUS * (math.cos(a) * n + math.sin(a) * s) for c, n, s in zip(centre, normal, side))
 
 
-def main():
+def write_knot(file):
     points = [p for i in range(ALONG) for p in ring(2 * math.pi * i / ALONG)]
-    print(f"OFF\n{len(points)} {2 * len(points)} 0")
+    print(f"OFF\n{len(points)} {2 * len(points)} 0", file=file)
     for p in points:
-        print(" ".join(f"{x:.6f}" for x in p))
+        print(" ".join(f"{x:.6f}" for x in p), file=file)
     for i in range(ALONG):
         for j in range(AROUND):
             a, b = i * AROUND + j, i * AROUND + (j + 1) % AROUND
             c, d = (a + AROUND) % len(points), (b + AROUND) % len(points)
-            print(f"3 {a} {b} {c}\n3 {c} {b} {d}")
+            print(f"3 {a} {b} {c}\n3 {c} {b} {d}", file=file)
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        with open(sys.stdout.fileno(), "w", closefd=False) as output:  # which says here what cannot be written
+            write_knot(output)
+    except OSError as error:
+        sys.exit(f"make_knot.py: standard output: {error.strerror}")

@@ -1,13 +1,15 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws a trace of haptic_loop: draw_trace.py TRACE.csv PICTURE. Needs python3-matplotlib.
 
-Three plots: the forces over time, how far the proxy is behind the hand, and how many ticks took which time of the processor.
-Exit: 0 drawn, 2 a file that is no trace, or a picture that cannot be written.
+Three plots: the forces over time, how far the proxy is behind the hand, and how many ticks took which time of the
+processor.
+Exit: 0 drawn, 2 a file that is no trace, or a picture that cannot be written or is the trace.
 """
 import argparse
 import csv
 import math
+import os
 
 import matplotlib
 
@@ -64,6 +66,8 @@ if __name__ == "__main__":
     parser.add_argument("trace", help="what haptic_loop --trace has written")
     parser.add_argument("picture", help="where the plots go: .png, .svg or .pdf")
     arguments = parser.parse_args()
+    if os.path.exists(arguments.picture) and os.path.realpath(arguments.picture) == os.path.realpath(arguments.trace):
+        parser.error(f"{arguments.picture} is the trace: name another file for the picture")
     try:
         rows = rows_of(arguments.trace)
     except (No_trace, OSError) as error:

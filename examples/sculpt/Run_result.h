@@ -40,8 +40,8 @@ struct Edit_record {
   std::vector<std::size_t>
       elements;                 ///< the vertices that the edit names; of a refused `delta`, those of too low triangles
   std::optional<Motion> motion; ///< none where refused; a creation, removal, undo or redo stands still
-  /// Of a brush or a remeshing: how many vertices or operations were asked for, and how many of them arrived or were
-  /// done.
+  /// Of a brush, a move or a remeshing: how many vertices or operations were asked for, and how many of them arrived
+  /// or were done.
   std::optional<std::array<std::size_t, 2>> many;
   int legs = 0;
   double stop_error = 0, stop_error_along_path = 0, kkt_residual = 0;

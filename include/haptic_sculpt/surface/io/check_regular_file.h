@@ -18,8 +18,10 @@ namespace haptic_sculpt {
     throw Read_error("there is no such file");
   if (std::filesystem::is_directory(status))
     throw Read_error("this is a directory; name a file in it");
+  if (error)
+    throw Read_error("this cannot be reached (" + error.message() + ")");
   if (!std::filesystem::is_regular_file(status))
-    throw Read_error("this is not a regular file" + (error ? " (" + error.message() + ")" : std::string()));
+    throw Read_error("this is not a regular file");
 }
 
 } // namespace haptic_sculpt
