@@ -70,7 +70,9 @@ def test_run(tree):
     for said, *words in (("--quick has to come first", "-R", "a", "--quick"),
                          ("--sanitize has", "--quick", "--sanitize"),
                          ("--thread-sanitizer has", "-V", "--thread-sanitizer"),
-                         ("'collision' belongs", "collision")):
+                         ("'collision' belongs", "collision"), ("'b' belongs", "-R", "a", "b"),
+                         ("'b' belongs", "--quick", "b"), ("'--sanitze' is none", "--sanitze"),
+                         ("-R lacks", "-R"), ("'--nope' is none", "--sanitize", "-j4", "--nope")):
         expect(2, said, *run, *words, **path)
     for words in (["--help"], ["-R", "a", "-h"]):
         expect(0, "Installs what is missing", *run, *words, **path)

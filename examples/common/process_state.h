@@ -17,12 +17,12 @@
 namespace haptic_sculpt::examples {
 
 /// Puts something in the place of closed standard streams: else the next file that is opened, such as a log, would be
-/// one, and get what is printed. What is printed then goes nowhere; what reads a closed standard input hears of a
-/// folder there, as an empty input would pass for an empty script.
+/// one, and get what is printed. What is printed then goes nowhere; what reads a closed standard input hears of a bad
+/// file descriptor, as it would have, for an empty input would pass for an empty script.
 inline void open_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-      const int opened = stream == STDIN_FILENO ? ::open("/", O_RDONLY | O_DIRECTORY) : ::open("/dev/null", O_WRONLY);
+      const int opened = ::open("/dev/null", O_WRONLY);
       if (opened >= 0 && opened != stream) { // it is the lowest that is free, unless others open files here
         ::dup2(opened, stream);
         ::close(opened);

@@ -71,7 +71,10 @@ json examples::answer_line(const Line_reader& reader) {
   } catch (const No_answer& error) {
     return failure(error.code(), error.what());
   } catch (const json::exception& error) {
-    return failure("malformed_json", examples::in_words(error, reader.number()));
+    std::string words = examples::in_words(error, reader.number());
+    if (words.compare(0, 5, "line ") != 0) // where a number is too large, say
+      words.insert(0, "line " + std::to_string(reader.number()) + ": ");
+    return failure("malformed_json", words);
   }
   json found = answer_or_failure(request);
   json unknown = unknown_keys(request);

@@ -210,8 +210,9 @@ json examples::answer_request(const json& request) {
   r.theta = json_vector_3(request, "theta");
   if (op == "modes")
     return answer_modes(parameters, r.theta);
-  if (parameters.form() == Device_form::ditetrahedral && request.contains("mode") && request["mode"] != "home" &&
-      !request["mode"].is_null()) {
+  if (request.contains("mode") && request["mode"] != "home" && !request["mode"].is_null()) {
+    if (parameters.form() == Device_form::general)
+      throw Bad_request("`mode` is of the form \"ditetra\"; `phi_seed` leads to another mode of the form \"general\"");
     if (request["mode"] != 1 && request["mode"] != -1)
       throw Bad_request("`mode` must be 1 or -1");
     r.mode = request["mode"] == 1 ? 1 : -1;

@@ -61,7 +61,7 @@ def closed_streams(folder, mesh):
               f"without the streams {streams} log or result are others")
     done = subprocess.run([SCULPT, mesh, "--script", "-"], preexec_fn=closing((0,)), capture_output=True, text=True,
                           timeout=PATIENCE)
-    fails(4, ["script"], done, "a script from a standard input that is closed")
+    fails(4, ["script", "Bad file descriptor"], done, "a script from a standard input that is closed")
     log = f"{folder}/loop.log"
     done = subprocess.run([LOOP, BALL, "--no-wait", "--seconds", "0.1", "--log", log],
                           preexec_fn=closing((1, 2)), timeout=PATIENCE)

@@ -36,7 +36,7 @@ public:
 
   const Device_parameters<double>& parameters() const { return parameters_; } ///< of the device, a copy
   const Device_pose<double>& pose() const { return pose_; } ///< the last that was found; the start before
-  /// At pose(); of no meaning before a pose was found.
+  /// At pose(); 0 before a pose was found.
   const Device_jacobian<double>& jacobian() const { return jacobian_; }
   const Eigen::Vector3d& position() const { return pose_.position; } ///< of the handle, m, in axes of the device
   const Eigen::Vector3d& step() const { return step_; }              ///< since the last tick, m
@@ -53,7 +53,7 @@ public:
 private:
   Device_parameters<double> parameters_;
   Device_pose<double> pose_;
-  Device_jacobian<double> jacobian_{};
+  Device_jacobian<double> jacobian_{Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
   double tick_;
   Velocity_estimate velocity_;
   Eigen::Vector3d step_ = Eigen::Vector3d::Zero(), joint_step_ = Eigen::Vector3d::Zero();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace haptic_sculpt::test {
@@ -76,14 +77,14 @@ public:
   }
 
   /// The place of the first number that is not, bit for bit, what it is at scale 1, multiplied by 2^k as often as it is
-  /// a length; the size where all are.
-  std::size_t first_difference(const Outcome& at_scale_1, int k) const {
+  /// a length; where one of them has more numbers, of the first of these. None where all are the same.
+  std::optional<std::size_t> first_difference(const Outcome& at_scale_1, int k) const {
     if (size() != at_scale_1.size())
       return std::min(size(), at_scale_1.size());
     for (std::size_t i = 0; i < size(); ++i)
       if (!is_same(values_[i].number, std::ldexp(at_scale_1.values_[i].number, k * values_[i].power)))
         return i;
-    return size();
+    return std::nullopt;
   }
   double value(std::size_t i) const {
     return i < size() ? values_[i].number : std::numeric_limits<double>::quiet_NaN();

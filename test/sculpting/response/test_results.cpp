@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // No result of a drag contradicts itself, whatever the response, the bound on the work, the mesh and the target: those
-// that numbers of the size of coordinates cannot tell from others included.
+// that numbers of the size of coordinates cannot tell from others included. It is the same at any scale.
 #include "sculpting/Random_scene.h"
 #include "sculpting/result_contradiction.h"
 #include "sculpting/Mover_hand.h"
+#include "sculpting/public_functions/Outcome.h"
 #include "sculpting/response/outside_scenes.h"
 
 #include <shared_data.h>
@@ -76,7 +77,52 @@ void drag_about(Outside_scene scene, std::size_t drags, Random& random, Tally& t
   }
 }
 
+/// The largest power of two that the delta rule takes in the scene as it is.
+double largest_delta(const Mesh& mesh) {
+  double delta = 1;
+  while (!validate(mesh, delta).low_faces.empty())
+    delta /= 2;
+  return delta;
+}
+
+/// What drags under the delta rule come to where all is 2^k times as large.
+Outcome drags_at_scale(const Outside_scene& scene, double delta, int k, std::size_t drags, std::uint64_t seed) {
+  const auto scaled = [k](const Point_3& p) {
+    return Point_3(std::ldexp(p.x(), k), std::ldexp(p.y(), k), std::ldexp(p.z(), k));
+  };
+  Mesh mesh = scene.mesh;
+  for (const Vertex_index v : mesh.vertices())
+    mesh.point(v) = scaled(mesh.point(v));
+  Mover_hand hand(mesh, scene.moved, parameters::delta(std::ldexp(delta, k)));
+  Random random(seed);
+  Outcome outcome;
+  for (std::size_t done = 0; done < drags; ++done)
+    outcome.drag(hand.drag_to(scaled(outside_target(scene, scene.mesh, random))));
+  return outcome;
+}
+
 } // namespace
+
+BOOST_AUTO_TEST_CASE(drags_under_the_delta_rule_are_the_same_at_any_scale) {
+  const std::uint64_t seed = seed_from_environment(511);
+  const std::size_t drags = count_from_environment("HAPTIC_SCULPT_SCALED_DRAGS", 100);
+  Random random(seed);
+  const std::vector<Outside_scene> scenes = outside_scenes(random);
+  std::size_t differences = 0;
+  for (const Outside_scene& scene : scenes) {
+    const double delta = largest_delta(scene.mesh);
+    const std::uint64_t own = seed_of(scene.name, seed);
+    const Outcome at_scale_1 = drags_at_scale(scene, delta, 0, drags / scenes.size() + 1, own);
+    for (const int k : {-850, 520, 990}) {
+      const Outcome outcome = drags_at_scale(scene, delta, k, drags / scenes.size() + 1, own);
+      if (const auto first = outcome.first_difference(at_scale_1, k)) {
+        ++differences;
+        BOOST_TEST_MESSAGE(scene.name << " at 2^" << k << ": number " << *first);
+      }
+    }
+  }
+  BOOST_TEST(differences == 0u);
+}
 
 BOOST_AUTO_TEST_CASE(no_result_contradicts_itself) {
   const std::uint64_t seed = seed_from_environment(510);

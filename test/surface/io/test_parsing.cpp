@@ -73,6 +73,8 @@ BOOST_AUTO_TEST_CASE(ply) {
   check_unreadable(ply(replaced(good, "3 1 2 3", "3 1 2 x")), "line 16: 'x'");
   check_unreadable(ply(replaced(good, "list uchar", "list float")), "length of a list");
   check_unreadable(ply(replaced(good, "element face", "element vertex")), "twice");
+  check_unreadable(ply(replaced(good, "end_header", "property list uchar int vertex_index\nend_header")),
+                   "'vertex_indices' and a list 'vertex_index'");
   const auto report = report_of(ply(replaced(good, "1 0 0", "nan 0 0")));
   BOOST_TEST(report.non_finite_vertices.size() == 1u);
 }

@@ -138,11 +138,12 @@ private:
         try_way(guard, cross(n, normals_[j]));
     }
     // What curves towards J lets it go only on ways that rise over the tangent plane.
+    const Vector pull = scaled(pull_, unit_of(distance_)); // as in gain_at()
     for (const Vector& n : curved_)
       for (const Vector& m : curved_) {
-        const Vector way = &n == &m ? advanced(pull_, -dot(pull_, n), n) : cross(n, m);
+        const Vector way = &n == &m ? advanced(pull, -dot(pull, n), n) : cross(n, m);
         for (double slope = 0x1p-2; slope > 0x1p-24; slope /= 8)
-          try_way(guard, advanced(dot(way, pull_) < 0 ? scaled(way, -1) : way, slope * length(way), plus(n, m)));
+          try_way(guard, advanced(dot(way, pull) < 0 ? scaled(way, -1) : way, slope * length(way), plus(n, m)));
       }
     return gain_ > least;
   }

@@ -56,11 +56,8 @@ inline Face_soup parse_off(std::string_view text) {
       throw Read_error("the file ends after " + std::to_string(i) + " of " + std::to_string(n) + " " + what);
   };
   Face_soup soup;
-  for (const auto& [letter, what] :
-       {std::pair{'S', "texture coordinates"}, std::pair{'C', "colours"}, std::pair{'N', "normals"}})
-    if (prefix.find(letter) != std::string::npos)
-      soup.leave_out(what);
   soup.points.reserve(vertices);
+  bool have_more = false;
   for (std::uint64_t i = 0; i < vertices; ++i) {
     next_line("vertices", i, vertices);
     double x[3];
@@ -68,9 +65,14 @@ inline Face_soup parse_off(std::string_view text) {
       coordinate = scan.to_number(scan.word("a coordinate"), "a coordinate");
     if (prefix.empty())
       scan.expect_end_of_line("the three coordinates of a vertex");
+    have_more |= scan.has_word();
     scan.skip_rest_of_line();
     soup.add_point(x[0], x[1], x[2]);
   }
+  for (const auto& [letter, what] :
+       {std::pair{'S', "texture coordinates"}, std::pair{'C', "colours"}, std::pair{'N', "normals"}})
+    if (have_more && prefix.find(letter) != std::string::npos)
+      soup.leave_out(what);
   for (std::uint64_t i = 0; i < faces; ++i) {
     next_line("faces", i, faces);
     const auto corners = scan.to_number<std::uint64_t>(scan.word("a number of corners"), "a number of corners");

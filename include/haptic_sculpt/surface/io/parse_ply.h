@@ -194,8 +194,11 @@ inline Face_soup parse_ply(std::string_view bytes) {
       if (!property.length_type && property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
         coordinate[property.name[0] - 'x'] = i;
       if (property.length_type && property.type < Ply_type::float32 &&
-          (property.name == "vertex_indices" || property.name == "vertex_index"))
+          (property.name == "vertex_indices" || property.name == "vertex_index")) {
+        if (is_face && indices)
+          throw Read_error("the faces have a list 'vertex_indices' and a list 'vertex_index'; leave one of them out");
         indices = i;
+      }
     }
     if (is_vertex && !(coordinate[0] && coordinate[1] && coordinate[2]))
       throw Read_error("the vertices lack one of the properties x, y and z");
