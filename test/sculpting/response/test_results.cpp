@@ -86,7 +86,8 @@ double largest_delta(const Mesh& mesh) {
 }
 
 /// What drags under the delta rule come to where all is 2^k times as large.
-Outcome drags_at_scale(const Outside_scene& scene, double delta, int k, std::size_t drags, std::uint64_t seed) {
+haptic_sculpt::test::Outcome drags_at_scale(const Outside_scene& scene, double delta, int k, std::size_t drags,
+                                            std::uint64_t seed) {
   const auto scaled = [k](const Point_3& p) {
     return Point_3(std::ldexp(p.x(), k), std::ldexp(p.y(), k), std::ldexp(p.z(), k));
   };
@@ -95,7 +96,7 @@ Outcome drags_at_scale(const Outside_scene& scene, double delta, int k, std::siz
     mesh.point(v) = scaled(mesh.point(v));
   Mover_hand hand(mesh, scene.moved, parameters::delta(std::ldexp(delta, k)));
   Random random(seed);
-  Outcome outcome;
+  haptic_sculpt::test::Outcome outcome;
   for (std::size_t done = 0; done < drags; ++done)
     outcome.drag(hand.drag_to(scaled(outside_target(scene, scene.mesh, random))));
   return outcome;
@@ -112,9 +113,9 @@ BOOST_AUTO_TEST_CASE(drags_under_the_delta_rule_are_the_same_at_any_scale) {
   for (const Outside_scene& scene : scenes) {
     const double delta = largest_delta(scene.mesh);
     const std::uint64_t own = seed_of(scene.name, seed);
-    const Outcome at_scale_1 = drags_at_scale(scene, delta, 0, drags / scenes.size() + 1, own);
+    const auto at_scale_1 = drags_at_scale(scene, delta, 0, drags / scenes.size() + 1, own);
     for (const int k : {-850, 520, 990}) {
-      const Outcome outcome = drags_at_scale(scene, delta, k, drags / scenes.size() + 1, own);
+      const auto outcome = drags_at_scale(scene, delta, k, drags / scenes.size() + 1, own);
       if (const auto first = outcome.first_difference(at_scale_1, k)) {
         ++differences;
         BOOST_TEST_MESSAGE(scene.name << " at 2^" << k << ": number " << *first);
