@@ -4,8 +4,6 @@
 
 Exit: 0 drawn, 2 a file without such samples, or a picture that cannot be written or is that file.
 """
-import argparse
-import os
 import warnings
 
 import matplotlib
@@ -13,6 +11,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+from draw_file import draw_file
 
 COLUMNS = 8
 
@@ -30,9 +30,10 @@ def samples_of(path):
     return data, near
 
 
-def draw(data, near, picture):
+def draw(samples):
+    data, near = samples
     x, z = 1e3 * data[:, 0], 1e3 * data[:, 2]
-    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4), sharey=True)
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4), dpi=70, sharey=True)
     panels = (("condition", data[:, 3]), ("isotropic force, N", data[:, 4]),
               ("apparent mass, largest axis, g", 1e3 * data[:, 7]))
     for panel, (title, values) in zip(axes, panels):
@@ -43,21 +44,8 @@ def draw(data, near, picture):
         figure.colorbar(drawn, ax=panel, shrink=0.8)
     axes[0].set_ylabel("z, mm")
     figure.tight_layout()
-    figure.savefig(picture, dpi=70)
+    return figure
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("samples", help="what device_workspace has written")
-    parser.add_argument("picture", help="where the plots go")
-    arguments = parser.parse_args()
-    if os.path.exists(arguments.picture) and os.path.realpath(arguments.picture) == os.path.realpath(arguments.samples):
-        parser.error(f"{arguments.picture} holds the samples: name another file for the picture")
-    try:
-        samples = samples_of(arguments.samples)
-    except (ValueError, OSError) as error:
-        parser.error(f"{arguments.samples}: {error}")
-    try:
-        draw(*samples, arguments.picture)
-    except (ValueError, OSError) as error:
-        parser.error(f"{arguments.picture}: {error}")
+    draw_file(__doc__, "device_workspace", samples_of, draw)

@@ -74,6 +74,8 @@ def test_run(tree):
                          ("'b' belongs", "--quick", "b"), ("'--sanitze' is none", "--sanitze"),
                          ("-R lacks", "-R"), ("'--nope' is none", "--sanitize", "-j4", "--nope")):
         expect(2, said, *run, *words, **path)
+    expect(2, "cannot create directory", "bash", ROOT / "test/newer_cgal", "sid", tree / "test/run")
+    expect(2, "prints the folder", "bash", ROOT / "test/newer_cgal", "sid")
     for words in (["--help"], ["-R", "a", "-h"]):
         expect(0, "Installs what is missing", *run, *words, **path)
 
@@ -84,10 +86,10 @@ def plots(folder):
     if python is None:
         print("skipped: the plots, because python3-matplotlib is not installed")
         return
-    trace, samples, passivity, chain, tables = (
-        (python, ROOT / name) for name in ("examples/haptic_loop/draw_trace.py", "examples/plot_device_workspace.py",
-                                           *(f"benchmark/quality/{name}.py" for name in (
-                                               "plot_haptic_passivity", "plot_haptic_chain", "tabulate_guard_for_cgal"))))
+    examples, quality = ROOT / "examples", ROOT / "benchmark/quality"
+    trace, samples = (python, examples / "haptic_loop/draw_trace.py"), (python, examples / "plot_device_workspace.py")
+    passivity, chain = ((python, quality / f"plot_haptic_{name}.py") for name in ("passivity", "chain"))
+    tables = (python, quality / "tabulate_guard_for_cgal.py")
     good, row = folder / "good", "1," * TRACE.count(",") + "1000"
     good.write_text(f"{TRACE}\n{row}\n{row}\n")
     expect(0, "", *trace, good, folder / "trace.png")

@@ -75,4 +75,4 @@ def draw(report):
     return figure
 
 
-plot_report(__doc__, draw)
+plot_report(__doc__, "effects", draw)

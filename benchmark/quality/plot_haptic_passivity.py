@@ -80,4 +80,4 @@ def draw(report):
     return figure
 
 
-plot_report(__doc__, draw)
+plot_report(__doc__, "chart", draw)

@@ -1,29 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command line of scripts that draw what a benchmark has written with --json."""
-import argparse
+"""The command line of scripts that draw a part of what haptic_passivity has written with --json."""
 import json
 import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples"))
+from draw_file import draw_file
 
 
-def plot_report(documentation, draw):
-    """Draws the report that the first argument names to the picture that the second one does.
+def part_of_report(path, part):
+    """\\throw ValueError, OSError"""
+    with open(path) as file:
+        report = json.load(file)
+    if not isinstance(report, dict) or part not in report:
+        raise ValueError(f"there is no '{part}'")
+    return report
 
-    draw(report): makes a figure of matplotlib. Exit: 0 drawn, 2 a file that is no such report, or a picture that cannot
-    be written or is the report."""
-    parser = argparse.ArgumentParser(description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("report", help="what the benchmark has written")
-    parser.add_argument("picture", help="where the plots go: .png, .svg or .pdf")
-    arguments = parser.parse_args()
-    if os.path.exists(arguments.picture) and os.path.realpath(arguments.picture) == os.path.realpath(arguments.report):
-        parser.error(f"{arguments.picture} is the report: name another file for the picture")
-    try:
-        with open(arguments.report) as file:
-            figure = draw(json.load(file))
-    except OSError as error:
-        parser.error(str(error))
-    except (LookupError, RecursionError, TypeError, ValueError) as error:
-        parser.error(f"{arguments.report} is no such report: {error!r}")
-    try:
-        figure.savefig(arguments.picture)
-    except (OSError, ValueError) as error:  # not all of them name a file
-        parser.error(f"{arguments.picture}: {error}")
+
+def plot_report(documentation, part, draw):
+    """draw(report): a figure of matplotlib; see draw_file()."""
+    draw_file(documentation, f"haptic_passivity --json with '{part}'", lambda path: part_of_report(path, part), draw)

@@ -6,49 +6,47 @@ Three plots: the forces over time, how far the proxy is behind the hand, and how
 processor.
 Exit: 0 drawn, 2 a file that is no trace, or a picture that cannot be written or is the trace.
 """
-import argparse
 import csv
 import math
 import os
+import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from draw_file import draw_file
+
 COUPLING, RENDERED, LAG = "#e69f00", "#0072b2", "#009e73"  # told apart by colour-blind readers
 NEEDED = ["t", "tx", "ty", "tz", "x", "y", "z", "fcx", "fcy", "fcz", "fx", "fy", "fz", "cpu_ns"]
 
 
-class No_trace(Exception):
-    """Names the file."""
-
-
 def rows_of(path):
-    """\\throw No_trace, OSError"""
+    """\\throw ValueError, OSError"""
     with open(path, newline="") as file:
         reader = csv.DictReader(file)
         try:
             missing = [name for name in NEEDED if name not in (reader.fieldnames or [])]
-            if missing:
-                wanted = "Give a file that haptic_loop --trace has written."
-                raise No_trace(f"{path} has no column '{missing[0]}'. {wanted}")
-            rows = [{name: float(row[name]) for name in NEEDED} for row in reader]
+            rows = [{name: float(row[name]) for name in NEEDED} for row in reader if not missing]
         except (TypeError, ValueError, csv.Error) as error:
-            raise No_trace(f"{path}, line {reader.line_num}: {error}") from None
+            raise ValueError(f"line {reader.line_num}: {error}") from None
+    if missing:
+        raise ValueError(f"there is no column '{missing[0]}'")
     if not rows:
-        raise No_trace(f"{path} has no row: nothing is drawn")
+        raise ValueError("there is no row")
     if not all(math.isfinite(row["cpu_ns"]) for row in rows):
-        raise No_trace(f"{path}: a cpu_ns is not finite")
+        raise ValueError("a cpu_ns is not finite")
     return rows
 
 
-def draw(rows, picture):
+def draw(rows):
     time = [row["t"] for row in rows]
     norms = lambda *names: [math.hypot(*(row[name] for name in names)) for row in rows]
     lag = [math.dist([row[n] for n in ("tx", "ty", "tz")], [row[n] for n in ("x", "y", "z")]) for row in rows]
     cpu = [max(row["cpu_ns"], 1) / 1000 for row in rows]
-    figure, (force, behind, ticks) = pyplot.subplots(3, 1, figsize=(8, 8), constrained_layout=True)
+    figure, (force, behind, ticks) = pyplot.subplots(3, 1, figsize=(8, 8), dpi=110, constrained_layout=True)
     force.plot(time, norms("fcx", "fcy", "fcz"), color=COUPLING, linewidth=1, label="coupling")
     force.plot(time, norms("fx", "fy", "fz"), color=RENDERED, linewidth=1, label="rendered")
     force.set(title="Force on the hand", xlabel="s", ylabel="N")
@@ -58,21 +56,8 @@ def draw(rows, picture):
     edges = [0.1 * 2 ** (k / 4) for k in range(4 * math.ceil(math.log2(max(cpu) / 0.1)) + 2)]
     ticks.hist(cpu, bins=edges, color=RENDERED)
     ticks.set(title="Ticks by time of the processor", xlabel="µs", ylabel="ticks", xscale="log", yscale="log")
-    figure.savefig(picture, dpi=110)
+    return figure
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("trace", help="what haptic_loop --trace has written")
-    parser.add_argument("picture", help="where the plots go: .png, .svg or .pdf")
-    arguments = parser.parse_args()
-    if os.path.exists(arguments.picture) and os.path.realpath(arguments.picture) == os.path.realpath(arguments.trace):
-        parser.error(f"{arguments.picture} is the trace: name another file for the picture")
-    try:
-        rows = rows_of(arguments.trace)
-    except (No_trace, OSError) as error:
-        parser.error(str(error))
-    try:
-        draw(rows, arguments.picture)
-    except (OSError, ValueError) as error:  # not all of them name a file
-        parser.error(f"{arguments.trace} as {arguments.picture}: {error}")
+    draw_file(__doc__, "haptic_loop --trace", rows_of, draw)

@@ -86,12 +86,13 @@ def places(folder, mesh, lines, faults):
 
 
 def shifts(folder, mesh, lines, faults):
-    """The `end` of a shift ends no stroke: what is left is the one shift that is needed, of the one vertex, and its ends."""
+    """The `end` of a shift ends no stroke: what is left is the one shift that is needed, of the one vertex."""
     script, way = folder / "shifts.script", "1 0.25"
     idle = ["shift 2 2", "24 40.5", "25 40.5", "end"]
-    script.write_text("\n".join([*lines[:3], *idle, "stroke", lines[3], "shift 0 3", "0 0.125", way, "2 0.5", "end", "end", *idle]) + "\n")
-    needed = f"grep -qxF '{way}' {{script}}"
-    done = minimise(SCULPT, mesh, script, "--out", folder / "shifts_small", "--command", needed, "--exit", 0)
+    needed = ["shift 0 3", "0 0.125", way, "2 0.5", "end"]
+    script.write_text("\n".join([*lines[:3], *idle, "stroke", lines[3], *needed, "end", *idle]) + "\n")
+    has_way = f"grep -qxF '{way}' {{script}}"
+    done = minimise(SCULPT, mesh, script, "--out", folder / "shifts_small", "--command", has_way, "--exit", 0)
     left = (folder / "shifts_small.script").read_text().splitlines()[1:] if done.returncode == 0 else []
     if left != ["shift 0 1", way, "end"] or "19 lines" not in done.stdout or "now 3 " not in done.stdout:
         faults.append(f"a shift that is needed: exit {done.returncode}, {left}, {done.stdout} {done.stderr[-500:]}")

@@ -56,7 +56,8 @@ expect_errors(["[" * 50000000, " " * (2**20 - len(good_line) + 1) + good_line, '
 expect_errors(["[" + "[]," * 300000 + "[]]", "[" + "1," * 1000 + "1]", '{"x":[' + "1," * 999 + "1]}"], "too_many_values")
 expect_errors(['"' + "a" * 1000000, "\x00\x01\x1b[31m", good_line + "\x00 }{"], "malformed_json")
 expect(answers([good_line, '{"op":,}'])[1].get("message", "").startswith("line 2, column 7"), "the line of the input")
-expect(answers([good_line, '{"theta":[1e400,1,1]}'])[1].get("message", "").startswith("line 2: "), "the line of a number that is too large")
+too_large = answers([good_line, '{"theta":[1e400,1,1]}'])[1]
+expect(too_large.get("message", "").startswith("line 2: "), "the line of a number that is too large", too_large)
 just, deep, many = answers([" " * (2**20 - len(good_line)) + good_line, nested(32), good_line[:-1] + ', "x": [' + "1," * 900 + "1]}"])
 expect(many.get("ok") is True and many.get("unknown_keys") == ["x"], "many values", many)
 expect(just.get("ok") is True and "unknown_keys" not in just, "a line of the greatest length", just)
@@ -287,10 +288,12 @@ for entry in hard["general_ik_pos"]:
 # What no caller should send, each answered and gone past.
 good = reference["ditetra"][0]
 base = {"form": "ditetra", "params": good["params"], "op": "forward", "theta": good["theta"]}
+of_general = {**base, "form": "general", "params": reference["general"][0]["params"]}
+ask(of_general, lambda answer: answer["ok"] or failures.append(("the general form without a mode", answer, "")))
 for line in ("", "{", "[]", "null", "7", '{"op":', '{"form":"ditetra"}', "\xff\xfe", "[" * 5000, '{"theta":NaN}', '{"theta":[1e999,0,0]}',
              json.dumps({**base, "theta": [1, 2]}), json.dumps({**base, "theta": ["a", 1, 2]}), json.dumps({**base, "theta": [float("nan"), 0, 0]}),
              json.dumps({**base, "theta": [float("inf"), 0, 0]}), json.dumps({**base, "op": "fly"}), json.dumps({**base, "form": "hexapod"}),
-             json.dumps({**base, "mode": 0}), json.dumps({**base, "form": "general", "params": reference["general"][0]["params"], "mode": 1}),
+             json.dumps({**base, "mode": 0}), json.dumps({**of_general, "mode": 1}),
              json.dumps({**base, "params": None}), json.dumps({**base, "op": "dynamics"})):
     requests.append(line)
     checks.append(lambda answer, line=line: answer.get("ok") is False and set(answer) == {"ok", "error", "message"} or failures.append(("hostile", answer, line[:60])))

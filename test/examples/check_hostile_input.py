@@ -90,7 +90,7 @@ def main():
             refused(folder, 4, "other.script", "good.off", "--script", "other.script")
         os.symlink("b.off", at("a.off"))
         os.symlink("a.off", at("b.off"))
-        refused(folder, 3, "cannot be reached", "a.off")
+        refused(folder, 3, "'a.off': this cannot be reached", "a.off")
         refused(folder, 4, "a.off", "good.off", "--script", "a.off")
         refused(folder, 5, "a.off", "good.off", "-o", "a.off")
         write(at("deep.json"), "[" * 1000000)

@@ -43,6 +43,7 @@ BOOST_AUTO_TEST_CASE(a_handle_is_as_fast_as_its_jacobian_and_steps_begin_after_t
     const Device_parameters<double> parameters = device(form);
     Handle_motion handle(parameters, *home_pose(parameters), 0.001);
     BOOST_TEST((!handle.has_step() && handle.greatest() == 0));
+    BOOST_TEST((handle.jacobian().linear.isZero(0) && handle.jacobian().angular.isZero(0)));
     for (int i = 0; i < 20; ++i) {
       handle.follow(home_pose(parameters)->theta + random_vector(random, 0.2), 0.001);
       BOOST_TEST(handle.has_step() == (i > 0));

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line of scripts that draw a file that a program has written."""
+import argparse
+import os
+
+
+def draw_file(documentation, written_by, load, draw):
+    """Draws the file that the first argument names to the picture that the second one does.
+
+    load(path): what is in it. draw(content): a figure of matplotlib. Both throw ValueError where it is something else.
+    Exit: 0 drawn, 2 a file that cannot be read or drawn, or a picture that cannot be written or is that file."""
+    parser = argparse.ArgumentParser(description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", help=f"what {written_by} has written")
+    parser.add_argument("picture", help="where the plots go: .png, .svg or .pdf")
+    arguments = parser.parse_args()
+    both = (arguments.file, arguments.picture)
+    if all(os.path.exists(path) for path in both) and os.path.samefile(*both):
+        parser.error(f"{arguments.picture} is what is drawn: name another file for the picture")
+    try:
+        figure = draw(load(arguments.file))
+    except OSError as error:
+        parser.error(str(error))
+    except ValueError as error:
+        parser.error(f"{arguments.file} is not what {written_by} has written: {error}")
+    try:
+        figure.savefig(arguments.picture)
+    except (OSError, ValueError) as error:  # not all of them name a file
+        parser.error(f"{arguments.picture}: {error}")
