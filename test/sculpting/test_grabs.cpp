@@ -10,7 +10,9 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 using namespace haptic_sculpt;
@@ -19,6 +21,15 @@ using namespace haptic_sculpt::test;
 namespace {
 
 using Grab_type = Grab<Sculptor<Mesh>>;
+
+std::function<void()> heard; ///< once a vertex has moved
+struct Heard_visitor : Default_edit_visitor {
+  void vertex_moved(Vertex_index) {
+    if (heard)
+      heard();
+  }
+};
+using Heard_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Heard_visitor>;
 
 Point_3 beside(const Mesh& mesh, Vertex_index v) { return mesh.point(v) + meshes::Kernel::Vector_3(0.01, 0.02, 0.005); }
 
@@ -46,6 +57,43 @@ BOOST_AUTO_TEST_CASE(a_grab_is_stale_once_another_has_the_hand) {
   }
   BOOST_TEST((second.vertex() == Vertex_index(2)));
   BOOST_TEST(second.drag_to(beside(mesh, Vertex_index(2))).reached);
+}
+
+// A visitor does it while the drag is under way.
+BOOST_AUTO_TEST_CASE(a_grab_may_end_or_move_elsewhere_within_its_own_drag) {
+  const auto at_end = [](bool throws, const auto& meanwhile) {
+    Mesh mesh = ball();
+    std::unique_ptr<Grab<Heard_sculptor>> grab, other;
+    heard = [&] {
+      meanwhile(grab, other);
+      if (throws)
+        throw std::runtime_error("on purpose");
+    };
+    Heard_sculptor sculptor(mesh);
+    grab = std::make_unique<Grab<Heard_sculptor>>(sculptor.grab(Vertex_index(1)));
+    const Point_3 target = beside(mesh, Vertex_index(1));
+    if (throws)
+      BOOST_CHECK_THROW(grab->drag_to(target), std::runtime_error);
+    else
+      BOOST_TEST(grab->drag_to(target).reached);
+    heard = nullptr;
+    BOOST_TEST((mesh.point(Vertex_index(1)) == target));
+    auto& left = other ? *other : *grab;
+    if (other || grab) {
+      BOOST_TEST((left.vertex() == Vertex_index(1)));
+      const auto taken = sculptor.grab(Vertex_index(2));
+      BOOST_TEST((left.drag_to(Point_3(0, 0, 0)).position == target)); // stale, and where it was left
+    }
+    sculptor.check_unchanged();
+    return other || grab;
+  };
+  for (const bool throws : {false, true}) {
+    BOOST_TEST(!at_end(throws, [](auto& grab, auto&) { grab.reset(); }));
+    BOOST_TEST(at_end(throws, [](auto& grab, auto& other) {
+      other = std::make_unique<Grab<Heard_sculptor>>(std::move(*grab));
+      grab.reset();
+    }));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_grab_moves_and_lets_go_of_its_own_vertex_only) {

@@ -78,6 +78,17 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_refused_and_change_nothing) {
   BOOST_TEST(grab.drag_to(before).reached);
 }
 
+BOOST_AUTO_TEST_CASE(a_mesh_that_others_have_changed_is_seen_by_name) {
+  Mesh mesh = ball();
+  Sculptor<Mesh> sculptor(mesh);
+  const Vertex_index added = mesh.add_vertex(Point_3(9, 9, 9));
+  BOOST_CHECK_THROW(sculptor.id(added), Mesh_changed);
+  BOOST_CHECK_THROW(sculptor.set_delta(1e-6), Mesh_changed);
+  mesh.clear();
+  BOOST_CHECK_THROW(sculptor.set_delta(1e-6), Mesh_changed);
+  BOOST_TEST(sculptor.parameters().delta_length == 0);
+}
+
 BOOST_AUTO_TEST_CASE(delta_changes_between_steps_of_the_history_only) {
   Mesh mesh = ball();
   Sculptor<Mesh> sculptor(mesh);

@@ -91,12 +91,15 @@ private:
       internal::check_point("the target", target);
       return Drag_result<Mesh>::stale_at(place_);
     }
+    Sculptor& sculptor = *sculptor_; // a visitor may move this Grab elsewhere meanwhile, or end it
     try {
-      Drag_result<Mesh> result = sculptor_->guarded_.drag(v, target, path, parameters);
-      place_ = result.position;
+      Drag_result<Mesh> result = sculptor.guarded_.drag(v, target, path, parameters);
+      if (Grab* const hand = sculptor.holder_)
+        hand->place_ = result.position;
       return result;
     } catch (...) { // a visitor's, for instance, after the vertex has moved
-      note_place();
+      if (Grab* const hand = sculptor.holder_)
+        hand->note_place();
       throw;
     }
   }

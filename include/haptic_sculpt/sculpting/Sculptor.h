@@ -252,8 +252,8 @@ public:
   /// revives it.
   ///@{
 
-  /// The number of v. \pre v is in the mesh
-  std::size_t id(Vertex_index v) const { return guarded_.whole_editor().ids().id(v); }
+  /// The number of v. \pre v is in the mesh \throw Mesh_changed where others have added it
+  std::size_t id(Vertex_index v) const { return guarded_.whole_editor().ids().checked_id(v); }
   /// The null index where the vertex is dead, or the number was never given.
   Vertex_index vertex(std::size_t id) const { return guarded_.whole_editor().ids().vertex(id); }
   /// One more than the largest number given.
@@ -301,13 +301,15 @@ public:
   }
 
   /// Of drags and edits from here on; undo and redo restore what was, and altitudes that are lower then may only grow
-  /// (doc/proofs/stop.md). It changes between steps of the history: \throw Open_stroke within a stroke; Out_of_range;
-  /// Invalid_parameter; Invalid_surface where the mesh has a lower altitude already. Cost: that of validate().
+  /// (doc/proofs/stop.md). It changes between steps of the history: \throw Open_stroke within a stroke; Mesh_changed;
+  /// Out_of_range; Invalid_parameter; Invalid_surface where the mesh has a lower altitude already. Cost: that of
+  /// validate().
   void set_delta(double length) {
     const internal::Rounding_to_nearest rounding;
     if (guarded_.whole_editor().history().is_in_stroke())
       throw Open_stroke("delta may not change within a stroke: end the stroke first");
     const Sculptor_parameters changed = Sculptor_parameters(parameters()).delta(length);
+    check_unchanged();
     internal::checked_scene(mesh(), changed);
     release();
     guarded_.parameters = changed;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <haptic_sculpt/sculpting/Mesh_changed.h>
 #include <haptic_sculpt/surface/make_room.h>
 
+#include <string>
 #include <vector>
 
 namespace haptic_sculpt::internal {
@@ -32,6 +34,12 @@ public:
 
   /// \pre v is in the mesh
   std::size_t id(Vertex_index v) const { return ids_[static_cast<std::size_t>(v)]; }
+  /// \throw Mesh_changed where others have added v
+  std::size_t checked_id(Vertex_index v) const {
+    if (static_cast<std::size_t>(v) >= ids_.size())
+      throw Mesh_changed("vertex " + std::to_string(static_cast<std::size_t>(v)) + " was added");
+    return id(v);
+  }
 
   /// Gives v a number: the next never used, which is size(), or a dead one. \pre id <= size(), and no vertex has it
   void give(std::size_t id, Vertex_index v) {
