@@ -90,8 +90,12 @@ std::string cause_of(const Edit_record& edit) {
 
 double distance(const Edit_record::Coordinates& p, const Edit_record::Coordinates& q) {
   // By halves: the difference of two doubles may overflow, and std::hypot of infinities is not a number in some
-  // libraries.
-  return 2 * std::hypot(p[0] / 2 - q[0] / 2, p[1] / 2 - q[1] / 2, p[2] / 2 - q[2] / 2);
+  // libraries. But the least of them has no half.
+  double part = 1;
+  for (const Edit_record::Coordinates& place : {p, q})
+    for (const double x : place)
+      part = std::fabs(x) > 1 ? 2 : part;
+  return part * std::hypot(p[0] / part - q[0] / part, p[1] / part - q[1] / part, p[2] / part - q[2] / part);
 }
 
 std::string report_of(const Run_result& result, const std::vector<std::string>& notes,

@@ -168,6 +168,13 @@ def finding_vertices(folder, mesh):
     above = "1.00000000000000011102230246251565404236316680908203126"
     run(octahedron, "--nearest", above, "0", "0", "--report", report)
     check(json.load(open(report))["nearest"][0]["distance"] == 2**-52, "a number of the command line is rounded twice")
+    least = "5e-324"
+    corners = f"0 0 0\n{least} 0 0\n0 {least} 0\n0 0 {least}\n"
+    tiny = write(f"{folder}/tiny.off", "OFF\n4 4 0\n" + corners + "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+    done = run(tiny, "--nearest", "0", "0", least, "--report", report)
+    check(done.returncode == 0, f"a mesh of the least size: {done.stderr}")
+    told = json.load(open(report))["nearest"]
+    check([v["distance"] for v in told[:2]] == [0, float(least)], f"the least distance: {told}")
     run(octahedron, "--nearest", "1e300", "0x1p-1070", "0", "--report", report)
     check([v["vertex"] for v in json.load(open(report))["nearest"]] == [0, 2, 4, 5, 3, 1], "nearest to a point far away, where distances are all one double")
     done = run(octahedron, "--script", "-", "--log", log, "-o", out, "--report", report,

@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(ply_brings_every_type_back_in_text_and_in_bytes_and_in_the_
 
 BOOST_AUTO_TEST_CASE(obj_has_colours_from_0_to_1_and_what_a_format_cannot_hold_is_named) {
   const Temporary_folder folder;
-  const auto path = folder.file("t.obj", "v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0.25 0 1\nv 0 0 1 1 0.1 0.2 0.3\n"
+  const auto path = folder.file("t.obj", "v 0 0 0 1 0.5 0\nv 1 0 0 0 0 0\nv 0 1 0 0.25 0 1\nv 0 0 1 1 0.1 0.2 0.3\n"
                                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   const Mesh mesh = read_surface<Mesh>(path);
   const Values expected{
@@ -131,6 +131,12 @@ BOOST_AUTO_TEST_CASE(obj_has_colours_from_0_to_1_and_what_a_format_cannot_hold_i
     write_surface(folder / name, mesh);
     BOOST_TEST((values_of(read_surface<Mesh>(folder / name)) == expected));
   }
+  using Words = std::vector<std::string>;
+  Words left_out;
+  const auto some = folder.file("s.obj", "v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                         "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  BOOST_TEST((values_of(read_surface<Mesh>(some, 0, &left_out)) == Values()));
+  BOOST_TEST((left_out == Words{"colours that only some vertices have"}));
   Mesh bytes = meshes::to_mesh(meshes::cube());
   for (const char* name : {"red", "green", "blue"})
     put(add_vertex_attribute(bytes, name, Type::uint8).map, V(3), 51);
@@ -141,7 +147,6 @@ BOOST_AUTO_TEST_CASE(obj_has_colours_from_0_to_1_and_what_a_format_cannot_hold_i
     put(add_vertex_attribute(words, name, Type::uint16).map, V(3), 13107);
   write_surface(folder / "w.obj", words);
   BOOST_TEST(get(vertex_attributes(read_surface<Mesh>(folder / "w.obj"))[1].map, V(3)) == 0.2);
-  using Words = std::vector<std::string>;
   BOOST_TEST((attributes_not_held(bytes, Mesh_file_format::obj) == Words()));
   add_vertex_attribute(words, "red"); // besides the other: the file holds the first
   BOOST_TEST((attributes_not_held(words, Mesh_file_format::obj) == Words{"colours"}));

@@ -47,10 +47,8 @@ inline Face_soup parse_obj(std::string_view text) {
         scan.fail("a vertex has 3 coordinates, not " + std::to_string(n));
       if (n % 3 == 1 && x[3] != 1)
         scan.fail("vertices with a weight other than 1 are not supported; divide the coordinates by it");
-      for (std::size_t k = 0; n >= 6 && k < 3; ++k) {
-        colours[k].values.resize(soup.points.size()); // 0 where there was none
+      for (std::size_t k = 0; n >= 6 && k < 3; ++k)
         colours[k].values.push_back(x[n - 3 + k]);
-      }
       soup.add_point(x[0], x[1], x[2]);
     } else if (keyword == "f") {
       const auto face = std::to_string(soup.number_of_faces());
@@ -78,9 +76,12 @@ inline Face_soup parse_obj(std::string_view text) {
       scan.fail_at(keyword, " is no line of an OBJ mesh");
     }
   }
-  for (Vertex_attribute& part : colours)
-    if (!part.values.empty()) {
-      part.type = Vertex_attribute::Type::float64, part.values.resize(soup.points.size());
+  const std::size_t coloured = colours[0].values.size();
+  if (coloured > 0 && coloured < soup.points.size())
+    soup.leave_out("colours that only some vertices have");
+  else if (coloured > 0)
+    for (Vertex_attribute& part : colours) {
+      part.type = Vertex_attribute::Type::float64;
       soup.attributes.push_back(std::move(part));
     }
   if (highest >= static_cast<std::int64_t>(soup.points.size()))
