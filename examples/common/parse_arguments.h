@@ -55,6 +55,18 @@ struct Arguments_first : CLI::Formatter {
   }
 };
 
+/// Refuses the name of an option as the value of another one: `--report --log FILE` lacks a value.
+inline CLI::Validator no_option_of(const CLI::App& app) {
+  return CLI::Validator(
+      [&app](const std::string& text) -> std::string {
+        const std::string name = text.rfind("--", 0) == 0 ? text.substr(0, text.find('=')) : text.substr(0, 2);
+        if (text.rfind('-', 0) != 0 || app.get_option_no_throw(name) == nullptr)
+          return "";
+        return "lacks its value: '" + text + "' is an option. What has such a name is given as ./" + text;
+      },
+      "");
+}
+
 /// Reads the command line. Whole numbers are decimal, whatever zeros they begin with. An empty argument is refused: it
 /// is mostly a variable that was not set, and would pass for 0, or for an option that was not given.
 /// \throw CLI::ParseError
@@ -75,6 +87,8 @@ inline void parse_arguments(CLI::App& app, int argc, char** argv) {
       option->transform(CLI::Validator(normalise_whole_number<std::int64_t>, ""));
     else if (type.rfind("FLOAT", 0) == 0 || type.rfind("X Y Z", 0) == 0) // three of them
       option->transform(CLI::Validator(normalise_number, ""));
+    if (option->nonpositional() && option->get_items_expected_max() > 0)
+      option->transform(no_option_of(app)); // looked at first
   }
   app.formatter(std::make_shared<Arguments_first>());
   app.parse(argc, argv);

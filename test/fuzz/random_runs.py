@@ -75,6 +75,8 @@ OFTEN = {
     "many_vertices_speed_error": 1,
     "response_quality": 1,
 }
+# Of ten runs that would draw a picture one does: it takes 0.2 s, of OpenGL's driver.
+PICTURES = 0.1
 # What stands without an option's name: kinds of files, and how often they are damaged; None: an output.
 ARGUMENTS = {
     "sculpt": {".off": 0.3},
@@ -162,6 +164,8 @@ class Draw:
             if (o.name in USUAL.get(name, []) and r.random() < 0.8) or r.random() < r.choice([0, 0, 0.05, 0.2])
         }
         chosen |= {need for o in options if o.name in chosen and r.random() < 0.9 for need in o.needs}
+        if r.random() >= PICTURES:
+            chosen -= {o.name for o in options if o.name.startswith("--picture") or o.name == "--compare"}
         chosen = [o for o in options if o.name in chosen]
         spoiled = r.sample(range(len(chosen)), min(len(chosen), r.choice([0, 1, 1, 2])))
         for k, option in enumerate(chosen):
