@@ -12,12 +12,13 @@
 namespace haptic_sculpt::drawing {
 namespace {
 
-/// A framebuffer with smooth edges (four samples a pixel), and a plain one to read it through.
+/// A framebuffer with smooth edges (four samples a pixel, if the driver has them), and a plain one to read it through.
 class Offscreen_framebuffer {
 public:
   Offscreen_framebuffer(int width, int height) : width_(width), height_(height) {
-    int largest = 0;
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    int largest = 0, most_samples = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest), glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
+    const int samples = most_samples >= 4 ? 4 : 0;
     if (width > largest || height > largest)
       throw Picture_error("A picture of " + std::to_string(width) + " x " + std::to_string(height) +
                           " pixels cannot be drawn. Give a width and height of at most " + std::to_string(largest) +
@@ -26,8 +27,8 @@ public:
     glGenRenderbuffers(4, renderbuffers_);
     attach(framebuffers_[1], GL_DEPTH_ATTACHMENT, renderbuffers_[3], GL_DEPTH_COMPONENT24, 0);
     attach(framebuffers_[1], GL_COLOR_ATTACHMENT0, renderbuffers_[2], GL_RGBA8, 0);
-    attach(framebuffers_[0], GL_DEPTH_ATTACHMENT, renderbuffers_[1], GL_DEPTH_COMPONENT24, 4);
-    attach(framebuffers_[0], GL_COLOR_ATTACHMENT0, renderbuffers_[0], GL_RGBA8, 4);
+    attach(framebuffers_[0], GL_DEPTH_ATTACHMENT, renderbuffers_[1], GL_DEPTH_COMPONENT24, samples);
+    attach(framebuffers_[0], GL_COLOR_ATTACHMENT0, renderbuffers_[0], GL_RGBA8, samples);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || glGetError() != GL_NO_ERROR) {
       destroy();
       throw Picture_error("The OpenGL driver cannot make a picture of " + std::to_string(width) + " x " +
