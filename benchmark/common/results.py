@@ -62,13 +62,25 @@ def shards(out, name):
     return rows
 
 
-def forget_what_did_not_fit(out):
-    """So that it is tried again."""
+def read_or_nothing(path):
+    """A JSON object; nothing where the file is not whole, or not there."""
+    try:
+        value = json.loads(path.read_text())
+    except (OSError, ValueError):
+        return None
+    return value if isinstance(value, dict) else None
+
+
+def forget_what_cannot_be_used(out):
+    """What did not fit, and what is damaged, so that it is made again."""
     for path in (out / "shards").glob("*/*_of_*.json"):
-        if "did_not_fit" in json.loads(path.read_text()):
-            for suffix in (".json", ".note"):
-                path.with_suffix(suffix).unlink(missing_ok=True)
-            (out / "results" / f"{path.parent.name}.json").unlink(missing_ok=True)
+        report, note = read_or_nothing(path), path.with_suffix(".note")
+        if report is None or "did_not_fit" in report or (note.exists() and read_or_nothing(note) is None):
+            for file in (path, note, out / "results" / f"{path.parent.name}.json"):
+                file.unlink(missing_ok=True)
+    for path in (out / "results").glob("*.json"):
+        if read_or_nothing(path) is None:
+            path.unlink()
 
 
 def did_not_fit(out, name):

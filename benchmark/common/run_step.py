@@ -19,6 +19,7 @@ import subprocess
 import sys
 import time
 
+import ends_with_parent
 import steps
 
 
@@ -77,6 +78,7 @@ def main():
     parser.add_argument("--minutes", type=float, default=0, help="for all shards of the step together; 0: no bound")
     parser.add_argument("--unless-it-fits", action="store_true", help="do no more than write the report of a shard whose minutes are used up; exit 3 where they are not")
     options = parser.parse_args()
+    ends_with_parent.begin()
     step = steps.all_steps()[options.step]
     minutes = step.effort(options.mode).minutes
     settings = made_with(step, options)
@@ -101,7 +103,8 @@ def main():
     begin = time.time()
     with open(options.json.with_suffix(".log"), "wb") as log:
         try:
-            code = subprocess.run(words, stdout=log, stderr=subprocess.STDOUT, env={**os.environ, **extra}, timeout=60 * minutes, check=False).returncode
+            code = subprocess.run(words, stdout=log, stderr=subprocess.STDOUT, env={**os.environ, **extra},
+                                  timeout=60 * minutes, check=False, preexec_fn=ends_with_parent.begin).returncode
         except subprocess.TimeoutExpired:
             code = None
         except OSError as error:

@@ -90,7 +90,8 @@ def command_of(step, mode, shard, shards, build, meshes, seed, json, repair=Fals
     words = [str(pathlib.Path(build) / step.folder / step.program)]
     options = effort.options + (" " + step.with_meshes if meshes and step.with_meshes else "")
     options += " " + step.with_repair if meshes and repair else ""
-    words += options.format(seed=seed, meshes=meshes, dump=dump_folder(step.name, shard, shards)).split()
+    dump = dump_folder(step.name, shard, shards)
+    words += [word.format(seed=seed, meshes=meshes, dump=dump) for word in options.split()]  # a path may have blanks
     environment = {name: value.format(seed_of_shard=seed * 1000 + shard, share=share_of(step, mode, shards))
                    for name, value in step.environment.items()}
     if not step.promise:

@@ -2,12 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws what haptic_passivity --parts effects --json wrote, what each part of the chain of forces adds to the energy
 and to the force: plot_haptic_chain.py IN.json OUT.png"""
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
-from plot_report import plot_report
+from plot_report import plot_report, pyplot
 
 LEAST_FORCE = 1e-3  # N: what is less stands at the left edge
 BLUE, ORANGE = "#0072B2", "#D55E00"  # told apart by all eyes, and by their signs
@@ -16,7 +11,7 @@ BLUE, ORANGE = "#0072B2", "#D55E00"  # told apart by all eyes, and by their sign
 def draw(report):
     rows = report["effects"][::-1]
     places = range(len(rows))
-    figure, (energy, force) = plt.subplots(
+    figure, (energy, force) = pyplot().subplots(
         1, 2, sharey=True, figsize=(11, 0.34 * len(rows) + 1.3), dpi=100, gridspec_kw={"width_ratios": [1, 1.5]}
     )
     least = [1e3 * row["least_energy_J"] for row in rows]

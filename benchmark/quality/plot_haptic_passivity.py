@@ -1,12 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws what haptic_passivity --parts rate --chart --json wrote: plot_haptic_passivity.py IN.json OUT.png"""
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
-from plot_report import plot_report
+from plot_report import plot_report, pyplot
 
 
 def draw_stiffness(axes, rows, x, colour, label):
@@ -28,7 +23,7 @@ def draw_stiffness(axes, rows, x, colour, label):
 def draw(report):
     chart = report["chart"]
     friction = chart["friction_Ns_m"]
-    figure, (by_damping, by_tick, by_rate) = plt.subplots(1, 3, figsize=(15, 4.6), dpi=80)
+    figure, (by_damping, by_tick, by_rate) = pyplot().subplots(1, 3, figsize=(15, 4.6), dpi=80)
     for delay, colour in zip((0.0, 0.5, 1.0), ("tab:blue", "tab:orange", "tab:green")):
         draw_stiffness(
             by_damping,

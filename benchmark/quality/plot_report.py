@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples"))
-from draw_file import draw_file
+from draw_file import draw_file, pyplot
 
 
 def part_of_report(path, part):

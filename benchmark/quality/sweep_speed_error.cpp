@@ -17,11 +17,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <random>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace haptic_sculpt::benchmark {
@@ -232,13 +234,14 @@ int main(int argc, char** argv) {
     names.push_back(population.name);
   app.add_option("--population", chosen, "Only these populations")->check(CLI::IsMember(names));
   app.add_option(
-         "--write-queries", folder,
-         "Folder that gets queries.txt, as sweep_queries reads them, and truth.txt, by the oracle; nothing is timed")
-      ->check(CLI::ExistingDirectory);
+      "--write-queries", folder,
+      "Folder that gets queries.txt, as sweep_queries reads them, and truth.txt, by the oracle; nothing is timed");
   Benchmark_program program("sweep_speed_error", app, "population");
   return program.run(argc, argv, [&](Promises& promises) {
     std::ofstream asked, truth;
     if (!folder.empty()) {
+      std::error_code error; // that none can be made is said below
+      std::filesystem::create_directories(folder, error);
       asked.open(folder + "/queries.txt"), truth.open(folder + "/truth.txt");
       if (!asked || !truth)
         throw haptic_sculpt::Write_error("cannot write in " + folder);

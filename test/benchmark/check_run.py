@@ -70,15 +70,33 @@ def check_page(out):
     return page
 
 
+def still_working(out):
+    """Processes that have a folder on their command line."""
+    found = []
+    for path in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            words = path.read_bytes()
+        except OSError:  # it has ended
+            continue
+        if os.fsencode(str(out)) in words:
+            found.append(words.replace(b"\0", b" ").decode(errors="replace"))
+    return found
+
+
 def kill_and_resume(out):
-    """Killed with all it has started, once three reports are there, of which two must not be made again; the same command goes on."""
+    """Killed by itself, once three reports are there, of which two must not be made again: what it has started ends, and
+    the same command goes on."""
     going = subprocess.Popen([PYTHON, str(ROOT / "benchmark/run"), "--tiny", "--no-build", "--build", str(BUILD), "--out", str(out), "--cores", "1", *STEPS],
                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     end = time.monotonic() + 1800  # under sanitizers a report takes minutes
     while time.monotonic() < end and going.poll() is None and len(list(out.glob("shards/*/*.json"))) < 3:
         time.sleep(0.02)
-    os.killpg(going.pid, signal.SIGKILL)
+    os.kill(going.pid, signal.SIGKILL)
     going.wait()
+    end = time.monotonic() + 10
+    while time.monotonic() < end and still_working(out):
+        time.sleep(0.1)
+    expect(not still_working(out), f"after a kill these go on: {still_working(out)}")
     before = {path: path.stat().st_mtime_ns for path in out.glob("shards/*/*.json")}
     expect(before, "nothing was done before the kill")
     done = run(out, *STEPS)
@@ -88,6 +106,14 @@ def kill_and_resume(out):
     complete = [path for path in before if path.stat().st_mtime_ns == before[path]]
     expect(len(complete) >= 2, f"of {len(before)} reports before the kill {len(before) - len(complete)} were made again")
     return done
+
+
+def damaged(out):
+    """A report, a note or a result that is cut off is made again by the same command."""
+    for name in ("shards/axis/0_of_1.json", "shards/axis/0_of_1.note", "results/axis.json"):
+        (out / name).write_text((out / name).read_text()[:100])
+        done = run(out, "axis")
+        expect(done.returncode == 0 and json.loads((out / name).read_text()), f"{name} cut off: exit {done.returncode}, {done.stderr[-500:]}")
 
 
 def pictures(out, folder):
@@ -105,9 +131,12 @@ def wrong_use(folder):
     none = str(folder / "none")
     for option, value, said in (("--cores", "0", "--cores"), ("--minutes", "nan", "--minutes"),
                                 ("--minutes", "-1", "--minutes"), ("--shards", "-1", "--shards"),
+                                ("--shards", "1000000000", "10000"), ("--pictures", "/proc", "can be written to"),
                                 ("--seed", "-5", "--seed"), ("--seed", "99999999999999999999", "--seed"),
                                 ("--build", none, "no folder with a build"),
-                                ("--profile", "nosuch", "no profile nosuch"), ("--answers", none, "there is no file"),
+                                ("--build", str(folder), "there is no program"),
+                                ("--profile", "nosuch", "no profile nosuch"),
+                                ("--profile", str(folder), "config.yaml"), ("--answers", none, "there is no file"),
                                 ("--out", "", "empty"), ("--out", "/dev/null/x", "cannot make the folder")):
         done = run(folder / "wrong", "device", option, value)
         text = f"{option} {value}: exit {done.returncode}, {done.stderr[-500:]}"
@@ -285,7 +314,7 @@ def changed_meshes(out, folder):
 
 def own_meshes(out, folder):
     """What is refused, or cannot be read, is listed with its reason, breaks no promise, and costs the other files nothing."""
-    meshes = folder / "meshes"
+    meshes = folder / "somebody's meshes"
     meshes.mkdir()
     points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
     (meshes / "tetrahedron.off").write_text(f"OFF\n4 4 0\n{points}3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
@@ -506,6 +535,7 @@ def main():
     with tempfile.TemporaryDirectory() as place:
         folder = pathlib.Path(place)
         kill_and_resume(folder / "resumed")
+        damaged(folder / "resumed")
         check_page(folder / "resumed")
         wrong_use(folder)
         options_are_known()
