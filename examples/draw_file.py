@@ -2,6 +2,22 @@
 """The command line of scripts that draw a file that a program has written."""
 import argparse
 import os
+import sys
+
+
+def pyplot():
+    """Of matplotlib, for pictures in files. Where it is missing the program says what to do, and ends with exit code 2.
+    """
+    try:
+        import matplotlib
+
+        matplotlib.use("Agg")
+        import matplotlib.pyplot
+    except ImportError as error:
+        print(f"{error}, for {sys.executable}: apt-get install python3-matplotlib, and take /usr/bin/python3",
+              file=sys.stderr)
+        sys.exit(2)
+    return matplotlib.pyplot
 
 
 def draw_file(documentation, written_by, load, draw):

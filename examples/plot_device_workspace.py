@@ -6,13 +6,10 @@ Exit: 0 drawn, 2 a file without such samples, or a picture that cannot be writte
 """
 import warnings
 
-import matplotlib
+import draw_file
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+plt = draw_file.pyplot()
 import numpy as np
-
-from draw_file import draw_file
 
 COLUMNS = 8
 
@@ -48,4 +45,4 @@ def draw(samples):
 
 
 if __name__ == "__main__":
-    draw_file(__doc__, "device_workspace", samples_of, draw)
+    draw_file.draw_file(__doc__, "device_workspace", samples_of, draw)

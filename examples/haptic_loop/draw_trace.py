@@ -11,13 +11,8 @@ import math
 import os
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as pyplot
-
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from draw_file import draw_file
+import draw_file
 
 COUPLING, RENDERED, LAG = "#e69f00", "#0072b2", "#009e73"  # told apart by colour-blind readers
 NEEDED = ["t", "tx", "ty", "tz", "x", "y", "z", "fcx", "fcy", "fcz", "fx", "fy", "fz", "cpu_ns"]
@@ -46,7 +41,7 @@ def draw(rows):
     norms = lambda *names: [math.hypot(*(row[name] for name in names)) for row in rows]
     lag = [math.dist([row[n] for n in ("tx", "ty", "tz")], [row[n] for n in ("x", "y", "z")]) for row in rows]
     cpu = [max(row["cpu_ns"], 1) / 1000 for row in rows]
-    figure, (force, behind, ticks) = pyplot.subplots(3, 1, figsize=(8, 8), dpi=110, constrained_layout=True)
+    figure, (force, behind, ticks) = draw_file.pyplot().subplots(3, 1, figsize=(8, 8), dpi=110, constrained_layout=True)
     force.plot(time, norms("fcx", "fcy", "fcz"), color=COUPLING, linewidth=1, label="coupling")
     force.plot(time, norms("fx", "fy", "fz"), color=RENDERED, linewidth=1, label="rendered")
     force.set(title="Force on the hand", xlabel="s", ylabel="N")
@@ -60,4 +55,4 @@ def draw(rows):
 
 
 if __name__ == "__main__":
-    draw_file(__doc__, "haptic_loop --trace", rows_of, draw)
+    draw_file.draw_file(__doc__, "haptic_loop --trace", rows_of, draw)
