@@ -123,6 +123,10 @@ BOOST_AUTO_TEST_CASE(a_burst_gives_its_samples_and_none_once_it_is_cut) {
   for (const double tick : {0.0001, 0.001, 0.004}) {
     Refusal_burst burst(tick);
     BOOST_TEST(std::abs(burst.samples() * tick - Refusal_burst::duration) <= tick / 2 + 1e-12);
+    double given = 0; // N s: what a hand takes that turns with it at 1 m/s, J
+    for (int k = 0; k < burst.samples(); ++k)
+      given += std::abs(burst.sample(k)) * tick;
+    BOOST_TEST(given <= (tick <= 1e-3 ? 0.0162 : 0.0251));
     const Vector3d up(0, 0, 1);
     burst.begin(up, 1e-9); // as good as immovable: the whole amplitude
     for (int k = 0; k < burst.samples() / 2; ++k) {

@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(a_polygon_that_crosses_itself_ends_a_repair) {
 
 // A prism over a star with n points: its floor and its roof are not convex. Embedded, and as large as it was.
 BOOST_AUTO_TEST_CASE(faces_of_many_corners_are_divided_in_place) {
-  for (const std::size_t n : {2, 3, 5, 40, 1000}) {
+  for (const std::size_t n : {2, 3, 5, 40, 200}) {
     Face_soup soup;
     std::vector<std::size_t> floor, roof;
     for (std::size_t i = 0; i < 2 * n; ++i) {

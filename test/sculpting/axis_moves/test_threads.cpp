@@ -137,8 +137,7 @@ BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
                                      [](const auto& numbers) { return numbers.size() > 2; });
   BOOST_TEST(blocked > 20); // refused, held back, or broken
 #ifdef CGAL_LINKED_WITH_TBB
-  for (const auto& [threads, mode] :
-       {std::pair{1, FE_TONEAREST}, {2, FE_TONEAREST}, {4, FE_TONEAREST}, {2, FE_UPWARD}}) {
+  for (const auto& [threads, mode] : {std::pair{4, FE_TONEAREST}, {2, FE_UPWARD}}) {
     const tbb::global_control most(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     std::fesetround(mode); // threads take over the mode of the one that makes the arena
     tbb::task_arena arena(threads);

@@ -7,6 +7,8 @@
 #include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
 #include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 #include <set>
 
@@ -47,9 +49,9 @@ private:
   bool are_many_;
 
   bool does_move(Vertex_index v) const { return mesh_.point(v) != targets_[v]; }
-  std::vector<Vertex_index> corners(Face_index f) const {
-    const auto around = mesh_.vertices_around_face(mesh_.halfedge(f));
-    return {around.begin(), around.end()};
+  std::array<Vertex_index, 3> corners(Face_index f) const {
+    const auto h = mesh_.halfedge(f);
+    return {mesh_.target(h), mesh_.target(mesh_.next(h)), mesh_.source(h)};
   }
   bool does_move(Face_index f) const {
     const auto v = corners(f);
@@ -71,10 +73,9 @@ private:
   }
   /// The interval of a coordinate, at the start or at the end.
   std::pair<double, double> interval(Face_index f, int k, bool at_end) const {
-    std::set<double> x;
-    for (const Vertex_index v : corners(f))
-      x.insert((at_end ? targets_[v] : mesh_.point(v))[k]);
-    return {*x.begin(), *x.rbegin()};
+    const auto at = [&](Vertex_index v) { return (at_end ? targets_[v] : mesh_.point(v))[k]; };
+    const auto v = corners(f);
+    return std::minmax({at(v[0]), at(v[1]), at(v[2])});
   }
   bool does_count(Face_index f, Face_index g) const {
     std::vector<Vertex_index> shared;
