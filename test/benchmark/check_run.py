@@ -70,22 +70,42 @@ def check_page(out):
     return page
 
 
-def still_working(out):
-    """Processes that have a folder on their command line."""
+def still_working(build):
+    """Processes that have the folder of a build on their command line."""
     found = []
     for path in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
         try:
             words = path.read_bytes()
         except OSError:  # it has ended
             continue
-        if os.fsencode(str(out)) in words:
+        if os.fsencode(str(build)) in words:
             found.append(words.replace(b"\0", b" ").decode(errors="replace"))
     return found
 
 
+def killed_by_itself(out, folder):
+    """What it has started ends with it."""
+    build = folder / "sleeping"
+    program = build / "benchmark/axis_speed_error"
+    program.parent.mkdir(parents=True)
+    program.write_text("#!/usr/bin/python3\nimport time\ntime.sleep(600)\n")
+    program.chmod(0o755)
+    going = subprocess.Popen([PYTHON, str(ROOT / "benchmark/run"), "--tiny", "--no-build", "--build", str(build),
+                              "--out", str(out), "axis"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    end = time.monotonic() + 300
+    while time.monotonic() < end and not any(str(program) in words for words in still_working(build)):
+        time.sleep(0.1)
+    expect(len(still_working(build)) >= 3, f"it did not begin: {still_working(build)}")
+    going.kill()
+    going.wait()
+    end = time.monotonic() + 60
+    while time.monotonic() < end and still_working(build):
+        time.sleep(0.1)
+    expect(not still_working(build), f"after a kill these go on: {still_working(build)}")
+
+
 def kill_and_resume(out):
-    """Killed by itself, once three reports are there, of which two must not be made again: what it has started ends, and
-    the same command goes on."""
+    """Killed by itself, once three reports are there, of which two must not be made again; the same command goes on."""
     going = subprocess.Popen([PYTHON, str(ROOT / "benchmark/run"), "--tiny", "--no-build", "--build", str(BUILD), "--out", str(out), "--cores", "1", *STEPS],
                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     end = time.monotonic() + 1800  # under sanitizers a report takes minutes
@@ -93,10 +113,6 @@ def kill_and_resume(out):
         time.sleep(0.02)
     os.kill(going.pid, signal.SIGKILL)
     going.wait()
-    end = time.monotonic() + 10
-    while time.monotonic() < end and still_working(out):
-        time.sleep(0.1)
-    expect(not still_working(out), f"after a kill these go on: {still_working(out)}")
     before = {path: path.stat().st_mtime_ns for path in out.glob("shards/*/*.json")}
     expect(before, "nothing was done before the kill")
     done = run(out, *STEPS)
@@ -535,6 +551,7 @@ def main():
         return 77
     with tempfile.TemporaryDirectory() as place:
         folder = pathlib.Path(place)
+        killed_by_itself(folder / "killed", folder)
         kill_and_resume(folder / "resumed")
         damaged(folder / "resumed")
         check_page(folder / "resumed")
