@@ -11,6 +11,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cfenv>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -64,6 +65,8 @@ BOOST_AUTO_TEST_CASE(numbers_of_types_are_the_nearest_whatever_mode_the_caller_h
   std::fesetround(FE_TONEAREST);
   BOOST_TEST(byte == 10);
   BOOST_TEST(real == 1);
+  for (const Type type : {Type::int8, Type::uint8, Type::int16, Type::uint16, Type::int32, Type::uint32})
+    BOOST_TEST(!std::signbit(rounded_to(type, -0.25))); // integers have one 0
 }
 
 BOOST_AUTO_TEST_CASE(what_could_not_be_written_again_is_left_out) {

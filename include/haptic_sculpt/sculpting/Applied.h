@@ -20,7 +20,7 @@ struct Applied : Edit_result<Mesh> {
   Edit edit;
   std::optional<Drag_result<Mesh>> drag; ///< of a move: the last leg's
 
-  operator const Edit&() const { return edit; } ///< to be kept, or given to apply() again
+  operator Edit() const { return edit; } ///< to be kept, or given to apply() again
 };
 
 namespace internal {
@@ -34,12 +34,12 @@ public:
 
   Done apply(Sculptor& sculptor, const Edit& edit) {
     const Rounding_to_nearest rounding;
-    if (edit.kind == Edit_kind::move)
-      return move(sculptor, edit);
-    Edit made = edit; // before anything is changed: memory may run out
+    Edit made = edit; // before anything is changed: memory may run out, and a visitor may drop the caller's
+    if (made.kind == Edit_kind::move)
+      return move(sculptor, made);
     made.legs.clear(); // those of a move alone
-    const auto& v = edit.vertices;
-    const Point p = point(edit.point);
+    const auto v = made.vertices;
+    const Point p = point(made.point);
     sculptor.release();
     switch (edit.kind) {
     case Edit_kind::insert_on_face:
@@ -57,7 +57,7 @@ public:
     case Edit_kind::flip:
       return done(std::move(made), sculptor.flip(sculptor.edge_of(v[0], v[1])));
     case Edit_kind::shift:
-      return shift(sculptor, edit, std::move(made));
+      return shift(sculptor, std::move(made));
     case Edit_kind::undo:
       return restored(sculptor, std::move(made), [&] { return sculptor.undo(); });
     case Edit_kind::redo:
@@ -134,17 +134,17 @@ private:
     return result;
   }
 
-  static Done shift(Sculptor& sculptor, const Edit& edit, Edit&& made) {
+  static Done shift(Sculptor& sculptor, Edit&& made) {
     std::vector<std::pair<typename Mesh::Vertex_index, double>> ways;
-    ways.reserve(edit.ways.size());
-    for (const auto& [id, end] : edit.ways) {
+    ways.reserve(made.ways.size());
+    for (const auto& [id, end] : made.ways) {
       ways.emplace_back(sculptor.vertex(id), end);
       if (!ways.back().first.is_valid())
         return done({}, Edit_result<Mesh>::refused(Refusal_reason::unknown_element));
     }
     const auto& guarded = Sculptor_access::guarded(sculptor);
     const std::uint64_t before = guarded.changes();
-    auto result = sculptor.shift(edit.axis, ways);
+    auto result = sculptor.shift(made.axis, ways);
     return done(guarded.changes() != before ? std::move(made) : Edit(), std::move(result));
   }
 };

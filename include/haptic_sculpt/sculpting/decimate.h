@@ -68,6 +68,7 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
   using Profile = SMS::Edge_profile<const Mesh, Points, Traits>;
 
   const internal::Rounding_to_nearest rounding;
+  sculptor.check_unchanged();
   const Mesh& mesh = sculptor.mesh();
   const Points points = get(CGAL::vertex_point, mesh);
   const Traits traits;

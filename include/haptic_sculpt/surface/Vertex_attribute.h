@@ -38,7 +38,7 @@ inline double rounded_to(Vertex_attribute::Type type, double x) {
     return static_cast<float>(x);
   const double nearest = std::nearbyint(x);
   const int i = static_cast<int>(type);
-  return nearest > low[i] ? std::fmin(nearest, high[i]) : low[i]; // NaN: the least
+  return (nearest > low[i] ? std::fmin(nearest, high[i]) : low[i]) + 0.0; // NaN: the least; -0: +0
 }
 
 } // namespace haptic_sculpt

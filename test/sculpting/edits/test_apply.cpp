@@ -50,7 +50,65 @@ Edit random_value(const Sculptor<Mesh>& sculptor, Random& random) {
   }
 }
 
+/// Drops the edit under way as soon as it has done something, as a journal does that grows.
+struct Dropping_visitor : Default_edit_visitor {
+  std::vector<Edit>* queue = nullptr;
+  void drop() {
+    if (queue != nullptr)
+      queue->assign(20, Edit::of(Edit_kind::move, {40, 41, 39}, {9, 9, 9}));
+  }
+  template <class Element>
+  void vertex_moved(Element) {
+    drop();
+  }
+  template <class Element, class... More>
+  void vertex_created(Element, More...) {
+    drop();
+  }
+  template <class Element, class... More>
+  void vertex_dies(Element, More...) {
+    drop();
+  }
+  template <class Element, class... More>
+  void face_dies(Element, More...) {
+    drop();
+  }
+};
+
 } // namespace
+
+BOOST_AUTO_TEST_CASE(an_edit_that_is_dropped_while_it_is_made_is_made_all_the_same) {
+  using Droppable = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Dropping_visitor>;
+  const Mesh ball = meshes::to_mesh(meshes::bumpy_sphere(1, 0));
+  Edit move = Edit::of(Edit_kind::move, {3, 0, 0}, {0, 0, 0}), shift = Edit::of(Edit_kind::shift);
+  const Point_3 p = ball.point(Vertex_index(3));
+  for (const double share : {1.05, 1.1})
+    move.legs.push_back({share * p.x(), share * p.y(), share * p.z()});
+  move.point = {1.2 * p.x(), 1.2 * p.y(), 1.2 * p.z()};
+  shift.ways = {{5, ball.point(Vertex_index(5)).x() + 0.01}, {6, ball.point(Vertex_index(6)).x() + 0.01}};
+  const auto h = ball.halfedge(Vertex_index(7));
+  const std::size_t a = ball.source(h), b = ball.target(h), c = ball.target(ball.next(h));
+  const Point_3 inside = in_face(ball, ball.face(h), 0.3, 0.4), middle = CGAL::midpoint(ball.point(ball.source(h)), p);
+  for (const Edit& edit : {move, shift, Edit::of(Edit_kind::remove, {10, 0, 0}),
+                           Edit::of(Edit_kind::collapse, {a, b, 0}), Edit::of(Edit_kind::flip, {a, b, 0}),
+                           Edit::of(Edit_kind::insert_on_face, {a, b, c}, {inside.x(), inside.y(), inside.z()}),
+                           Edit::of(Edit_kind::insert_on_edge, {a, b, 0}, {middle.x(), middle.y(), middle.z()})}) {
+    BOOST_TEST_INFO_SCOPE("kind " << static_cast<int>(edit.kind));
+    Mesh mesh = ball, other = ball;
+    std::vector<Edit> queue = {edit};
+    Dropping_visitor visitor;
+    visitor.queue = &queue;
+    Droppable dropped(mesh, {}, visitor), kept(other, {}, Dropping_visitor());
+    const auto result = dropped.apply(queue[0]);
+    const auto expected = kept.apply(edit);
+    BOOST_TEST(static_cast<bool>(result) == static_cast<bool>(expected));
+    BOOST_TEST((queue.size() == 20u || !expected));
+    BOOST_TEST((snapshot(dropped) == snapshot(kept)));
+    BOOST_TEST((result.edit.kind == expected.edit.kind && result.edit.vertices == expected.edit.vertices &&
+                result.edit.point == expected.edit.point && result.edit.legs == expected.edit.legs &&
+                result.edit.ways == expected.edit.ways));
+  }
+}
 
 BOOST_AUTO_TEST_CASE(what_was_applied_can_be_done_again) {
   const std::size_t edits = count_from_environment("HAPTIC_SCULPT_APPLIED_EDITS", 4000);

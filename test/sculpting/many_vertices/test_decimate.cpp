@@ -208,6 +208,13 @@ BOOST_AUTO_TEST_CASE(nothing_done_is_no_step_and_what_was_undone_can_be_redone) 
   sculptor.check_unchanged();
 }
 
+BOOST_AUTO_TEST_CASE(a_mesh_that_others_have_cleared_is_seen) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0));
+  Sculptor<Mesh> sculptor(mesh);
+  mesh.clear();
+  BOOST_CHECK_THROW(decimate(sculptor, [](const auto&...) { return false; }), Mesh_changed);
+}
+
 BOOST_AUTO_TEST_CASE(placements_and_meshes_out_of_range_are_refused_by_name) {
   const auto stop = [](const auto&, const auto&, std::size_t, std::size_t edges) { return edges < 100; };
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 0x1p1001})
