@@ -130,6 +130,8 @@ void compare(const Words& words, const Read_options& options) {
       for (std::size_t k = 0; k < std::min(numbers.size(), values->size()); ++k) {
         if (k > 0 && std::strcmp(name, "--snap") == 0 && (*values)[k][0] == '-')
           break; // the force was left out
+        if (numbers.size() > 1 && (*values)[k][0] == '[')
+          break; // CLI11 takes [1,2] for two values
         require(is_same(numbers[k], own_number((*values)[k])), "a number is read to the last bit");
       }
     }
