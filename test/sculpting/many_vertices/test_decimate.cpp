@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(a_mesh_that_others_have_cleared_is_seen) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(1, 0));
   Sculptor<Mesh> sculptor(mesh);
   mesh.clear();
-  BOOST_CHECK_THROW(decimate(sculptor, [](const auto&...) { return false; }), Mesh_changed);
+  BOOST_CHECK_THROW(decimate(sculptor, [](const auto&...) { return false; }), haptic_sculpt::Mesh_changed);
 }
 
 BOOST_AUTO_TEST_CASE(placements_and_meshes_out_of_range_are_refused_by_name) {
