@@ -77,8 +77,9 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=0, help="for all shards of the step together; 0: no bound")
     parser.add_argument("--unless-it-fits", action="store_true", help="do no more than write the report of a shard whose minutes are used up; exit 3 where they are not")
+    parser.add_argument("--parent", type=int, default=os.getppid(), help="the process that it ends with")
     options = parser.parse_args()
-    ends_with_parent.begin()
+    ends_with_parent.begin(options.parent)
     step = steps.all_steps()[options.step]
     minutes = step.effort(options.mode).minutes
     settings = made_with(step, options)
@@ -103,8 +104,9 @@ def main():
     begin = time.time()
     with open(options.json.with_suffix(".log"), "wb") as log:
         try:
-            code = subprocess.run(words, stdout=log, stderr=subprocess.STDOUT, env={**os.environ, **extra},
-                                  timeout=60 * minutes, check=False, preexec_fn=ends_with_parent.begin).returncode
+            done = subprocess.run(words, stdout=log, stderr=subprocess.STDOUT, env={**os.environ, **extra},
+                                  timeout=60 * minutes, check=False, preexec_fn=ends_with_parent.of_this_process())
+            code = done.returncode
         except subprocess.TimeoutExpired:
             code = None
         except OSError as error:

@@ -17,9 +17,11 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <iostream>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -137,14 +139,14 @@ void compare(const Words& words, const Read_options& options) {
     }
   for (const auto& [name, number] : options.whole)
     if (const auto values = behind(words, name))
-      require(number && mpz_class(values->at(0), 10) == mpz_class(std::to_string(*number), 10),
+      require(number && !values->empty() && mpz_class(values->at(0), 10) == mpz_class(std::to_string(*number), 10),
               "a whole number is read as it is, in decimal");
   for (const auto& [name, text] : options.texts)
     if (const auto values = behind(words, name))
-      require(text == values->at(0), "the name of a file is read as it is");
+      require(!values->empty() && text == values->at(0), "the name of a file is read as it is");
 }
 
-/// Where the program is to end now as `read_arguments()` says, what it says on the way, and what it has read.
+/// Gives the words to a program, and looks at what it says and at what it has read.
 template <class Arguments, class Read_arguments>
 void run(std::size_t which, const Words& words, const Read_arguments& read_arguments) {
   Words all = {"program"};

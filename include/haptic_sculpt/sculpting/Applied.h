@@ -41,7 +41,7 @@ public:
     const auto v = made.vertices;
     const Point p = point(made.point);
     sculptor.release();
-    switch (edit.kind) {
+    switch (made.kind) {
     case Edit_kind::insert_on_face:
       return done(std::move(made), sculptor.insert_on_face(sculptor.face_of(v[0], v[1], v[2]), p));
     case Edit_kind::insert_on_edge:

@@ -236,13 +236,13 @@ public:
   /// Keeps the values of a property map from now on: what undo and redo revive has its values again, and what edits
   /// create gets a value made of those of the elements it comes from (doc/use/properties.md); where it comes from none,
   /// the default of a map of the mesh, in other maps `value()` if there is one. \param map a model of
-  /// `ReadWritePropertyMap`, copied; its keys are vertices, halfedges, edges or faces of the mesh. \pre It lives as
-  /// long as the Sculptor: a map of the mesh is not removed from it before \param carry `value carry(const
-  /// Property_origin<value>&)`: Copy_property, Interpolate_property, or your own. What the functions of the map and
-  /// `carry` throw goes on to the caller of the edit, which stands; where a value cannot be copied before the edit, the
-  /// edit is not made. Cost: while a map is kept, an edit looks up its ids, n log n in the valence; the history keeps
-  /// the values of what dies, which `history().bytes()` does not count. \throw Invalid_parameter for the mesh's own map
-  /// of points
+  /// `ReadWritePropertyMap`, copied; its keys are vertices, halfedges, edges or faces of the mesh
+  /// \param carry `value carry(const Property_origin<value>&)`: Copy_property, Interpolate_property, or your own.
+  /// What the functions of the map and `carry` throw goes on to the caller of the edit, which stands; where a value
+  /// cannot be copied before the edit, the edit is not made. Cost: while a map is kept, an edit looks up its ids,
+  /// n log n in the valence; the history keeps the values of what dies, which `history().bytes()` does not count.
+  /// \pre the map lives as long as the Sculptor: one of the mesh is not removed from it before
+  /// \throw Invalid_parameter for the mesh's own map of points
   template <class Map, class Carry = Copy_property>
   void keep(Map map, Carry carry = Carry()) {
     guarded_.whole_editor().kept().add(map, std::move(carry));
