@@ -103,8 +103,9 @@ def killed_by_itself(out, folder):
         time.sleep(0.1)
     expect(not still_working(build), f"after a kill these go on: {still_working(build)}")
     # A shard whose parent has ended before it begins.
-    done = subprocess.run([PYTHON, str(ROOT / "benchmark/common/run_step.py"), "axis", "0", "1", "--mode", "tiny", "--build",
-                           str(build), "--json", str(folder / "late.json"), "--parent", "1"], capture_output=True)
+    shard = [PYTHON, str(ROOT / "benchmark/common/run_step.py"), "axis", "0", "1", "--mode", "tiny"]
+    done = subprocess.run([*shard, "--build", str(build), "--json", str(folder / "late.json"), "--parent", "1"],
+                          capture_output=True)
     expect(done.returncode == -signal.SIGKILL, f"a shard without its parent: {done.returncode}, {done.stderr}")
 
 
