@@ -23,10 +23,11 @@ import resource
 import shlex
 import shutil
 import signal
-import subprocess
 import sys
 import tempfile
+import threading
 
+from forked_runs import Forking_program
 from random_runs import FAULT_OF_THE_PROGRAM, Draw, corpus_of, options_of
 
 MEMORY = 3 << 30  # bytes: what is refused below this is refused in order
@@ -45,7 +46,8 @@ def is_sanitized(program):
 def environment():
     # Drivers of OpenGL leak where there is a display: nothing would tell them from others.
     leaks = ":detect_leaks=0" if "DISPLAY" in os.environ else ""
-    return {**os.environ, "ASAN_OPTIONS": f"abort_on_error=1:{BOUNDS_OF_THE_SANITIZER}{leaks}"}
+    # The library that makes the programs fork is loaded before the sanitizer's.
+    return {**os.environ, "ASAN_OPTIONS": f"abort_on_error=1:verify_asan_link_order=0:{BOUNDS_OF_THE_SANITIZER}{leaks}"}
 
 
 def slowness(program):
@@ -65,31 +67,29 @@ def set_limits(program):
     resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30, 1 << 30))
 
 
-def run(arguments, stdin, folder):
-    """(exit code, what stands on the screen, whether it had to be asked to end)"""
-    # Without a terminal, in a folder of its own.
-    with subprocess.Popen(
-        [os.fsencode(a) for a in arguments],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        cwd=folder,
-        env=environment(),
-    ) as process:
-        try:
-            output = process.communicate(stdin, timeout=PATIENCE * slowness(arguments[0]))[0]
-            return process.returncode, output, False
-        except subprocess.TimeoutExpired:
-            process.send_signal(signal.SIGTERM)
-            try:
-                output = process.communicate(timeout=grace(arguments[0]))[0]
-            except subprocess.TimeoutExpired:
-                process.kill()
-                return None, process.communicate()[0], True
-            return process.returncode, output, True
+class Runner:
+    """Runs the programs, each of which stands by once for each thread."""
+
+    def __init__(self, server):
+        self.server, self.here, self.all = server, threading.local(), []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for program in self.all:
+            program.close()
+
+    def run(self, arguments, stdin, folder, patience=PATIENCE):
+        program, *words = arguments
+        standing_by = self.here.__dict__.setdefault("programs", {})
+        if program not in standing_by:
+            standing_by[program] = Forking_program(program, self.server, environment())
+            self.all.append(standing_by[program])
+        return standing_by[program].run(words, stdin, folder, patience * slowness(program), grace(program))
 
 
-def faults_of(draw, arguments, code, output, was_asked, validator):
+def faults_of(draw, arguments, code, output, was_asked, validate):
     faults = []
     if is_sanitized(arguments[0]) and ENDED_AT_A_BOUND.search(output):
         return faults
@@ -115,19 +115,20 @@ def faults_of(draw, arguments, code, output, was_asked, validator):
     if code == 0 and "--output" in arguments and not faults:
         made = arguments[arguments.index("--output") + 1]
         if os.path.isfile(made) and made not in draw.inputs and made.endswith((".off", ".ply", ".obj")):
-            read = subprocess.run([validator, made], capture_output=True, env=environment())
-            if read.returncode != 0:
-                faults.append(f"the mesh it wrote is refused: {read.stderr.decode(errors='replace')[:300]}")
+            code, said, _ = validate(made)
+            if code != 0:
+                faults.append(f"the mesh it wrote is refused: {said.decode(errors='replace')[:300]}")
     return faults
 
 
-def run_of(number, arguments, programs, known, corpus):
+def run_of(number, arguments, programs, known, corpus, runner):
     """((program, exit code), whether it had to be asked to end, what is wrong)"""
     with tempfile.TemporaryDirectory() as folder:
         draw = Draw(arguments.seed, number, folder, known, corpus)
         command = [programs[draw.program], *draw.arguments]
-        code, output, was_asked = run(command, draw.stdin, folder)
-        faults = faults_of(draw, command, code, output, was_asked, programs["sculpt"])
+        code, output, was_asked = runner.run(command, draw.stdin, folder)
+        faults = faults_of(draw, command, code, output, was_asked,
+                           lambda mesh: runner.run([programs["sculpt"], mesh], b"", folder, patience=GRACE))
         if not faults:
             return (draw.program, code), was_asked, ""
         if arguments.keep:
@@ -140,6 +141,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("source", help="the folder of the sources")
     parser.add_argument("programs", nargs="+", help="example programs, built; sculpt and haptic_loop among them")
+    parser.add_argument("--fork-server", metavar="LIBRARY", required=True, type=os.path.abspath,
+                        help="the library made of fork_server.cpp: a run costs no loading of libraries")
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--first", type=int, default=0, help="begin with this run")
     parser.add_argument("--seed", type=int, default=1)
@@ -168,12 +171,14 @@ def main():
     known = {name: options_of(path) for name, path in programs.items()}
     print(f"seed {arguments.seed}, runs {arguments.first} to {arguments.first + arguments.runs - 1}", flush=True)
     found, ends, asked = 0, collections.Counter(), 0
-    with tempfile.TemporaryDirectory() as good, concurrent.futures.ThreadPoolExecutor(arguments.cores) as pool:
+    with tempfile.TemporaryDirectory() as good, Runner(arguments.fork_server) as runner, \
+            concurrent.futures.ThreadPoolExecutor(arguments.cores) as pool:
         corpus = corpus_of(programs, os.path.abspath(arguments.source), good)
         end = arguments.first + arguments.runs
         for first in range(arguments.first, end, 1000):
             numbers = range(first, min(first + 1000, end))
-            for ended, was_asked, fault in pool.map(lambda n: run_of(n, arguments, programs, known, corpus), numbers):
+            for ended, was_asked, fault in pool.map(
+                    lambda n: run_of(n, arguments, programs, known, corpus, runner), numbers):
                 ends[ended] += 1
                 asked += was_asked
                 found += bool(fault)
