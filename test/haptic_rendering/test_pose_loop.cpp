@@ -110,6 +110,22 @@ BOOST_AUTO_TEST_CASE(places_beyond_all_numbers_are_faults_also_where_no_speed_is
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_reading_whose_place_in_the_scene_overflows_is_a_fault_and_the_tick_has_finite_places) {
+  for (const bool is_clutch_open : {false, true}) {
+    Mesh mesh = meshes::to_mesh(meshes::box(1, 1));
+    Sculptor<Mesh> sculptor(mesh);
+    Pose_loop_parameters parameters = Pose_loop_parameters::without_force();
+    parameters.speed = std::numeric_limits<double>::infinity();
+    Pose_loop<Sculptor<Mesh>> loop(sculptor, map_of_tests, parameters);
+    loop.open_clutch(is_clutch_open);
+    Pose_reading reading;
+    reading.position = Vector3d(0, 0, 1.7e308), reading.elapsed = 0.001; // at its first, nothing is a jump
+    const auto& tick = loop.tick(reading);
+    BOOST_TEST((tick.fault == Loop_fault::not_finite), name_of(tick.fault));
+    BOOST_TEST((tick.tool.target.allFinite() && tick.tool.proxy.allFinite()));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(parameters_are_checked_where_they_are_given) {
   const double inf = std::numeric_limits<double>::infinity();
   const auto refuses = [](const std::string& member, const auto& change) {

@@ -31,7 +31,7 @@ struct Rigid_move_report {
   /// bit.
   double share = 0;
   /// What blocks the next 1024th of the way; none where all of it was gone, a limit has ended it, or the way leads out
-  /// of the range of coordinates there.
+  /// of the range of coordinates there. In the order of their vertices: the same with every broad phase.
   std::vector<Blocking_pair<Mesh>> contacts;
   std::size_t drags = 0;    ///< motions asked for, of an axis move one for each vertex
   std::size_t pairs = 0;    ///< decided, where Move_parameters::most_pairs() bounds them, and no more than that; else 0

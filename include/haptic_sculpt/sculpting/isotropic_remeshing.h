@@ -110,7 +110,9 @@ Remeshing_report isotropic_remeshing(const Face_range& faces, Sculptor& sculptor
 }
 
 /// The same for all faces.
-template <class Sculptor, class Named_parameters = CGAL::parameters::Default_named_parameters>
+// Sculptors alone: else CGAL's (faces, length, mesh) would be as good a call of this one.
+template <class Sculptor, class Named_parameters = CGAL::parameters::Default_named_parameters,
+          class = typename Sculptor::Mesh_type>
 Remeshing_report isotropic_remeshing(Sculptor& sculptor, double target_edge_length,
                                      const Named_parameters& np = CGAL::parameters::default_values(),
                                      const Remeshing_parameters& parameters = Remeshing_parameters()) {

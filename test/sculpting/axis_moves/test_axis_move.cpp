@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(free_motions_are_embedded_all_the_way) {
     Axis_move move(mesh, counters);
     move.take({mesh.faces().begin(), mesh.faces().end()}, true);
     move.begin(scene.axis, ways_of(scene), 0);
-    for (const Axis_obstacle& obstacle : move.obstacles()) {
+    for (const Axis_obstacle& obstacle : move.sorted_obstacles()) {
       ++obstacles[static_cast<int>(obstacle.kind)];
       wrongly_named += !is_obstacle(scene, obstacle);
     }

@@ -76,6 +76,14 @@ double unevenness(const Mesh& mesh, const Edge_marks& marks) {
 
 } // namespace
 
+BOOST_AUTO_TEST_CASE(a_call_of_cgals_means_cgals_in_both_namespaces) {
+  using namespace CGAL::Polygon_mesh_processing;
+  Mesh mesh = meshes::to_mesh(meshes::box(2));
+  auto faces = mesh.faces(); // no constant, nor a temporary: as good a first argument as a Sculptor
+  isotropic_remeshing(faces, 0.2, mesh);
+  BOOST_TEST(mesh.number_of_faces() > 48u);
+}
+
 BOOST_AUTO_TEST_CASE(faces_keep_the_patch_they_came_of) {
   for (const double length : {0.05, 0.4}) {
     const auto np = [](const Patch_map& patches) {

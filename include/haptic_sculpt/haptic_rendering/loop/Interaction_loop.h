@@ -145,6 +145,8 @@ private:
     if (!interaction_.follow(reading))
       return;
     const Eigen::Vector3d handle = interaction_.side().position();
+    if (!map_.to_scene(handle).allFinite()) // a tick has finite places alone
+      return interaction_.report(Loop_fault::not_finite);
     const int button = button_.next(reading.button, reading.elapsed);
     if (is_clutch_open_) {
       tick_.tool = Tool_step();

@@ -77,8 +77,12 @@ public:
   bool is_free() const { return obstacles_.empty() && !is_too_much_; }
   /// Whether it was given up because more would have been decided than may be.
   bool is_too_much() const { return is_too_much_; }
-  /// All of the last round; where the motion was given up, those that were found till then.
-  const std::vector<Axis_obstacle>& obstacles() const { return obstacles_; }
+  /// All of the last round, the least first: as they were found they depend on the order of the broad phase. Where the
+  /// motion was given up, those that were found till then.
+  const std::vector<Axis_obstacle>& sorted_obstacles() {
+    std::sort(obstacles_.begin(), obstacles_.end());
+    return obstacles_;
+  }
 
   /// Where the vertex is along the axis at the end, as far as it is held back by now.
   double end(Vertex_index v) const { return scene_.end_of(static_cast<std::uint32_t>(v)); }

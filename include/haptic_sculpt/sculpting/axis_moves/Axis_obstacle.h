@@ -5,6 +5,7 @@
 #include <haptic_sculpt/collision/arithmetic/unit_of.h>
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace haptic_sculpt::internal {
@@ -33,6 +34,9 @@ struct Axis_obstacle {
     if (std::make_pair(c, d) < std::make_pair(a, b))
       std::swap(a, c), std::swap(b, d);
     return {kind, {a, b, c, d}};
+  }
+  bool operator<(const Axis_obstacle& other) const {
+    return std::tie(vertices, kind) < std::tie(other.vertices, other.kind);
   }
 };
 

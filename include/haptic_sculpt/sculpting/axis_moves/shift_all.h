@@ -34,11 +34,7 @@ Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways, co
   }
   guarded.look_around(targets);
   if (!guarded.shift(axis, ways, 0, run)) {
-    // The least of all, not the first that was found: that depends on the order of the broad phase.
-    Axis_obstacle first = guarded.obstacles_to(axis, ways, run).front();
-    for (const Axis_obstacle& other : guarded.axis_move().obstacles())
-      if (other.vertices < first.vertices)
-        first = other;
+    const Axis_obstacle& first = guarded.obstacles_to(axis, ways, run).front();
     const bool is_of_face = first.size() == 3;
     auto refused = Edit_result<Mesh>::refused(is_of_face ? Refusal_reason::delta : Refusal_reason::blocked);
     for (int k = 0; k < first.size(); ++k)

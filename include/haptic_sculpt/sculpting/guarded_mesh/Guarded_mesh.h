@@ -294,7 +294,7 @@ public:
                                                  Pair_budget* work = nullptr) {
     const Rounding_to_nearest rounding;
     axis_move().begin(axis, ways, parameters.delta_length, run, std::numeric_limits<std::size_t>::max(), work);
-    return axis_move().obstacles();
+    return axis_move().sorted_obstacles();
   }
 
   void reserve(std::size_t edits, std::size_t moves) {
