@@ -222,7 +222,7 @@ int main(int argc, char** argv) {
                "of growing valence. Edits are made in a row at different places, then all undone, then all redone. "
                "Nanoseconds.");
   app.add_option("--seed", options.seed, "Seed")->capture_default_str();
-  app.add_option("--samples", options.samples, "Edits of each kind")
+  app.add_option("--samples", options.samples, "Edits of each kind, by valence fewer, but at least 5")
       ->capture_default_str()
       ->check(benchmark::positive_number);
   app.add_option("--largest", options.largest, "No mesh of more triangles")->capture_default_str();

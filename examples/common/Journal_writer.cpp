@@ -22,6 +22,7 @@ void Journal_writer::run() {
         continue;
     } catch (const std::bad_alloc&) { // of a tick that is written in no part
       log_->fail(Log_file::no_memory);
+      ++unwritten_;
     }
     if (was_ending)
       return;
@@ -39,8 +40,11 @@ bool Journal_writer::write_what_is_there() {
     return true;
   }
   log_->append_tick(commands_, edit.vertices[0] + 1); // from 1, as lines are
+  if (log_->has_failed())
+    unwritten_ += commands_.size();
+  else
+    ++ticks_;
   commands_.clear();
-  ++ticks_;
   journal_->wrote(1);
   return true;
 }

@@ -28,12 +28,14 @@ public:
   bool is_stalled() const { return is_stalled_; }
   /// Ticks written. \pre finish() has been called
   std::uint64_t ticks() const { return ticks_; }
+  /// Edits taken that the log could not take. \pre finish() has been called
+  std::uint64_t unwritten() const { return unwritten_; }
 
 private:
   Log_file* log_;
   Edit_journal* journal_;
   std::atomic<bool> is_ending_{false}, is_stalled_{false};
-  std::uint64_t ticks_ = 0;
+  std::uint64_t ticks_ = 0, unwritten_ = 0;
   std::vector<Command> commands_;
   std::thread thread_; ///< last: it uses the others
 

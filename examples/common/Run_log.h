@@ -75,7 +75,7 @@ public:
     if (!writer_)
       return;
     writer_->finish();
-    ticks_ = writer_->ticks();
+    ticks_ = writer_->ticks(), unwritten_ = writer_->unwritten();
     writer_.reset();
     for (Edit left; journal_->take(left);)
       unwritten_ += left.kind != Edit_kind::none;

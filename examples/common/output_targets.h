@@ -57,16 +57,20 @@ inline const Named_file* same_file(const std::string& path, const std::vector<Na
   return nullptr;
 }
 
+/// Whether the file, which is of this type (`S_IFREG`, `S_IFIFO`), is that of a stream.
+inline bool is_file_of_stream(const std::string& path, mode_t type, int stream) {
+  struct stat file {
+  }, there{};
+  return !path.empty() && ::stat(path.c_str(), &file) == 0 && (file.st_mode & S_IFMT) == type &&
+         ::fstat(stream, &there) == 0 && there.st_ino == file.st_ino && there.st_dev == file.st_dev;
+}
+
 /// The standard stream that comes from this regular file, or goes to it; nullptr: none. What the program says would be
 /// written over it, or it over that: a stream keeps a place of its own in a file.
 inline const char* standard_stream_at(const std::string& path) {
-  struct stat file {
-  }, stream{};
-  if (path.empty() || ::stat(path.c_str(), &file) != 0 || !S_ISREG(file.st_mode))
-    return nullptr;
   for (const auto& [number, name] :
        {std::pair(STDIN_FILENO, "input"), std::pair(STDOUT_FILENO, "output"), std::pair(STDERR_FILENO, "error")})
-    if (::fstat(number, &stream) == 0 && stream.st_ino == file.st_ino && stream.st_dev == file.st_dev)
+    if (is_file_of_stream(path, S_IFREG, number))
       return name;
   return nullptr;
 }

@@ -22,9 +22,8 @@ std::optional<bool> read_arguments(int argc, char** argv, Arguments& arguments) 
   CLI::App app(
       "Sculpts in a closed loop: a simulated device in a simulated hand that follows a path.\n"
       "Exit: 0 done, 1 out of memory or a fault of the program, 2 usage, 3 mesh refused, 4 path or log cannot be read, "
-      "5 cannot write, 6 recording or log of another mesh, 7 stiffness not passive, or damping, virtual mass or "
-      "controller too large, "
-      "8 a fault ended the run.");
+      "5 cannot write, 6 recording or log of another mesh, 7 stiffness not passive or not calm, or damping, "
+      "virtual mass or controller too large, 8 a fault ended the run.");
   app.add_option("MESH", arguments.mesh, "Input: .off .ply .obj .stl")->capture_default_str();
   app.add_option("-o,--output", arguments.out, "Where the sculpted mesh goes");
   app.add_option("--seconds", arguments.seconds, "How long; by default as long as the path");

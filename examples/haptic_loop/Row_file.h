@@ -32,15 +32,15 @@ public:
       std::fclose(file_);
   }
 
-  /// Waits until a pipe has a reader. \param path empty: none \param is_ended whether the run is to end, kept
-  /// \throw Write_error
+  /// Waits until a pipe has a reader; a file stays as it is until begin(). \param path empty: none
+  /// \param is_ended whether the run is to end, kept \throw Write_error
   void open(const std::string& path, const std::atomic<bool>& is_ended) {
     path_ = path, is_ended_ = &is_ended;
     if (path.empty())
       return;
     int why = 0; // errno
     for (;;) {   // a call that waits would go on waiting after a signal, or before one
-      descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NONBLOCK | O_CLOEXEC, 0666);
+      descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0666);
       why = descriptor_ < 0 ? errno : 0;
       if (why != ENXIO || is_socket(path) || is_ended)
         break;
@@ -57,6 +57,11 @@ public:
                         (why != ENXIO      ? std::strerror(why)
                          : is_socket(path) ? "it is a socket"
                                            : "nobody reads it"));
+  }
+  /// Takes out what a file held before.
+  void begin() {
+    if (file_ != nullptr && ::ftruncate(descriptor_, 0) != 0 && errno != EINVAL) // which says: no regular file
+      failure_ = errno;
   }
   /// nullptr: there is none
   std::FILE* get() const { return file_; }

@@ -87,6 +87,9 @@ Simulated_hand read_hand(const std::string& path) {
   list("mass", &Simulated_hand::Stage::mass);
   list("stiffness", &Simulated_hand::Stage::stiffness);
   list("damping", &Simulated_hand::Stage::damping);
+  for (const auto& [key, value] : hand.items())
+    if (key != "mass" && key != "stiffness" && key != "damping")
+      fail("`" + key + "` is none of `mass`, `stiffness` and `damping`");
   try {
     read.check();
   } catch (const Error& error) {

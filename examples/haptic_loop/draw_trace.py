@@ -25,7 +25,9 @@ def rows_of(path):
         try:
             missing = [name for name in NEEDED if name not in (reader.fieldnames or [])]
             rows = [{name: float(row[name]) for name in NEEDED} for row in reader if not missing]
-        except (TypeError, ValueError, csv.Error) as error:
+        except TypeError:
+            raise ValueError(f"line {reader.line_num}: the row is cut short") from None
+        except (ValueError, csv.Error) as error:
             raise ValueError(f"line {reader.line_num}: {error}") from None
     if missing:
         raise ValueError(f"there is no column '{missing[0]}'")

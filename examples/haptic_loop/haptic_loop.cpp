@@ -39,7 +39,7 @@ void check_files(const Arguments& a) {
                   {"--hand", a.hand},
                   {"--path", a.path},
                   {examples::input_mesh, a.mesh}};
-  if (a.log.empty()) // a log begins with the mesh
+  if (a.log.empty() && a.record.empty()) // a log and a recording begin with the mesh
     files.replaced_by = "-o", files.replaced = examples::input_mesh;
   files.check_apart();
   const auto is_stream = [](const std::string& file) { // rows may go into a pipe as they come
@@ -104,7 +104,10 @@ int loop(const Arguments& arguments) {
   writer.write(arguments.report, [&](const std::string& path) {
     return examples::write_file(path, report_of(result, settings, writer.notes()));
   });
-  print_summary(std::cout, result, settings);
+  // A pipe that rows have gone into holds nothing else.
+  const bool holds_rows = examples::is_file_of_stream(arguments.trace, S_IFIFO, STDOUT_FILENO) ||
+                          examples::is_file_of_stream(arguments.record, S_IFIFO, STDOUT_FILENO);
+  print_summary(holds_rows ? std::cerr : std::cout, result, settings);
   if (!std::cout.flush())
     throw Write_error("cannot write the summary to standard output");
   if (result.failure)

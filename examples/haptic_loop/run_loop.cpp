@@ -75,8 +75,9 @@ public:
         [&] { return std::make_unique<Loop>(scene.sculptor, device_, start, scene.map, parameters, limits); });
     Loop& loop = *made;
     examples::end_in_order_by_signals();
+    trace_.open(plan_.trace, is_interrupted_), record_.open(plan_.record, is_interrupted_);
     log_->begin(recording_head(hash, settings_), static_cast<std::uint64_t>(std::fmax(2, most_lost / tick_)));
-    trace_.open(plan_.trace, is_interrupted_), record_.open(plan_.record, is_interrupted_); // the last to be refused
+    trace_.begin(), record_.begin(); // nothing is refused any more
     Session session(loop, scene, nullptr, nullptr, log_->journal());
     session_ = &session;
     Happenings happenings(scene.sculptor, scene.map.scale());
@@ -211,6 +212,8 @@ private:
   bool tick(Loop& loop, const Joint_reading& reading, double time) {
     if (record_.get() != nullptr)
       write_reading(record_.get(), reading);
+    if (log_->has_failed()) // what is done from here on would be in no log
+      log_->journal()->break_off();
     const std::size_t allocated = allocations();
     const std::uint64_t cpu = nanoseconds(CLOCK_THREAD_CPUTIME_ID), wall = nanoseconds(CLOCK_MONOTONIC);
     const Haptic_tick& made = session_->tick(reading);

@@ -180,6 +180,15 @@ check(4.73 <= report["faults"][0]["t"] <= 4.81, f"within 100 ms of the log's thr
 check(vector(rows_of(at("g.csv"))[-1], "fx", "fy", "fz", "tau1", "tau2", "tau3") == [0] * 6, "log ends at zero")
 lines = open(at("g.log")).read().split("\n")
 check(lines[-1] == "" and lines[-2].startswith("# tick ") and 4630 <= int(lines[-2].split()[2]) <= 4701, f"the log ends at a tick: {lines[-2:]}")
+# A disk that takes no more: the run ends, too, and says what the log has.
+done = program_runs.run(MESH, "--no-wait", "--log", at("cut.log"), "--report", at("cut.json"), program=LOOP,
+                        limit=20000)
+report = json.load(open(at("cut.json")))
+written = open(at("cut.log")).read().count("\n# tick ") - 1  # one ends the head
+check(done.returncode == 5 and "lacks the last edits" in done.stderr,
+      f"a disk that takes no more: exit {done.returncode}: {done.stderr}")
+check([fault["what"] for fault in report["faults"]] == ["log"] and report["log"]["lost"] > 0 and
+      report["log"]["ticks"] == written > 0, f"what the log has: {written} ticks, {report['log']}, {report['faults']}")
 # The same where the run ends before anybody notices.
 last = max(int(line.split()[2]) for line in lines if line.startswith("# tick ")) / 1000
 done = run(MESH, "--no-wait", "--seconds", last + 0.02, "--log", at("short.log"), "--fault", f"log@{last - 0.02}",
@@ -263,6 +272,8 @@ open(at("massless.json"), "w").write('{"R": 0.03, "l1": 0.07, "l2": 0.1, "m1": 0
 check("no mass" in run(MESH, "--no-wait", "--device", at("massless.json"), code=2).stderr, "a device without a mass")
 open(at("hand.json"), "w").write('{"name": "arm", "mass": [5]}')
 check("nothing else" in run(MESH, "--no-wait", "--hand", at("hand.json"), code=2).stderr, "a hand with a name and more")
+open(at("hand.json"), "w").write('{"mass": [0.2], "stiffness": [300], "damping": [3], "stifness": [5]}')
+check("`stifness`" in run(MESH, "--no-wait", "--hand", at("hand.json"), code=2).stderr, "a key that is misspelt")
 open(at("deep.json"), "w").write('{"params":' * 50000 + "1" + "}" * 50000)
 deep = run(MESH, "--no-wait", "--device", at("deep.json"), code=2)
 check("nested more than 32 deep" in deep.stderr, "deep nesting is refused")

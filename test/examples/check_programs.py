@@ -151,10 +151,21 @@ def rows_that_wait(folder):
     pipe, out = f"{folder}/rows", f"{folder}/waited.off"
     os.mkfifo(pipe)
     for seconds in (0.05, 0.5, 1):  # before it waits, or while it does
-        process = started(BALL, "--no-wait", "--trace", pipe, "-o", out, program=LOOP)
+        with open(f"{folder}/old.csv", "w") as file:
+            file.write("kept")
+        process = started(BALL, "--no-wait", "--trace", f"{folder}/old.csv", "--record", pipe,
+                          "--log", f"{folder}/new.log", program=LOOP)
         time.sleep(seconds)
         process.send_signal(signal.SIGTERM)
         check(process.wait(60) in (5, -signal.SIGTERM), f"nobody has opened the pipe: exit {process.returncode}")
+        with open(f"{folder}/old.csv") as file:
+            check(file.read() == "kept" and not os.path.exists(f"{folder}/new.log"), "a refused run has written")
+    done = subprocess.run([LOOP, BALL, "--no-wait", "--seconds", "0.1", "--trace", "/dev/stdout"],
+                          capture_output=True, text=True, timeout=PATIENCE)
+    rows = done.stdout.splitlines()
+    check(done.returncode == 0 and len(rows) == 101 and len({row.count(",") for row in rows}) == 1,
+          f"rows alone are in a pipe of rows: exit {done.returncode}, {rows[-2:]}")
+    check("100 ticks" in done.stderr, f"the summary goes elsewhere: {done.stderr}")
     here, there = socket.socketpair()
     with here, there:
         done = subprocess.run([LOOP, BALL, "--no-wait", "--trace", "/dev/stdout"], stdout=there, stderr=subprocess.PIPE,
@@ -304,7 +315,9 @@ def targets(folder, mesh):
         fails(2, ["-o", "--report", "one file"], done, "one file by two names of its folder")
     for options, parts in ((["--report", mesh], ["--report", "MESH"]), (["--trace", mesh], ["--trace", "MESH"]), (["--record", mesh], ["--record", "MESH"]),
                            (["--trace", plain("t"), "--record", plain("t")], ["--trace", "--record"]), (["--path", script, "--trace", script], ["--trace", "--path"]),
-                           (["--log", plain("l"), "-o", mesh], ["-o", "MESH"]), (["--hand", script, "--report", script], ["--report", "--hand"])):
+                           (["--log", plain("l"), "-o", mesh], ["-o", "MESH"]),
+                           (["--record", plain("r"), "-o", mesh], ["-o", "MESH"]),
+                           (["--hand", script, "--report", script], ["--report", "--hand"])):
         fails(2, parts + ["one file"], loop(mesh, "--no-wait", *options), f"haptic_loop {options}")
     fails(2, [".png"], loop(mesh, "--no-wait", "--picture", mesh), "a picture over the mesh")
     check(bytes_of(mesh) == before and open(script).read() == DRAGS, "an input was written over")
