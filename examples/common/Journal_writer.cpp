@@ -22,7 +22,6 @@ void Journal_writer::run() {
         continue;
     } catch (const std::bad_alloc&) { // of a tick that is written in no part
       log_->fail(Log_file::no_memory);
-      ++unwritten_;
     }
     if (was_ending)
       return;
@@ -33,6 +32,8 @@ void Journal_writer::run() {
 /// A tick or less. \return whether there was anything
 bool Journal_writer::write_what_is_there() {
   Edit edit;
+  if (commands_.size() == commands_.capacity()) // before it is taken: what is taken is not lost for want of room
+    commands_.reserve(2 * commands_.size() + 16);
   if (!journal_->take(edit))
     return false;
   if (edit.kind != Edit_kind::none) {

@@ -257,6 +257,8 @@ private:
     action.word = line_.word("a key");
     if (!key_named(action.word))
       line_.fail("'" + action.word + "' is no key: --help lists them");
+    if (key_named(action.word)->order == Order::open)
+      line_.fail("the key 'o' asks for a name, which a script cannot type: `open FILE` opens one");
   }
   void brush() {
     Action& action = add(Kind::brush);

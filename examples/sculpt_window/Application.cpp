@@ -36,14 +36,20 @@ void Application::enter(Opened opened) {
   if (!path_.empty()) {
     opened_before_.push_back({"a mesh that was open before", path_});
     opened_before_.push_back({"the log of '" + path_ + "'", log_});
+    for (const auto& saved : std::exchange(written_[static_cast<std::size_t>(Written::mesh)], {}))
+      opened_before_.push_back({"another mesh that was saved", saved.path});
   }
   path_ = opened.path, log_ = opened.log;
   for (const std::string& open : {path_, log_})
     while (const auto* const before = examples::same_file(open, opened_before_))
       opened_before_.erase(opened_before_.begin() + (before - opened_before_.data()));
+  if (!options_.has_out)
+    options_.out = Options::sculpted_beside(path_);
   kept_.push_back({log_, opened.resumed});
   ++scene_;
   thread_.enter(opened.model);
+  if (!choices_.slides)
+    thread_.choose_response(false);
   frames_due_ = 3;
   say("opened " + path_);
   if (opened.resumed > 0)
@@ -144,16 +150,18 @@ void Application::on_scroll(double notches, bool ctrl, bool shift) {
 }
 
 void Application::on_key(const Key& key) {
+  if (choices_.question != Choices::Question::none && key.order != Order::let_go)
+    return; // a dialogue is open
   // What a dialogue asks for is noted when it is answered; and a recording does not record.
   if (is_playing() || (key.order != Order::save && key.order != Order::open && key.order != Order::record))
     note("key %s", key.name);
-  if (choices_.question == Choices::Question::none || key.order == Order::let_go)
-    obey(key.order);
+  obey(key.order);
 }
 
-void Application::on_drop(const std::string& path) {
-  note_file("open", path);
-  open(path);
+void Application::on_drop(const std::vector<std::string>& paths) {
+  if (paths.size() > 1)
+    say("of " + std::to_string(paths.size()) + " files the first is opened");
+  open(paths.front());
 }
 
 void Application::on_close() {
@@ -162,8 +170,10 @@ void Application::on_close() {
 
 void Application::on_resize(int width, int height) {
   view_size_ = {width, height};
-  if (view_.has_mesh() && width > 0 && height > 0)
+  if (view_.has_mesh() && width > 0 && height > 0) {
+    view_.frame(0); // while the panel fits in
     view_.camera().resize(width, height), frame();
+  }
   frames_due_ = 3;
 }
 
@@ -175,6 +185,15 @@ void Application::leave(Model* model) {
   const bool keeps_log = was_asked_for || (kept.is_unsaved(number_of_edits(*model)) && !(is_shown && discards_));
   if (const std::string failure = destroy(model, keeps_log); keeps_log && !failure.empty())
     fail_to_write(failure);
+}
+
+/// What has been opened when the window ends: its log stays where there was something in it.
+void Application::leave_unseen() {
+  try {
+    if (const auto opened = background_.take_opened())
+      destroy(opened->model, opened->resumed > 0 || (!options_.log.empty() && opened->log == options_.log));
+  } catch (const std::exception&) { // nobody waits for it any more
+  }
 }
 
 /// Of the loop.
@@ -215,11 +234,15 @@ void Application::take_answers() {
 void Application::take_reports() {
   take_answers();
   try {
-    if (auto opened = background_.take_opened())
+    if (auto opened = background_.take_opened()) {
+      note_file("open", opened->path); // here: what the hand did meanwhile was done to the mesh before
       enter(std::move(*opened));
+    }
   } catch (const Error& error) {
     fail_to_open(examples::message_of(error));
   }
+  if (!background_.is_opening() && to_open_.empty())
+    opening_.clear();
   take_saved();
 }
 
@@ -251,7 +274,7 @@ void Application::step() {
   take_reports();
   if (!to_open_.empty() && is_at_rest())
     open(std::exchange(to_open_, {}));
-  if (is_leaving_ && thread_.is_idle()) {
+  if (is_leaving_ && is_at_rest()) {
     is_leaving_ = false;
     if (is_unsaved())
       choices_.question = Choices::Question::leave_unsaved;

@@ -50,7 +50,7 @@ public:
   void on_release(int button);
   void on_scroll(double notches, bool ctrl, bool shift);
   void on_key(const Key& key);
-  void on_drop(const std::string& path);
+  void on_drop(const std::vector<std::string>& paths); ///< \pre there is one
   void on_close();
   void on_resize(int width, int height);
   ///@}
@@ -118,6 +118,7 @@ private:
 
   std::array<int, 2> view_size_{};
   std::string to_open_;   ///< as soon as nothing is under way
+  std::vector<examples::Named_file> opening_; ///< what is being opened, or is to be, and its log
   std::string next_open_; ///< asked for once while there was unsaved work
   std::set<std::string> unopened_; ///< what was refused for that, and not opened since
   bool has_failed_to_open_ = false;
@@ -156,6 +157,7 @@ private:
   void take_reports();
   void take_answers();
   void leave(Model* model);
+  void leave_unseen();
   void save(const std::string& path, bool quits = false);
   /// What a file is to hold that is written while the window is open.
   enum class Written { mesh, picture, recording };

@@ -208,7 +208,8 @@ bool Application::may_write(const std::string& path, Written what) {
     files.push_back({"where the sculpted mesh goes", options_.out});
   if (what != Written::picture)
     files.push_back({"the picture at the end", options_.screenshot});
-  files.insert(files.end(), opened_before_.begin(), opened_before_.end());
+  for (const auto* const others : {&opened_before_, &opening_})
+    files.insert(files.end(), others->begin(), others->end());
   for (std::size_t i = 0; i < written_.size(); ++i)
     if (i != static_cast<std::size_t>(what))
       files.insert(files.end(), written_[i].begin(), written_[i].end());
@@ -245,13 +246,17 @@ bool Application::is_at_rest() const {
 }
 
 void Application::open(const std::string& path) {
+  const std::string log = options_.log_of(path);
+  const std::vector<examples::Named_file> names = {{"a mesh that is being opened", path},
+                                                   {"the log of '" + path + "'", log}};
   if (!is_at_rest()) {
     to_open_ = path;
+    opening_.insert(opening_.end(), names.begin(), names.end());
     return say(path + " is opened as soon as what is under way has ended");
   }
+  opening_.clear();
   if (!log_.empty() && examples::same_file(path, {{"open", path_}}))
     return say(path + " is open");
-  const std::string log = options_.log_of(path);
   const std::vector<examples::Named_file> outputs = {{"the report", options_.report},
                                                      {"the recording", recorded_to_},
                                                      {"the picture at the end", options_.screenshot}};
@@ -262,12 +267,14 @@ void Application::open(const std::string& path) {
   if (is_unsaved() && next_open_ != path) {
     next_open_ = path;
     unopened_.insert(path);
+    note_file("open", path); // twice leaves it
     return say(std::string("there is unsaved work: save it, or drop the file once more to leave it") +
                (log_.empty() ? "" : " (the log has it)"));
   }
   next_open_.clear();
   unopened_.erase(path);
   say("opening " + path);
+  opening_ = names;
   background_.open(path, log);
 }
 
@@ -281,7 +288,7 @@ void Application::quit() {
   if (choices_.question == Choices::Question::leave_unsaved)
     is_done_ = true;
   else
-    is_leaving_ = true;
+    is_leaving_ = true, to_open_.clear();
   frames_due_ = 3;
 }
 

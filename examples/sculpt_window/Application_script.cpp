@@ -74,6 +74,8 @@ bool Application::act(const Action& action) {
   const auto& n = action.numbers;
   if ((thread_.is_stroke_waiting() && action.kind != Kind::wait) || is_leaving_)
     return false; // a place a dab
+  if (background_.is_opening() || !has_status())
+    return false; // what comes after an `open` is of that mesh
   switch (action.kind) {
   case Kind::move: {
     const Eigen::Vector2d from = pixel_of(action.spot);
@@ -163,8 +165,6 @@ bool Application::act(const Action& action) {
     record(action.word);
     return true;
   case Kind::print:
-    if (background_.is_opening() || !has_status()) // of the mesh that was opened last
-      return false;
     print_status();
     return true;
   case Kind::where: {
@@ -176,7 +176,7 @@ bool Application::act(const Action& action) {
     on_close();
     return true;
   case Kind::quit: // after what is asked for: files that are written and read, and the last picture
-    if (!to_save_.empty() || background_.is_saving() || background_.is_opening() || !has_status())
+    if (!to_save_.empty() || background_.is_saving())
       return false;
     is_done_ = options_.screenshot.empty();
     script_.resize(next_action_ + 1);
@@ -273,8 +273,10 @@ void Application::flush_record() {
 }
 
 int Application::finish() {
-  for (; !to_save_.empty() || background_.is_saving(); std::this_thread::sleep_for(std::chrono::milliseconds(1)))
-    take_answers(), take_saved();
+  while (!to_save_.empty() || background_.is_saving() || background_.is_opening()) {
+    take_answers(), take_saved(), leave_unseen();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   const Status last = status_;
   for (Model* const model : thread_.end())
     leave(model);
@@ -304,7 +306,9 @@ int Application::finish() {
                          {"faces", last.faces},
                          {"edits", last.edits}};
     try {
-      examples::write_file(options_.report, examples::text_of(report, 2) + '\n');
+      if (const std::string lost = examples::write_file(options_.report, examples::text_of(report, 2) + '\n');
+          !lost.empty())
+        std::cerr << "sculpt_window: " << lost << '\n';
     } catch (const Write_error& error) {
       fail_to_write(error.what());
     }

@@ -29,14 +29,18 @@ std::optional<Opened> Background::take_opened() {
 }
 
 void Background::save(const Saved_copy& copy, Saved saved) {
-  saving_.push_back(std::async(std::launch::async, [copy, saved]() mutable {
+  const auto before = saving_.empty() ? std::shared_future<Saved>() : saving_.back();
+  auto saving = std::async(std::launch::async, [copy, saved, before]() mutable {
+    if (before.valid())
+      before.wait();
     try {
       saved.lost = write_copy(*copy, saved.path);
     } catch (...) { // handed on to the window's thread, which tells it
       saved.error = std::current_exception();
     }
     return saved;
-  }));
+  });
+  saving_.push_back(saving.share());
 }
 
 std::optional<Background::Saved> Background::take_saved() {

@@ -25,7 +25,8 @@ public:
     std::string lost;        ///< what of an old file could not be kept
     std::exception_ptr error;
   };
-  /// Writes the copy to `saved.path`; the rest of `saved` comes back with it.
+  /// Writes the copy to `saved.path`, after all that are being written: of two in one file the later one stays. The
+  /// rest of `saved` comes back with it.
   void save(const Saved_copy& copy, Saved saved);
   bool is_saving() const { return !saving_.empty(); }
   /// What has been written by now, in order.
@@ -33,7 +34,7 @@ public:
 
 private:
   std::future<Opened> opening_;
-  std::vector<std::future<Saved>> saving_;
+  std::vector<std::shared_future<Saved>> saving_;
 };
 
 } // namespace haptic_sculpt::window_program

@@ -38,8 +38,18 @@ std::string lists() {
 
 } // namespace
 
+std::string Options::log_of(const std::string& path) const {
+  return without_log ? "" : !log.empty() && examples::are_one_file(path, mesh) ? log : log_beside(path);
+}
+
+std::string Options::sculpted_beside(const std::string& path) {
+  const std::filesystem::path mesh(path);
+  return (mesh.parent_path() / (mesh.stem().string() + "_sculpted" + mesh.extension().string())).string();
+}
+
 void check_files(const Options& options) {
-  examples::check_mesh_name({"-o", options.out});
+  if (options.has_out) // else it has the name of the mesh, which is looked at when that is read
+    examples::check_mesh_name({"-o", options.out});
   examples::check_picture_name({"--screenshot", options.screenshot});
   examples::Run_files files;
   files.outputs = {{"-o", options.out},
@@ -63,7 +73,7 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
   app.add_option("MESH", options.mesh,
                  "Input: .off .ply .obj .stl; by default sculpt_window_ball.off, a ball that is written there");
   app.add_option("-o,--output", options.out,
-                 "Where the key s saves to: .off .ply .obj .stl; by default MESH_sculpted with its extension");
+                 "Where the key s saves to: .off .ply .obj .stl; by default MESH_sculpted, of the mesh that is open");
   auto* const log =
       app.add_option("--log", options.log,
                      "Edit log, as of sculpt: replayed if it exists, then appended to, and kept. By default MESH.log, "
@@ -88,10 +98,9 @@ std::optional<bool> read_options(int argc, char** argv, Options& options) {
   options.makes_ball = options.mesh.empty() && !std::filesystem::exists(Options::ball());
   if (options.mesh.empty())
     options.mesh = Options::ball();
-  if (options.out.empty()) {
-    const std::filesystem::path mesh(options.mesh);
-    options.out = (mesh.parent_path() / (mesh.stem().string() + "_sculpted" + mesh.extension().string())).string();
-  }
+  options.has_out = !options.out.empty();
+  if (!options.has_out)
+    options.out = Options::sculpted_beside(options.mesh);
   return std::nullopt;
 }
 

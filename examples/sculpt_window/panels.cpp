@@ -241,10 +241,10 @@ void Application::draw_question() {
     const bool cancelled = ImGui::Button("Cancel");
     if (agreed || cancelled)
       choices_.question = Question::none;
-    if (agreed) {
-      note_file(saves ? "save" : "open", choices_.name.data());
-      saves ? save(choices_.name.data()) : open(choices_.name.data());
-    }
+    if (agreed && saves)
+      note_file("save", choices_.name.data()), save(choices_.name.data());
+    else if (agreed)
+      open(choices_.name.data());
   }
   ImGui::End();
 }

@@ -166,7 +166,9 @@ private:
       if (const auto key = key_pressed(code, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0))
         application_of(w).on_key(*key);
     });
-    glfwSetDropCallback(window_, [](GLFWwindow* w, int, const char** paths) { application_of(w).on_drop(paths[0]); });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+      application_of(w).on_drop({paths, paths + count});
+    });
     glfwSetFramebufferSizeCallback(
         window_, [](GLFWwindow* w, int width, int height) { application_of(w).on_resize(width, height); });
   }
@@ -188,6 +190,7 @@ std::uint64_t time_of(clockid_t clock) {
 }
 
 int run(const Options& options) {
+  examples::end_at_once_by_signals();
   std::vector<Action> script;
   if (!options.script.empty())
     script = read_actions(examples::contents_of<Action_error>(options.script, "the script"), options.script);
@@ -215,8 +218,8 @@ int run(const Options& options) {
       window.draw(application);
       if (const std::string path = application.take_screenshot(); !path.empty()) {
         try {
-          window.write_screenshot(path);
-          application.say("written " + path);
+          const std::string lost = window.write_screenshot(path);
+          application.say("written " + path + (lost.empty() ? "" : ": " + lost));
         } catch (const drawing::Picture_error& error) {
           application.fail_to_write(error.what());
         }

@@ -503,6 +503,50 @@ window(large, "--samples", 0, "--no-log", script=script, code=5, what="a save th
 script = f"{edit}save {at('large_saved.off')}\nopen {second}\nopen {second}\nwait 2\n{edit}print\nquit\n"
 lines, _ = window(large, "--samples", 0, script=script, what="another mesh is sculpted while one is saved")
 check(lines[0]["faces"] == 192 and lines[0]["edits"] > 0 and os.path.exists(second + ".log"), f"its work is in its log: {lines}")
+# What follows an `open` is done to that mesh, however long it is read; the key s saves beside it, over no other mesh.
+first, beside = write(at("first.off"), box(2)), lambda name: at(name + "_sculpted.off")
+script = f"settle\nopen {large}\nsave {at('after_open.off')}\nquit\n"
+window(first, "--samples", 0, script=script, what="a save after an open")
+check(len(points(at("after_open.off"))) == len(points(large)), "a save after an open has the mesh before")
+script = f"{edit}key s\nsettle\nopen {second}\n{edit}key s\nsettle\nquit\n"
+window(first, "--samples", 0, script=script, what="s, another mesh, s")
+check([len(points(beside(name))) for name in ("first", "second")] == [len(points(name)) for name in (first, second)],
+      "s saves each mesh beside itself")
+script = f"{edit}save {at('one.off')}\nsettle\nopen {second}\nsave {at('one.off')}\nsettle\nquit\n"
+_, err = window(first, "--samples", 0, script=script, code=5, what="a mesh over another one's")
+check("another mesh that was saved" in err and len(points(at("one.off"))) == len(points(first)),
+      f"one over another: {err}")
+# The response stays what was chosen.
+script = "key t\nopen {}\n{}print\nquit\n", "open {}\nkey t\n{}print\nquit\n", "open {}\n{}print\nquit\n"
+pull = "settle\ntool drag\nview 0 0 -1\nmove @0,0,1\npress left\nmove @3,0.3,1\nsettle\n"
+there, other_way, slid = (window(first, "--samples", 0, "--no-log", script=text.format(BALL, pull), what="stops")[0][0]
+                          for text in script)
+check(there["proxy"] == other_way["proxy"] != slid["proxy"], f"what stops: {there} {other_way} {slid}")
+# Of two saves of one mesh in one file the later one stays, and the window is left after both without a question.
+script = f"settle\nremesh 0.02\nsettle\nsave {at('twice.off')}\nkey u\nsave {at('twice.off')}\nclose\n"
+window(first, "--samples", 0, script=script, what="saved twice")
+check(points(at("twice.off")) == points(first), f"the later of two saves: {len(points(at('twice.off')))} vertices")
+# A signal while another mesh is read leaves no log beside it.
+process = start(first, "--samples", 0, script=f"settle\nprint\nopen {large}\nwait 100\n")
+process.stdout.readline()
+time.sleep(0.05)
+process.send_signal(signal.SIGTERM)
+process.communicate(timeout=PATIENCE)
+check(process.returncode == 0 and not os.path.exists(large + ".log"),
+      f"a log of a mesh that nobody saw: exit {process.returncode}")
+# A terminal that is closed before there is a window.
+process = start(large, "--samples", 0, script="wait 1000\n")
+time.sleep(0.1)
+process.send_signal(signal.SIGHUP)
+try:
+    process.communicate(timeout=PATIENCE / 4)
+except subprocess.TimeoutExpired:
+    process.kill()
+    check(False, "a terminal that is closed early does not end the window")
+_, err = window(write(at("mesh.txt"), "OFF\n"), script="quit\n", code=3, what="a mesh of another name")
+check("mesh.txt" in err and "-o" not in err, f"a mesh of another name: {err}")
+_, err = window(second, "--no-log", script="key o\n", code=4, what="the key o of a script")
+check("`open FILE`" in err, f"the key o of a script: {err}")
 for line in ("wait 1e10", "wait -1", "zoom 0", "view 0 0 0", "remesh 0", "scroll 1 alt"):
     window(second, "--log", at("lines.log"), script=f"{line}\nquit\n", code=4, what=line)
 
