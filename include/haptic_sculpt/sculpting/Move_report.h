@@ -13,7 +13,7 @@ namespace haptic_sculpt {
 struct Move_report {
   std::size_t asked = 0;   ///< vertices, each once
   std::size_t reached = 0; ///< of these, how many are at their targets, to the last bit
-  /// How many motions were asked for, those that took steps back included; of an axis move one for each vertex.
+  /// How many motions were asked for, of an axis move one for each vertex; to take a step back counts none.
   std::size_t drags = 0;
   std::size_t counted = 0; ///< the same, but a slide counts by its work: what Move_parameters::most_drags() bounds
   std::size_t pairs = 0;   ///< decided, where Move_parameters::most_pairs() bounds them, and no more than that; else 0

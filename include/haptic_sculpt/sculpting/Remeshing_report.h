@@ -8,8 +8,8 @@
 
 namespace haptic_sculpt {
 
-/// What a guarded remeshing did. `refused` counts what was worth doing but would have broken the promise, or the delta
-/// rule.
+/// What a guarded remeshing did. `refused` counts what was worth doing but would have broken the promise, the delta
+/// rule or the bound on faces.
 struct Remeshing_report {
   /// Of one kind of operation.
   struct Count {

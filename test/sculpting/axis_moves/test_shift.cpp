@@ -103,7 +103,13 @@ BOOST_AUTO_TEST_CASE(a_shift_that_is_blocked_changes_nothing) {
   BOOST_TEST(bool(sculptor.shift(1, {})));
   const Vertex_index v(0);
   const double here = vertex_coordinates(mesh, v)[0];
-  BOOST_TEST(bool(sculptor.shift(0, {{v, 100}, {v, here}}))); // the last counts
+  const auto nothing = sculptor.shift(0, {{v, 100}, {v, here}}); // the last counts
+  BOOST_TEST((nothing && !nothing.vertex)); // none was moved
+  const Vertex_index w(1);
+  const double there = vertex_coordinates(mesh, w)[0];
+  const auto one = sculptor.shift(0, {{w, there}, {v, here + 1e-9}});
+  BOOST_TEST((one && one.vertex == v));
+  BOOST_TEST(bool(sculptor.undo()));
   BOOST_TEST((points_of(mesh) == before));
 }
 

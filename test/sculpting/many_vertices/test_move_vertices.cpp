@@ -237,6 +237,27 @@ BOOST_AUTO_TEST_CASE(cancelled_bounded_and_thrown_out_of) {
 
 // Free along x and y, and then not along z, for the plate below is in the way of all: that step is taken back, and the
 // next is not begun.
+BOOST_AUTO_TEST_CASE(progress_tells_how_many_are_behind_not_how_many_move_along_the_axis_at_hand) {
+  Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.02));
+  std::vector<Vertex_index> some; // half of them along x, the others along y
+  for (Mesh::size_type v = 0; v < 12; ++v)
+    some.emplace_back(v);
+  const auto target = [&mesh](Vertex_index v) {
+    const bool is_even = static_cast<std::size_t>(v) % 2 == 0;
+    return mesh.point(v) + Vector_3(is_even ? 1e-4 : 0, is_even ? 0 : 1e-4, 0);
+  };
+  Sculptor<Mesh> sculptor(mesh);
+  std::vector<std::size_t> behind;
+  const auto report = move_vertices(sculptor, some, targets(mesh, target),
+                                    Move_parameters().progress([&](const Move_progress& progress) {
+                                      BOOST_TEST(progress.asked == 12u);
+                                      behind.push_back(progress.behind);
+                                      return true;
+                                    }));
+  BOOST_TEST(report.reached == 12u);
+  BOOST_TEST((behind == std::vector<std::size_t>{12, 6}));
+}
+
 BOOST_AUTO_TEST_CASE(what_changes_nothing_is_no_step_and_what_was_undone_can_be_redone) {
   Box_over_plate scene;
   auto& [box, mesh, sculptor] = scene;

@@ -41,6 +41,27 @@ BOOST_AUTO_TEST_CASE(a_bound_that_no_drag_comes_to_changes_no_bit) {
   BOOST_TEST(most > 100);
 }
 
+BOOST_AUTO_TEST_CASE(a_drag_without_a_bound_does_the_same_after_drags_that_were_cut) {
+  Random random(seed_from_environment(7));
+  std::size_t reached = 0, held = 0;
+  for (int k = 0; k < 60; ++k) {
+    Mesh mesh = terrain(), other = mesh;
+    Sculptor<Mesh> sculptor(mesh), fresh(other);
+    const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
+    const Point_3 start = mesh.point(v), target = random_target(random, start, k % 2 == 0 ? 0.01 : 0.5);
+    auto grab = sculptor.grab(v);
+    for (int cut = 0; cut <= k % 4; ++cut)
+      grab.drag_to(target, Drag_parameters().work_limit(0));
+    BOOST_REQUIRE((mesh.point(v) == start)); // else contacts would be known
+    const auto a = grab.drag_to(target), b = fresh.grab(v).drag_to(target);
+    BOOST_TEST((a.position == b.position));
+    BOOST_TEST((a.end == b.end), name_of(a.end) << " for " << name_of(b.end));
+    reached += a.end == Drag_end::reached, held += a.end == Drag_end::held;
+  }
+  BOOST_TEST(reached > 10u);
+  BOOST_TEST(held > 3u);
+}
+
 BOOST_AUTO_TEST_CASE(with_any_bound_a_mesh_stays_embedded) {
   Random random(seed_from_environment(6));
   std::size_t cut = 0, moved = 0;

@@ -32,6 +32,10 @@ Edit_result<Mesh> shift_all(Guarded& guarded, int axis, Axis_ways<Mesh> ways, co
     targets.emplace_back(v, vertex_coordinates(guarded.mesh(), v));
     targets.back().second[axis] = end;
   }
+  ways.erase(std::remove_if(
+                 ways.begin(), ways.end(), // what is there already: no vertex that was moved
+                 [&](const auto& way) { return vertex_coordinates(guarded.mesh(), way.first)[axis] == way.second; }),
+             ways.end());
   guarded.look_around(targets);
   if (!guarded.shift(axis, ways, 0, run)) {
     const Axis_obstacle& first = guarded.obstacles_to(axis, ways, run).front();

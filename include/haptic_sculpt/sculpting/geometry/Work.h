@@ -16,9 +16,10 @@ class Work {
 public:
   static constexpr std::size_t unbounded = std::numeric_limits<std::size_t>::max();
 
-  /// A drag begins. \param limit is passed by the pair, or the look at the broad phase, that ends it
+  /// A drag begins; one without a bound begins its search anew, too. \param limit is passed by the pair, or the look at
+  /// the broad phase, that ends it
   void begin(std::size_t limit) {
-    if (is_spent() && trials_ != 0) {
+    if (limit != unbounded && is_spent() && trials_ != 0) {
       // The last trial was not finished. Where it alone costs more than the bound the search goes on without it.
       const std::size_t cut = trials_ - 1;
       has_left_out_ = has_left_out_ || cut == last_cut_;
@@ -34,6 +35,7 @@ public:
   void forget() { *this = Work(); }
 
   void spend(std::size_t amount = 1) { done_ += amount; }
+  bool is_bounded() const { return limit_ != unbounded; }
   bool is_spent() const { return done_ > limit_; }
   /// So much may still be spent.
   std::size_t left() const { return is_spent() ? 0 : limit_ - done_; }

@@ -143,12 +143,17 @@ private:
         return vertices_.size();
       }
     }
-    std::size_t held = 0;
+    return number_behind(share);
+  }
+
+  /// Vertices that are not where the step is to bring them.
+  std::size_t number_behind(double share) const {
+    std::size_t behind = 0;
     for (const Moving& v : vertices_) {
       const Coordinates at = place(v);
-      held += aim(v, at, share, 0) != at[0] || aim(v, at, share, 1) != at[1] || aim(v, at, share, 2) != at[2];
+      behind += aim(v, at, share, 0) != at[0] || aim(v, at, share, 1) != at[1] || aim(v, at, share, 2) != at[2];
     }
-    return held;
+    return behind;
   }
 
   /// The step that was made.
@@ -168,7 +173,7 @@ private:
       return end_out_of_work();
     if (parameters_.progress_function &&
         !ask(guarded_, parameters_.progress_function,
-             Move_progress{vertices_.size(), vertices, report_.drags, share})) {
+             Move_progress{vertices_.size(), number_behind(share), report_.drags, share})) {
       report_.cancelled = true;
       return goes_on_ = false;
     }

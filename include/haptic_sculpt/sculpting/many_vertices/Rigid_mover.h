@@ -140,13 +140,20 @@ private:
 
   bool may_move(std::size_t vertices, double share) {
     report_.out_of_work = vertices > parameters_.drag_limit - report_.drags;
-    report_.cancelled =
-        !report_.out_of_work && parameters_.progress_function &&
-        !ask(guarded_, parameters_.progress_function, Move_progress{vertices_.size(), vertices, report_.drags, share});
+    report_.cancelled = !report_.out_of_work && parameters_.progress_function &&
+                        !ask(guarded_, parameters_.progress_function,
+                             Move_progress{vertices_.size(), number_behind(share), report_.drags, share});
     if (is_ended())
       return false;
     report_.drags += vertices;
     return true;
+  }
+
+  /// Vertices that are not where the step is to bring them.
+  std::size_t number_behind(double share) const {
+    return static_cast<std::size_t>(std::count_if(vertices_.begin(), vertices_.end(), [&](const Moving& v) {
+      return vertex_coordinates(guarded_.mesh(), v.vertex) != place(v, share);
+    }));
   }
 
   void name_contacts(int axis, const Axis_ways<Mesh>& ways) {

@@ -43,6 +43,8 @@ public:
                    Drag_result<Mesh>& result) {
     if (walk_.x != source)
       forget();
+    if (!guard.work().is_bounded()) // what a drag with a bound has left
+      part_ = 1;
     const Vector aim = part_ < 1 ? advanced(source, part_, minus(target, source)) : target;
     walk_.begin(source, rules);
     near_plane_search_.begin();
