@@ -122,7 +122,8 @@ int print_figures(int argument_count, char** arguments) {
   app.add_option("SAMPLES.txt", file, "Where the samples of the first one go, for examples/plot_device_workspace.py")
       ->check([](const std::string& name) -> std::string {
         std::error_code none;
-        const bool is_device = std::filesystem::is_regular_file(name, none) && std::ifstream(name).peek() == '{';
+        const bool is_device = std::filesystem::path(name).extension() == ".json" ||
+                               (std::filesystem::is_regular_file(name, none) && std::ifstream(name).peek() == '{');
         return is_device ? "'" + name + "' would be replaced by samples; a device comes second" : "";
       });
   app.add_option("DEVICE.json", device, "With the keys of doc/use/device.md");

@@ -135,6 +135,9 @@ with tempfile.TemporaryDirectory() as folder:
     for arguments in ([f"{folder}/link.txt", device], [device], [samples, device, "more"], ["--bogus"], [""]):
         kept = workspace(*arguments).returncode == 2 and open(device).read() == good
         expect(kept, f"samples in the place of the device: {arguments}")
+    with open(f"{folder}/damaged.json", "w") as file:
+        file.write("]" + good)
+    expect(workspace(f"{folder}/damaged.json").returncode == 2, "samples in the place of a damaged device")
     for text, code in (('{"params":' + good + "}", 0), (good[:-1] + ',"fiction":1}', 3)):
         with open(device, "w") as file:
             file.write(text)
