@@ -51,7 +51,7 @@ public:
   /// \return when it happened first, s; NaN: it has not
   double first(What what) const { return first_[what]; }
 
-  /// \param vertex what is held, or null \pre of vertices created since only one that is in hand may be held
+  /// \param vertex what is held, or null \pre each vertex created since was held at the tick that created it
   template <class Sculptor>
   void add(double time, const Tool_step& step, const Sculptor& sculptor, typename Sculptor::Vertex_index vertex) {
     const auto note = [&](What what, bool has_happened) {
@@ -59,7 +59,10 @@ public:
         first_[what] = time;
     };
     note(grabbed, step.event == Tool_event::grabbed);
-    note(created, step.event == Tool_event::created_on_face || step.event == Tool_event::created_on_edge);
+    const bool is_created = step.event == Tool_event::created_on_face || step.event == Tool_event::created_on_edge;
+    note(created, is_created);
+    if (is_created && vertex.is_valid())
+      join(sculptor, vertex);
     note(released, step.event == Tool_event::released);
     note(removed, step.event == Tool_event::removed);
     note(refused, step.event == Tool_event::refused);
@@ -92,16 +95,20 @@ private:
     return name;
   }
 
-  /// One created has neighbours that were there before.
+  /// One that has just been created is of the part of its neighbours, which were there before.
+  template <class Sculptor>
+  void join(const Sculptor& sculptor, typename Sculptor::Vertex_index vertex) {
+    const std::size_t name = sculptor.id(vertex);
+    while (part_.size() <= name)
+      part_.push_back(part_.size());
+    const auto& mesh = sculptor.mesh();
+    part_[name] = root(sculptor.id(mesh.source(mesh.halfedge(vertex))));
+  }
+
   template <class Sculptor>
   bool is_another_part(const Sculptor& sculptor, typename Sculptor::Vertex_index vertex, std::uint64_t obstacle) const {
-    if (obstacle >= part_.size())
-      return false;
-    const auto& mesh = sculptor.mesh();
-    std::size_t name = sculptor.id(vertex);
-    if (name >= part_.size())
-      name = sculptor.id(mesh.source(mesh.halfedge(vertex)));
-    return name < part_.size() && part_[name] != part_[obstacle];
+    const std::size_t name = sculptor.id(vertex);
+    return name < part_.size() && obstacle < part_.size() && part_[name] != part_[obstacle];
   }
 };
 

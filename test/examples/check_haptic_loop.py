@@ -196,6 +196,26 @@ done = run(MESH, "--no-wait", "--seconds", last + 0.02, "--log", at("short.log")
 lost = json.load(open(at("short.json")))["log"]["lost"]
 check("short.log' lacks the last edits" in done.stderr and lost > 0, f"it is said: {done.stderr}")
 check(" done # " not in open(at("short.log")).read(), "a log that lacks edits says that it is whole")
+# A vertex that was created beside one that was created is of that part, too: pushed into another one, it is said.
+corners = [(-2, -2, 0), (2, -2, 0), (0, 2, 0), (0, 0, -2), (-3, -3, 1), (3, -3, 1), (0, 3, 1), (0, 0, 3)]
+with open(at("two.off"), "w") as file:
+    file.write("OFF\n8 8 0\n" + "".join("%g %g %g\n" % place for place in corners) +
+               "3 0 1 2\n3 0 3 1\n3 1 3 2\n3 2 3 0\n3 4 6 5\n3 4 5 7\n3 5 6 7\n3 6 4 7\n")
+HOME, time_of_row, rows = 0.13238963483516536, 0, []  # m: of the handle
+for seconds, y, z, button in ((0, 0, 0.5, 0), (0.4, -0.6, 0.3, 0), (0.4, -0.6, -0.15, 0), (0.1, -0.6, -0.15, 0),
+                              (0.01, -0.6, -0.15, 1), (0.1, -0.6, -0.15, 1), (0.01, -0.6, -0.15, 0),
+                              (0.1, -0.6, -0.15, 0), (0.4, -0.6, 0.3, 0), (0.4, 0.5, 0.3, 0), (0.4, 0.5, -0.15, 0),
+                              (0.1, 0.5, -0.15, 0), (0.01, 0.5, -0.15, 1), (0.1, 0.5, -0.15, 1), (1, 0.5, 1.6, 1),
+                              (0.3, 0.5, 1.6, 1)):
+    time_of_row += seconds
+    rows.append(f"{time_of_row:.4f},0,{y / 100:.6f},{HOME + (z - 0.5) / 100:.6f},{button}\n")
+with open(at("twice.csv"), "w") as file:
+    file.write("t,x,y,z,button\n" + "".join(rows))
+run(at("two.off"), "--no-wait", "--path", at("twice.csv"), "--map", 100, 0, 0, 0.5, "--stiffness", 300,
+    "--report", at("twice.json"))
+report = json.load(open(at("twice.json")))
+check(report["edits"]["created"] == 2 and report["happened"]["pushed_into_another_part"],
+      f"pushed: {report['happened']}")
 # A pause is not made up for by ticks that follow each other at once, which would be more than the log can take.
 with open(at("early.csv"), "w") as file:  # where the hand holds a vertex for long
     head, *path = open(os.path.join(SOURCE, "examples/data/hand_path.csv")).read().split()

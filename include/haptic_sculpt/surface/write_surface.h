@@ -249,7 +249,7 @@ std::string surface_bytes(const Mesh& mesh, const std::filesystem::path& path,
 /// lossless, but numbers vertices anew, in order of first appearance. Removed elements are left out; vertices close up
 /// in index order or in `vertex_order()`, faces in index order. PLY holds all vertex_attributes(), OBJ colours,
 /// the other formats none (`attributes_not_held()`). An invalid surface is written as it is (and will
-/// not be read back, nor is an empty one), unless the format cannot hold it.
+/// not be read back, nor is an empty one), unless the format cannot hold it. STL joins vertices at one place.
 ///
 /// \tparam Mesh `CGAL::Surface_mesh<K::Point_3>` with `K::FT = double`
 /// \param path of the file; its folder has to exist. `replace_file()` says what becomes of links and permissions

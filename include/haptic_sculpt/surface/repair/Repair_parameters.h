@@ -21,7 +21,7 @@ struct Repair_parameters {
   static constexpr int default_edges_per_gap = 4; ///< see default_gap_share
 
   /// Points on open edges become one where they are at most this length apart, in the unit of the coordinates, however
-  /// short the edges are; >= 0 and in range. 0: only equal points do.
+  /// short the edges are; so does a chain of such points, however long. >= 0 and in range. 0: only equal points do.
   Repair_parameters& gap(double length) {
     gap_length = length;
     return *this;

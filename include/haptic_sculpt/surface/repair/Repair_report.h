@@ -23,7 +23,7 @@ enum class Repair_kind {
   remove_degenerate_faces,   ///< triangles whose corners lie on a line
   close_holes,               ///< with triangles between the vertices of the boundary
   separate_vertices,         ///< that were split, and so are at one point
-  drop_sheets,               ///< components that enclose no volume go, unless none encloses one
+  drop_sheets,               ///< components of signed volume exactly 0 go, unless all are such
   resolve_self_intersections, ///< of a component with itself
   unite_solids,              ///< components that overlap
   orient_solids              ///< components bound a volume: their normals point out of the solid
@@ -49,7 +49,7 @@ struct Repair_step {
   Repair_kind kind;                 ///< which of the steps
   std::vector<Repair_count> counts; ///< what was changed
   double moved = 0;    ///< the largest distance a point went in it, in the unit of the coordinates, rounded
-  std::string failure; ///< why CGAL gave up; then nothing was changed. Empty: it did not
+  std::string failure; ///< why CGAL gave up, of several parts the last; they were not changed. Empty: it did not
 
   /// Whether there is anything to say of it.
   bool did_something() const {
