@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Makes of a program one that forks for each run, so that a run costs no loading of its libraries: random runs take a
-// fifth less of a processor. It is preloaded (LD_PRELOAD), so that the programs are the ones that ship; fuzz_programs.py
-// is its client. Where HAPTIC_SCULPT_FORK_SERVER names a socket, the program waits there before its main():
+// fifth less of a processor. It is preloaded (LD_PRELOAD), so that the programs are the ones that ship;
+// fuzz_programs.py is its client. Where HAPTIC_SCULPT_FORK_SERVER names a socket, a program waits there before main():
 //
 //   request: the words of a command line, each ended by a zero byte, the first a folder to run in;
 //            with two descriptors: its standard input, and its standard output and standard error
