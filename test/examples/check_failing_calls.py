@@ -4,8 +4,8 @@
 `sculpt --repair` and `haptic_loop` write meshes, logs and reports; descriptors run out; files may not grow.
 
 Whatever fails: the program ends by itself with an exit code of its own and says why; what stood in an output stands there whole, the old
-or the new; the log is the beginning of that of a run in which nothing fails; the same command then comes through. A loop whose log fails
-ends there: its mesh is as far as it came, and valid.
+or the new; the log is the beginning of that of a run in which nothing fails; the same command then comes through.
+A loop whose log fails ends there: its mesh is as far as it came, and valid.
 
 Arguments: sculpt, source folder, haptic_loop. HAPTIC_SCULPT_FAILING_CALLS says how many calls of each run fail (12;
 `all`: each)."""

@@ -6,9 +6,6 @@
 #include "sculpting/motion/embedding_oracle_input.h"
 #include "sculpting/scene_parts.h"
 
-#include <haptic_sculpt/sculpting/paper_1997/Six_list_broad_phase.h>
-#include <haptic_sculpt/surface/broad_phase/Brute_force_broad_phase.h>
-
 #include <set>
 
 using namespace haptic_sculpt;
@@ -78,19 +75,6 @@ struct Throwing_visitor : Default_edit_visitor {
   }
 };
 using Throwing_sculptor = Sculptor<Mesh, Box_tree_broad_phase<Mesh>, Throwing_visitor>;
-
-/// What blocks, in words, of a copy of the mesh.
-template <class Broad_phase>
-std::vector<std::string> contacts_with(Mesh mesh, const std::vector<Vertex_index>& moving, const Transformation& t) {
-  Sculptor<Mesh, Broad_phase> sculptor(mesh);
-  std::vector<std::string> contacts;
-  for (const auto& contact : move_rigidly(sculptor, moving, t).contacts) {
-    contacts.push_back(std::to_string(static_cast<int>(contact.kind)));
-    for (const Vertex_index v : contact.vertices)
-      contacts.back() += ' ' + std::to_string(static_cast<std::size_t>(v));
-  }
-  return contacts;
-}
 
 /// Two states that differ along one axis only, if they do. \return -1 where they differ along more
 int only_axis(const std::vector<std::array<double, 3>>& a, const std::vector<std::array<double, 3>>& b) {
@@ -234,25 +218,6 @@ BOOST_AUTO_TEST_CASE(bodies_among_others_are_where_the_share_says_and_embedded_b
   BOOST_TEST(wrong == 0u);
   BOOST_TEST(not_named == 0u);
   BOOST_TEST((runs < 60 || (blocked >= 3 && whole >= 3)));
-}
-
-BOOST_AUTO_TEST_CASE(what_blocks_is_the_same_with_every_broad_phase) {
-  Random random(seed_from_environment(32));
-  std::size_t several = 0;
-  for (const auto& [name, scene] : scenes(false))
-    for (int motion = 0; motion < 8; ++motion) {
-      std::vector<Vertex_index> moving; // many, or so few that only what is near is looked at
-      const double height = motion % 2 == 0 ? uniform(random, -0.5, 0.5) : 0.9;
-      for (const Vertex_index v : scene.vertices())
-        if (scene.point(v).z() > height)
-          moving.push_back(v);
-      const Transformation t = translation(uniform_vector(random, 3));
-      const auto contacts = contacts_with<Box_tree_broad_phase<Mesh>>(scene, moving, t);
-      BOOST_TEST(contacts == contacts_with<Brute_force_broad_phase<Mesh>>(scene, moving, t), name);
-      BOOST_TEST(contacts == contacts_with<Six_list_broad_phase<Mesh>>(scene, moving, t), name);
-      several += contacts.size() > 1;
-    }
-  BOOST_TEST(several >= 10u);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_rigid_motion_is_refused) {

@@ -239,10 +239,8 @@ BOOST_AUTO_TEST_CASE(cancelled_bounded_and_thrown_out_of) {
 // next is not begun.
 BOOST_AUTO_TEST_CASE(progress_tells_how_many_are_behind_not_how_many_move_along_the_axis_at_hand) {
   Mesh mesh = meshes::to_mesh(meshes::bumpy_sphere(2, 0.3, 0.02));
-  std::vector<Vertex_index> some; // half of them along x, the others along y
-  for (Mesh::size_type v = 0; v < 12; ++v)
-    some.emplace_back(v);
-  const auto target = [&mesh](Vertex_index v) {
+  const std::vector<Vertex_index> every = all(mesh), some(every.begin(), every.begin() + 12);
+  const auto target = [&mesh](Vertex_index v) { // half of them along x, the others along y
     const bool is_even = static_cast<std::size_t>(v) % 2 == 0;
     return mesh.point(v) + Vector_3(is_even ? 1e-4 : 0, is_even ? 0 : 1e-4, 0);
   };
