@@ -12,9 +12,13 @@ using namespace haptic_sculpt::test;
 
 namespace {
 
-double distance(const Point_3& a, const Point_3& b) { return std::sqrt(CGAL::squared_distance(a, b)); }
+double distance(const Point_3& a, const Point_3& b) {
+  return std::sqrt(CGAL::squared_distance(a, b));
+}
 
-Mesh terrain() { return meshes::to_mesh(meshes::bumpy_sphere(3, 0.3, 0.03)); }
+Mesh terrain() {
+  return meshes::to_mesh(meshes::bumpy_sphere(3, 0.3, 0.03));
+}
 
 Point_3 random_target(Random& random, const Point_3& from, double size) {
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
@@ -141,7 +145,52 @@ BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_an_end_that_is_one_without_a_bound
   BOOST_TEST(improved <= held_ends / 50);
 }
 
-/// What stands within half a star's width of a large star may be more than any bound, and is no reason to stay.
+// A search that another target began, or that had to leave a trial out, proves nothing of this target.
+BOOST_AUTO_TEST_CASE(held_by_drags_that_went_on_says_that_all_was_tried_for_this_target) {
+  Mesh mesh = terrain();
+  Sculptor<Mesh> sculptor(mesh);
+  Random random(seed_from_environment(3));
+  std::size_t held = 0, searched = 0, gave_up = 0;
+  const meshes::Kernel::Vector_3 aside(1e-9, -1e-9, 1e-9);
+  for (int k = 0; k < 2500; ++k) {
+    const Vertex_index v(static_cast<Mesh::size_type>(random() % mesh.number_of_vertices()));
+    const Point_3 home = mesh.point(v), target = random_target(random, home, 0.5), other = target + aside;
+    const auto portion = Drag_parameters().work_limit(70 + 50 * (k % 4));
+    auto grab = sculptor.grab(v);
+    bool is_searching = false;
+    for (int i = 0; i < 300 && !is_searching; ++i) {
+      const Point_3 before = mesh.point(v);
+      const auto result = grab.drag_to(target, portion);
+      if (result.end != Drag_end::work_limit)
+        break;
+      is_searching = mesh.point(v) == before && result.contacts.size() > 1 && random() % 3 == 0;
+    }
+    const Point_3 rest = mesh.point(v);
+    std::size_t work = 0;
+    Drag_end end = is_searching ? Drag_end::work_limit : Drag_end::stuck;
+    for (int i = 0; i < 300 && end == Drag_end::work_limit; ++i) {
+      const auto result = grab.drag_to(other, portion);
+      work += result.work;
+      end = result.end;
+    }
+    gave_up += is_searching && end == Drag_end::stuck;
+    if (end == Drag_end::held && mesh.point(v) == rest) {
+      const auto whole = grab.drag_to(other + aside); // a search by itself, from here with what is known here
+      if (mesh.point(v) == rest) {
+        BOOST_TEST(4 * work >= 3 * whole.work, // the trials are alike, not the same
+                   "drag " << k << ": " << work << " pairs for " << whole.work);
+        ++held;
+        searched += whole.work > 0;
+      }
+    }
+    if (mesh.point(v) != home)
+      sculptor.undo();
+  }
+  BOOST_TEST_MESSAGE(held << " held, " << searched << " of them by a search; " << gave_up << " gave up");
+  BOOST_TEST(searched > 10u);
+  BOOST_TEST(gave_up > 40u);
+}
+
 // A question is no drag: a search that was left goes on after it.
 BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_the_same_end_with_questions_between_them) {
   Random random(seed_from_environment(11));
@@ -183,6 +232,7 @@ BOOST_AUTO_TEST_CASE(drags_that_go_on_come_to_the_same_end_with_questions_betwee
   BOOST_TEST(gone_on > 8);
 }
 
+// What stands within half a star's width of a large star may be more than any bound, and is no reason to stay.
 BOOST_AUTO_TEST_CASE(a_large_star_over_a_fine_surface_follows_the_hand) {
   for (const std::size_t valence : {6, 64}) {
     auto list = meshes::bumpy_sphere(5, 0.05).scale_and_move(10, 0, 0, -10);

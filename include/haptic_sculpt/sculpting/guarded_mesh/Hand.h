@@ -70,7 +70,6 @@ public:
     tell_where_it_is();
     held_ = Vertex_index();
     responses_.forget();
-    guard_.work().forget();
   }
 
   /// The same where nothing may throw: asks nobody. Whatever comes next lets go first, or tells where the vertex is.

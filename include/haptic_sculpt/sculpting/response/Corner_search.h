@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/sculpting/response/Search_memory.h>
+#include <haptic_sculpt/sculpting/response/Search_round.h>
 #include <haptic_sculpt/sculpting/response/Slide_walk.h>
 
 namespace haptic_sculpt::internal {
@@ -23,7 +23,7 @@ public:
 
   /// Takes a way if it brings the vertex nearer by more than what clearances can feign. Returns whether there was one.
   template <class Guard>
-  bool take(Walk& walk, Guard& guard, const Vector& target, int most_legs) {
+  bool take(Walk& walk, Guard& guard, Search_round& round, const Vector& target, int most_legs) {
     walk_ = &walk;
     most_legs_ = most_legs;
     const Slide_lengths lengths = walk_->lengths(); // trials may change those of the walk
@@ -36,8 +36,7 @@ public:
     const double gain =
         std::fmax(8 * lengths.clearance, without_clearance.exists ? 4 * length(without_clearance.displacement) : 0);
     int trials = 0;
-    guard.work().search_at(walk_->x);
-    if (!guard.work().is_resumed())
+    if (!round.is_resumed(Search_round::Search::corner))
       seen_ = walk_->facets;
     const auto brings_nearer = [&](const Vector& first_aim) {
       ++trials;
@@ -55,10 +54,10 @@ public:
     };
     const bool all_legs_were_left = walk_->legs() + trial_legs <= most_legs;
     memory_.forget();
-    if (follow_features(guard, pull, target, trials, brings_nearer))
+    if (follow_features(guard, round, pull, target, trials, brings_nearer))
       return true;
     if (all_legs_were_left && !guard.is_spent())
-      memory_.note(walk_->x, target);
+      round.note(memory_, target, lengths);
     return false;
   }
 
@@ -84,8 +83,9 @@ private:
 
   /// The paper's vertex rule (3.2.2 c): from a little off, tries every face and every edge that was met here.
   template <class Guard, class Brings_nearer>
-  bool follow_features(Guard& guard, const Vector& pull, const Vector& target, const int& trials,
+  bool follow_features(Guard& guard, Search_round& round, const Vector& pull, const Vector& target, const int& trials,
                        const Brings_nearer& brings_nearer) {
+    const auto is_due = [&] { return round.is_due(Search_round::Search::corner, guard.work()); };
     const Slide_lengths lengths = walk_->lengths();
     const Vector lifted = off_the_contacts(guard);
     const double beside = lengths.border() / 4;
@@ -96,7 +96,7 @@ private:
     };
     // seen_ grows on the way.
     for (std::size_t i = 0; i < seen_.size() && trials < most_trials; ++i) {
-      if (guard.work().is_due()) {
+      if (is_due()) {
         start();
         trial_.facets.push_back(seen_[i]);
         trial_.place(trial_.x);
@@ -104,7 +104,7 @@ private:
           return true;
       }
       for (int k = 0; k < seen_[i].borders() && trials < most_trials; ++k) {
-        if (seen_[i].beyond_border(k, walk_->x) < -lengths.border() || !guard.work().is_due())
+        if (seen_[i].beyond_border(k, walk_->x) < -lengths.border() || !is_due())
           continue;
         // Past the border, where it may be only a clearance to free space.
         start();
@@ -120,7 +120,7 @@ private:
           return true;
       }
       for (std::size_t j = 0; j < i && trials < most_trials; ++j) {
-        if (!guard.work().is_due())
+        if (!is_due())
           continue;
         start();
         trial_.facets.push_back(seen_[i]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/sculpting/response/Search_memory.h>
+#include <haptic_sculpt/sculpting/response/Search_round.h>
 #include <haptic_sculpt/sculpting/response/Slide_walk.h>
 
 namespace haptic_sculpt::internal {
@@ -27,7 +27,7 @@ public:
   /// Looks where J rests near its target, for targets are put on vertices, edges and faces; elsewhere only where a drag
   /// has led nowhere, once: few places are so near to a plane by chance, and a look costs as much as some legs.
   template <class Guard>
-  bool take(Walk& walk, Guard& guard, const Vector& target) {
+  bool take(Walk& walk, Guard& guard, Search_round& round, const Vector& target) {
     const Slide_lengths lengths = walk.lengths();
     const Vector pull = minus(target, walk.x);
     const bool is_near = length(pull) <= lengths.shortest_pull();
@@ -35,18 +35,18 @@ public:
     if (looks_ < most_looks && (is_near || walk.legs() == 0) && !has_looked(walk.x, target, is_near, lengths)) {
       ++looks_;
       walk.forget_what_was_left(); // of what J left it may be over some
-      guard.work().search_at(walk.x);
-      if (is_near && guard.work().is_due())
+      const auto is_due = [&] { return round.is_due(Search_round::Search::near_planes, guard.work()); };
+      if (is_due() && is_near)
         any = meet_towards(walk, guard, pull);
       for (int i = 0; i < 3; ++i)
         for (const double way : {reach, -reach}) {
           Vector step{};
           step[i] = way * lengths.clearance;
-          any = (guard.work().is_due() && meet_towards(walk, guard, step)) || any;
+          any = (is_due() && meet_towards(walk, guard, step)) || any;
         }
       memory_.forget();
       if (!guard.is_spent())
-        memory_.note(walk.x, target);
+        round.note(memory_, target, lengths);
     }
     if (times_let_go_ < most_looks && walk.let_go()) {
       ++times_let_go_;

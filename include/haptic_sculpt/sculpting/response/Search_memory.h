@@ -6,9 +6,13 @@
 
 namespace haptic_sculpt::internal {
 
+/// A target is nearer by as much as it has moved at most: below what clearances can feign a search for either finds the
+/// same.
+inline bool is_alike(const Vector& target, const Vector& other, const Slide_lengths& lengths) {
+  return length(minus(target, other)) <= 4 * lengths.clearance;
+}
+
 /// Where a search has found nothing, and for which target.
-///
-/// A target is nearer by as much as it has moved at most: below what clearances can feign the answer is the same.
 class Search_memory {
 public:
   /// Something has changed: where nothing was found there may be something now.
@@ -23,7 +27,7 @@ public:
     return is_known_ && length(minus(place, place_)) <= lengths.settled();
   }
   bool holds(const Vector& place, const Vector& target, const Slide_lengths& lengths) const {
-    return is_at(place, lengths) && length(minus(target, target_)) <= 4 * lengths.clearance;
+    return is_at(place, lengths) && is_alike(target, target_, lengths);
   }
   const Vector& target() const { return target_; } ///< that was noted last
 

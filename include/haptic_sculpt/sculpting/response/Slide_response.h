@@ -33,6 +33,7 @@ public:
     corner_search_.forget();
     straight_way_search_.forget();
     near_plane_search_.forget();
+    round_.forget();
     part_ = 1;
   }
 
@@ -47,6 +48,7 @@ public:
       part_ = 1;
     const Vector aim = part_ < 1 ? advanced(source, part_, minus(target, source)) : target;
     walk_.begin(source, rules);
+    round_.begin(guard.work().is_bounded());
     near_plane_search_.begin();
     Walk_end end;
     const auto is_free = [&](const Vector& a, const Vector& b) { return guard.is_free(a, b, rules.delta); };
@@ -69,21 +71,27 @@ public:
         break;
       if (creeps)
         end = Walk_end::stuck;
-      else if (end == Walk_end::limit || near_plane_search_.take(walk_, guard, aim))
+      else if (end == Walk_end::limit)
         continue;
-      if (!corner_search_.take(walk_, guard, aim, most_legs))
+      round_.search_at(walk_.x, aim);
+      if (!creeps && near_plane_search_.take(walk_, guard, round_, aim))
+        continue;
+      if (!corner_search_.take(walk_, guard, round_, aim, most_legs))
         break;
     }
     if (end != Walk_end::reached && !walk_.is_beyond_reach(aim) && !guard.is_spent()) {
       if (walk_.legs() + Straight_way_search<Mesh>::trial_legs > most_legs)
         walk_.path.shorten(aim, is_free, Ways::straight_and_bent);
-      straight_way_search_.take(walk_, guard, aim, most_legs);
+      straight_way_search_.take(walk_, guard, round_, aim, most_legs);
       end = walk_.x == aim                      ? Walk_end::reached
             : straight_way_search_.is_settled() ? Walk_end::settled
                                                 : Walk_end::stuck;
     }
-    if (is_cut_short(guard, end, aim, target))
+    round_.end(guard.work());
+    if (is_cut_short(guard, end, target))
       end = Walk_end::spent;
+    else if (end == Walk_end::settled && round_.has_left_out())
+      end = Walk_end::stuck;
     else if (end != Walk_end::reached && walk_.legs() >= most_legs)
       end = Walk_end::limit;
     // To keep a clearance from what was nearer J may have gone back: then it had better stay.
@@ -109,28 +117,28 @@ private:
   Near_plane_search<Mesh> near_plane_search_;
   Corner_search<Mesh> corner_search_;
   Straight_way_search<Mesh> straight_way_search_;
-  double part_ = 1;        ///< of the way to the target, so much is asked for
-  Vector searched_for_{}; ///< the aim of the drag in which the search was begun
+  Search_round round_;
+  double part_ = 1; ///< of the way to the target, so much is asked for
 
   /// A decision that costs more than the bound alone is tried on a shorter way next time, past fewer candidates.
   static constexpr double shorter = 0.25, shortest_part = 0x1p-20;
 
   /// Whether the bound on the work has kept the walk from its end, or the search from being one for this target.
   template <class Guard>
-  bool is_cut_short(const Guard& guard, Walk_end end, const Vector& aim, const Vector& target) {
-    const Work& work = guard.work();
-    if (!work.is_resumed()) // asked now: a search left at another place has been given up meanwhile
-      searched_for_ = aim;
+  bool is_cut_short(const Guard& guard, Walk_end end, const Vector& target) {
     const bool is_short = part_ < 1;
     if (!guard.is_spent())
       part_ = std::fmin(1.0, part_ / shorter);
-    else if (walk_.legs() == 0 && !work.is_searching())
+    else if (walk_.legs() == 0 && !round_.is_searching())
       part_ = std::fmax(shortest_part, part_ * shorter);
     if (walk_.x == target)
       return false;
-    const bool is_other_search =
-        work.is_resumed() && length(minus(target, searched_for_)) > 4 * walk_.lengths().clearance;
-    return guard.is_spent() || is_short || (end == Walk_end::settled && (is_other_search || work.has_left_out()));
+    if (guard.is_spent() || is_short)
+      return true;
+    if (end != Walk_end::settled)
+      return false;
+    // Nothing is known to hold a vertex without contacts: no force may stand for what a trial left out might have met.
+    return !round_.is_for(target, walk_.lengths()) || (round_.has_left_out() && walk_.facets.empty());
   }
 
   /// Towards a target that is beyond reach the walk may have led nowhere: then a slide does no less than a stop does.

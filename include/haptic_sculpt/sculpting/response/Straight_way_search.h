@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <haptic_sculpt/sculpting/response/Search_memory.h>
+#include <haptic_sculpt/sculpting/response/Search_round.h>
 #include <haptic_sculpt/sculpting/response/Slide_walk.h>
 
 namespace haptic_sculpt::internal {
@@ -29,18 +29,19 @@ public:
 
   /// Goes such ways, each followed by a walk, as long as there are any. Returns whether there was one.
   template <class Guard>
-  bool take(Walk& walk, Guard& guard, const Vector& target, int most_legs) {
+  bool take(Walk& walk, Guard& guard, Search_round& round, const Vector& target, int most_legs) {
     bool any = false;
     is_settled_ = false;
     for (int times = 0; times < most_times && walk.legs() < most_legs && !is_settled_; ++times) {
+      round.search_at(walk.x, target);
       is_settled_ = walk.x == target || is_certain(walk, target) || memory_.holds(walk.x, target, walk.lengths());
       if (is_settled_)
         break;
-      if (!look(walk, guard, target)) {
+      if (!look(walk, guard, round, target)) {
         if (guard.is_spent())
           break;
         is_settled_ = true;
-        memory_.note(walk.x, target);
+        round.note(memory_, target, lengths_);
         if (walk.facets.empty())
           take_contacts(walk);
         break;
@@ -56,6 +57,8 @@ public:
   }
 
 private:
+  using Search = Search_round::Search;
+
   static constexpr int most_times = 16;
   /// More planes than these are not combined with each other.
   static constexpr std::size_t most_planes = 16;
@@ -104,14 +107,13 @@ private:
   }
 
   template <class Guard>
-  bool look(const Walk& walk, Guard& guard, const Vector& target) {
+  bool look(const Walk& walk, Guard& guard, Search_round& round, const Vector& target) {
     x_ = walk.x;
     pull_ = walk.pull_to(target);
     distance_ = length(pull_);
     lengths_ = walk.lengths();
     rules_ = walk.rules();
-    guard.work().search_at(x_);
-    if (!guard.work().is_resumed()) {
+    if (!round.is_resumed(Search::straight_ways)) {
       normals_.clear();
       curved_.clear();
       met_.clear();
@@ -121,7 +123,11 @@ private:
       return false;
     for (const auto& facet : walk.facets)
       see(facet.contact());
-    try_way(guard, pull_);
+    const auto try_if_due = [&](Search search, const Vector& way) {
+      if (round.is_due(search, guard.work()))
+        try_way(guard, way);
+    };
+    try_if_due(Search::straight_ways, pull_);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         for (int signs = 0; signs < 4 && i != j; ++signs) {
@@ -129,21 +135,24 @@ private:
           v[static_cast<std::size_t>(i)] = 1;
           v[static_cast<std::size_t>(j)] = (signs & 1) != 0 ? -2 : 2;
           v[static_cast<std::size_t>(3 - i - j)] = (signs & 2) != 0 ? -3 : 3;
-          try_way(guard, v);
+          try_if_due(Search::straight_ways, v);
         }
     for (std::size_t i = 0; i < normals_.size(); ++i) { // normals_ grows on the way
       const Vector n = normals_[i];
-      try_way(guard, advanced(pull_, -dot(pull_, n), n));
+      try_if_due(Search::straight_ways, advanced(pull_, -dot(pull_, n), n));
       for (std::size_t j = 0; j < i; ++j)
-        try_way(guard, cross(n, normals_[j]));
+        try_if_due(Search::straight_ways, cross(n, normals_[j]));
     }
     // What curves towards J lets it go only on ways that rise over the tangent plane.
     const Vector pull = scaled(pull_, unit_of(distance_)); // as in gain_at()
-    for (const Vector& n : curved_)
-      for (const Vector& m : curved_) {
-        const Vector way = &n == &m ? advanced(pull, -dot(pull, n), n) : cross(n, m);
+    // curved_ grows on the way, too.
+    for (std::size_t i = 0; i < curved_.size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Vector n = curved_[i], m = curved_[j];
+        const Vector way = i == j ? advanced(pull, -dot(pull, n), n) : cross(n, m);
         for (double slope = 0x1p-2; slope > 0x1p-24; slope /= 8)
-          try_way(guard, advanced(dot(way, pull) < 0 ? scaled(way, -1) : way, slope * length(way), plus(n, m)));
+          try_if_due(Search::rising_ways,
+                     advanced(dot(way, pull) < 0 ? scaled(way, -1) : way, slope * length(way), plus(n, m)));
       }
     return gain_ > least;
   }
@@ -177,8 +186,6 @@ private:
   /// Decides the way up to where it is nearest to the target, or up to what is in the way.
   template <class Guard>
   void try_way(Guard& guard, const Vector& way) {
-    if (!guard.work().is_due())
-      return;
     Vector direction = normalized(way);
     double along = dot(direction, pull_);
     if (along < 0) {
