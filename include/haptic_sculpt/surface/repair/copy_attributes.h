@@ -14,8 +14,9 @@
 
 namespace haptic_sculpt::internal {
 
-/// Each point of `to` gets the values of the nearest point of `from`: its own, where it has not moved. Distances are
-/// rounded, in a unit of the size of the points: squares of small ones would be 0. \pre all points are finite
+/// Each point of `to` gets the values of the first point of `from` at its place; one that has moved, of the nearest.
+/// Distances are rounded, in a unit of the size of the points: squares of small ones would be 0. \pre all points are
+/// finite
 inline void copy_attributes(const Face_soup& from, Face_soup& to) {
   if (from.attributes.empty() || from.points.empty())
     return;
@@ -29,16 +30,24 @@ inline void copy_attributes(const Face_soup& from, Face_soup& to) {
   const auto in_unit = [exponent](const Face_soup::Point_3& p) {
     return Face_soup::Point_3(std::ldexp(p[0], -exponent), std::ldexp(p[1], -exponent), std::ldexp(p[2], -exponent));
   };
-  std::vector<Entry> entries;
-  for (std::size_t v = 0; v < from.points.size(); ++v)
+  std::vector<Entry> entries, places;
+  for (std::size_t v = 0; v < from.points.size(); ++v) {
     entries.emplace_back(in_unit(from.points[v]), v);
+    places.emplace_back(from.points[v], v);
+  }
+  std::sort(places.begin(), places.end());
   CGAL::Kd_tree<Traits> tree(entries.begin(), entries.end());
+  const auto source_of = [&](const Face_soup::Point_3& p) {
+    const auto place = std::lower_bound(places.begin(), places.end(), Entry(p, 0));
+    if (place != places.end() && place->first == p)
+      return place->second;
+    return CGAL::Orthogonal_k_neighbor_search<Traits>(tree, in_unit(p), 1).begin()->first.second;
+  };
   to.attributes = from.attributes;
   for (Vertex_attribute& attribute : to.attributes)
     attribute.values.assign(to.points.size(), 0);
   for (std::size_t v = 0; v < to.points.size(); ++v) {
-    const CGAL::Orthogonal_k_neighbor_search<Traits> nearest(tree, in_unit(to.points[v]), 1);
-    const std::size_t source = nearest.begin()->first.second;
+    const std::size_t source = source_of(to.points[v]);
     for (std::size_t k = 0; k < to.attributes.size(); ++k)
       to.attributes[k].values[v] = from.attributes[k].values[source];
   }

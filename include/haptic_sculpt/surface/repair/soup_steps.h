@@ -47,11 +47,21 @@ inline void clean_soup(Polygon_soup& soup, std::vector<Repair_step>& steps) {
   soup.faces.erase(std::remove_if(soup.faces.begin(), soup.faces.end(), is_degenerate), soup.faces.end());
   const std::size_t degenerate = faces - soup.faces.size(), points = soup.points.size();
   faces = soup.faces.size();
-  std::size_t mended = 0;
+  std::size_t mended = 0, pieces = 0; // a polygon that meets itself may become two, or less than one
   for (const Polygon_soup::Face& face : soup.faces)
-    mended += distinct_corners(face) < face.size();
+    if (distinct_corners(face) < face.size()) {
+      ++mended;
+      std::vector<Face_soup::Point_3> corners;
+      std::vector<Polygon_soup::Face> alone(1);
+      for (const std::size_t corner : face) {
+        alone[0].push_back(corners.size());
+        corners.push_back(soup.points[corner]);
+      }
+      PMP::repair_polygon_soup(corners, alone);
+      pieces += alone.size();
+    }
   PMP::repair_polygon_soup(soup.points, soup.faces);
-  const std::size_t doubled = faces - std::min(faces, soup.faces.size()); // a polygon that meets itself may become two
+  const std::size_t doubled = faces - mended + pieces - soup.faces.size();
   steps.push_back({Repair_kind::merge_points, {{"points merged with equal ones", merged}}, 0, {}});
   steps.push_back({Repair_kind::drop_faces,
                    {{"faces with a repeated corner dropped", degenerate}, {"doubled faces dropped", doubled},
