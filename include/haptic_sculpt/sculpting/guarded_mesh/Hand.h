@@ -87,8 +87,12 @@ public:
   /// Goes from source towards target as the response tells; the mesh is not written. \pre source != target
   Coordinates move(const Coordinates& source, const Coordinates& target, const Drag_parameters& parameters,
                    double delta, Drag_result<Mesh>& result) {
-    if (std::exchange(last_response_, parameters.response_rule) != parameters.response_rule)
+    const bool is_as_before =
+        last_response_ == parameters.response_rule && last_clearance_ == parameters.clearance_length;
+    if (!is_as_before) // what was found was found by other rules
       responses_.forget();
+    last_response_ = parameters.response_rule;
+    last_clearance_ = parameters.clearance_length;
     begin_to_decide(parameters.work_limit_pairs);
     const Drag_rules rules = {Clearance_rule(parameters.clearance_length), delta};
     const Coordinates end = decided(
@@ -144,6 +148,7 @@ private:
   Vertex_index held_;      ///< whose star guard_ has; invalid when none
   bool is_held_once_ = false; ///< taken for one drag
   Response last_response_ = Response::slide;
+  std::optional<double> last_clearance_;
   /// Whether what was looked up about the held vertex is whole: not while a motion is decided, nor where an exception
   /// has ended that.
   bool is_ready_ = false;

@@ -141,6 +141,8 @@ public:
       reach = std::fmax(reach, largest_coordinate_of(contact));
       result.contacts.push_back(contact);
     });
+    if (result.contacts.empty())
+      return source; // the work is spent
     reach = std::fmax(reach, largest_magnitude(point_of_path(source, target, time)));
     const Coordinates end = stop_before(source, target, time, setback(rules.clearance.at(reach), steepest),
                                         [&](const Coordinates& q) { return is_free(source, q, rules.delta); });

@@ -4,6 +4,8 @@
 #include <haptic_sculpt/sculpting/response/Search_round.h>
 #include <haptic_sculpt/sculpting/response/Slide_walk.h>
 
+#include <optional>
+
 namespace haptic_sculpt::internal {
 
 /// Half-spaces forbid more than facets do: at a corner that is neither convex nor concave there may be a way on
@@ -35,11 +37,14 @@ public:
     const auto without_clearance = walk_->nearest(pull, 0);
     const double gain =
         std::fmax(8 * lengths.clearance, without_clearance.exists ? 4 * length(without_clearance.displacement) : 0);
-    int trials = 0;
-    if (!round.is_resumed(Search_round::Search::corner))
+    if (!round.is_resumed(Search_round::Search::corner)) {
       seen_ = walk_->facets;
+      trials_ = 0;
+      all_legs_were_left_ = true;
+    }
+    int trials_at_cut = trials_;
     const auto brings_nearer = [&](const Vector& first_aim) {
-      ++trials;
+      ++trials_;
       trial_.forget_progress();
       if (first_aim != target) {
         trial_.go(guard, first_aim,
@@ -52,12 +57,14 @@ public:
         remember(facet);
       return is_nearer;
     };
-    const bool all_legs_were_left = walk_->legs() + trial_legs <= most_legs;
+    all_legs_were_left_ = all_legs_were_left_ && walk_->legs() + trial_legs <= most_legs;
     memory_.forget();
-    if (follow_features(guard, round, pull, target, trials, brings_nearer))
+    if (follow_features(guard, round, pull, target, trials_at_cut, brings_nearer))
       return true;
-    if (all_legs_were_left && !guard.is_spent())
-      round.note(memory_, target, lengths);
+    if (guard.is_spent())
+      trials_ = trials_at_cut;
+    else if (all_legs_were_left_)
+      round.note(memory_);
     return false;
   }
 
@@ -65,7 +72,9 @@ private:
   Walk* walk_ = nullptr; ///< set in take()
   int most_legs_ = 0;
   Walk trial_;
-  typename Walk::Facets seen_; ///< all that was met meanwhile
+  typename Walk::Facets seen_;     ///< all that was met meanwhile
+  int trials_ = 0;                 ///< made at this place
+  bool all_legs_were_left_ = true; ///< for each of them
   Search_memory memory_;
 
   /// Whether there may be a way past a border of some contact. Where all contacts near one are faces and each goes over
@@ -83,19 +92,26 @@ private:
 
   /// The paper's vertex rule (3.2.2 c): from a little off, tries every face and every edge that was met here.
   template <class Guard, class Brings_nearer>
-  bool follow_features(Guard& guard, Search_round& round, const Vector& pull, const Vector& target, const int& trials,
+  bool follow_features(Guard& guard, Search_round& round, const Vector& pull, const Vector& target, int& trials_at_cut,
                        const Brings_nearer& brings_nearer) {
-    const auto is_due = [&] { return round.is_due(Search_round::Search::corner, guard.work()); };
+    const auto is_due = [&] {
+      const bool is = round.is_due(Search_round::Search::corner, guard.work());
+      if (is)
+        trials_at_cut = trials_;
+      return is;
+    };
     const Slide_lengths lengths = walk_->lengths();
-    const Vector lifted = off_the_contacts(guard);
+    std::optional<Vector> lifted;
     const double beside = lengths.border() / 4;
     const auto start = [&] {
+      if (!lifted)
+        lifted = off_the_contacts(guard);
       trial_.begin_at(*walk_);
-      if (lifted != walk_->x && trial_.legs() < most_legs_)
-        trial_.step_to(lifted);
+      if (*lifted != walk_->x && trial_.legs() < most_legs_)
+        trial_.step_to(*lifted);
     };
     // seen_ grows on the way.
-    for (std::size_t i = 0; i < seen_.size() && trials < most_trials; ++i) {
+    for (std::size_t i = 0; i < seen_.size() && trials_ < most_trials; ++i) {
       if (is_due()) {
         start();
         trial_.facets.push_back(seen_[i]);
@@ -103,7 +119,7 @@ private:
         if (brings_nearer(target))
           return true;
       }
-      for (int k = 0; k < seen_[i].borders() && trials < most_trials; ++k) {
+      for (int k = 0; k < seen_[i].borders() && trials_ < most_trials; ++k) {
         if (seen_[i].beyond_border(k, walk_->x) < -lengths.border() || !is_due())
           continue;
         // Past the border, where it may be only a clearance to free space.
@@ -119,7 +135,7 @@ private:
         if (brings_nearer(advanced(trial_.x, dot(pull, along), along)))
           return true;
       }
-      for (std::size_t j = 0; j < i && trials < most_trials; ++j) {
+      for (std::size_t j = 0; j < i && trials_ < most_trials; ++j) {
         if (!is_due())
           continue;
         start();

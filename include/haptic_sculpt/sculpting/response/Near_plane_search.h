@@ -46,7 +46,7 @@ public:
         }
       memory_.forget();
       if (!guard.is_spent())
-        round.note(memory_, target, lengths);
+        round.note(memory_);
     }
     if (times_let_go_ < most_looks && walk.let_go()) {
       ++times_let_go_;

@@ -30,9 +30,11 @@ public:
       trials.counted = 0;
   }
   /// The vertex rests on its way to the target.
-  void search_at(const Vector& place, const Vector& target) {
-    if (is_begun_ && place == place_)
+  void search_at(const Vector& place, const Vector& target, const Slide_lengths& lengths) {
+    if (is_begun_ && place == place_) {
+      is_for_other_ = !is_alike(target, target_, lengths);
       return;
+    }
     forget();
     is_begun_ = true;
     place_ = place;
@@ -48,6 +50,7 @@ public:
     if (number < trials.first_due)
       return false;
     last_due_ = Trial{search, number};
+    is_mixed_ = is_mixed_ || is_for_other_;
     return true;
   }
   /// The drag has searched for all that it could.
@@ -57,7 +60,7 @@ public:
       return;
     for (auto& trials : trials_)
       trials.first_due = std::max(trials.first_due, trials.counted);
-    // The last trial was not finished. Where it alone costs more than the bound the search goes on without it.
+    // The last trial was not finished. It is begun once more, then left out: it might always cost more than the bound.
     if (last_due_ == last_cut_)
       has_left_out_ = true;
     else
@@ -71,12 +74,12 @@ public:
   bool is_resumed(Search search) const { return trials_[static_cast<std::size_t>(search)].first_due != 0; }
   /// Whether a trial had to be left out, so that nothing is known of what it would have found.
   bool has_left_out() const { return has_left_out_; }
-  /// Whether what earlier drags have tried was tried for this target, or one that is as good.
-  bool is_for(const Vector& target, const Slide_lengths& lengths) const { return is_alike(target, target_, lengths); }
+  /// Whether what was tried was tried for the target of this drag, or one that is as good.
+  bool is_for_its_target() const { return !is_mixed_ && !is_for_other_; }
 
   /// The search has found nothing. Kept in mind only where all of it was tried, for this target.
-  void note(Search_memory& memory, const Vector& target, const Slide_lengths& lengths) const {
-    if (!has_left_out_ && is_for(target, lengths))
+  void note(Search_memory& memory) const {
+    if (!has_left_out_ && is_for_its_target())
       memory.note(place_, target_);
   }
 
@@ -88,6 +91,8 @@ private:
   using Trial = std::pair<Search, std::size_t>;
 
   bool is_begun_ = false, is_cut_ = false, has_left_out_ = false;
+  bool is_for_other_ = false; ///< this drag's target is not the one that the round was begun for
+  bool is_mixed_ = false;     ///< a trial was made for another target
   Vector place_{}, target_{};
   std::array<Trials, 4> trials_{};
   std::optional<Trial> last_due_; ///< in this drag

@@ -73,7 +73,7 @@ public:
         end = Walk_end::stuck;
       else if (end == Walk_end::limit)
         continue;
-      round_.search_at(walk_.x, aim);
+      round_.search_at(walk_.x, aim, walk_.lengths());
       if (!creeps && near_plane_search_.take(walk_, guard, round_, aim))
         continue;
       if (!corner_search_.take(walk_, guard, round_, aim, most_legs))
@@ -138,7 +138,7 @@ private:
     if (end != Walk_end::settled)
       return false;
     // Nothing is known to hold a vertex without contacts: no force may stand for what a trial left out might have met.
-    return !round_.is_for(target, walk_.lengths()) || (round_.has_left_out() && walk_.facets.empty());
+    return !round_.is_for_its_target() || (round_.has_left_out() && walk_.facets.empty());
   }
 
   /// Towards a target that is beyond reach the walk may have led nowhere: then a slide does no less than a stop does.

@@ -33,7 +33,7 @@ public:
     bool any = false;
     is_settled_ = false;
     for (int times = 0; times < most_times && walk.legs() < most_legs && !is_settled_; ++times) {
-      round.search_at(walk.x, target);
+      round.search_at(walk.x, target, walk.lengths());
       is_settled_ = walk.x == target || is_certain(walk, target) || memory_.holds(walk.x, target, walk.lengths());
       if (is_settled_)
         break;
@@ -41,7 +41,7 @@ public:
         if (guard.is_spent())
           break;
         is_settled_ = true;
-        round.note(memory_, target, lengths_);
+        round.note(memory_);
         if (walk.facets.empty())
           take_contacts(walk);
         break;
