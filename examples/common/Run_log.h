@@ -59,7 +59,7 @@ public:
 
   /// Of a run that is faster than time: the loop waits for the disk, as time would have.
   void let_catch_up(std::uint64_t tick) const {
-    while (journal_ && !writer_->is_stalled() && !journal_->has_overrun() &&
+    while (journal_ && !writer_->is_stalled() && !has_failed() && !journal_->has_overrun() &&
            journal_->age(tick) > journal_->most_age() / 2)
       std::this_thread::sleep_for(std::chrono::microseconds(100));
   }

@@ -170,9 +170,11 @@ json answer_inverse(const Device_parameters<double>& parameters, const json& req
 
 json answer_modes(const Device_parameters<double>& parameters, const Eigen::Vector3d& theta) {
   if (parameters.form() == Device_form::ditetrahedral) {
-    demand(ditetrahedral_forward(parameters, theta, 1), "no apex at these joint angles");
-    return {
-        {"ok", true}, {"n_modes", 2}, {"all_phi", json::array()}}; // a point has no link angles seen from a platform
+    const auto pose = ditetrahedral_forward(parameters, theta, 1);
+    if (pose.status() != Device_status::unreachable)
+      demand(pose, "no apex at these joint angles");
+    // A point has no link angles seen from a platform.
+    return {{"ok", true}, {"n_modes", pose ? 2 : 0}, {"all_phi", json::array()}};
   }
   const Outcome<Assembly_modes<double>> modes = assembly_modes(parameters, theta);
   demand(modes, "the assembly modes are not isolated");

@@ -6,6 +6,7 @@
 #include <haptic_sculpt/device/conditioning.h>
 #include <haptic_sculpt/device/forward_kinematics.h>
 #include <haptic_sculpt/haptic_rendering/Joint_reading.h>
+#include <haptic_sculpt/haptic_rendering/Watchdog.h>
 
 #include <limits>
 
@@ -30,7 +31,7 @@ public:
       reading.theta[0] = std::numeric_limits<double>::quiet_NaN();
       break;
     case Loop_fault::jump:
-      reading.theta[1] += 0.5;
+      reading.theta[1] += 2 * Watchdog_limits().joint_rate * std::fmax(reading.elapsed, tick_);
       break;
     case Loop_fault::torque:
       reading.torque[0] = 2 * parameters_.torque_limit();

@@ -30,8 +30,9 @@ inline std::vector<std::string> ask_for_real_time() {
   return refused;
 }
 
-/// The thread goes like any other again.
+/// The thread goes like any other again, and memory is had beyond `ulimit -l`: results need some.
 inline void leave_real_time() {
+  munlockall();
   sched_param parameter{};
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameter);
 }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -49,8 +50,10 @@ public:
     if (descriptor_ >= 0) {
       cookie_io_functions_t functions{};
       functions.write = write, functions.close = close_descriptor;
-      if ((file_ = ::fopencookie(this, "w", functions)) == nullptr)
+      if ((file_ = ::fopencookie(this, "w", functions)) == nullptr) {
         ::close(descriptor_);
+        throw std::bad_alloc();
+      }
     }
     if (file_ == nullptr)
       throw Write_error("cannot write '" + path + "': " +

@@ -7,7 +7,7 @@
 
 namespace haptic_sculpt::loop_program {
 
-/// The first line of a trace; doc/use/haptic_rendering.md says what is in the columns.
+/// The first line of a trace; doc/use/haptic_loop.md says what is in the columns.
 inline void write_columns(std::FILE* file) {
   std::fputs("t,theta1,theta2,theta3,tx,ty,tz,x,y,z,fcx,fcy,fcz,fx,fy,fz,tau1,tau2,tau3,end,contacts,pairs,cpu_ns\n",
              file);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sculpts in a closed loop with a simulated device in a simulated hand. See --help; formats:
-// doc/use/haptic_rendering.md.
+// doc/use/haptic_loop.md.
 #include "Arguments.h"
 #include "Loop_report.h"
 
@@ -76,7 +76,11 @@ int loop(const Arguments& arguments) {
       throw Usage_error("the path ends at " + examples::decimal(plan.path->end()) +
                         " s, before the first tick: give --seconds, or times above 0");
     const double seconds = arguments.seconds.value_or(plan.path->end());
-    const double last_tick = (std::ceil(seconds * settings.rate) - 1) / settings.rate;
+    const double tick = 1 / settings.rate;
+    double ticks = std::ceil(seconds * settings.rate); // at most one more than there are, by rounding
+    while (ticks > 1 && (ticks - 1) * tick >= seconds)
+      --ticks;
+    const double last_tick = (ticks - 1) * tick;
     if (plan.fault && plan.fault->time > last_tick)
       throw Usage_error("--fault comes at " + examples::decimal(plan.fault->time) + " s, after the last tick, at " +
                         examples::decimal(last_tick) + " s");

@@ -181,10 +181,11 @@ private:
       if (!tick(loop, reading, device.time()))
         break;
       last = *tick_made_;
-      if (device.write(last.rendered.torque, last.rendered.interaction_torque) != Device_status::success) {
-        writer_.note("at " + std::to_string(device.time()) +
-                     " s the mechanism has been torn through a singular pose; give the hand a path within the "
-                     "workspace, and a device with friction a higher --rate");
+      const Device_status moved = device.write(last.rendered.torque, last.rendered.interaction_torque);
+      if (moved != Device_status::success) {
+        writer_.note("at " + std::to_string(device.time()) + " s the mechanism has been torn (" + name_of(moved) +
+                     "); give the hand a path within the workspace and a stiffness that its masses can follow, and a "
+                     "device with friction a higher --rate");
         result_.faults.emplace_back(device.time(), "torn");
         break;
       }
@@ -210,7 +211,9 @@ private:
 
   /// \return whether the run goes on
   bool tick(Loop& loop, const Joint_reading& reading, double time) {
-    if (record_.get() != nullptr)
+    // No reading is the cause of these faults: in a replay the hand would go on where the run let go.
+    const Loop_fault fault = loop.interaction().fault();
+    if (record_.get() != nullptr && fault != Loop_fault::log && fault != Loop_fault::error)
       write_reading(record_.get(), reading);
     if (log_->has_failed()) // what is done from here on would be in no log
       log_->journal()->break_off();

@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(parameters_are_checked_where_they_are_given) {
     refuses("Pose_device::mass", [&](P& p) { p.device.mass = bad; });
     refuses("Pose_device::resolution", [&](P& p) { p.device.resolution = bad; });
     refuses("delay", [&](P& p) { p.delay = bad; });
-    refuses("Watchdog_limits::stall_time", [&](P& p) { p.stall_time = bad; });
+    refuses("Pose_loop_parameters::stall_time", [&](P& p) { p.stall_time = bad; });
     refuses("controller_damping", [&](P& p) { p.controller_damping = bad; });
     refuses("reach", [&](P& p) { p.reach = bad; });
     refuses("button_quiet_time", [&](P& p) { p.button_quiet_time = bad; });
@@ -163,12 +163,13 @@ BOOST_AUTO_TEST_CASE(parameters_are_checked_where_they_are_given) {
   P mouse = P::without_force();
   BOOST_TEST((!mouse.has_force() && mouse.passive_stiffness() == inf && mouse.calm_stiffness() == inf));
   BOOST_TEST((mouse.device.friction == 0 && P(0).has_force() && P(0).passive_stiffness() == 0));
+  mouse.stall_time = 0; // whatever it is
   Ball_loop{mouse};
   mouse.device.mass = NAN;
   BOOST_CHECK_THROW(Ball_loop{mouse}, Error);
   for (const double bad : {std::nan(""), inf, -1.0})
     BOOST_CHECK_THROW(Pose_side(Pose_device(bad), Haptic_parameters()), Error); // checked by itself, too
-  refuses("Watchdog_limits::joint_rate", [](P& p) { p.speed = NAN; });
+  refuses("Pose_loop_parameters::speed", [](P& p) { p.speed = NAN; });
   refuses("damping", [](P& p) { p.coupling.damping = 2.1; }); // more than the friction
   Ball_loop{Pose_loop_parameters(2)};
 }

@@ -90,7 +90,7 @@ public:
 
   /// \name Between two ticks
   /// In the thread that calls move(). Each lets go first; what is taken is anchored at the next move(), and held until
-  /// the button is released or something lets go.
+  /// something lets go: of a vertex the button, too, when it is released.
   ///@{
 
   /// Takes a vertex of the surface, as a press of the button would the nearest.

@@ -123,8 +123,10 @@ Decimation_report decimate(Sculptor& sculptor, const Should_stop& should_stop,
     if (keeps_v && keeps_w)
       return queue.leave_out(e);
     const Profile profile = profile_of(e);
-    if (keeps_v || keeps_w)
-      return queue.push(e, cost_at_end(profile, keeps_v ? v : w), true);
+    if (keeps_v || keeps_w) {
+      const double cost = cost_at_end(profile, keeps_v ? v : w);
+      return std::isfinite(cost) ? queue.push(e, cost, true) : queue.leave_out(e);
+    }
     const auto placement = placement_of(profile);
     const auto cost = placement ? internal::ask(guarded, get_cost, profile, placement)
                                 : decltype(get_cost(profile, placement))();

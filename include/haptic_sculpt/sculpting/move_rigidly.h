@@ -38,9 +38,13 @@ Rigid_move_report<typename Sculptor::Mesh_type> move_rigidly(
       linear[i][j] = transformation.m(i, j);
     shift[i] = transformation.m(i, 3);
   }
-  const internal::Rigid_way way(linear, shift);
+  const internal::Rigid_way way(linear);
   const auto moving = internal::moving_vertices(
       sculptor.mesh(), vertices, [&](auto v) { return transformation.transform(sculptor.mesh().point(v)); });
+  double size = 0;
+  for (const auto& v : moving)
+    size = std::max({size, internal::largest_magnitude(v.source), internal::largest_magnitude(v.target)});
+  way.check_shift(shift, size);
   Rigid_move_report<typename Sculptor::Mesh_type> report;
   report.asked = moving.size();
   const auto stroke = sculptor.stroke();

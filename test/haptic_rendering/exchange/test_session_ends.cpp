@@ -252,4 +252,26 @@ BOOST_AUTO_TEST_CASE(a_journal_that_nobody_writes_ends_the_run) {
   BOOST_TEST((d.loop.interaction().fault() == Loop_fault::none));
 }
 
+// Of faults the first stays: what is lost is told after it has been seen to.
+BOOST_AUTO_TEST_CASE(a_journal_that_overruns_beside_another_fault_ends_the_run_after_the_restart) {
+  for (const bool is_restarted_at_once : {false, true}) {
+    Queue d(true);
+    d.loop.tool().take(*d.scene->mesh.vertices_begin());
+    for (int k = 0; k < 1100 && !d.journal.has_overrun(); ++k) {
+      if (k == 900 && !is_restarted_at_once)
+        d.loop.end_by(Loop_fault::late);
+      d.tick();
+    }
+    BOOST_REQUIRE(d.journal.has_overrun());
+    BOOST_TEST((d.loop.interaction().fault() == (is_restarted_at_once ? Loop_fault::log : Loop_fault::late)));
+    d.loop.restart();
+    d.tick(), d.tick();
+    BOOST_TEST((d.loop.interaction().fault() == Loop_fault::log));
+    d.loop.restart();
+    for (int k = 0; k < 10; ++k)
+      d.tick();
+    BOOST_TEST((d.loop.interaction().fault() == Loop_fault::none));
+  }
+}
+
 } // namespace

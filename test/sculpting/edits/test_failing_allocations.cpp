@@ -26,11 +26,17 @@ class Allocating_broad_phase : public Brute_force_broad_phase<Mesh_> {
 public:
   using Brute_force_broad_phase<Mesh_>::Brute_force_broad_phase;
   template <class Faces>
-  void faces_moved(const Faces& faces) { told(faces); }
+  void faces_moved(const Faces& faces) {
+    told(faces);
+  }
   template <class Faces>
-  void faces_inserted(const Faces& faces) { told(faces); }
+  void faces_inserted(const Faces& faces) {
+    told(faces);
+  }
   template <class Faces>
-  void faces_removed(const Faces& faces) { told(faces); }
+  void faces_removed(const Faces& faces) {
+    told(faces);
+  }
 
 private:
   std::vector<std::size_t> last_;
@@ -167,7 +173,9 @@ void try_all(const char* broad_phase, bool is_ready, const Sculptor_parameters& 
 }
 
 /// A sphere of 42 vertices.
-Mesh scene() { return meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05)); }
+Mesh scene() {
+  return meshes::to_mesh(meshes::bumpy_sphere(1, 0.3, 0.05));
+}
 
 } // namespace
 
@@ -283,4 +291,37 @@ BOOST_AUTO_TEST_CASE(an_object_is_where_it_was_or_has_arrived) {
     }
   }
   BOOST_TEST(tries > 40u);
+}
+
+// A question that ends without memory has no half of an answer for the next one.
+BOOST_AUTO_TEST_CASE(a_question_about_the_inside_that_failed_is_asked_again) {
+  meshes::Triangle_list list = meshes::cube();
+  meshes::Triangle_list turned = meshes::cube().scale_and_move(1, 3, 0, 0);
+  for (auto& face : turned.faces)
+    std::swap(face[0], face[1]);
+  list += turned;
+  std::size_t tries = 0;
+  for (const bool is_looked_at_again : {false, true}) {
+    bool has_failed = true;
+    for (std::size_t n = 1; has_failed; ++n) {
+      Mesh mesh = meshes::to_mesh(list);
+      Sculptor<Mesh> sculptor(mesh);
+      if (is_looked_at_again) {
+        sculptor.is_inside_out(Vertex_index(0));
+        for (int k = 0; k < 200; ++k)
+          sculptor.insert_on_face(Mesh::Face_index(0), in_face(mesh, Mesh::Face_index(0), 0.3, 0.3));
+      }
+      has_failed = false;
+      try {
+        const Failing_allocations failing(n, false);
+        sculptor.is_inside_out(Vertex_index(0));
+      } catch (const std::bad_alloc&) {
+        has_failed = true;
+      }
+      tries += has_failed;
+      for (const Vertex_index v : mesh.vertices())
+        BOOST_REQUIRE(sculptor.is_inside_out(v) == (mesh.point(v).x() > 2));
+    }
+  }
+  BOOST_TEST(tries > 10u);
 }

@@ -5,13 +5,17 @@
 #include <haptic_sculpt/sculpting/decimate.h>
 #include <haptic_sculpt/surface.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
+
 #include <meshes/generated_meshes.h>
 #include <surface/identical.h>
 
 #include <boost/property_map/function_property_map.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
 #include <functional>
+#include <set>
 #include <string>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
@@ -37,9 +41,9 @@ BOOST_AUTO_TEST_CASE(what_was_drawn_for_nothing_goes_back_whatever_delta_is) {
     return Policy_optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
   };
   const auto placement = [](const auto&) { return Policy_optional<meshes::Point_3>(meshes::Point_3(0, 0, 2)); };
-  const auto report =
-      haptic_sculpt::decimate(sculptor, [](const auto&, const auto&, std::size_t, std::size_t) { return false; },
-                              CGAL::parameters::get_cost(cost).get_placement(placement));
+  const auto report = haptic_sculpt::decimate(
+      sculptor, [](const auto&, const auto&, std::size_t, std::size_t) { return false; },
+      CGAL::parameters::get_cost(cost).get_placement(placement));
   BOOST_TEST(report.collapsed == 0u);
   BOOST_TEST(report.refused > 0u);
   BOOST_TEST(reading_and_writing::identical(mesh, before));
@@ -103,8 +107,8 @@ BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
         if (asked == here && ++calls == 40)
           sculptor.undo();
       };
-      using Profile = SMS::Edge_profile<const Mesh, boost::property_map<Mesh, CGAL::vertex_point_t>::const_type,
-                                        meshes::Kernel>;
+      using Profile =
+          SMS::Edge_profile<const Mesh, boost::property_map<Mesh, CGAL::vertex_point_t>::const_type, meshes::Kernel>;
       const auto stop = [&](double, const Profile&, std::size_t, std::size_t edges) {
         edit("stop");
         return edges < 100;
@@ -132,6 +136,32 @@ BOOST_AUTO_TEST_CASE(policies_may_not_edit) {
       BOOST_TEST(mesh.number_of_faces() == before.number_of_faces());
       BOOST_TEST(sculptor.history().number_of_undo_steps() == 0u);
     }
+}
+
+// An edge without a cost stays, whether an end of it has to stay or not.
+BOOST_AUTO_TEST_CASE(what_has_no_cost_is_not_collapsed_beside_constrained_edges_either) {
+  Mesh mesh = meshes::to_mesh(meshes::icosphere(1));
+  const auto fixed = *mesh.edges().begin();
+  auto map = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  map[fixed] = true;
+  const std::set<Mesh::Vertex_index> ends{mesh.vertex(fixed, 0), mesh.vertex(fixed, 1)};
+  Sculptor<Mesh> sculptor(mesh);
+  const auto cost = [&](const auto& profile, const Policy_optional<meshes::Point_3>&) {
+    return ends.count(profile.v0()) + ends.count(profile.v1()) != 0
+               ? Policy_optional<double>()
+               : Policy_optional<double>(CGAL::squared_distance(profile.p0(), profile.p1()));
+  };
+  std::size_t asked = 0;
+  const auto stop = [&](double of, const auto& profile, std::size_t, std::size_t) {
+    asked += !std::isfinite(of) || ends.count(profile.v0()) + ends.count(profile.v1()) != 0;
+    return false;
+  };
+  const auto report = haptic_sculpt::decimate(
+      sculptor, stop,
+      CGAL::parameters::get_cost(cost).get_placement(SMS::Midpoint_placement<Mesh>()).edge_is_constrained_map(map));
+  BOOST_TEST(report.collapsed > 5u);
+  BOOST_TEST(asked == 0u);
+  BOOST_TEST(haptic_sculpt::validate(mesh).is_valid());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -27,7 +27,7 @@ public:
 
   /// All must outlive this; queue, feed and journal may be null. A journal begins where the hand holds nothing, and
   /// says what is done from here on. What can be undone by then is not in it: where its log does not hold that either,
-  /// call Sculptor::forget_history() first.
+  /// call Sculptor::forget_history() first. \pre no entry of another session waits in the journal: ticks count from 0
   Loop_session(Loop& loop, Scene& scene, Command_queue<Scene>* queue, Feed* feed, Edit_journal* journal)
       : loop_(&loop), scene_(&scene), queue_(queue), feed_(feed), journal_(journal) {
     tasks_.reserve(most_tasks); // may throw: then no tool keeps the journal of a session that never was
@@ -44,6 +44,7 @@ public:
 
   /// What a command or task throws is its answer, what the loop throws a fault of the loop: the force is given anyway.
   /// A journal that has overrun ends the loop by Loop_fault::log, once: after a restart nothing is in it any more.
+  /// Beside another fault it does so after the restart.
   template <class Reading>
   const auto& tick(const Reading& reading) noexcept {
     if (queue_ != nullptr)
@@ -51,7 +52,8 @@ public:
     const auto& made = loop_->tick(reading);
     if (journal_ != nullptr) {
       journal_->end_tick(ticks_);
-      if (journal_->has_overrun() && !std::exchange(has_told_overrun_, true))
+      has_told_overrun_ = has_told_overrun_ || made.fault == Loop_fault::log;
+      if (journal_->has_overrun() && !has_told_overrun_)
         loop_->end_by(Loop_fault::log);
     }
     if (feed_ != nullptr) {
@@ -93,7 +95,7 @@ private:
   Command_queue<Scene>* queue_;
   Feed* feed_;
   Edit_journal* journal_;
-  bool has_told_overrun_ = false; ///< of this journal
+  bool has_told_overrun_ = false; ///< a tick had the fault, since this journal is kept
   std::uint64_t ticks_ = 0;
   std::uint32_t scenes_ = 0;               ///< entered before the one that is sculpted now
   std::vector<Loop_command<Scene>> tasks_; ///< under way, in the order of the commands

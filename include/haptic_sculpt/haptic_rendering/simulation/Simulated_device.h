@@ -46,7 +46,7 @@ public:
 
   /// \param interaction the part of the torque that is there for the hand: its work is the energy of the port
   /// \return `success`, or why the mechanism cannot move on; it stays where it is then. `not_finite` for torques that
-  /// are not: nothing has happened
+  /// are not: nothing has happened; also where the motion overflows, as of a hand too stiff for its masses
   Device_status write(const Eigen::Vector3d& torque, const Eigen::Vector3d& interaction) {
     if (!torque.allFinite() || !interaction.allFinite())
       return Device_status::not_finite;
@@ -68,6 +68,9 @@ public:
     ++ticks_;
     return status;
   }
+
+  /// The same without a part for the hand.
+  Device_status write(const Eigen::Vector3d& torque) { return write(torque, Eigen::Vector3d::Zero()); }
 
   /// Gives the handle a velocity, m/s; where the Jacobian is singular nothing.
   void push(const Eigen::Vector3d& velocity) {

@@ -282,6 +282,7 @@ public:
     release();
     look_for_changes();
     shifting_.check_unmoved(watch_);
+    scene_.include_the_past(); // a question since then may have bounded what is there now
     editor_.take_back_tried_shift(run);
   }
   /// Whether the visitor hears of edits.

@@ -3,6 +3,7 @@
 
 #include <haptic_sculpt/surface/validate.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace haptic_sculpt::internal {
@@ -43,14 +44,17 @@ private:
   void look() {
     const Face_soup soup = face_soup(*mesh_);
     const std::vector<bool> turned = Component_orientation(soup).faces_inside_out();
-    const auto first = std::find(turned.begin(), turned.end(), !turned.front());
-    state_ = first != turned.end() ? State::some : turned.front() ? State::all : State::none;
-    if (state_ != State::some)
+    const auto number = static_cast<std::size_t>(std::count(turned.begin(), turned.end(), true));
+    if (number == 0 || number == turned.size()) {
+      state_ = number == 0 ? State::none : State::all;
       return;
-    contained_.assign(soup.points.size(), false);
+    }
+    std::vector<bool> contained(soup.points.size(), false);
     for (std::size_t f = 0; f < turned.size(); ++f)
       for (const auto* corner = soup.begin(f); corner != soup.end(f); ++corner)
-        contained_[*corner] = turned[f];
+        contained[*corner] = turned[f];
+    contained_.swap(contained);
+    state_ = State::some; // last: memory may have run out
   }
 };
 

@@ -61,7 +61,8 @@ public:
 
   /// Constrains the edges of the range at which the normals of the faces differ by more than this angle.
   void constrain_features(const Scaled_points<Mesh>& points, double degrees) {
-    const double cosine = std::cos(degrees * (CGAL_PI / 180));
+    constexpr double rounding = 0x1p-40; // of the two normals, their product and the cosine, and more
+    const double cosine = std::cos(degrees * (CGAL_PI / 180)) - rounding;
     for (const Edge_index e : mesh_->edges()) {
       if (!is_inside(e))
         continue;

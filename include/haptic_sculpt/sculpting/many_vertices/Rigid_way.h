@@ -9,9 +9,8 @@ namespace haptic_sculpt::internal {
 /// The way of a translation, or of a rotation by less than half a turn, told by a matrix: straight, or along arcs.
 class Rigid_way {
 public:
-  /// \param linear its rows, \param shift where the origin goes
-  /// \throw Invalid_parameter where it is something else
-  Rigid_way(const std::array<Vector, 3>& linear, const Vector& shift) {
+  /// \param linear its rows \throw Invalid_parameter where it is something else
+  explicit Rigid_way(const std::array<Vector, 3>& linear) {
     bool is_rigid = dot(cross(linear[0], linear[1]), linear[2]) > 0;
     for (int i = 0; i < 3; ++i) // the matrix times the transposed is the identity; false for what is not a number
       for (int j = 0; j < 3; ++j)
@@ -20,13 +19,21 @@ public:
       refuse("it does not keep lengths, or mirrors");
     const Vector turning{(linear[2][1] - linear[1][2]) / 2, (linear[0][2] - linear[2][0]) / 2,
                          (linear[1][0] - linear[0][1]) / 2}; // the axis times the sine of the angle
-    const double sine = length(turning), cosine = (linear[0][0] + linear[1][1] + linear[2][2] - 1) / 2;
-    if (cosine < 0 && sine <= rigidity)
+    sine_ = length(turning);
+    const double cosine = (linear[0][0] + linear[1][1] + linear[2][2] - 1) / 2;
+    if (cosine < 0 && sine_ <= rigidity)
       refuse("it is half a turn, of which nobody knows which way round; make it of two quarters");
-    angle_ = std::atan2(sine, cosine);
+    angle_ = std::atan2(sine_, cosine);
     axis_ = normalized(cosine < 0 ? from_symmetric_part(linear, cosine, turning) : turning);
+  }
+
+  /// \param shift where the origin goes \param size the largest coordinate of what moves, on the way: what rounding
+  /// leaves of a shift grows with it, as in a product of a rotation and two translations that are each other's inverse
+  /// \throw Invalid_parameter for a screw
+  void check_shift(const Vector& shift, double size) const {
+    const double unit = unit_of(std::fmax(size, largest_magnitude(shift)));
     // The axis is known the better the larger the angle is; of next to none each direction is one.
-    if (std::abs(dot(axis_, scaled(shift, unit_of(largest_magnitude(shift))))) * sine > 2 * rigidity)
+    if (std::abs(dot(axis_, scaled(shift, unit))) * sine_ > 2 * rigidity)
       refuse("it shifts along the axis of its rotation; make it of a rotation and a translation");
   }
 
@@ -49,7 +56,7 @@ public:
   static constexpr double straight = 0x1p-500;
 
 private:
-  double angle_;
+  double angle_, sine_;
   Vector axis_; ///< of length 1, or zero
 
   [[noreturn]] static void refuse(const char* why) {
